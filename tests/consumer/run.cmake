@@ -1,0 +1,40 @@
+# Installs the library, moves the installed tree, and builds main.cpp against it twice: with
+# find_package and with pkg-config. Both must print the version; the installed program must run.
+#
+# Variables: bindir, build, config, compiler, generator, libdir, pkg_config, version.
+cmake_minimum_required(VERSION 3.21)
+
+set(source "${CMAKE_CURRENT_LIST_DIR}")
+set(work "${build}/consumer")
+set(prefix "${work}/moved")
+set(ENV{PKG_CONFIG_PATH} "${prefix}/${libdir}/pkgconfig")
+
+function(run)
+  execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+function(check program)
+  execute_process(COMMAND "${program}" COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY
+                  OUTPUT_VARIABLE printed OUTPUT_STRIP_TRAILING_WHITESPACE)
+  if(NOT printed STREQUAL version)
+    message(FATAL_ERROR "${program} printed \"${printed}\" instead of \"${version}\"")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE "${work}")
+run("${CMAKE_COMMAND}" --install "${build}" --config "${config}" --prefix "${work}/installed")
+file(RENAME "${work}/installed" "${prefix}")
+run("${prefix}/${bindir}/cbc" --version)
+
+run("${CMAKE_COMMAND}" -S "${source}" -B "${work}/cmake" -G "${generator}"
+    -D "CMAKE_BUILD_TYPE=${config}" -D "CMAKE_CXX_COMPILER=${compiler}"
+    -D "CMAKE_PREFIX_PATH=${prefix}")
+run("${CMAKE_COMMAND}" --build "${work}/cmake" --config "${config}")
+check("${work}/cmake/consumer")
+
+execute_process(COMMAND "${pkg_config}" --static --cflags --libs cbc-catalog
+                COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE flags)
+separate_arguments(flags UNIX_COMMAND "${flags}")
+run("${compiler}" -std=c++20 "${source}/main.cpp" -o "${work}/consumer" ${flags})
+set(ENV{LD_LIBRARY_PATH} "${prefix}/${libdir}") # for a shared library; pkg-config sets no rpath
+check("${work}/consumer")
