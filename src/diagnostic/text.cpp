@@ -1,0 +1,161 @@
+#include "diagnostic/text.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "text/utf8.h"
+
+namespace cbc {
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+constexpr std::string_view replacement_character = "\xEF\xBF\xBD";
+constexpr std::string_view indentation = "  ";
+constexpr std::string_view ellipsis = "...";
+
+// Characters of a line that are shown, and how many of them come before the place.
+constexpr std::size_t longest_line = 96;
+constexpr std::size_t context_before = 48;
+
+// One character of a line as it is printed.
+struct Cell {
+  std::string_view text;
+  std::string_view blank;  // what takes the same columns in the line of the caret
+  std::size_t width = 1;
+};
+
+std::vector<Cell> split(std::string_view line) {
+  constexpr std::string_view blanks = "  ";
+  std::vector<Cell> cells;
+  for (std::size_t offset = 0; offset < line.size();) {
+    const utf8::Decoded decoded = utf8::decode(line, offset);
+    const char32_t character = decoded.character;
+    if (character == '\t') {
+      cells.push_back({"\t", "\t", 1});
+    } else if (!decoded.valid || character < 0x20 || (character >= 0x7F && character < 0xA0)) {
+      cells.push_back({replacement_character, " ", 1});
+    } else {
+      const std::size_t width = utf8::display_width(character);
+      cells.push_back({line.substr(offset, decoded.bytes), blanks.substr(0, width), width});
+    }
+    offset += decoded.bytes;
+  }
+  return cells;
+}
+
+class Painter {
+ public:
+  explicit Painter(bool color) : color_(color) {}
+
+  [[nodiscard]] std::string paint(std::string_view style, std::string_view text) const {
+    if (!color_) return std::string(text);
+    return "\x1b[" + std::string(style) + "m" + std::string(text) + "\x1b[0m";
+  }
+
+ private:
+  bool color_;
+};
+
+constexpr std::string_view bold = "1";
+constexpr std::string_view caret_style = "1;32";
+
+std::string_view style_of(Severity severity) {
+  switch (severity) {
+    case Severity::error:
+      return "1;31";
+    case Severity::warning:
+      return "1;35";
+    case Severity::note:
+      break;
+  }
+  return "1;36";
+}
+
+std::string_view name_of(Severity severity) {
+  switch (severity) {
+    case Severity::error:
+      return "error";
+    case Severity::warning:
+      return "warning";
+    case Severity::note:
+      break;
+  }
+  return "note";
+}
+
+// The line of a place and a caret below it, with a tail to the end of the range.
+std::string render_line(const Range& range, std::string_view line, const Painter& painter) {
+  const std::vector<Cell> cells = split(line);
+  const std::size_t begin = std::min<std::size_t>(range.begin.column - 1, cells.size());
+  std::size_t end = cells.size();
+  if (range.end.line == range.begin.line) {
+    end = std::min<std::size_t>(range.end.column - 1, cells.size());
+  }
+  end = std::max(end, begin + 1);
+
+  std::size_t first = 0;
+  std::size_t last = cells.size();
+  if (cells.size() > longest_line) {
+    first = begin > context_before ? begin - context_before : 0;
+    first = std::min(first, cells.size() - longest_line);
+    last = first + longest_line;
+  }
+
+  std::string source(indentation);
+  std::string blank(indentation);
+  std::size_t tail = 0;
+  if (first > 0) {
+    source += ellipsis;
+    blank.append(ellipsis.size(), ' ');
+  }
+  for (std::size_t i = first; i < last; ++i) {
+    source += cells[i].text;
+    if (i < begin) blank += cells[i].blank;
+    if (i > begin && i < end) tail += cells[i].width;
+    if (i == begin && cells[i].width > 1) tail += cells[i].width - 1;
+  }
+  if (last < cells.size()) source += ellipsis;
+  return source + "\n" + blank + painter.paint(caret_style, "^" + std::string(tail, '~')) + "\n";
+}
+
+std::string render_place(const std::string& file, const Range& range, Severity severity,
+                         const std::string& message, const SourceTexts& sources,
+                         const Painter& painter) {
+  const std::string place = file + ":" + std::to_string(range.begin.line) + ":" +
+                            std::to_string(range.begin.column) + ":";
+  std::string text = painter.paint(bold, place) + " " +
+                     painter.paint(style_of(severity), std::string(name_of(severity)) + ":") + " " +
+                     message + "\n";
+  const std::string_view line = sources.line(file, range.begin.line);
+  if (!line.empty()) text += render_line(range, line, painter);
+  return text;
+}
+
+}  // namespace
+
+void SourceTexts::add(std::string file, std::string_view text) {
+  if (text.substr(0, byte_order_mark.size()) == byte_order_mark) {
+    text.remove_prefix(byte_order_mark.size());
+  }
+  texts_.try_emplace(std::move(file), text);
+}
+
+std::string_view SourceTexts::line(std::string_view file, std::uint32_t number) const {
+  const auto found = texts_.find(file);
+  return found == texts_.end() ? std::string_view{} : found->second.line(number);
+}
+
+std::string render(const Diagnostic& diagnostic, const SourceTexts& sources, bool color) {
+  const Painter painter(color);
+  std::string text = render_place(diagnostic.file, diagnostic.range, diagnostic.severity,
+                                  diagnostic.message + " [" + std::string(diagnostic.rule) + "]",
+                                  sources, painter);
+  for (const Note& note : diagnostic.notes) {
+    text += render_place(note.file, note.range, Severity::note, note.message, sources, painter);
+  }
+  return text;
+}
+
+}  // namespace cbc

@@ -1,0 +1,129 @@
+#include "text/decimal.h"
+
+#include <algorithm>
+#include <string>
+
+namespace cbc {
+namespace {
+
+constexpr Decimal failure(DecimalError error) { return {0, error}; }
+
+bool is_digit(char character) { return character >= '0' && character <= '9'; }
+
+// The parts of a number: 0.digits * 10^exponent, digits without zeros at either end.
+struct Parts {
+  bool valid = false;
+  bool negative = false;
+  std::string digits;
+  std::int64_t exponent = 0;
+};
+
+// Far beyond any exponent that matters, far below overflow: the digits of a text are fewer.
+constexpr std::int64_t exponent_limit = 1'000'000'000'000;
+
+class Scanner {
+ public:
+  explicit Scanner(std::string_view text) : text_(text) {}
+
+  Parts scan() {
+    Parts parts;
+    parts.negative = take_sign();
+    std::string digits = take_digits();
+    const std::size_t before_point = digits.size();
+    if (take('.')) digits += take_digits();
+    if (digits.empty()) return parts;
+    std::int64_t exponent = 0;
+    if (take('e') || take('E')) {
+      const bool negative = take_sign();
+      const std::string exponent_digits = take_digits();
+      if (exponent_digits.empty()) return parts;
+      for (const char digit : exponent_digits) {
+        exponent = std::min(exponent * 10 + (digit - '0'), exponent_limit);
+      }
+      if (negative) exponent = -exponent;
+    }
+    if (!text_.empty()) return parts;
+
+    const std::size_t first = std::min(digits.find_first_not_of('0'), digits.size());
+    digits.erase(digits.find_last_not_of('0') + 1);
+    parts.exponent =
+        exponent + static_cast<std::int64_t>(before_point) - static_cast<std::int64_t>(first);
+    parts.digits = digits.substr(std::min(first, digits.size()));
+    parts.valid = true;
+    return parts;
+  }
+
+ private:
+  bool take(char character) {
+    if (text_.empty() || text_.front() != character) return false;
+    text_.remove_prefix(1);
+    return true;
+  }
+
+  // Whether the sign is a minus.
+  bool take_sign() {
+    if (take('+')) return false;
+    return take('-');
+  }
+
+  std::string take_digits() {
+    const auto end = std::find_if_not(text_.begin(), text_.end(), is_digit);
+    std::string digits(text_.begin(), end);
+    text_.remove_prefix(digits.size());
+    return digits;
+  }
+
+  std::string_view text_;
+};
+
+}  // namespace
+
+Decimal parse_decimal(std::string_view text, int decimals, std::int64_t lowest,
+                      std::int64_t highest) {
+  const Parts parts = Scanner(text).scan();
+  if (!parts.valid) return failure(DecimalError::not_a_number);
+
+  // The scaled number has `places` digits before its point.
+  const std::int64_t places = parts.exponent + decimals;
+  const bool whole = static_cast<std::int64_t>(parts.digits.size()) <= places;
+  std::int64_t value = 0;
+  if (!parts.digits.empty() && places > 0) {
+    if (places > 18) return failure(DecimalError::out_of_range);
+    for (std::int64_t i = 0; i < places; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      value = value * 10 + (at < parts.digits.size() ? parts.digits[at] - '0' : 0);
+    }
+  }
+  if (parts.negative) value = -value;
+  // A range comes first: "100.00001 is over 100" is the more useful of the two.
+  const bool beyond =
+      !whole && !parts.digits.empty() &&
+      ((!parts.negative && value >= highest) || (parts.negative && value <= lowest));
+  if (value < lowest || value > highest || beyond) return failure(DecimalError::out_of_range);
+  if (!whole && !parts.digits.empty()) return failure(DecimalError::too_precise);
+  return {value, DecimalError::none};
+}
+
+Decimal parse_percent(std::string_view text) { return parse_decimal(text, 4, 0, one_million); }
+
+Decimal parse_seconds(std::string_view text) { return parse_decimal(text, 6, 0, longest_time); }
+
+Decimal parse_integer(std::string_view text, std::int64_t lowest, std::int64_t highest) {
+  if (text.find_first_of(".eE") != std::string_view::npos) {
+    return failure(DecimalError::not_a_number);
+  }
+  return parse_decimal(text, 0, lowest, highest);
+}
+
+std::string format_decimal(std::int64_t value, int decimals) {
+  const bool negative = value < 0;
+  std::string text = std::to_string(value).substr(negative ? 1 : 0);
+  const auto places = static_cast<std::size_t>(decimals);
+  if (text.size() <= places) text.insert(0, places + 1 - text.size(), '0');
+  text.insert(text.size() - places, ".");
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return negative ? "-" + text : text;
+}
+
+}  // namespace cbc

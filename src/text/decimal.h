@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "cbc/units.h"
+
+namespace cbc {
+
+/// Why a text is no value of the kind that was asked for.
+enum class DecimalError : std::uint8_t { none, not_a_number, out_of_range, too_precise };
+
+/// A number that was read from text, in units of 10^-decimals.
+struct Decimal {
+  std::int64_t value = 0;
+  DecimalError error = DecimalError::none;
+};
+
+/// Reads a decimal number exactly: sign, digits, fraction and exponent are allowed ("-1.50",
+/// ".5", "1e1"), trailing zeros do not count as precision. The value is scaled by 10^decimals; one
+/// outside [lowest, highest] (scaled, too) is out of range.
+[[nodiscard]] Decimal parse_decimal(std::string_view text, int decimals, std::int64_t lowest,
+                                    std::int64_t highest);
+
+/// A percentage from 0 to 100 with at most 4 decimals; `value` is in millionths.
+[[nodiscard]] Decimal parse_percent(std::string_view text);
+
+/// Seconds from 0 to longest_time with at most 6 decimals; `value` is in microseconds.
+[[nodiscard]] Decimal parse_seconds(std::string_view text);
+
+/// An integer without fraction or exponent.
+[[nodiscard]] Decimal parse_integer(std::string_view text, std::int64_t lowest,
+                                    std::int64_t highest);
+
+/// The shortest text of value * 10^-decimals: "1.5".
+[[nodiscard]] std::string format_decimal(std::int64_t value, int decimals);
+
+}  // namespace cbc

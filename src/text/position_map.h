@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "cbc/diagnostic.h"
+
+namespace cbc {
+
+/// Lines of a text, and the line and column of any byte of it in (nearly) constant time, however
+/// long the lines are. Refers to the text, which must outlive it.
+class PositionMap {
+ public:
+  explicit PositionMap(std::string_view text);
+
+  /// The place of the character that begins at `offset`; offsets past the end count as the end.
+  [[nodiscard]] Position at(std::size_t offset) const;
+
+  /// The text of a line, which counts from 1, without its line break; empty if there is none.
+  [[nodiscard]] std::string_view line(std::uint32_t number) const;
+
+ private:
+  [[nodiscard]] std::size_t characters_before(std::size_t offset) const;
+  [[nodiscard]] std::size_t characters_between(std::size_t begin, std::size_t end) const;
+
+  std::string_view text_;
+  std::vector<std::size_t> line_starts_;
+  // Characters that begin before every 256th byte; columns are differences of such counts.
+  std::vector<std::size_t> checkpoints_;
+};
+
+}  // namespace cbc
