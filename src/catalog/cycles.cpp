@@ -1,0 +1,150 @@
+#include "catalog/cycles.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include <boost/graph/compressed_sparse_row_graph.hpp>
+#include <boost/graph/strong_components.hpp>
+#include <boost/range/iterator_range.hpp>
+
+namespace cbc {
+namespace {
+
+using Vertex = std::uint32_t;
+using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property,
+                                                 boost::no_property, boost::no_property, Vertex>;
+
+// Steps that the search for the shortest cycles may take; enough for every catalog that a person
+// writes.
+constexpr std::size_t most_work = 100'000'000;
+
+// Vertices are the tasks, then the behaviors; edges go from a task to the behaviors that perform
+// it, from a behavior to the tasks it requires. So there are no more edges than lines in the file.
+class RequirementGraph {
+ public:
+  explicit RequirementGraph(const Catalog& catalog)
+      : catalog_(catalog), tasks_(static_cast<Vertex>(catalog.tasks.size())) {
+    const std::size_t vertices = catalog.tasks.size() + catalog.behaviors.size();
+    std::vector<std::pair<Vertex, Vertex>> edges;
+    for (std::size_t index = 0; index < catalog.behaviors.size(); ++index) {
+      const auto vertex = static_cast<Vertex>(tasks_ + index);
+      for (const Performance& performance : catalog.behaviors[index].performs) {
+        edges.emplace_back(performance.task, vertex);
+      }
+      for (const Requirement& requirement : catalog.behaviors[index].requires_) {
+        edges.emplace_back(vertex, requirement.task);
+      }
+    }
+    graph_ = Graph(boost::edges_are_unsorted_multi_pass, edges.begin(), edges.end(),
+                   static_cast<Vertex>(vertices));
+    component_.resize(vertices);
+    components_ = boost::strong_components(
+        graph_,
+        boost::make_iterator_property_map(component_.begin(), get(boost::vertex_index, graph_)));
+    reached_.resize(vertices, unreached);
+    from_.resize(vertices);
+  }
+
+  std::vector<Cycle> find_cycles() {
+    std::vector<std::vector<Vertex>> members(components_);
+    for (Vertex task = 0; task < tasks_; ++task) members[component_[task]].push_back(task);
+    std::vector<Cycle> cycles;
+    // A component with edges has a behavior besides its tasks.
+    std::vector<bool> has_behavior(components_, false);
+    for (std::size_t vertex = tasks_; vertex < component_.size(); ++vertex) {
+      has_behavior[component_[vertex]] = true;
+    }
+    for (std::size_t component = 0; component < components_; ++component) {
+      if (members[component].empty() || !has_behavior[component]) continue;
+      cycles.push_back(shortest_cycle(members[component]));
+    }
+    std::sort(cycles.begin(), cycles.end(),
+              [](const Cycle& a, const Cycle& b) { return a.front().task < b.front().task; });
+    return cycles;
+  }
+
+ private:
+  static constexpr Vertex unreached = static_cast<Vertex>(-1);
+
+  // Of equally short ones the one with the first task in catalog order.
+  Cycle shortest_cycle(const std::vector<Vertex>& members) {
+    std::vector<Vertex> best;
+    for (const Vertex start : members) {
+      if (!best.empty() && work_ > most_work) break;
+      const std::size_t bound = best.empty() ? component_.size() + 1 : best.size();
+      if (auto found = shortest_cycle_through(start, bound)) best = std::move(*found);
+      if (best.size() == 2) break;
+    }
+    return to_steps(best);
+  }
+
+  // A path from `start` to an edge back to it, of fewer than `bound` vertices.
+  std::optional<std::vector<Vertex>> shortest_cycle_through(Vertex start, std::size_t bound) {
+    std::vector<Vertex> queue{start};
+    reached_[start] = start;
+    std::optional<std::vector<Vertex>> result;
+    std::size_t level_end = 1;
+    std::size_t length = 1;  // vertices on the path to the present level
+    for (std::size_t next = 0; next < queue.size() && !result && length < bound; ++next) {
+      if (next == level_end) {
+        level_end = queue.size();
+        if (++length >= bound) break;
+      }
+      const Vertex vertex = queue[next];
+      for (const Vertex target : boost::make_iterator_range(adjacent_vertices(vertex, graph_))) {
+        ++work_;
+        if (component_[target] != component_[start]) continue;
+        if (target == start) {
+          result = path_to(start, vertex);
+          break;
+        }
+        if (reached_[target] != unreached) continue;
+        reached_[target] = start;
+        from_[target] = vertex;
+        queue.push_back(target);
+      }
+    }
+    for (const Vertex vertex : queue) reached_[vertex] = unreached;
+    return result;
+  }
+
+  [[nodiscard]] std::vector<Vertex> path_to(Vertex start, Vertex end) const {
+    std::vector<Vertex> path{end};
+    while (path.back() != start) path.push_back(from_[path.back()]);
+    std::reverse(path.begin(), path.end());
+    return path;
+  }
+
+  [[nodiscard]] Cycle to_steps(const std::vector<Vertex>& path) const {
+    Cycle cycle;
+    for (std::size_t i = 0; i + 1 < path.size(); i += 2) {
+      const Vertex next = i + 2 < path.size() ? path[i + 2] : path[0];
+      const BehaviorIndex behavior = path[i + 1] - tasks_;
+      const auto& requirements = catalog_.behaviors[behavior].requires_;
+      const auto found =
+          std::find_if(requirements.begin(), requirements.end(),
+                       [next](const Requirement& requirement) { return requirement.task == next; });
+      cycle.push_back({path[i], behavior, static_cast<std::size_t>(found - requirements.begin())});
+    }
+    return cycle;
+  }
+
+  const Catalog& catalog_;
+  Vertex tasks_;
+  Graph graph_;
+  std::vector<Vertex> component_;
+  std::size_t components_ = 0;
+  std::vector<Vertex> reached_;
+  std::vector<Vertex> from_;
+  std::size_t work_ = 0;
+};
+
+}  // namespace
+
+std::vector<Cycle> find_requirement_cycles(const Catalog& catalog) {
+  return RequirementGraph(catalog).find_cycles();
+}
+
+}  // namespace cbc

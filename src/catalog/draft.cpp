@@ -1,0 +1,381 @@
+#include "catalog/draft.h"
+
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "catalog/shapes.h"
+#include "cbc/rules.h"
+#include "text/quote.h"
+#include "yaml/fields.h"
+#include "yaml/values.h"
+
+namespace cbc::draft {
+namespace {
+
+using yaml::Fields;
+using yaml::Kind;
+using yaml::Node;
+
+constexpr std::string_view task_name = "the name of a task";
+
+class Reader {
+ public:
+  explicit Reader(Reporter& reporter) : reporter_(reporter) {}
+
+  Catalog read(const Node& root) {
+    if (root.kind == Kind::null) {
+      reporter_.error(rule::missing_key, root.range,
+                      "missing key 'behaviors': the catalog is empty");
+    } else if (root.kind != Kind::mapping) {
+      reporter_.error(
+          rule::wrong_type, root.range,
+          "a catalog must be a mapping with the key 'behaviors', found " + yaml::describe(root));
+    } else {
+      read_sections(root);
+    }
+    return std::move(catalog_);
+  }
+
+ private:
+  void read_sections(const Node& root) {
+    Fields fields(root, shape::catalog, reporter_);
+    if (const Node* node = fields.find("default_values")) read_default_values(*node);
+    if (const Node* node = fields.find("tasks")) {
+      catalog_.lacks_a_section |=
+          !read_entries(*node, "tasks", "a list of tasks", &Reader::read_task);
+    }
+    if (const Node* node = fields.require("behaviors", root.range)) {
+      catalog_.lacks_a_section |=
+          !read_entries(*node, "behaviors", "a list of behaviors", &Reader::read_behavior);
+    } else {
+      catalog_.lacks_a_section = true;
+    }
+    if (const Node* node = fields.find("exclusivity_constraints")) {
+      read_entries(*node, "exclusivity_constraints", "a list of 'mutually_exclusive' lists",
+                   &Reader::read_exclusivity_list);
+    }
+    fields.report_unknown(Severity::warning);
+  }
+
+  bool read_entries(const Node& node, std::string_view key, std::string_view expected,
+                    void (Reader::*read_entry)(const Node&)) {
+    const Node* list = yaml::read_list(node, key, expected, reporter_);
+    if (list == nullptr) return false;
+    for (const Node* entry : list->items) (this->*read_entry)(*entry);
+    return true;
+  }
+
+  // Default values ---------------------------------------------------------------------------
+
+  // The mappings of a list, or a single one. Published files write one key to a list entry.
+  std::vector<const Node*> mappings_of(const Node& node, std::string_view key) {
+    constexpr std::string_view expected = "a mapping, or a list of mappings";
+    std::vector<const Node*> mappings;
+    if (node.kind == Kind::mapping) {
+      mappings.push_back(&node);
+    } else if (const Node* list = yaml::read_list(node, key, expected, reporter_)) {
+      for (const Node* item : list->items) {
+        if (item->kind == Kind::mapping) {
+          mappings.push_back(item);
+        } else {
+          reporter_.error(
+              rule::wrong_type, item->range,
+              "an entry of " + quote(key) + " must be a mapping, found " + yaml::describe(*item));
+        }
+      }
+    }
+    return mappings;
+  }
+
+  void read_default_values(const Node& node) {
+    Fields fields(mappings_of(node, "default_values"), shape::default_values, reporter_);
+    if (const Node* tasks = fields.find("tasks")) {
+      Fields defaults(mappings_of(*tasks, "tasks"), shape::task_defaults, reporter_);
+      catalog_.task_defaults = read_attributes(defaults);
+      defaults.report_unknown(Severity::warning);
+    }
+    if (const Node* behaviors = fields.find("behaviors")) {
+      Fields defaults(mappings_of(*behaviors, "behaviors"), shape::behavior_defaults, reporter_);
+      catalog_.default_suitability = read_suitability(defaults);
+      catalog_.default_package = read_package(defaults);
+      defaults.report_unknown(Severity::warning);
+    }
+    fields.report_unknown(Severity::warning);
+  }
+
+  // Tasks ------------------------------------------------------------------------------------
+
+  TaskAttributes read_attributes(const Fields& fields) {
+    TaskAttributes attributes;
+    attributes.execution_goal = read_execution_goal(fields);
+    attributes.start_on_request = read_flag(fields, "start_on_request");
+    if (auto automatic = read_flag(fields, "automatic_activation")) {
+      automatic->value = !automatic->value;
+      attributes.start_on_request = automatic;
+    }
+    attributes.reactive_start = read_flag(fields, "reactive_start");
+    if (const auto older = read_flag(fields, "default")) attributes.reactive_start = older;
+    attributes.timeout = read_timeout(fields);
+    return attributes;
+  }
+
+  std::optional<ExecutionGoal> read_execution_goal(const Fields& fields) {
+    std::optional<std::size_t> goal;
+    if (const Node* node = fields.find("execution_goal")) {
+      goal =
+          yaml::read_choice(*node, "execution_goal", {"achieve_goal", "keep_running"}, reporter_);
+    } else if (const Node* older = fields.find("category")) {
+      goal = yaml::read_choice(*older, "category", {"goal_based", "recurrent"}, reporter_);
+    }
+    if (!goal) return std::nullopt;
+    return *goal == 0 ? ExecutionGoal::achieve_goal : ExecutionGoal::keep_running;
+  }
+
+  std::optional<Flag> read_flag(const Fields& fields, std::string_view key) {
+    const Node* node = fields.find(key);
+    if (node == nullptr) return std::nullopt;
+    const std::optional<bool> value = yaml::read_boolean(*node, key, reporter_);
+    if (!value) return std::nullopt;
+    return Flag{*value, fields.range_of(key)};
+  }
+
+  std::optional<Microseconds> read_timeout(const Fields& fields) {
+    const Node* node = fields.find("timeout");
+    if (node == nullptr) return std::nullopt;
+    return yaml::read_seconds(*node, "timeout", true, reporter_);
+  }
+
+  void read_task(const Node& node) {
+    if (!expect_entry(node, "a task", "task: NAME")) {
+      // A bare name is understood, so that it is not reported as undefined elsewhere.
+      if (node.kind == Kind::scalar && !node.text.empty()) {
+        catalog_.tasks.push_back({{node.text, node.range}, {}, 0, {}, {}});
+      } else {
+        ++catalog_.nameless_tasks;
+      }
+      return;
+    }
+    Fields fields(node, shape::task, reporter_);
+    Task task;
+    const auto name = require_name(fields, "task", task_name, node.range);
+    if (name) {
+      task.name = *name;
+      fields.call("task " + quote(name->text));
+    }
+    task.attributes = read_attributes(fields);
+    if (const Node* minimum = fields.find("minimum_performance")) {
+      task.minimum_performance =
+          yaml::read_percent(*minimum, "minimum_performance", reporter_).value_or(0);
+      task.minimum_performance_range = minimum->range;
+    }
+    if (const Node* parameters = fields.find("parameters")) {
+      task.parameters = read_parameters(*parameters);
+    }
+    fields.report_unknown(Severity::warning);
+    if (name) {
+      catalog_.tasks.push_back(std::move(task));
+    } else {
+      ++catalog_.nameless_tasks;
+    }
+  }
+
+  std::vector<Parameter> read_parameters(const Node& node) {
+    std::vector<Parameter> parameters;
+    const Node* list = yaml::read_list(node, "parameters", "a list of parameters", reporter_);
+    if (list == nullptr) return parameters;
+    for (const Node* item : list->items) {
+      if (!expect_entry(*item, "a parameter", "parameter: NAME")) continue;
+      Fields fields(*item, shape::parameter, reporter_);
+      Parameter parameter;
+      if (const auto name =
+              require_name(fields, "parameter", "the name of a parameter", item->range)) {
+        parameter.name = name->text;
+        fields.call("parameter " + quote(name->text));
+        parameter.range = name->range;
+      }
+      if (const Node* allowed = fields.find("allowed_values")) {
+        read_allowed_values(*allowed, parameter);
+      }
+      fields.report_unknown(Severity::warning);
+      parameters.push_back(std::move(parameter));
+    }
+    return parameters;
+  }
+
+  void read_allowed_values(const Node& node, Parameter& parameter) {
+    constexpr std::string_view expected = "a list of values, or the name of a type";
+    if (node.kind != Kind::sequence) {
+      if (const auto text = yaml::read_text(node, "allowed_values", expected, reporter_)) {
+        parameter.allowed_values.emplace_back(*text);
+      }
+      return;
+    }
+    parameter.allowed_is_list = true;
+    for (const Node* item : node.items) {
+      if (const auto text =
+              yaml::read_text(*item, "allowed_values", "a list of plain values", reporter_)) {
+        parameter.allowed_values.emplace_back(*text);
+      }
+    }
+  }
+
+  // Behaviors --------------------------------------------------------------------------------
+
+  std::optional<Millionths> read_suitability(const Fields& fields) {
+    for (const std::string_view key : {"suitability", "efficacy"}) {
+      if (const Node* node = fields.find(key)) return yaml::read_percent(*node, key, reporter_);
+    }
+    return std::nullopt;
+  }
+
+  std::optional<std::string_view> read_package(const Fields& fields) {
+    const Node* node = fields.find("package");
+    if (node == nullptr) return std::nullopt;
+    return yaml::read_text(*node, "package", "the name of a package", reporter_);
+  }
+
+  void read_behavior(const Node& node) {
+    if (!expect_entry(node, "a behavior", "behavior: NAME")) {
+      catalog_.lacks_a_section = true;
+      return;
+    }
+    Fields fields(node, shape::behavior, reporter_);
+    Behavior behavior;
+    behavior.name.range = node.range;
+    if (const auto name = require_name(fields, "behavior", "the name of a behavior", node.range)) {
+      behavior.name = *name;
+      fields.call("behavior " + quote(name->text));
+    }
+    behavior.package = read_package(fields);
+    behavior.timeout = read_timeout(fields);
+    behavior.suitability = read_suitability(fields);
+    read_performed(fields, behavior);
+    if (const Node* requires_ = fields.find("requires")) {
+      read_requirements(*requires_, behavior.requires_);
+    }
+    fields.report_unknown(Severity::warning);
+    catalog_.behaviors.push_back(std::move(behavior));
+  }
+
+  void read_performed(Fields& fields, Behavior& behavior) {
+    const Node* list = fields.find("tasks");
+    if (fields.find("task") != nullptr && list != nullptr) {
+      const bool task_first = fields.range_of("task").begin < fields.range_of("tasks").begin;
+      reporter_.error(
+          rule::duplicate_key, fields.range_of(task_first ? "tasks" : "task"),
+          "'task' and 'tasks' are both given in a behavior",
+          {reporter_.note(fields.range_of(task_first ? "task" : "tasks"), "first given here")});
+    }
+    if (list == nullptr && fields.find("task") == nullptr) list = fields.adopt("tasks");
+    if (list != nullptr) {
+      read_performances(*list, fields.range_of("tasks"), behavior);
+    }
+    if (list == nullptr || fields.find("task") != nullptr) {
+      const auto task = require_name(fields, "task", task_name, behavior.name.range);
+      if (task) behavior.performs.push_back({*task, std::nullopt});
+    }
+  }
+
+  void read_performances(const Node& node, const Range& key, Behavior& behavior) {
+    const Node* list = yaml::read_list(node, "tasks", "a list of tasks", reporter_);
+    if (list == nullptr) {
+      ++catalog_.nameless_tasks;
+      return;
+    }
+    if (list->items.empty()) {
+      reporter_.error(rule::invalid_value, key, "a behavior must have at least one task");
+    }
+    std::unordered_map<std::string_view, Range> known;
+    for (const Node* item : list->items) {
+      if (!expect_entry(*item, "a task of a behavior", "task: NAME")) {
+        ++catalog_.nameless_tasks;
+        continue;
+      }
+      Fields fields(*item, shape::performance, reporter_);
+      const auto name = require_name(fields, "task", task_name, item->range);
+      const std::optional<Millionths> suitability = read_suitability(fields);
+      fields.report_unknown(Severity::warning);
+      if (!name) continue;
+      const auto [first, is_new] = known.try_emplace(name->text, name->range);
+      if (is_new) {
+        behavior.performs.push_back({*name, suitability});
+      } else {
+        reporter_.error(rule::invalid_value, name->range,
+                        "task " + quote(name->text) + " stands twice in one behavior",
+                        {reporter_.note(first->second, "first given here")});
+      }
+    }
+  }
+
+  void read_requirements(const Node& node, std::vector<Requirement>& requirements) {
+    const Node* list = yaml::read_list(node, "requires", "a list of requirements", reporter_);
+    if (list == nullptr) return;
+    for (const Node* item : list->items) {
+      if (!expect_entry(*item, "a requirement", "task: NAME")) continue;
+      Fields fields(*item, shape::requirement, reporter_);
+      const auto name = require_name(fields, "task", task_name, item->range);
+      Millionths minimum = 0;
+      if (const Node* value = fields.find("minimum_performance")) {
+        minimum = yaml::read_percent(*value, "minimum_performance", reporter_).value_or(0);
+      }
+      fields.report_unknown(Severity::warning);
+      if (name) requirements.push_back({*name, minimum});
+    }
+  }
+
+  // Exclusivity ------------------------------------------------------------------------------
+
+  void read_exclusivity_list(const Node& node) {
+    if (!expect_entry(node, "an exclusivity constraint", "mutually_exclusive: [A, B]")) return;
+    Fields fields(node, shape::exclusivity_list, reporter_);
+    const Node* value = fields.require("mutually_exclusive", node.range);
+    const Range range = value == nullptr ? node.range : fields.range_of("mutually_exclusive");
+    fields.report_unknown(Severity::warning);
+    if (value == nullptr) return;
+    const Node* list =
+        yaml::read_list(*value, "mutually_exclusive", "a list of names of tasks", reporter_);
+    if (list == nullptr) return;
+    ExclusivityList result;
+    result.range = range;
+    for (const Node* item : list->items) {
+      if (const auto name =
+              yaml::read_name(*item, "mutually_exclusive", "a list of names of tasks", reporter_)) {
+        result.tasks.push_back({*name, item->range});
+      }
+    }
+    catalog_.exclusivity.push_back(std::move(result));
+  }
+
+  // Common -----------------------------------------------------------------------------------
+
+  bool expect_entry(const Node& node, std::string_view what, std::string_view example) {
+    if (node.kind == Kind::mapping) return true;
+    reporter_.error(rule::wrong_type, node.range,
+                    std::string(what) + " must be a mapping (" + quote(example) + "), found " +
+                        yaml::describe(node));
+    return false;
+  }
+
+  std::optional<Name> require_name(Fields& fields, std::string_view key, std::string_view expected,
+                                   const Range& range) {
+    const Node* node = fields.require(key, range);
+    if (node == nullptr) return std::nullopt;
+    const std::optional<std::string_view> name = yaml::read_name(*node, key, expected, reporter_);
+    if (name) return Name{*name, node->range};
+    // A list of one name is understood, so that the name is not reported as undefined elsewhere.
+    if (node->items.size() == 1 && node->items[0]->kind == Kind::scalar) {
+      return Name{node->items[0]->text, node->items[0]->range};
+    }
+    return std::nullopt;
+  }
+
+  Reporter& reporter_;
+  Catalog catalog_;
+};
+
+}  // namespace
+
+Catalog read(const yaml::Node& root, Reporter& reporter) { return Reader(reporter).read(root); }
+
+}  // namespace cbc::draft

@@ -1,0 +1,208 @@
+#include "catalog/reader.h"
+
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "catalog/checks.h"
+#include "catalog/draft.h"
+#include "catalog/task_attributes.h"
+#include "cbc/rules.h"
+#include "diagnostic/reporter.h"
+#include "text/nearest.h"
+#include "text/quote.h"
+#include "yaml/document.h"
+
+namespace cbc {
+namespace {
+
+// Makes a catalog of a draft: gives tasks and behaviors their places, resolves names, applies
+// defaults.
+class Resolver {
+ public:
+  Resolver(const draft::Catalog& draft, Reporter& reporter)
+      : draft_(draft), reporter_(reporter), attributes_(draft.task_defaults, reporter) {}
+
+  Catalog resolve() {
+    define_listed_tasks();
+    define_implicit_tasks();
+    for (const draft::Behavior& behavior : draft_.behaviors) add_behavior(behavior);
+    for (const draft::ExclusivityList& list : draft_.exclusivity) add_exclusivity_list(list);
+    report_undefined();
+    return std::move(catalog_);
+  }
+
+ private:
+  struct Undefined {
+    draft::Name name;
+    std::string where;
+  };
+
+  void define_listed_tasks() {
+    std::vector<const draft::Task*> last;  // entry of each task that counts
+    for (const draft::Task& entry : draft_.tasks) {
+      const auto index = static_cast<TaskIndex>(last.size());
+      const auto [known, is_new] = tasks_.try_emplace(entry.name.text, index);
+      if (is_new) {
+        Task task;
+        task.name = entry.name.text;
+        task.range = entry.name.range;
+        catalog_.tasks.push_back(std::move(task));
+        last.push_back(&entry);
+      } else {
+        report_duplicate_task(*last[known->second], entry, catalog_.tasks[known->second]);
+        last[known->second] = &entry;
+      }
+    }
+    for (std::size_t index = 0; index < last.size(); ++index) {
+      Task& task = catalog_.tasks[index];
+      attributes_.apply(last[index]->name.range, last[index]->attributes, task);
+      task.minimum_performance = last[index]->minimum_performance;
+      task.minimum_performance_range = last[index]->minimum_performance_range;
+      task.parameters = last[index]->parameters;
+    }
+  }
+
+  void report_duplicate_task(const draft::Task& before, const draft::Task& now, const Task& first) {
+    std::string message = "task " + quote(now.name.text) + " is listed twice";
+    const std::string changes = attributes_.describe_changes(before, now);
+    if (changes.empty()) {
+      message += ", with the same attributes";
+    } else {
+      message += "; the last entry counts: " + changes;
+    }
+    reporter_.warning(rule::duplicate_task, now.name.range, std::move(message),
+                      {reporter_.note(first.range, "first listed here")});
+  }
+
+  void define_implicit_tasks() {
+    for (const draft::Behavior& behavior : draft_.behaviors) {
+      for (const draft::Performance& performance : behavior.performs) {
+        const auto index = static_cast<TaskIndex>(catalog_.tasks.size());
+        if (!tasks_.try_emplace(performance.task.text, index).second) continue;
+        Task task;
+        task.name = performance.task.text;
+        task.range = performance.task.range;
+        task.implicit = true;
+        attributes_.apply(task.range, {}, task);
+        catalog_.tasks.push_back(std::move(task));
+      }
+    }
+  }
+
+  void add_behavior(const draft::Behavior& entry) {
+    if (!entry.name.text.empty()) {
+      const auto [known, is_new] = behaviors_.try_emplace(entry.name.text, entry.name.range);
+      if (!is_new) {
+        reporter_.error(rule::duplicate_behavior, entry.name.range,
+                        "behavior " + quote(entry.name.text) + " is defined twice",
+                        {reporter_.note(known->second, "first defined here")});
+      }
+    }
+    Behavior behavior;
+    behavior.name = entry.name.text;
+    behavior.range = entry.name.range;
+    behavior.package = entry.package.value_or(draft_.default_package.value_or(""));
+    behavior.timeout = entry.timeout;
+    const Millionths suitability =
+        entry.suitability.value_or(draft_.default_suitability.value_or(one_million));
+    for (const draft::Performance& performance : entry.performs) {
+      behavior.performs.push_back({tasks_.at(performance.task.text),
+                                   performance.suitability.value_or(suitability),
+                                   performance.task.range});
+    }
+    for (const draft::Requirement& requirement : entry.requires_) {
+      const auto task = find_task(requirement.task, "required by behavior ", entry.name.text);
+      if (task) {
+        behavior.requires_.push_back(
+            {*task, requirement.minimum_performance, requirement.task.range});
+      }
+    }
+    catalog_.behaviors.push_back(std::move(behavior));
+  }
+
+  void add_exclusivity_list(const draft::ExclusivityList& entry) {
+    ExclusivityList list;
+    list.range = entry.range;
+    for (const draft::Name& name : entry.tasks) {
+      if (const auto task = find_task(name, "named in an exclusivity list", {})) {
+        list.tasks.push_back(*task);
+        list.ranges.push_back(name.range);
+      }
+    }
+    catalog_.exclusivity.push_back(std::move(list));
+  }
+
+  std::optional<TaskIndex> find_task(const draft::Name& name, std::string_view where,
+                                     std::string_view behavior) {
+    const auto found = tasks_.find(name.text);
+    if (found != tasks_.end()) return found->second;
+    undefined_.push_back({name, std::string(where)});
+    if (!behavior.empty()) undefined_.back().where += quote(behavior);
+    return std::nullopt;
+  }
+
+  // A name that resembles no other may be defined where the file could not be understood; then the
+  // fault is that one, and has been reported.
+  void report_undefined() {
+    if (undefined_.empty() || draft_.lacks_a_section) return;
+    std::vector<std::string_view> names;
+    names.reserve(catalog_.tasks.size());
+    for (const Task& task : catalog_.tasks) names.push_back(task.name);
+    Suggestions suggestions(std::move(names));
+    std::unordered_map<std::string_view, std::optional<std::string_view>> suggested;
+    std::size_t strange = 0;
+    for (const Undefined& undefined : undefined_) {
+      const auto [entry, is_new] = suggested.try_emplace(undefined.name.text);
+      if (!is_new) continue;
+      entry->second = suggestions.nearest(undefined.name.text);
+      if (!entry->second) ++strange;
+    }
+    std::set<Range> reported;  // through aliases a name stands in several places of the tree
+    for (const Undefined& undefined : undefined_) {
+      const auto& suggestion = suggested.at(undefined.name.text);
+      if (!suggestion && strange <= draft_.nameless_tasks) continue;
+      if (!reported.insert(undefined.name.range).second) continue;
+      std::string message =
+          "task " + quote(undefined.name.text) + ", " + undefined.where + ", is not defined";
+      if (suggestion) {
+        message += "; did you mean " + quote(*suggestion) + "?";
+      } else if (behaviors_.contains(undefined.name.text)) {
+        message += ": there is a behavior of this name, but no task";
+      }
+      reporter_.error(rule::undefined_task, undefined.name.range, std::move(message));
+    }
+  }
+
+  const draft::Catalog& draft_;
+  Reporter& reporter_;
+  TaskAttributes attributes_;
+  Catalog catalog_;
+  std::unordered_map<std::string_view, TaskIndex> tasks_;
+  std::unordered_map<std::string_view, Range> behaviors_;
+  std::vector<Undefined> undefined_;
+};
+
+}  // namespace
+
+std::optional<Catalog> read_catalog(const yaml::Document& document, Diagnostics& diagnostics) {
+  Reporter reporter(document.file(), diagnostics);
+  const draft::Catalog draft = draft::read(document.root(), reporter);
+  Catalog catalog = Resolver(draft, reporter).resolve();
+  check_requirement_cycles(catalog, reporter);
+  check_exclusive_requirements(catalog, reporter);
+  if (reporter.errors() > 0) return std::nullopt;
+  catalog.file = document.file();
+  return catalog;
+}
+
+std::optional<Catalog> read_catalog(std::string_view text, std::string file,
+                                    Diagnostics& diagnostics) {
+  const auto document = yaml::parse(text, std::move(file), diagnostics);
+  if (document == nullptr) return std::nullopt;
+  return read_catalog(*document, diagnostics);
+}
+
+}  // namespace cbc

@@ -1,0 +1,472 @@
+#include "yaml/document.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+#include <istream>
+#include <optional>
+#include <stdexcept>
+#include <unordered_set>
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include "cbc/rules.h"
+#include "text/position_map.h"
+#include "text/quote.h"
+#include "text/utf8.h"
+#include "yaml/guarded_input.h"
+#include "yaml/source_scan.h"
+
+namespace cbc::yaml {
+
+const Node* Node::find(std::string_view key) const {
+  for (const auto& [name, value] : entries) {
+    if (name->text == key) return value->kind == Kind::null ? nullptr : value;
+  }
+  return nullptr;
+}
+
+namespace {
+
+constexpr std::string_view core_tag = "tag:yaml.org,2002:";
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+// Ends the parsing of a document; becomes a finding.
+struct Refusal : std::runtime_error {
+  Refusal(const Range& where, std::string message, std::vector<Note> more = {})
+      : std::runtime_error(std::move(message)), range(where), notes(std::move(more)) {}
+  Range range;
+  std::vector<Note> notes;
+};
+
+constexpr std::string_view unclosed_text = "a text in quotes does not end";
+constexpr std::string_view unclosed_said = "illegal EOF in scalar";
+constexpr std::string_view undefined_anchor_said = "the referenced anchor is not defined";
+
+std::string too_deep() {
+  return "nested too deeply: more than " + std::to_string(maximum_depth) + " levels";
+}
+
+// What yaml-cpp says in terms of its grammar, said in terms of the text.
+std::string explain(const std::string& message) {
+  struct Explanation {
+    std::string_view said;
+    std::string_view meant;
+  };
+  constexpr Explanation explanations[] = {
+      {"end of map not found",
+       "expected a key, or the end of the mapping: is the indentation right?"},
+      {"end of sequence not found",
+       "expected '- ', or the end of the list: is the indentation right?"},
+      {"end of map flow not found", "expected ',' or '}' in a mapping in braces"},
+      {"end of sequence flow not found", "expected ',' or ']' in a list in brackets"},
+      {"illegal map value",
+       "unexpected ':': is the indentation right? a value with ': ' in it must be in quotes"},
+      {"illegal block entry", "unexpected '- ': is the indentation right?"},
+      {"illegal document indicator in scalar",
+       "a text in quotes does not end before '---' or "
+       "'...' at the start of a line"},
+      {"unknown token", "a value cannot begin with this character; put it in quotes"},
+      {"bad file", "cannot be read as YAML"},
+  };
+  for (const Explanation& explanation : explanations) {
+    if (message == explanation.said) return std::string(explanation.meant);
+  }
+  return message;
+}
+
+bool is_null_text(std::string_view text) {
+  return text.empty() || text == "~" || text == "null" || text == "Null" || text == "NULL";
+}
+
+}  // namespace
+
+// Builds the tree from the events of the parser.
+class Builder : public YAML::EventHandler {
+ public:
+  Builder(std::string_view text, const PositionMap& positions, GuardedInput& input,
+          Document& document, std::string file)
+      : text_(text), positions_(positions), input_(input), document_(document) {
+    document_.file_ = std::move(file);
+  }
+
+  // Whether the parser reported nothing at all: an empty text.
+  [[nodiscard]] bool empty() const { return document_.root_ == nullptr; }
+
+  void finish_empty() { document_.root_ = create(Kind::null, {}); }
+
+  [[nodiscard]] Range range_at(std::size_t begin, std::size_t end) const {
+    return {positions_.at(begin), positions_.at(std::max(begin, end))};
+  }
+
+  // Where what the parser could not read to its end may begin.
+  [[nodiscard]] std::size_t last_end() const { return last_end_; }
+
+  // The innermost collection in brackets or braces that is still open.
+  [[nodiscard]] std::optional<Range> open_bracket() const {
+    for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
+      if (frame->flow) return frame->node->range;
+    }
+    return std::nullopt;
+  }
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    progress();
+    if (!empty()) {
+      const std::size_t at = offset(mark);
+      throw Refusal(range_at(at, at + 3), "expected one document, found a second one");
+    }
+  }
+  void OnDocumentEnd() override { progress(); }
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    progress();
+    const std::size_t begin = skip_properties(text_, offset(mark));
+    const std::size_t end = end_of_null(text_, begin);
+    const bool written = end > begin && begin >= last_end_;
+    const Range range = written ? range_at(begin, end) : range_of_missing(offset(mark));
+    if (written) last_end_ = end;
+    add(create(Kind::null, range), anchor, {1, 0});
+  }
+
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    progress();
+    const ScalarExtent extent = extent_of_scalar(text_, offset(mark), value);
+    // The parser accepts a text without its closing quote if a line break ends it.
+    if (!extent.closed)
+      throw Refusal(range_at(extent.begin, extent.end), std::string(unclosed_text));
+    last_end_ = std::max(last_end_, extent.end);
+    add(create_scalar(range_at(extent.begin, extent.end), tag, extent.plain, value), anchor,
+        {1, 0});
+  }
+
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    progress();
+    const std::size_t begin = offset(mark);
+    const std::size_t end = end_of_alias(text_, begin);
+    last_end_ = std::max(last_end_, end);
+    const Anchored& anchored = anchors_.at(anchor);
+    if (anchored.node == nullptr) {
+      throw Refusal(range_at(begin, end), "an alias stands within the value that it names");
+    }
+    alias_nodes_ += anchored.size.nodes;
+    if (alias_nodes_ > maximum_alias_nodes) {
+      throw Refusal(range_at(begin, end), "aliases stand for more than " +
+                                              std::to_string(maximum_alias_nodes) + " values");
+    }
+    if (frames_.size() + anchored.size.height > maximum_depth) {
+      throw Refusal(range_at(begin, end), too_deep());
+    }
+    alias_range_ = range_at(begin, end);
+    add(anchored.node, 0, anchored.size);
+    alias_range_.reset();
+  }
+
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value style) override {
+    open(Kind::sequence, mark, tag, "seq", anchor, style);
+  }
+  void OnSequenceEnd() override { close(); }
+
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value style) override {
+    open(Kind::mapping, mark, tag, "map", anchor, style);
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  // Of a value with all that is in it, aliases written out.
+  struct Size {
+    std::size_t nodes = 0;
+    std::size_t height = 0;  // levels of collections
+  };
+  struct Anchored {
+    const Node* node = nullptr;  // nullptr as long as the value has not ended
+    Size size;
+  };
+  struct Frame {
+    Node* node = nullptr;
+    YAML::anchor_t anchor = 0;
+    bool flow = false;
+    const Node* key = nullptr;  // of a mapping, while its value is awaited
+    const Node* merge_key = nullptr;
+    std::vector<std::pair<const Node*, Range>> merges;  // mappings to merge, and where it says so
+    std::size_t merge_at = 0;                           // place among the entries
+    Size size{1, 1};
+  };
+
+  static std::size_t offset(const YAML::Mark& mark) {
+    return mark.pos < 0 ? 0 : static_cast<std::size_t>(mark.pos);
+  }
+
+  static bool is_flow(YAML::EmitterStyle::value style) { return style == YAML::EmitterStyle::Flow; }
+
+  void progress() { input_.reset(); }
+
+  Node* create(Kind kind, const Range& range) {
+    document_.nodes_.push_back(std::make_unique<Node>());
+    Node* node = document_.nodes_.back().get();
+    node->kind = kind;
+    node->range = range;
+    return node;
+  }
+
+  const Node* create_scalar(const Range& range, std::string_view tag, bool plain,
+                            const std::string& value) {
+    if (tag == "?" || tag == "!") {
+      Node* node = create(Kind::scalar, range);
+      node->plain = tag == "?";
+      node->text = value;
+      return node;
+    }
+    const std::string_view name = tag.substr(std::min(core_tag.size(), tag.size()));
+    const bool core = tag.substr(0, core_tag.size()) == core_tag;
+    if (core && name == "null" && plain && is_null_text(value)) return create(Kind::null, range);
+    if (core && (name == "str" || name == "int" || name == "float" || name == "bool")) {
+      Node* node = create(Kind::scalar, range);
+      node->plain = name != "str";
+      node->text = value;
+      return node;
+    }
+    throw Refusal(range, "unsupported tag " + quote(tag));
+  }
+
+  void open(Kind kind, const YAML::Mark& mark, std::string_view tag, std::string_view core_name,
+            YAML::anchor_t anchor, YAML::EmitterStyle::value style) {
+    progress();
+    const std::size_t begin = skip_properties(text_, offset(mark));
+    const Range range = range_at(begin, begin + 1);
+    if (frames_.size() >= maximum_depth) throw Refusal(range, too_deep());
+    if (tag != "?" && tag != "!" && tag != std::string(core_tag).append(core_name)) {
+      throw Refusal(range, "unsupported tag " + quote(tag));
+    }
+    refuse_as_key(range, is_flow(style) ? begin : text_.size());
+    if (is_flow(style)) last_end_ = std::max(last_end_, begin + 1);
+    register_anchor(anchor, {});
+    Frame frame;
+    frame.node = create(kind, range);
+    frame.anchor = anchor;
+    frame.flow = is_flow(style);
+    frames_.push_back(std::move(frame));
+  }
+
+  void close() {
+    progress();
+    Frame frame = std::move(frames_.back());
+    frames_.pop_back();
+    if (!frame.merges.empty()) merge(frame);
+    add(frame.node, frame.anchor, frame.size);
+  }
+
+  void register_anchor(YAML::anchor_t anchor, const Anchored& anchored) {
+    if (anchor == 0) return;
+    if (anchors_.size() <= anchor) anchors_.resize(anchor + 1);
+    anchors_[anchor] = anchored;
+  }
+
+  // Puts a finished value in its place.
+  void add(const Node* node, YAML::anchor_t anchor, const Size& size) {
+    register_anchor(anchor, {node, size});
+    if (frames_.empty()) {
+      document_.root_ = node;
+      return;
+    }
+    Frame& frame = frames_.back();
+    frame.size.nodes += size.nodes;
+    frame.size.height = std::max(frame.size.height, size.height + 1);
+    if (frame.node->kind == Kind::sequence) {
+      frame.node->items.push_back(node);
+    } else if (frame.key == nullptr && frame.merge_key == nullptr) {
+      add_key(frame, node);
+    } else if (frame.merge_key != nullptr) {
+      add_merge(frame, node);
+    } else {
+      frame.node->entries.emplace_back(frame.key, node);
+      frame.key = nullptr;
+    }
+  }
+
+  // A collection in the place of a key. At the end of the text the parser takes one in brackets
+  // that was not closed for a key, too.
+  void refuse_as_key(const Range& range, std::size_t bracket) const {
+    if (frames_.empty()) return;
+    const Frame& frame = frames_.back();
+    if (frame.node->kind != Kind::mapping || frame.key != nullptr || frame.merge_key != nullptr) {
+      return;
+    }
+    if (bracket < text_.size() && !is_closed(text_, bracket)) {
+      throw Refusal(range, quote(text_.substr(bracket, 1)) + " is not closed");
+    }
+    throw Refusal(range, "a key must be a plain name, not a list or a mapping");
+  }
+
+  void add_key(Frame& frame, const Node* node) {
+    if (node->kind != Kind::scalar) {
+      const Range range = alias_range_.value_or(node->range);
+      if (node->kind == Kind::null) throw Refusal(range, "a key is missing here, or is null");
+      refuse_as_key(range, text_.size());
+    }
+    if (node->plain && node->text == "<<") {
+      if (!frame.merges.empty()) {
+        throw Refusal(node->range, "a second merge key '<<' in one mapping; merge a list instead");
+      }
+      frame.merge_key = node;
+      frame.merge_at = frame.node->entries.size();
+    } else {
+      frame.key = node;
+    }
+  }
+
+  void add_merge(Frame& frame, const Node* node) {
+    const Range range = alias_range_.value_or(node->range);
+    const std::vector<const Node*> single{node};
+    for (const Node* source : node->kind == Kind::sequence ? node->items : single) {
+      if (source->kind != Kind::mapping) {
+        throw Refusal(range, "the merge key '<<' takes a mapping, or a list of mappings");
+      }
+      frame.merges.emplace_back(source, range);
+    }
+    frame.merge_key = nullptr;
+  }
+
+  // The keys of the merged mappings that the mapping does not have itself come where '<<' stood;
+  // of equal ones the first counts. They count as aliases, as they may multiply like these.
+  void merge(const Frame& frame) {
+    auto& entries = frame.node->entries;
+    std::unordered_set<std::string_view> known;
+    for (const auto& [key, value] : entries) known.insert(key->text);
+    std::vector<std::pair<const Node*, const Node*>> merged;
+    for (const auto& [source, range] : frame.merges) {
+      alias_nodes_ += 2 * source->entries.size();
+      if (alias_nodes_ > maximum_alias_nodes) {
+        throw Refusal(range, "aliases stand for more than " + std::to_string(maximum_alias_nodes) +
+                                 " values");
+      }
+      for (const auto& entry : source->entries) {
+        if (known.insert(entry.first->text).second) merged.push_back(entry);
+      }
+    }
+    entries.insert(entries.begin() + static_cast<std::ptrdiff_t>(frame.merge_at), merged.begin(),
+                   merged.end());
+  }
+
+  // Where nothing is written the parser gives the place of what comes next. The key, or the dash
+  // of the list, says more.
+  Range range_of_missing(std::size_t next) {
+    if (frames_.empty()) return range_at(0, 0);
+    const Frame& frame = frames_.back();
+    if (frame.key != nullptr) return frame.key->range;
+    if (frame.merge_key != nullptr) return frame.merge_key->range;
+    if (frame.node->kind == Kind::sequence && !frame.flow) {
+      const std::size_t dash = find_dash(text_, last_end_);
+      last_end_ = std::min(dash + 1, text_.size());
+      return range_at(dash, dash + 1);
+    }
+    return range_at(next, next + 1);
+  }
+
+  std::string_view text_;
+  const PositionMap& positions_;
+  GuardedInput& input_;
+  Document& document_;
+  std::vector<Frame> frames_;
+  std::vector<Anchored> anchors_;
+  std::size_t alias_nodes_ = 0;
+  std::optional<Range> alias_range_;  // while an alias is being added
+  std::size_t last_end_ = 0;          // where the last thing that was read ended, as far as known
+};
+
+namespace {
+
+// A character that may not stand in YAML as it is.
+bool is_forbidden(char32_t character) {
+  if (character < 0x20) return character != '\t' && character != '\n' && character != '\r';
+  return character >= 0x7F && character < 0xA0 && character != 0x85;
+}
+
+void check_characters(std::string_view text, const PositionMap& positions) {
+  for (std::size_t offset = 0; offset < text.size();) {
+    const utf8::Decoded decoded = utf8::decode(text, offset);
+    const auto refuse = [&](const std::string& message) {
+      const Position begin = positions.at(offset);
+      throw Refusal({begin, {begin.line, begin.column + 1}}, message);
+    };
+    if (!decoded.valid) {
+      if (text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF") {
+        refuse("expected UTF-8, found UTF-16");
+      }
+      refuse("not valid UTF-8");
+    }
+    if (decoded.character == 0) refuse("a NUL byte");
+    if (is_forbidden(decoded.character)) {
+      refuse("a control character: " + quote(text.substr(offset, decoded.bytes)));
+    }
+    offset += decoded.bytes;
+  }
+}
+
+[[noreturn]] void refuse(const YAML::Exception& exception, std::string_view text,
+                         const std::string& file, const Builder& builder) {
+  const auto offset = static_cast<std::size_t>(std::max(exception.mark.pos, 0));
+  const std::size_t tab = find_indenting_tab(text, offset);
+  if (tab < offset) {
+    throw Refusal(builder.range_at(tab, tab + 1), "a tab may not indent; use spaces");
+  }
+  if (exception.msg == unclosed_said) {
+    const std::size_t quote_at = find_quote(text, builder.last_end());
+    throw Refusal(builder.range_at(quote_at, quote_at + 1), std::string(unclosed_text));
+  }
+  if (exception.msg.starts_with(undefined_anchor_said)) {
+    const std::size_t end = end_of_alias(text, offset);
+    throw Refusal(builder.range_at(offset, end),
+                  "there is no anchor " + quote(text.substr(offset + 1, end - offset - 1)));
+  }
+  std::vector<Note> notes;
+  const std::optional<Range> bracket = builder.open_bracket();
+  if (bracket && offset >= text.size()) notes.push_back({file, *bracket, "opened here"});
+  throw Refusal(builder.range_at(offset, offset + 1), explain(exception.msg), std::move(notes));
+}
+
+void parse_document(std::string_view text, const PositionMap& positions, const std::string& file,
+                    Document& document) {
+  check_characters(text, positions);
+  GuardedInput input(text, maximum_depth);
+  std::istream stream(&input);
+  Builder builder(text, positions, input, document, file);
+  try {
+    YAML::Parser parser(stream);
+    while (parser.HandleNextDocument(builder)) {
+    }
+  } catch (const YAML::Exception& exception) {
+    if (!input.refused_at()) refuse(exception, text, file, builder);
+  } catch (const Refusal&) {
+    if (!input.refused_at()) throw;
+  }
+  if (const auto at = input.refused_at()) throw Refusal(builder.range_at(*at, *at + 1), too_deep());
+  if (builder.empty()) builder.finish_empty();
+}
+
+}  // namespace
+
+std::unique_ptr<const Document> parse(std::string_view text, std::string file,
+                                      Diagnostics& diagnostics) {
+  if (text.substr(0, byte_order_mark.size()) == byte_order_mark) {
+    text.remove_prefix(byte_order_mark.size());
+  }
+  const PositionMap positions(text);
+  auto document = std::make_unique<Document>();
+  try {
+    parse_document(text, positions, file, *document);
+    return document;
+  } catch (const Refusal& refusal) {
+    diagnostics.add({rule::yaml_syntax, Severity::error, std::move(file), refusal.range,
+                     refusal.what(), refusal.notes});
+  }
+  return nullptr;
+}
+
+}  // namespace cbc::yaml

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cbc/diagnostic.h"
+#include "diagnostic/reporter.h"
+#include "yaml/document.h"
+
+namespace cbc::yaml {
+
+/// A key that a mapping may have.
+struct Key {
+  std::string_view name;
+  std::string_view replaced_by = {};  ///< of an older name: the present one
+};
+
+/// What a kind of mapping may contain.
+struct Shape {
+  std::string_view what;  ///< "a task"
+  std::span<const Key> keys;
+  const Shape* outer = nullptr;              ///< the mapping this one stands in
+  std::span<const Shape* const> inner = {};  ///< mappings that stand in this one
+
+  [[nodiscard]] bool has(std::string_view key) const;
+};
+
+/// The keys of a mapping, sorted out: duplicates and older names are reported, keys that begin with
+/// "x-" are ignored, and a null value is as if its key were absent.
+class Fields {
+ public:
+  /// Reads several mappings as if they were one. `shape` and `reporter` must outlive this object.
+  Fields(std::span<const Node* const> mappings, const Shape& shape, Reporter& reporter);
+  Fields(const Node& mapping, const Shape& shape, Reporter& reporter);
+
+  /// The value of a key, or nullptr if there is none.
+  [[nodiscard]] const Node* find(std::string_view key) const;
+  /// Whether a key is there, with or without a value.
+  [[nodiscard]] bool has(std::string_view key) const;
+  [[nodiscard]] bool has_unknown() const { return !unknown_.empty(); }
+  /// The place of a key that is there.
+  [[nodiscard]] const Range& range_of(std::string_view key) const;
+
+  /// What the mapping is, for messages: "behavior 'A'". At first what its shape is.
+  void call(std::string what) { what_ = std::move(what); }
+
+  /// As `find`, but reports an absent key, as missing at `range`. A misspelt one is taken in its
+  /// place.
+  [[nodiscard]] const Node* require(std::string_view key, const Range& range);
+
+  /// Takes a misspelt key in the place of `key`, which is absent, and reports it as missing.
+  [[nodiscard]] const Node* adopt(std::string_view key);
+
+  /// Reports the keys that are unknown. Call it once, when all that is required was asked for.
+  void report_unknown(Severity severity);
+
+ private:
+  struct Field {
+    const Node* key = nullptr;
+    const Node* value = nullptr;
+  };
+
+  void add(const Node& key, const Node& value);
+  void report_older_names();
+  [[nodiscard]] std::string_view suggestion_for(std::string_view key) const;
+  [[nodiscard]] std::size_t place_of(std::string_view key) const;
+
+  const Shape& shape_;
+  Reporter& reporter_;
+  std::string what_;
+  std::vector<Field> fields_;  // one for each key of the shape
+  std::vector<Field> unknown_;
+};
+
+}  // namespace cbc::yaml
