@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace cbc {
+
+using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// Component of each vertex in the undirected graph. Components count from 0 by their first vertex.
+[[nodiscard]] std::vector<std::uint32_t> connected_components(std::size_t vertices,
+                                                              const Edges& edges);
+
+/// Vertices of an acyclic graph such that every edge (from, to) has `to` before `from`.
+[[nodiscard]] std::vector<std::uint32_t> reverse_topological_order(std::size_t vertices,
+                                                                   const Edges& edges);
+
+}  // namespace cbc
