@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "solver/problem.h"
+
+namespace cbc {
+
+/// Checks answers against the catalog before anyone acts on them. It shares nothing with the
+/// search but the catalog and the question: no costs, arcs or masks, and arithmetic of its own.
+class Checker {
+ public:
+  explicit Checker(const CompiledCatalog& catalog);
+
+  /// What is wrong with `answer`, or nothing.
+  [[nodiscard]] std::optional<std::string> find_violation(const Problem& problem,
+                                                          const Assignment& answer);
+
+ private:
+  [[nodiscard]] BehaviorId behavior_of(TaskId task) const;
+  [[nodiscard]] bool is_in_domain(const Problem& problem, TaskId task) const;
+  [[nodiscard]] std::optional<std::string> check_domains(const Problem& problem) const;
+  [[nodiscard]] std::optional<std::string> check_exclusivity();
+  [[nodiscard]] std::optional<std::string> check_requirements();
+  [[nodiscard]] bool performs_at_least(TaskId task, Millionths minimum);
+  [[nodiscard]] std::string describe(TaskId task) const;
+
+  const CompiledCatalog& catalog_;
+  const Assignment* answer_ = nullptr;
+  TaskId first_task_ = 0;
+  TaskId end_task_ = 0;
+  std::uint64_t number_ = 0;                  ///< of the present check, to mark what it has seen
+  std::vector<std::uint64_t> clique_marks_;   ///< by clique
+  std::vector<TaskId> clique_holders_;        ///< by clique: its running task, if marked
+  std::vector<std::uint64_t> closure_marks_;  ///< by task
+  std::vector<TaskId> closure_;
+  std::vector<std::uint32_t> digits_;
+};
+
+}  // namespace cbc

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "solver/problem.h"
+
+namespace cbc {
+
+/// The domains of the tasks of one group during a search, with a trail to undo changes, and sums
+/// over the *needed* tasks: those that run in every solution of the present subtree ("not running"
+/// has left their domain). The most suitable place of each bounds its share of the objective.
+///
+/// All other tasks can be left at "not running": a task that nothing needs only makes f2 and f3
+/// worse, or equal and worse. So a subtree is solved when each needed task has one value.
+class Domains {
+ public:
+  /// Sums over the needed tasks, each taken with the most suitable behavior it still has.
+  struct Sums {
+    std::int64_t cost = 0;      ///< log_cost of the suitabilities, zeros left out
+    std::uint32_t factors = 0;  ///< suitabilities other than 1 and 0
+    std::uint32_t zeros = 0;    ///< suitabilities of 0
+    std::uint32_t idle = 0;     ///< tasks that are not start_on_request: a of f3
+  };
+
+  struct Mark {
+    std::size_t trail = 0;
+    std::size_t needed = 0;
+    Sums sums;
+  };
+
+  explicit Domains(const CompiledCatalog& catalog);
+
+  void load(const Problem& problem);
+
+  [[nodiscard]] std::uint32_t task_count() const { return task_count_; }
+  [[nodiscard]] TaskId first_task() const { return first_task_; }
+  [[nodiscard]] BehaviorId first_behavior() const { return first_behavior_; }
+
+  [[nodiscard]] bool may_stop(std::uint32_t task) const { return tasks_[task].may_stop; }
+  [[nodiscard]] bool needed(std::uint32_t task) const { return !tasks_[task].may_stop; }
+  /// Number of behaviors in the domain.
+  [[nodiscard]] std::uint32_t count(std::uint32_t task) const { return tasks_[task].count; }
+  /// Place of the most suitable behavior in the domain; needs count > 0.
+  [[nodiscard]] std::uint32_t best(std::uint32_t task) const { return tasks_[task].best; }
+  [[nodiscard]] bool has(std::uint32_t task, std::uint32_t place) const {
+    return ((words_[tasks_[task].word + place / 64] >> (place % 64)) & 1) != 0;
+  }
+  [[nodiscard]] std::span<const std::uint64_t> words(std::uint32_t task) const {
+    return {words_.data() + tasks_[task].word, tasks_[task].word_count};
+  }
+  /// First word of the task among those of the group.
+  [[nodiscard]] std::uint32_t word_begin(std::uint32_t task) const { return tasks_[task].word; }
+  [[nodiscard]] const Value& value(std::uint32_t task, std::uint32_t place) const {
+    return tasks_[task].values[place];
+  }
+  [[nodiscard]] std::span<const Value> values(std::uint32_t task) const {
+    return {tasks_[task].values, tasks_[task].value_count};
+  }
+  /// Whether all behaviors in the domain are among those of `mask` (words as those of the task).
+  [[nodiscard]] bool all_within(std::uint32_t task, const std::uint64_t* mask) const;
+
+  [[nodiscard]] const std::vector<std::uint32_t>& needed_tasks() const { return needed_; }
+  [[nodiscard]] const Sums& sums() const { return sums_; }
+
+  // Changes. Each returns false if a needed task has no behavior left.
+
+  /// Takes "not running" out of the domain.
+  [[nodiscard]] bool need(std::uint32_t task);
+  /// Takes all behaviors out of the domain.
+  [[nodiscard]] bool close(std::uint32_t task);
+  [[nodiscard]] bool remove(std::uint32_t task, std::uint32_t place);
+  [[nodiscard]] bool remove_all(std::uint32_t task, const std::uint64_t* mask);
+  /// Leaves one behavior; "not running", if it is in the domain, stays.
+  [[nodiscard]] bool keep_only(std::uint32_t task, std::uint32_t place);
+
+  [[nodiscard]] Mark mark() const { return {trail_.size(), needed_.size(), sums_}; }
+  void undo_to(const Mark& mark);
+
+  // Tasks whose change may matter to others: needed ones that changed, and those with no behavior
+  // left.
+
+  [[nodiscard]] bool has_changed() const { return !changed_.empty(); }
+  [[nodiscard]] std::uint32_t next_changed();
+  void forget_changes();
+
+ private:
+  struct TaskState {
+    const Value* values = nullptr;
+    std::uint32_t value_count = 0;
+    std::uint32_t word = 0;
+    std::uint32_t word_count = 0;
+    std::uint32_t count = 0;
+    std::uint32_t best = 0;
+    bool may_stop = true;
+    bool start_on_request = true;
+    bool is_changed = false;
+  };
+  struct Change {
+    std::uint32_t task = 0;
+    std::uint32_t word = 0;  ///< or none: "not running" left the domain
+    std::uint64_t before = 0;
+  };
+
+  [[nodiscard]] bool narrow(std::uint32_t task, std::uint32_t word, std::uint64_t after);
+  void add_share(const Value& best);
+  void take_share(const Value& best);
+  void find_best(TaskState& state) const;
+  void note_change(std::uint32_t task);
+
+  const CompiledCatalog& catalog_;
+  std::uint32_t task_count_ = 0;
+  TaskId first_task_ = 0;
+  BehaviorId first_behavior_ = 0;
+  std::vector<TaskState> tasks_;
+  std::vector<std::uint64_t> words_;
+  std::vector<std::uint32_t> needed_;
+  std::vector<Change> trail_;
+  std::vector<std::uint32_t> changed_;
+  Sums sums_;
+};
+
+}  // namespace cbc

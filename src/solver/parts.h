@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "solver/domains.h"
+
+namespace cbc {
+
+/// Splits what is undecided into independent parts: with most domains fixed, a group often falls
+/// into pieces that no constraint and no objective connects any more. Each can be solved apart.
+///
+/// Parts nest: a part can be split again. The present part is the innermost one that was entered;
+/// at depth 0 it is the whole group.
+class Parts {
+ public:
+  Parts(const CompiledCatalog& catalog, const Domains& domains);
+
+  /// To be called after Domains::load.
+  void load(const Problem& problem);
+
+  /// Parts nest no deeper.
+  static constexpr std::uint32_t deepest = 8;
+
+  [[nodiscard]] std::uint32_t depth() const { return depth_; }
+  /// Whether the task belongs to the part that was entered at `depth`.
+  [[nodiscard]] bool contains(std::uint32_t task, std::uint32_t depth) const {
+    return depth_of_[task] >= depth;
+  }
+
+  /// If the undecided tasks of the present part are in several parts, enters the one of `task`. All
+  /// requests are decided.
+  [[nodiscard]] bool enter_part_of(std::uint32_t task);
+  void leave();
+
+ private:
+  void find_open_tasks();
+  void open(std::uint32_t task);
+  void join_by_cliques();
+  void join_by_behaviors();
+  void join_by_performance();
+  void join_reach_of(std::uint32_t task);
+  void join(std::uint32_t a, std::uint32_t b);
+  [[nodiscard]] std::uint32_t root_of(std::uint32_t task);
+  [[nodiscard]] bool is_open(std::uint32_t task) const { return opened_[task] == number_; }
+  [[nodiscard]] bool is_fixed(std::uint32_t task) const {
+    return domains_.needed(task) && domains_.count(task) == 1;
+  }
+  [[nodiscard]] bool may_use(std::uint32_t task, const Arc& arc) const;
+  [[nodiscard]] bool has_rules(std::uint32_t task) const {
+    return catalog_.tasks[domains_.first_task() + task].has_performance_rules;
+  }
+
+  const CompiledCatalog& catalog_;
+  const Domains& domains_;
+  std::vector<std::uint8_t> has_zeros_;  ///< by group: a suitability of 0
+  bool can_split_ = true;
+  std::uint32_t depth_ = 0;
+  std::vector<std::uint32_t> depth_of_;   ///< by task: of the innermost part that it is in
+  std::uint64_t number_ = 0;              ///< of the present look for parts
+  std::vector<std::uint64_t> opened_;     ///< by task
+  std::vector<std::uint32_t> open_;       ///< tasks whose value is not decided, or may be needed
+  std::vector<std::uint32_t> joined_to_;  ///< by task: towards the root of its part
+  std::vector<std::uint64_t> clique_seen_;
+  std::vector<std::uint32_t> clique_task_;
+  std::vector<std::uint64_t> behavior_seen_;  ///< by behavior of the group
+  std::vector<std::uint32_t> behavior_task_;
+  std::uint64_t reach_number_ = 0;
+  std::vector<std::uint64_t> reached_;  ///< by task
+  std::vector<std::uint32_t> reach_;
+};
+
+}  // namespace cbc

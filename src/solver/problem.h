@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+
+namespace cbc {
+
+/// The constraint problem of one event in one group. Tasks are counted within the group; a place
+/// is the place of a value within its task (so 0 is the most suitable behavior).
+struct Problem {
+  std::uint32_t group = 0;
+  std::vector<std::uint64_t> domains;  ///< bit sets of places, task by task as in words
+  std::vector<std::uint8_t> may_stop;  ///< by task: whether "not running" is in the domain
+  std::vector<std::uint32_t> present;  ///< by task: place of its behavior before the event, or none
+  std::vector<std::uint32_t> requests;  ///< tasks with an active request, most important first
+  std::vector<BehaviorId> active;       ///< active behaviors just before the event
+};
+
+/// A value for every task of a group: a place, or none.
+using Assignment = std::vector<std::uint32_t>;
+
+enum class SearchStatus : std::uint8_t {
+  optimal,     ///< proven best
+  feasible,    ///< best so far when a limit stopped the search
+  infeasible,  ///< proven that there is no solution
+  unknown      ///< a limit stopped the search before the first solution
+};
+
+[[nodiscard]] constexpr bool has_solution(SearchStatus status) {
+  return status == SearchStatus::optimal || status == SearchStatus::feasible;
+}
+
+struct SearchResult {
+  SearchStatus status = SearchStatus::infeasible;
+  std::uint64_t solutions = 0;  ///< solutions met, each better than the one before (all, with m)
+  std::uint64_t nodes = 0;      ///< decisions taken
+};
+
+}  // namespace cbc
