@@ -1,0 +1,383 @@
+#include "coordinator/coordinator.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "coordinator/ranks.h"
+
+namespace cbc {
+
+Coordinator::Coordinator(const CompiledCatalog& catalog, const CoordinatorOptions& options,
+                         EventListener& listener)
+    : catalog_(catalog),
+      options_(options),
+      listener_(listener),
+      ranks_(options.tie_seed ? draw_ranks(catalog, *options.tie_seed)
+                              : std::vector<std::uint32_t>{}),
+      state_(catalog),
+      question_(catalog, state_),
+      transition_(catalog, state_, record_.changes),
+      solver_(catalog, options.search, ranks_),
+      checker_(catalog) {}
+
+void Coordinator::begin(std::span<const Availability> situation) {
+  for (const Availability& entry : situation) {
+    state_.set_available(catalog_.behavior_ids[entry.behavior], entry.available);
+  }
+  for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) enqueue_group(group);
+}
+
+// The clock.
+
+Coordinator::Status Coordinator::advance_to(Microseconds time) {
+  for (auto due = next_due(); due && *due < time; due = next_due()) {
+    if (const Status status = process_next_due(); status != Status::ok) return status;
+  }
+  now_ = time;
+  return Status::ok;
+}
+
+Coordinator::Status Coordinator::settle() {
+  for (auto due = next_due(); due && *due <= now_; due = next_due()) {
+    if (const Status status = process_next_due(); status != Status::ok) return status;
+  }
+  return Status::ok;
+}
+
+std::optional<Microseconds> Coordinator::next_due() const {
+  const Timers& timeouts = state_.timeouts();
+  const Timers& queue = state_.queue();
+  if (timeouts.empty() && queue.empty()) return std::nullopt;
+  if (timeouts.empty()) return queue.first_due();
+  if (queue.empty()) return timeouts.first_due();
+  return std::min(timeouts.first_due(), queue.first_due());
+}
+
+/// At one instant timeouts come before reactive starts.
+Coordinator::Status Coordinator::process_next_due() {
+  const Timers& timeouts = state_.timeouts();
+  const Timers& queue = state_.queue();
+  now_ = *next_due();
+  if (!timeouts.empty() && timeouts.first_due() == now_) {
+    const BehaviorId behavior = state_.behavior(catalog_.task_ids[timeouts.first()]);
+    open_record(Origin::timeout, Verb::finish);
+    return finish(behavior, FinishCause::time_out);
+  }
+  const TaskId task = catalog_.task_ids[queue.first()];
+  state_.dequeue(task);
+  return start_reactive(task);
+}
+
+Coordinator::Status Coordinator::start_reactive(TaskId task) {
+  if (state_.is_running(task) || state_.excludes_running_task(task) ||
+      !state_.has_available_behavior(task)) {
+    return Status::ok;
+  }
+  open_record(Origin::reactive, Verb::start);
+  return start(task, 0, std::string_view{}, true);
+}
+
+// Events.
+
+Coordinator::Status Coordinator::handle(const Event& event) {
+  open_record(Origin::script, event.verb);
+  switch (event.verb) {
+    case Verb::start:
+      return start(catalog_.task_ids[event.subject], event.priority.value_or(1), event.parameters,
+                   false);
+    case Verb::stop:
+      return stop(catalog_.task_ids[event.subject], event.priority);
+    case Verb::finish:
+      return finish(catalog_.behavior_ids[event.subject], event.cause);
+    case Verb::situation:
+      change_situation(event.situation);
+      return report();
+    case Verb::fault:
+      record_.behavior = catalog_.behavior_ids[event.subject];
+      state_.set_faulty(record_.behavior, true);
+      return report();
+    case Verb::repair:
+      repair(catalog_.behavior_ids[event.subject]);
+      return report();
+    case Verb::wait:
+      return report();
+  }
+  return Status::ok;
+}
+
+void Coordinator::open_record(Origin origin, Verb verb) {
+  const std::uint64_t index = record_.index + 1;
+  record_.changes.clear();
+  record_.stopped_tasks.clear();
+  record_.objective.reset();
+  record_.search.reset();
+  record_.priority_conflict.reset();
+  record_.index = index;
+  record_.time = now_;
+  record_.origin = origin;
+  record_.verb = verb;
+  record_.task = none;
+  record_.behavior = none;
+  record_.priority = 0;
+  record_.outcome = Outcome::unchanged;
+}
+
+Coordinator::Status Coordinator::report() {
+  if (record_.origin != Origin::script && ++clock_events_ > options_.max_clock_events) {
+    return Status::too_many_clock_events;
+  }
+  listener_.on_event(record_);
+  return Status::ok;
+}
+
+Coordinator::Status Coordinator::start(TaskId task, std::int32_t priority,
+                                       std::optional<std::string_view> parameters,
+                                       bool is_reactive) {
+  record_.task = task;
+  record_.priority = priority;
+  const Request* const request = state_.has_request(task) ? &state_.request(task) : nullptr;
+  if (request != nullptr && request->priority > priority) {
+    record_.outcome = Outcome::rejected;
+    record_.priority_conflict = PriorityConflict{task, request->priority};
+    return report();
+  }
+  Trigger trigger;
+  trigger.kind = Trigger::Kind::start;
+  trigger.group = catalog_.tasks[task].group;
+  trigger.task = task;
+  trigger.priority = priority;
+  trigger.is_reactive = is_reactive;
+  if (parameters) {
+    trigger.parameters = *parameters;
+  } else if (request != nullptr) {
+    trigger.parameters = request->parameters;
+  }
+  return coordinate(trigger);
+}
+
+Coordinator::Status Coordinator::stop(TaskId task, std::optional<std::int32_t> priority) {
+  record_.task = task;
+  const Request* const request = state_.has_request(task) ? &state_.request(task) : nullptr;
+  record_.priority = priority.value_or(request != nullptr ? request->priority : 0);
+  if (!state_.is_running(task)) {
+    state_.dequeue(task);
+    return report();
+  }
+  if (request != nullptr && request->priority > record_.priority) {
+    record_.outcome = Outcome::rejected;
+    record_.priority_conflict = PriorityConflict{task, request->priority};
+    return report();
+  }
+  Trigger trigger;
+  trigger.kind = Trigger::Kind::stop;
+  trigger.group = catalog_.tasks[task].group;
+  trigger.task = task;
+  trigger.priority = record_.priority;
+  return coordinate(trigger);
+}
+
+Coordinator::Status Coordinator::finish(BehaviorId behavior, FinishCause cause) {
+  record_.behavior = behavior;
+  record_.cause = cause;
+  if (!state_.is_active(behavior)) return report();
+  Trigger trigger;
+  trigger.kind = Trigger::Kind::finish;
+  trigger.group = catalog_.tasks[catalog_.task_of(catalog_.performs[behavior].front())].group;
+  trigger.behavior = behavior;
+  trigger.cause = cause;
+  return coordinate(trigger);
+}
+
+void Coordinator::change_situation(std::span<const Availability> situation) {
+  for (const Availability& entry : situation) {
+    const BehaviorId behavior = catalog_.behavior_ids[entry.behavior];
+    const bool becomes_available = entry.available && !state_.is_available(behavior);
+    state_.set_available(behavior, entry.available);
+    if (becomes_available) {
+      enqueue_group(catalog_.tasks[catalog_.task_of(catalog_.performs[behavior].front())].group);
+    }
+  }
+}
+
+void Coordinator::repair(BehaviorId behavior) {
+  record_.behavior = behavior;
+  if (!state_.is_faulty(behavior)) return;
+  state_.set_faulty(behavior, false);
+  enqueue_group(catalog_.tasks[catalog_.task_of(catalog_.performs[behavior].front())].group);
+}
+
+// Coordination.
+
+Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
+  question_.load(trigger, record_.index);
+  transition_.load(trigger, question_.active_before());
+  if (trigger.kind == Trigger::Kind::finish) state_.set_inactive(trigger.behavior);
+  for (;;) {
+    const Problem* const problem = search(trigger);
+    if (problem == nullptr) return reject(trigger);
+    if (auto violation = checker_.find_violation(*problem, solution_)) {
+      internal_error_ = std::move(*violation);
+      return Status::refused_answer;
+    }
+    const auto failed = transition_.apply(solution_, behavior_to_restart(trigger), now_);
+    if (!failed) {
+      accept(trigger, *problem);
+      return report();
+    }
+    question_.exclude(*failed);
+  }
+}
+
+/// Solves the problem of the trigger. A finish is tried again at higher protection levels, up to
+/// the level that protects nothing. Returns the problem that was solved, or null.
+const Problem* Coordinator::search(const Trigger& trigger) {
+  std::int32_t protection = question_.first_protection();
+  SearchRecord& record = record_.search ? *record_.search : record_.search.emplace();
+  record.group = trigger.group;
+  for (;;) {
+    const Problem& problem = question_.ask(protection);
+    const SearchResult result = solver_.solve(problem, solution_);
+    record.protection = protection;
+    record.result.status = result.status;
+    record.result.solutions += result.solutions;
+    record.result.nodes += result.nodes;
+    if (has_solution(result.status)) {
+      note_domain_sizes(problem, record);
+      return &problem;
+    }
+    const auto next =
+        trigger.kind == Trigger::Kind::finish && result.status == SearchStatus::infeasible
+            ? question_.next_protection(protection)
+            : std::nullopt;
+    if (!next) {
+      note_domain_sizes(problem, record);
+      return nullptr;
+    }
+    protection = *next;
+  }
+}
+
+void Coordinator::note_domain_sizes(const Problem& problem, SearchRecord& record) const {
+  const TaskId first = catalog_.group_tasks[problem.group];
+  record.domain_sizes.clear();
+  for (std::uint32_t task = 0; task < problem.may_stop.size(); ++task) {
+    std::uint32_t size = problem.may_stop[task];
+    for (std::uint32_t word = catalog_.words[first + task]; word < catalog_.words[first + task + 1];
+         ++word) {
+      size +=
+          static_cast<std::uint32_t>(std::popcount(problem.domains[word - catalog_.words[first]]));
+    }
+    record.domain_sizes.push_back(size);
+  }
+}
+
+/// The behavior that the started task keeps and that has to take over changed parameters.
+BehaviorId Coordinator::behavior_to_restart(const Trigger& trigger) const {
+  if (trigger.kind != Trigger::Kind::start || !state_.is_running(trigger.task)) return none;
+  const std::uint32_t place = solution_[trigger.task - catalog_.group_tasks[trigger.group]];
+  if (place != state_.place(trigger.task)) return none;
+  const std::string_view present = state_.has_request(trigger.task)
+                                       ? std::string_view(state_.request(trigger.task).parameters)
+                                       : std::string_view();
+  return trigger.parameters == present ? none : state_.behavior(trigger.task);
+}
+
+void Coordinator::accept(const Trigger& trigger, const Problem& problem) {
+  record_.outcome = Outcome::accepted;
+  const TaskId first = catalog_.group_tasks[trigger.group];
+  const TaskId end = catalog_.group_tasks[trigger.group + 1];
+  std::uint32_t elsewhere = state_.request_count();
+  for (TaskId task = first; task < end; ++task) {
+    if (state_.has_request(task)) --elsewhere;
+  }
+  ObjectiveValues& objective = record_.objective.emplace();
+  objective.requests = elsewhere + static_cast<std::uint32_t>(problem.requests.size());
+  objective.changes = transition_.count_changes(solution_);
+  assign(trigger);
+  objective.satisfied = state_.request_count();
+  objective.idle_total = state_.idle_total();
+  objective.idle_running = state_.idle_running();
+  update_timeouts(trigger.group);
+  update_queue();
+}
+
+/// Nothing changes, but for behaviors that could not be activated again: they finish right after.
+Coordinator::Status Coordinator::reject(const Trigger& trigger) {
+  record_.outcome = Outcome::rejected;
+  const std::vector<BehaviorId> lost = transition_.take_back(now_);
+  if (trigger.kind == Trigger::Kind::finish) state_.leave_active(trigger.behavior);
+  update_timeouts(trigger.group);
+  Status status = report();
+  for (std::size_t next = 0; next < lost.size() && status == Status::ok; ++next) {
+    open_record(Origin::fault, Verb::finish);
+    status = finish(lost[next], FinishCause::process_failure);
+  }
+  return status;
+}
+
+/// Gives the tasks of the group the values of the solution.
+void Coordinator::assign(const Trigger& trigger) {
+  started_.clear();
+  stopped_.clear();
+  stopped_by_others_.clear();
+  const TaskId first = catalog_.group_tasks[trigger.group];
+  for (std::uint32_t place = 0; place < solution_.size(); ++place) {
+    const TaskId task = first + place;
+    const bool was_running = state_.is_running(task);
+    const bool has_finished = question_.has_finished(task);
+    state_.set_place(task, solution_[place], now_);
+    if (was_running == state_.is_running(task)) continue;
+    if (!was_running) {
+      started_.push_back(task);
+      continue;
+    }
+    stopped_.push_back(task);
+    record_.stopped_tasks.push_back(
+        {task, has_finished ? trigger.cause : FinishCause::interrupted});
+    if (!has_finished && task != trigger.task) stopped_by_others_.push_back(task);
+  }
+  if (trigger.kind == Trigger::Kind::start) {
+    state_.set_request(trigger.task, trigger.priority, record_.index, trigger.parameters);
+  }
+}
+
+void Coordinator::update_timeouts(std::uint32_t group) {
+  for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
+    state_.update_timeout(task);
+  }
+}
+
+// The queue of reactive tasks (semantics: section 6).
+
+void Coordinator::update_queue() {
+  for (const TaskId task : stopped_) enqueue_rivals(task);
+  for (const TaskId task : stopped_by_others_) {
+    if (catalog_.tasks[task].reactive_start) state_.enqueue(task, now_ + options_.reactive_delay);
+  }
+  for (const TaskId task : started_) dequeue_with_rivals(task);
+}
+
+void Coordinator::enqueue_rivals(TaskId task) {
+  for (const std::uint32_t clique : catalog_.task_cliques[task]) {
+    for (const TaskId rival : catalog_.cliques[clique]) {
+      if (rival != task && catalog_.tasks[rival].reactive_start) {
+        state_.enqueue(rival, now_ + options_.reactive_delay);
+      }
+    }
+  }
+}
+
+void Coordinator::dequeue_with_rivals(TaskId task) {
+  state_.dequeue(task);
+  for (const std::uint32_t clique : catalog_.task_cliques[task]) {
+    for (const TaskId rival : catalog_.cliques[clique]) state_.dequeue(rival);
+  }
+}
+
+void Coordinator::enqueue_group(std::uint32_t group) {
+  for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
+    if (catalog_.tasks[task].reactive_start) state_.enqueue(task, now_ + options_.reactive_delay);
+  }
+}
+
+}  // namespace cbc

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cbc/units.h"
+#include "compiled/compiled_catalog.h"
+#include "coordinator/timers.h"
+
+namespace cbc {
+
+/// The request of a running task.
+struct Request {
+  std::int32_t priority = 0;
+  std::uint64_t event = 0;  ///< number of the event that set it: a later one is more recent
+  std::string parameters;   ///< canonical form
+};
+
+/// State of a coordinator (semantics: section 2): what runs, what was requested, what can be
+/// activated, and what falls due.
+class State {
+ public:
+  explicit State(const CompiledCatalog& catalog);
+
+  // Values of the tasks.
+
+  [[nodiscard]] bool is_running(TaskId task) const { return places_[task] != none; }
+  /// Place of the task's behavior among its values, or none.
+  [[nodiscard]] std::uint32_t place(TaskId task) const { return places_[task]; }
+  [[nodiscard]] BehaviorId behavior(TaskId task) const {
+    return is_running(task) ? catalog_.values[task][places_[task]].behavior : none;
+  }
+  /// Running tasks by their place in the catalog, ascending.
+  [[nodiscard]] const std::vector<std::uint32_t>& running() const { return running_; }
+  /// Running tasks that are not start_on_request: a of f3.
+  [[nodiscard]] std::uint32_t idle_running() const { return idle_running_; }
+  [[nodiscard]] std::uint32_t idle_total() const { return idle_total_; }
+
+  /// Gives the task a value (a place, or none). A task that stops loses its request.
+  void set_place(TaskId task, std::uint32_t place, Microseconds now);
+
+  // Requests.
+
+  [[nodiscard]] bool has_request(TaskId task) const { return has_request_[task] != 0; }
+  [[nodiscard]] const Request& request(TaskId task) const { return requests_[task]; }
+  [[nodiscard]] std::uint32_t request_count() const { return request_count_; }
+  /// The task is running.
+  void set_request(TaskId task, std::int32_t priority, std::uint64_t event,
+                   std::string_view parameters);
+
+  // Behaviors.
+
+  [[nodiscard]] bool is_available(BehaviorId behavior) const { return available_[behavior] != 0; }
+  void set_available(BehaviorId behavior, bool available);
+  [[nodiscard]] bool has_available_behavior(TaskId task) const;
+  /// The available values of all tasks, as domain words.
+  [[nodiscard]] const std::vector<std::uint64_t>& available_words() const {
+    return available_words_;
+  }
+  [[nodiscard]] bool is_faulty(BehaviorId behavior) const { return faulty_[behavior] != 0; }
+  void set_faulty(BehaviorId behavior, bool faulty) { faulty_[behavior] = faulty ? 1 : 0; }
+  [[nodiscard]] bool is_active(BehaviorId behavior) const { return active_[behavior] != 0; }
+  void set_inactive(BehaviorId behavior) { active_[behavior] = 0; }
+  void set_active(BehaviorId behavior, Microseconds now);
+  /// Counts the behavior as active though its activation failed.
+  void leave_active(BehaviorId behavior) { active_[behavior] = 1; }
+
+  // What falls due. Items are places in the catalog.
+
+  /// When the present behavior of each task times out.
+  [[nodiscard]] const Timers& timeouts() const { return timeouts_; }
+  void update_timeout(TaskId task);
+  /// The queue Q of reactive tasks.
+  [[nodiscard]] const Timers& queue() const { return queue_; }
+  void enqueue(TaskId task, Microseconds due);
+  void dequeue(TaskId task) { queue_.remove(catalog_.tasks[task].catalog_index); }
+
+  [[nodiscard]] bool excludes_running_task(TaskId task) const;
+
+ private:
+  const CompiledCatalog& catalog_;
+  std::vector<std::uint32_t> places_;      ///< by task
+  std::vector<Microseconds> taken_at_;     ///< by task: when it took its behavior
+  std::vector<std::uint8_t> has_request_;  ///< by task
+  std::vector<Request> requests_;          ///< by task
+  std::vector<std::uint32_t> running_;
+  std::uint32_t idle_running_ = 0;
+  std::uint32_t idle_total_ = 0;
+  std::uint32_t request_count_ = 0;
+  std::vector<std::uint8_t> available_;  ///< by behavior
+  std::vector<std::uint64_t> available_words_;
+  std::vector<std::uint8_t> faulty_;        ///< by behavior
+  std::vector<std::uint8_t> active_;        ///< by behavior
+  std::vector<Microseconds> activated_at_;  ///< by behavior
+  Timers timeouts_;
+  Timers queue_;
+};
+
+}  // namespace cbc

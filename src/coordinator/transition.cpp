@@ -1,0 +1,189 @@
+#include "coordinator/transition.h"
+
+#include <algorithm>
+
+namespace cbc {
+
+Transition::Transition(const CompiledCatalog& catalog, State& state, std::vector<Change>& changes)
+    : catalog_(catalog), state_(state), changes_(changes) {}
+
+void Transition::load(const Trigger& trigger, const std::vector<BehaviorId>& active_before) {
+  trigger_ = trigger;
+  first_task_ = catalog_.group_tasks[trigger.group];
+  first_behavior_ = catalog_.group_behaviors[trigger.group];
+  end_behavior_ = catalog_.group_behaviors[trigger.group + 1];
+  was_active_.assign(end_behavior_ - first_behavior_, 0);
+  for (const BehaviorId behavior : active_before) was_active_[behavior - first_behavior_] = 1;
+}
+
+std::optional<BehaviorId> Transition::apply(const Assignment& solution, BehaviorId restart,
+                                            Microseconds now) {
+  find_wanted(solution);
+  plan();
+  for (const BehaviorId behavior : to_deactivate_) deactivate(behavior, &solution, false);
+  for (const BehaviorId behavior : to_activate_) {
+    if (behavior != restart && !activate(behavior, &solution, false, now)) return behavior;
+  }
+  if (restart != none) {
+    if (state_.is_active(restart)) deactivate(restart, &solution, true);
+    if (!activate(restart, &solution, true, now)) return restart;
+  }
+  return std::nullopt;
+}
+
+const std::vector<BehaviorId>& Transition::take_back(Microseconds now) {
+  wanted_ = was_active_;
+  plan();
+  lost_.clear();
+  for (const BehaviorId behavior : to_deactivate_) deactivate(behavior, nullptr, false);
+  for (const BehaviorId behavior : to_activate_) {
+    if (!activate(behavior, nullptr, false, now)) lost_.push_back(behavior);
+  }
+  for (const BehaviorId behavior : lost_) state_.leave_active(behavior);
+  std::sort(lost_.begin(), lost_.end());
+  return lost_;
+}
+
+std::uint32_t Transition::count_changes(const Assignment& solution) {
+  find_wanted(solution);
+  std::uint32_t changes = 0;
+  for (std::size_t place = 0; place < wanted_.size(); ++place) {
+    if (wanted_[place] != was_active_[place]) ++changes;
+  }
+  return changes;
+}
+
+void Transition::find_wanted(const Assignment& solution) {
+  wanted_.assign(end_behavior_ - first_behavior_, 0);
+  for (std::uint32_t task = 0; task < solution.size(); ++task) {
+    const BehaviorId behavior = behavior_in(solution, first_task_ + task);
+    if (behavior != none) wanted_[behavior - first_behavior_] = 1;
+  }
+}
+
+/// Deactivations from the highest level down, so that a behavior stops before what it requires;
+/// activations from the lowest level up; behaviors of one level in catalog order.
+void Transition::plan() {
+  to_deactivate_.clear();
+  to_activate_.clear();
+  for (BehaviorId behavior = first_behavior_; behavior < end_behavior_; ++behavior) {
+    if (is_wanted(behavior) == state_.is_active(behavior)) continue;
+    (is_wanted(behavior) ? to_activate_ : to_deactivate_).push_back(behavior);
+  }
+  const auto level = [this](BehaviorId behavior) { return catalog_.behaviors[behavior].level; };
+  std::sort(to_deactivate_.begin(), to_deactivate_.end(), [&](BehaviorId a, BehaviorId b) {
+    return level(a) != level(b) ? level(a) > level(b) : a < b;
+  });
+  std::sort(to_activate_.begin(), to_activate_.end(), [&](BehaviorId a, BehaviorId b) {
+    return level(a) != level(b) ? level(a) < level(b) : a < b;
+  });
+}
+
+void Transition::deactivate(BehaviorId behavior, const Assignment* solution, bool is_restart) {
+  Change& change = changes_.emplace_back();
+  change.is_activation = false;
+  change.behavior = behavior;
+  find_tasks_of_deactivation(change);
+  if (is_restart) {
+    change.cause = ChangeCause::restarted;
+  } else if (!was_active(behavior)) {
+    change.cause = ChangeCause::undone;
+  } else {
+    explain_deactivation(change, *solution);
+  }
+  if (change.cause != ChangeCause::undone) {
+    for (const TaskId task : change.tasks) {
+      change.priority = std::max(change.priority, priority_before(task));
+    }
+  }
+  state_.set_inactive(behavior);
+}
+
+bool Transition::activate(BehaviorId behavior, const Assignment* solution, bool is_restart,
+                          Microseconds now) {
+  Change& change = changes_.emplace_back();
+  change.is_activation = true;
+  change.behavior = behavior;
+  find_tasks_of_activation(change, solution);
+  if (is_restart) {
+    change.cause = ChangeCause::restarted;
+  } else if (was_active(behavior)) {
+    change.cause = ChangeCause::undone;
+  } else {
+    explain_activation(change);
+  }
+  if (change.cause != ChangeCause::undone) {
+    for (const TaskId task : change.tasks) {
+      change.priority = std::max(change.priority, priority_after(task));
+    }
+  }
+  change.success = !state_.is_faulty(behavior);
+  if (change.success) state_.set_active(behavior, now);
+  return change.success;
+}
+
+BehaviorId Transition::behavior_in(const Assignment& solution, TaskId task) const {
+  const std::uint32_t place = solution[task - first_task_];
+  return place == none ? none : catalog_.values[task][place].behavior;
+}
+
+/// The tasks that the behavior performs in the solution, or, in a taking back, before the event.
+void Transition::find_tasks_of_activation(Change& change, const Assignment* solution) const {
+  for (const ValueId value : catalog_.performs[change.behavior]) {
+    const TaskId task = catalog_.task_of(value);
+    const BehaviorId behavior =
+        solution != nullptr ? behavior_in(*solution, task) : state_.behavior(task);
+    if (behavior == change.behavior) change.tasks.push_back(task);
+  }
+}
+
+/// The tasks of its last activation within the event, else those that it performed before.
+void Transition::find_tasks_of_deactivation(Change& change) const {
+  for (auto earlier = changes_.rbegin() + 1; earlier != changes_.rend(); ++earlier) {
+    if (earlier->is_activation && earlier->success && earlier->behavior == change.behavior) {
+      change.tasks = earlier->tasks;
+      return;
+    }
+  }
+  for (const ValueId value : catalog_.performs[change.behavior]) {
+    const TaskId task = catalog_.task_of(value);
+    if (state_.behavior(task) == change.behavior) change.tasks.push_back(task);
+  }
+}
+
+void Transition::explain_activation(Change& change) const {
+  change.cause = ChangeCause::required;
+  for (const TaskId task : change.tasks) {
+    const std::optional<std::int32_t> priority = priority_after(task);
+    if (!priority) continue;
+    change.cause =
+        std::min(change.cause, *priority >= 1 ? ChangeCause::requested : ChangeCause::reactive);
+  }
+}
+
+void Transition::explain_deactivation(Change& change, const Assignment& solution) const {
+  change.cause = ChangeCause::released;
+  for (const TaskId task : change.tasks) {
+    const bool is_stopped = trigger_.kind == Trigger::Kind::stop && task == trigger_.task;
+    if (is_stopped) {
+      change.cause = ChangeCause::requested;
+    } else if (behavior_in(solution, task) != none) {
+      change.cause = std::min(change.cause, ChangeCause::replaced);
+    } else if (priority_before(task)) {
+      change.cause = std::min(change.cause, ChangeCause::displaced);
+    }
+  }
+}
+
+std::optional<std::int32_t> Transition::priority_before(TaskId task) const {
+  if (!state_.has_request(task)) return std::nullopt;
+  return state_.request(task).priority;
+}
+
+/// Of a task that runs in the solution.
+std::optional<std::int32_t> Transition::priority_after(TaskId task) const {
+  if (trigger_.kind == Trigger::Kind::start && task == trigger_.task) return trigger_.priority;
+  return priority_before(task);
+}
+
+}  // namespace cbc
