@@ -1,0 +1,80 @@
+#include "cli/input.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "text/quote.h"
+
+namespace cbc::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+std::optional<std::string> fail(const std::string& path, const std::string& reason) {
+  fmt::print(stderr, "cbc: cannot read {}: {}\n", quote(display_name(path)), reason);
+  return std::nullopt;
+}
+
+std::optional<std::string> read_stream(std::FILE* stream, const std::string& path) {
+  std::string text;
+  std::array<char, 1 << 16> block{};
+  errno = 0;
+  for (;;) {
+    const std::size_t count = std::fread(block.data(), 1, block.size(), stream);
+    text.append(block.data(), count);
+    if (text.size() > largest_file) {
+      return fail(path, fmt::format("it is larger than {} MiB", largest_file >> 20));
+    }
+    if (count == 0) break;
+  }
+  if (std::ferror(stream) != 0) return fail(path, std::strerror(errno));
+  return text;
+}
+
+bool has_script_suffix(const fs::path& path) {
+  const std::string suffix = path.extension().string();
+  return suffix == ".yaml" || suffix == ".yml" || suffix == ".json";
+}
+
+}  // namespace
+
+std::optional<std::string> read_input(const std::string& path) {
+  if (path == "-") return read_stream(stdin, path);
+  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rbe"));
+  if (file == nullptr) return fail(path, std::strerror(errno));
+  return read_stream(file.get(), path);
+}
+
+std::string display_name(const std::string& path) { return path == "-" ? "<stdin>" : path; }
+
+std::optional<std::vector<std::string>> list_folder(const std::string& path) {
+  std::vector<std::string> files;
+  std::error_code error;
+  fs::recursive_directory_iterator entry(path, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    std::error_code ignored;
+    if (has_script_suffix(entry->path()) && entry->is_regular_file(ignored)) {
+      files.push_back(entry->path().string());
+    }
+  }
+  if (error) {
+    (void)fail(path, error.message());
+    return std::nullopt;
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace cbc::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cbc::cli {
+
+/// Files larger than this are refused, so that no input can eat the memory of the machine.
+inline constexpr std::size_t largest_file = std::size_t{256} << 20;
+
+/// Contents of a file, or of standard input for "-". Prints why not to standard error.
+[[nodiscard]] std::optional<std::string> read_input(const std::string& path);
+
+/// Name of an input in messages and reports.
+[[nodiscard]] std::string display_name(const std::string& path);
+
+/// The YAML and JSON files of a folder and its folders, sorted by path. Prints why not to standard
+/// error.
+[[nodiscard]] std::optional<std::vector<std::string>> list_folder(const std::string& path);
+
+}  // namespace cbc::cli

@@ -1,0 +1,163 @@
+#include "cli/solve_command.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/exit_status.h"
+#include "cli/mission.h"
+#include "cli/terminal.h"
+#include "coordinator/coordinator.h"
+#include "report/solve_json.h"
+#include "report/solve_text.h"
+#include "script/runner.h"
+#include "text/quote.h"
+
+namespace cbc::cli {
+namespace {
+
+constexpr const char* footer =
+    "Examples:\n"
+    "  cbc solve quadrotor.yaml mission.yaml          one script, for a person to read\n"
+    "  cbc solve quadrotor.yaml missions/ --format json\n"
+    "                                                 all scripts of a folder, as JSON\n"
+    "  echo '[{start: TAKE_OFF}]' | cbc solve quadrotor.yaml -\n"
+    "                                                 a script from standard input\n"
+    "  cbc solve quadrotor.yaml mission.yaml --max-solutions 5\n"
+    "                                                 the best of the first 5 solutions only\n"
+    "\n"
+    "Exit status: 0 all expectations hold, 1 one does not, 2 the input or the usage is wrong,\n"
+    "3 an internal error (please report it).";
+
+struct SolveOptions {
+  std::vector<std::string> paths;
+  std::string format = "text";
+  std::uint64_t max_solutions = 0;
+  double time_limit = 0;
+  std::uint64_t max_nodes = 0;
+  std::optional<std::uint64_t> tie_seed;
+  std::uint64_t max_clock_events = CoordinatorOptions{}.max_clock_events;
+};
+
+CoordinatorOptions to_coordinator_options(const SolveOptions& options) {
+  CoordinatorOptions result;
+  result.search.max_solutions = options.max_solutions;
+  result.search.max_nodes = options.max_nodes;
+  result.search.time_limit =
+      std::chrono::microseconds(static_cast<std::int64_t>(options.time_limit * 1e6));
+  result.tie_seed = options.tie_seed;
+  result.max_clock_events = options.max_clock_events;
+  return result;
+}
+
+/// Why a run ended early, or empty.
+std::string describe_end(const RunResult& result, const SolveOptions& options) {
+  switch (result.status) {
+    case Coordinator::Status::ok:
+      return {};
+    case Coordinator::Status::too_many_clock_events:
+      return fmt::format("the clock made more than {} events (--max-clock-events)",
+                         options.max_clock_events);
+    case Coordinator::Status::refused_answer:
+      return "the checker refuses an answer of the solver: " + result.internal_error;
+  }
+  return {};
+}
+
+int status_of(const RunResult& result) {
+  if (result.status == Coordinator::Status::refused_answer) return exit_internal;
+  if (result.status == Coordinator::Status::too_many_clock_events) return exit_unusable;
+  return result.failed > 0 ? exit_no : exit_ok;
+}
+
+/// Says on standard error why a run ended early.
+void complain(const Mission& mission, const RunResult& result, const std::string& reason) {
+  fmt::print(stderr, "cbc: {}: {}\n", quote(mission.script.file), reason);
+  if (result.status == Coordinator::Status::refused_answer) {
+    fmt::print(stderr,
+               "cbc: this is a fault of cbc, not of the catalog {}; please report it with the "
+               "catalog and the script\n",
+               quote(mission.catalog->file));
+  }
+}
+
+template <typename Report>
+int run_missions(const std::vector<Mission>& missions, const SolveOptions& options,
+                 Report& report) {
+  int status = exit_ok;
+  for (const Mission& mission : missions) {
+    report.begin_run(*mission.catalog, mission.script.file);
+    const RunResult result =
+        run_script(*mission.catalog, mission.script, to_coordinator_options(options), report);
+    const std::string reason = describe_end(result, options);
+    report.end_run(result, reason);
+    if (!reason.empty()) complain(mission, result, reason);
+    status = std::max(status, status_of(result));
+  }
+  return status;
+}
+
+int solve(const SolveOptions& options) {
+  const std::optional<std::vector<Mission>> missions = MissionLoader().load(options.paths);
+  if (!missions) return exit_unusable;
+  if (options.format == "json") {
+    JsonReport report(stdout);
+    const int status = run_missions(*missions, options, report);
+    report.end();
+    return status;
+  }
+  TextReport report(wants_color(stdout) ? color_style() : plain_style(), stdout);
+  return run_missions(*missions, options, report);
+}
+
+}  // namespace
+
+void add_solve_command(CLI::App& program, int& status) {
+  const auto options = std::make_shared<SolveOptions>();
+  CLI::App* const command = program.add_subcommand(
+      "solve", "Runs scripted events through the coordinator, with the proven best answers.");
+  command->footer(footer);
+  command
+      ->add_option("CATALOG SCRIPT", options->paths,
+                   "The catalog, then one or more event scripts: files, folders, or - for standard "
+                   "input. Without a catalog each script names its own (catalog: FILE).")
+      ->required();
+  command->add_option("--format", options->format, "How to write the result")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
+  command
+      ->add_option("--max-solutions", options->max_solutions,
+                   "Take the best of the first M solutions in the order of the paper, instead of "
+                   "the proven optimum")
+      ->type_name("M")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--time-limit", options->time_limit,
+                   "Stop each search after this time and take the best so far")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(1e-6, 1e9));
+  command
+      ->add_option("--max-nodes", options->max_nodes,
+                   "Stop each search after N decisions and take the best so far")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--tie-seed", options->tie_seed,
+                   "Order behaviors of equal suitability at random, instead of as in the catalog")
+      ->type_name("N");
+  command
+      ->add_option("--max-clock-events", options->max_clock_events,
+                   "Give up when timeouts and reactive starts have made more events than this")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->callback([options, &status] { status = solve(*options); });
+}
+
+}  // namespace cbc::cli

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "compiled/compiled_catalog.h"
+#include "coordinator/record.h"
+#include "coordinator/state.h"
+#include "script/runner.h"
+#include "script/script.h"
+
+namespace cbc {
+
+/// One event as the JSON of `cbc solve` has it. `step` is the scripted one, or null.
+[[nodiscard]] nlohmann::ordered_json event_to_json(const CompiledCatalog& catalog,
+                                                   const EventRecord& record, const Step* step,
+                                                   const State& state);
+
+/// Writes runs as one JSON document, event by event, so that memory does not grow with the run.
+class JsonReport final : public RunListener {
+ public:
+  explicit JsonReport(std::FILE* out);
+
+  void begin_run(const CompiledCatalog& catalog, const std::string& script_file);
+  void on_event(const EventRecord& record, const Step* step, const State& state) override;
+  void on_failure(const Failure& failure) override;
+  void on_end(const State& /*state*/) override {}
+  /// `error`: why the run ended early, or empty.
+  void end_run(const RunResult& result, const std::string& error);
+  void end();
+
+ private:
+  void write(const std::string& text);
+  void begin_item(bool& is_first, const char* indent);
+
+  std::FILE* const out_;
+  const CompiledCatalog* catalog_ = nullptr;
+  bool is_first_run_ = true;
+  bool is_first_event_ = true;
+  nlohmann::ordered_json failures_;
+};
+
+}  // namespace cbc

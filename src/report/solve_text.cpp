@@ -1,0 +1,150 @@
+#include "report/solve_text.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "report/exact_values.h"
+#include "text/quote.h"
+
+namespace cbc {
+namespace {
+
+constexpr std::size_t widest_column = 48;
+constexpr const char* change_indent = "           ";
+
+std::size_t column_width(const std::vector<std::string>& names, std::size_t least) {
+  std::size_t width = least;
+  for (const std::string& name : names) width = std::max(width, name.size());
+  return std::min(width, widest_column);
+}
+
+std::string join_tasks(const CompiledCatalog& catalog, const std::vector<TaskId>& tasks) {
+  std::string text;
+  for (const TaskId task : tasks) {
+    if (!text.empty()) text += ", ";
+    text += printable(catalog.name_of_task(task));
+  }
+  return text;
+}
+
+std::string describe_situation(const CompiledCatalog& catalog,
+                               const std::vector<Availability>& situation) {
+  std::string text;
+  for (const Availability& entry : situation) {
+    text += fmt::format("{} {} {}", text.empty() ? "" : ",",
+                        printable(catalog.behavior_names[entry.behavior]),
+                        entry.available ? "available" : "unavailable");
+  }
+  return text;
+}
+
+std::string describe_event(const CompiledCatalog& catalog, const EventRecord& record,
+                           const Step* step) {
+  std::string text(name_of(record.verb));
+  if (record.task != none) {
+    text += " " + printable(catalog.name_of_task(record.task));
+    text += fmt::format(", priority {}", record.priority);
+  }
+  if (record.behavior != none) text += " " + printable(catalog.name_of_behavior(record.behavior));
+  if (record.verb == Verb::finish) text += fmt::format(", {}", name_of(record.cause));
+  if (step != nullptr && record.verb == Verb::situation) {
+    text += describe_situation(catalog, step->situation);
+  }
+  if (record.origin != Origin::script) text += fmt::format(" ({})", name_of(record.origin));
+  return text;
+}
+
+}  // namespace
+
+void TextReport::begin_run(const CompiledCatalog& catalog, const std::string& script_file) {
+  catalog_ = &catalog;
+  script_file_ = printable(script_file);
+  behavior_width_ = column_width(catalog.behavior_names, 8);
+  task_width_ = column_width(catalog.task_names, 4);
+  if (!is_first_run_) fmt::print(out_, "\n");
+  is_first_run_ = false;
+  fmt::print(out_, "{}{}{} with {}\n\n", style_.strong, script_file_, style_.reset,
+             printable(catalog.file));
+  fmt::print(out_, "{}  time [s]  event{}\n", style_.faint, style_.reset);
+  fmt::print(out_, "{}{}P T S  {:<{}}  {:<{}}  cause{}\n", style_.faint, change_indent, "behavior",
+             behavior_width_, "task", task_width_, style_.reset);
+}
+
+void TextReport::on_event(const EventRecord& record, const Step* step, const State& /*state*/) {
+  std::string_view color = style_.faint;
+  if (record.outcome == Outcome::accepted) color = style_.good;
+  if (record.outcome == Outcome::rejected) color = style_.bad;
+  fmt::print(out_, "{:10.3f}  {}{}{}: {}{}{}\n", to_seconds(record.time), style_.strong,
+             describe_event(*catalog_, record, step), style_.reset, color, name_of(record.outcome),
+             style_.reset);
+  if (record.outcome == Outcome::rejected) write_reason(record);
+  for (const Change& change : record.changes) write_change(change);
+  write_stopped(record);
+}
+
+void TextReport::write_reason(const EventRecord& record) {
+  if (record.priority_conflict) {
+    fmt::print(out_, "{}{} has a request of priority {}, higher than {}\n", change_indent,
+               printable(catalog_->name_of_task(record.priority_conflict->task)),
+               record.priority_conflict->priority, record.priority);
+  } else if (record.search && record.search->result.status == SearchStatus::unknown) {
+    fmt::print(out_, "{}a search limit came before the first solution\n", change_indent);
+  } else if (record.search) {
+    fmt::print(out_, "{}no consistent set of behaviors at protection level {}\n", change_indent,
+               record.search->protection);
+  }
+}
+
+void TextReport::write_change(const Change& change) {
+  const std::string priority = change.priority ? std::to_string(*change.priority) : "-";
+  const std::string_view color = change.success ? std::string_view() : style_.bad;
+  fmt::print(out_, "{}{}{} {} {}  {:<{}}  {:<{}}  {}{}\n", change_indent, color, priority,
+             change.is_activation ? '+' : '-', change.success ? 'Y' : 'N',
+             printable(catalog_->name_of_behavior(change.behavior)), behavior_width_,
+             join_tasks(*catalog_, change.tasks), task_width_, name_of(change.cause),
+             color.empty() ? std::string_view() : style_.reset);
+}
+
+void TextReport::write_stopped(const EventRecord& record) {
+  if (record.stopped_tasks.empty()) return;
+  std::string text;
+  for (const StoppedTask& stopped : record.stopped_tasks) {
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ",
+                        printable(catalog_->name_of_task(stopped.task)), name_of(stopped.cause));
+  }
+  fmt::print(out_, "{}stopped: {}\n", change_indent, text);
+}
+
+void TextReport::on_failure(const Failure& failure) {
+  fmt::print(out_, "{}{}:{}:{}: {}{}\n", style_.bad, script_file_, failure.range.begin.line,
+             failure.range.begin.column, failure.message, style_.reset);
+}
+
+void TextReport::on_end(const State& state) {
+  std::vector<std::string> lines(catalog_->behavior_names.size());
+  for (const std::uint32_t index : state.running()) {
+    std::string& tasks =
+        lines[catalog_->behaviors[state.behavior(catalog_->task_ids[index])].catalog_index];
+    tasks += fmt::format("{}{}", tasks.empty() ? "" : ", ", printable(catalog_->task_names[index]));
+  }
+  fmt::print(out_, "\n{}active behaviors{}\n", style_.strong, style_.reset);
+  bool is_idle = true;
+  for (std::size_t behavior = 0; behavior < lines.size(); ++behavior) {
+    if (lines[behavior].empty()) continue;
+    is_idle = false;
+    fmt::print(out_, "  {:<{}}  {}\n", printable(catalog_->behavior_names[behavior]),
+               behavior_width_, lines[behavior]);
+  }
+  if (is_idle) fmt::print(out_, "  none\n");
+}
+
+void TextReport::end_run(const RunResult& result, const std::string& /*error*/) {
+  if (result.passed + result.failed == 0) return;
+  fmt::print(out_, "\n{}expectations: {} passed, {} failed{}\n",
+             result.failed > 0 ? style_.bad : style_.good, result.passed, result.failed,
+             style_.reset);
+}
+
+}  // namespace cbc

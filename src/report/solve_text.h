@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdio>
+#include <string>
+
+#include "compiled/compiled_catalog.h"
+#include "coordinator/record.h"
+#include "coordinator/state.h"
+#include "report/style.h"
+#include "script/runner.h"
+#include "script/script.h"
+
+namespace cbc {
+
+/// Writes a run for a person: a line for each event, below it the changes in the columns of the
+/// execution viewer of the paper (P priority, T type, S success), at the end what is active.
+class TextReport final : public RunListener {
+ public:
+  TextReport(const Style& style, std::FILE* out) : style_(style), out_(out) {}
+
+  void begin_run(const CompiledCatalog& catalog, const std::string& script_file);
+  void on_event(const EventRecord& record, const Step* step, const State& state) override;
+  void on_failure(const Failure& failure) override;
+  void on_end(const State& state) override;
+  /// `error`: why the run ended early, or empty; it is told elsewhere.
+  void end_run(const RunResult& result, const std::string& error);
+
+ private:
+  void write_reason(const EventRecord& record);
+  void write_change(const Change& change);
+  void write_stopped(const EventRecord& record);
+
+  const Style style_;
+  std::FILE* const out_;
+  const CompiledCatalog* catalog_ = nullptr;
+  std::string script_file_;
+  std::size_t behavior_width_ = 0;
+  std::size_t task_width_ = 0;
+  bool is_first_run_ = true;
+};
+
+}  // namespace cbc

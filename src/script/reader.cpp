@@ -1,0 +1,88 @@
+#include "script/reader.h"
+
+#include <utility>
+
+#include "cbc/rules.h"
+#include "diagnostic/reporter.h"
+#include "script/step_reader.h"
+#include "text/quote.h"
+#include "yaml/fields.h"
+#include "yaml/values.h"
+
+namespace cbc {
+namespace {
+
+using yaml::Fields;
+using yaml::Kind;
+using yaml::Node;
+
+constexpr yaml::Key script_keys[] = {{"catalog"}, {"reactive_delay"}, {"situation"}, {"events"}};
+constexpr yaml::Shape script_shape{"a script", script_keys};
+
+void read_steps(const Node& list, StepReader& reader, Script& script, Reporter& reporter) {
+  for (const Node* item : list.items) script.steps.push_back(reader.read(*item, reporter));
+}
+
+void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter& reporter) {
+  Fields fields(root, script_shape, reporter);
+  if (const Node* catalog = fields.find("catalog")) {
+    // The name is used before the script is read; here it is only checked.
+    static_cast<void>(yaml::read_name(*catalog, "catalog", "the path of a catalog", reporter));
+  }
+  if (const Node* delay = fields.find("reactive_delay")) {
+    if (const auto value = yaml::read_seconds(*delay, "reactive_delay", true, reporter)) {
+      script.reactive_delay = *value;
+    }
+  }
+  if (const Node* situation = fields.find("situation")) {
+    script.situation = reader.read_situation(*situation, reporter);
+  }
+  const Node* events = fields.require("events", root.range);
+  if (events != nullptr &&
+      yaml::read_list(*events, "events", "a list of events", reporter) != nullptr) {
+    read_steps(*events, reader, script, reporter);
+  }
+  fields.report_unknown(Severity::error);
+}
+
+}  // namespace
+
+std::optional<std::string> catalog_of_script(const yaml::Document& document) {
+  const Node& root = document.root();
+  if (root.kind != Kind::mapping) return std::nullopt;
+  const Node* catalog = root.find("catalog");
+  if (catalog == nullptr || catalog->kind != Kind::scalar || catalog->text.empty()) {
+    return std::nullopt;
+  }
+  return catalog->text;
+}
+
+std::optional<Script> read_script(const yaml::Document& document, const ScriptNames& names,
+                                  Diagnostics& diagnostics) {
+  Reporter reporter(document.file(), diagnostics);
+  StepReader reader(names);
+  Script script;
+  script.file = document.file();
+  const Node& root = document.root();
+  switch (root.kind) {
+    case Kind::null:
+      reporter.error(rule::missing_key, root.range, "missing key 'events': the script is empty");
+      break;
+    case Kind::scalar:
+      reporter.error(rule::wrong_type, root.range,
+                     "a script must be a list of events, or a mapping with the key 'events', "
+                     "found " +
+                         yaml::describe(root));
+      break;
+    case Kind::sequence:
+      read_steps(root, reader, script, reporter);
+      break;
+    case Kind::mapping:
+      read_mapping(root, reader, script, reporter);
+      break;
+  }
+  if (reporter.errors() > 0) return std::nullopt;
+  return script;
+}
+
+}  // namespace cbc
