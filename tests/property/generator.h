@@ -1,0 +1,24 @@
+// Random catalogs and scripts. The same seed gives the same case, on any machine.
+#pragma once
+
+#include <cstdint>
+
+#include "model.h"
+#include "random.h"
+
+namespace cbc::oracle {
+
+struct Case {
+  Catalog catalog;
+  Script script;
+};
+
+// The catalog has no finding of severity error; the product of the domain sizes of each of its
+// groups is small enough to be enumerated. The script is made with the oracle at hand, so that most
+// of its events do something.
+Case generate_case(std::uint64_t seed);
+
+Catalog generate_catalog(Random& random);
+Script generate_script(Random& random, const Catalog& catalog);
+
+}  // namespace cbc::oracle

@@ -1,0 +1,149 @@
+// Plain data: a catalog and an event script, as the oracle and the generator see them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace cbc::oracle {
+
+using Microseconds = std::int64_t;
+
+// A percentage, exact to four decimals: 100 % is one million.
+using Millionths = std::int64_t;
+inline constexpr Millionths kWhole = 1'000'000;
+
+// Tasks and behaviors are numbered in catalog order. As the value of a task, kNone is "not
+// running".
+inline constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+struct Task {
+  std::string name;
+  bool listed = true;  // in the `tasks:` section; if not, only behaviors name it
+  bool start_on_request = true;
+  bool reactive_start = false;
+  bool keep_running = false;
+  std::optional<Microseconds> timeout;
+  Millionths minimum = 0;
+
+  bool operator==(const Task&) const = default;
+};
+
+struct Performance {
+  std::size_t task = 0;
+  Millionths suitability = kWhole;
+
+  bool operator==(const Performance&) const = default;
+};
+
+struct Requirement {
+  std::size_t task = 0;
+  Millionths minimum = 0;
+
+  bool operator==(const Requirement&) const = default;
+};
+
+struct Behavior {
+  std::string name;
+  std::vector<Performance> performs;
+  std::vector<Requirement> requirements;
+  std::optional<Microseconds> timeout;
+
+  bool operator==(const Behavior&) const = default;
+};
+
+// What `default_values` says; an empty field is a key that is absent.
+struct Defaults {
+  std::optional<bool> start_on_request;
+  std::optional<bool> reactive_start;
+  std::optional<bool> keep_running;
+  std::optional<Microseconds> timeout;
+  std::optional<Millionths> suitability;
+};
+
+// The attributes of the tasks and behaviors are complete without the defaults, which matter only
+// when the catalog is written as YAML.
+struct Catalog {
+  Defaults defaults;
+  std::vector<Task> tasks;
+  std::vector<Behavior> behaviors;
+  std::vector<std::vector<std::size_t>> exclusivity;
+};
+
+enum class Verb { kStart, kStop, kFinish, kSituation, kFault, kRepair, kWait };
+
+enum class Cause {
+  kGoalAchieved,
+  kSituationChange,
+  kTimeOut,
+  kWrongProgress,
+  kProcessFailure,
+  kInterrupted
+};
+
+// Any YAML value whose scalars are text or null.
+using Parameters = nlohmann::ordered_json;
+
+using Situation = std::vector<std::pair<std::size_t, bool>>;  // behavior, available
+
+struct Event {
+  Verb verb = Verb::kWait;
+  std::optional<Microseconds> at;        // at most one of at and wait
+  std::optional<Microseconds> wait;      // since the event before
+  std::size_t subject = kNone;           // start, stop: a task; finish, fault, repair: a behavior
+  std::optional<int> priority;           // start, stop
+  std::optional<Parameters> parameters;  // start
+  Cause cause = Cause::kGoalAchieved;    // finish
+  Situation situation;
+};
+
+struct Script {
+  std::optional<Microseconds> reactive_delay;
+  Situation situation;  // before the first event
+  std::vector<Event> events;
+};
+
+inline const char* to_string(Verb verb) {
+  switch (verb) {
+    case Verb::kStart:
+      return "start";
+    case Verb::kStop:
+      return "stop";
+    case Verb::kFinish:
+      return "finish";
+    case Verb::kSituation:
+      return "situation";
+    case Verb::kFault:
+      return "fault";
+    case Verb::kRepair:
+      return "repair";
+    case Verb::kWait:
+      return "wait";
+  }
+  return "";
+}
+
+inline const char* to_string(Cause cause) {
+  switch (cause) {
+    case Cause::kGoalAchieved:
+      return "goal_achieved";
+    case Cause::kSituationChange:
+      return "situation_change";
+    case Cause::kTimeOut:
+      return "time_out";
+    case Cause::kWrongProgress:
+      return "wrong_progress";
+    case Cause::kProcessFailure:
+      return "process_failure";
+    case Cause::kInterrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+}  // namespace cbc::oracle

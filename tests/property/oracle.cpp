@@ -1,0 +1,828 @@
+#include "oracle.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <utility>
+
+namespace cbc::oracle {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr Microseconds kDefaultReactiveDelay = 80'000;
+
+bool contains(const std::vector<std::size_t>& items, std::size_t item) {
+  return std::find(items.begin(), items.end(), item) != items.end();
+}
+
+double seconds(Microseconds time) { return static_cast<double>(time) / 1e6; }
+
+// Null stands for null, empty and absent; mappings lose their order.
+nlohmann::json canonical(const Parameters& value) {
+  if (value.is_object()) {
+    nlohmann::json result;
+    for (const auto& [key, item] : value.items()) {
+      nlohmann::json reduced = canonical(item);
+      if (!reduced.is_null()) {
+        result[key] = std::move(reduced);
+      }
+    }
+    return result;
+  }
+  if (value.is_array()) {
+    nlohmann::json result;
+    for (const Parameters& item : value) {
+      result.push_back(canonical(item));
+    }
+    return result;
+  }
+  if (value.is_string() && value.get_ref<const std::string&>().empty()) {
+    return nullptr;
+  }
+  return value;
+}
+
+std::set<std::size_t> active_behaviors(const Assignment& values) {
+  std::set<std::size_t> active(values.begin(), values.end());
+  active.erase(kNone);
+  return active;
+}
+
+enum class LevelOrder { kHighestFirst, kLowestFirst };
+
+// The behaviors of one set that are not in another; of one level in catalog order.
+std::vector<std::size_t> difference(const CatalogFacts& facts, const std::set<std::size_t>& from,
+                                    const std::set<std::size_t>& without, LevelOrder order) {
+  std::vector<std::size_t> result;
+  std::set_difference(from.begin(), from.end(), without.begin(), without.end(),
+                      std::back_inserter(result));
+  std::stable_sort(result.begin(), result.end(), [&](std::size_t a, std::size_t b) {
+    const std::size_t level_a = facts.level_of[a];
+    const std::size_t level_b = facts.level_of[b];
+    return order == LevelOrder::kHighestFirst ? level_a > level_b : level_a < level_b;
+  });
+  return result;
+}
+
+// The higher of two priorities; an empty one is the lowest.
+std::optional<int> higher(std::optional<int> a, std::optional<int> b) { return a < b ? b : a; }
+
+bool is_failure(Cause cause) {
+  return cause != Cause::kGoalAchieved && cause != Cause::kSituationChange;
+}
+
+}  // namespace
+
+bool same_parameters(const Parameters& a, const Parameters& b) {
+  return canonical(a) == canonical(b);
+}
+
+Oracle::Oracle(std::shared_ptr<const CatalogFacts> facts, const Script& script,
+               Statistics* statistics)
+    : facts_(std::move(facts)),
+      statistics_(statistics),
+      reactive_delay_(script.reactive_delay.value_or(kDefaultReactiveDelay)) {
+  const std::size_t tasks = facts_->catalog.tasks.size();
+  const std::size_t behaviors = facts_->catalog.behaviors.size();
+  state_.values.assign(tasks, kNone);
+  state_.requests.resize(tasks);
+  queue_.resize(tasks);
+  taken_at_.resize(tasks, 0);
+  available_.resize(behaviors, true);
+  faulty_.resize(behaviors, false);
+  activated_at_.resize(behaviors, 0);
+  for (const auto& [behavior, available] : script.situation) {
+    available_[behavior] = available;
+  }
+  for (std::size_t group = 0; group < facts_->groups.size(); ++group) {
+    join_queue_by_group(group);
+  }
+}
+
+// The clock
+
+void Oracle::handle(const Event& event) {
+  const Microseconds time = event.at.value_or(now_ + event.wait.value_or(0));
+  for (std::optional<Due> due = next_due(); due && due->time < time; due = next_due()) {
+    run_due(*due);
+  }
+  now_ = time;
+  if (next_due_time() == time) {
+    count("due at the instant of a scripted event");
+  }
+  switch (event.verb) {
+    case Verb::kStart:
+      return run_start(event);
+    case Verb::kStop:
+      return run_stop(event);
+    case Verb::kFinish:
+      return run_finish("script", event.subject, event.cause);
+    case Verb::kSituation:
+      return run_situation(event);
+    case Verb::kFault:
+      return run_fault(event);
+    case Verb::kRepair:
+      return run_repair(event);
+    case Verb::kWait:
+      return complete_unsolved(new_record("script", Verb::kWait), "unchanged");
+  }
+}
+
+void Oracle::finish() {
+  const Microseconds end = now_;
+  for (std::optional<Due> due = next_due(); due && due->time <= end; due = next_due()) {
+    run_due(*due);
+  }
+}
+
+ordered_json Oracle::preview(const Event& event, Statistics* statistics) const {
+  Oracle copy(*this);
+  copy.statistics_ = statistics;
+  copy.events_ = ordered_json::array();
+  copy.handle(event);
+  return copy.events_;
+}
+
+std::optional<Microseconds> Oracle::next_due_time() const {
+  const std::optional<Due> due = next_due();
+  return due ? std::optional<Microseconds>(due->time) : std::nullopt;
+}
+
+std::optional<Oracle::Due> Oracle::next_due() const {
+  std::optional<Due> first;
+  const auto consider = [&](const Due& due) {
+    if (!first || due < *first) {
+      first = due;
+    }
+  };
+  for (std::size_t task = 0; task < state_.values.size(); ++task) {
+    if (const std::optional<Microseconds> time = deadline(task)) {
+      consider({*time, DueKind::kTimeout, task});
+    }
+    if (queue_[task]) {
+      consider({*queue_[task], DueKind::kReactiveStart, task});
+    }
+  }
+  return first;
+}
+
+std::optional<Microseconds> Oracle::deadline(std::size_t task) const {
+  const std::size_t behavior = state_.values[task];
+  const Task& attributes = facts_->catalog.tasks[task];
+  if (behavior == kNone || attributes.keep_running) {
+    return std::nullopt;
+  }
+  std::optional<Microseconds> timeout = facts_->catalog.behaviors[behavior].timeout;
+  if (!timeout) {
+    timeout = attributes.timeout;
+  }
+  if (!timeout) {
+    return std::nullopt;
+  }
+  return std::max(activated_at_[behavior], taken_at_[task]) + *timeout;
+}
+
+void Oracle::run_due(const Due& due) {
+  now_ = due.time;
+  if (due.kind == DueKind::kTimeout) {
+    run_finish("timeout", state_.values[due.task], Cause::kTimeOut);
+  } else {
+    run_reactive_start(due.task);
+  }
+  if (next_due_time() == due.time) {
+    count("due at the instant of another that was due");
+  }
+}
+
+// Events
+
+void Oracle::run_start(const Event& event) {
+  const std::size_t task = event.subject;
+  const int priority = event.priority.value_or(1);
+  ordered_json record = new_record("script", Verb::kStart);
+  record["name"] = task_name(task);
+  record["priority"] = priority;
+  if (event.parameters) {
+    record["parameters"] = *event.parameters;
+  }
+  const std::optional<Request>& request = state_.requests[task];
+  if (request && request->priority > priority) {
+    count("rejected by the priority of its own request: start");
+    return complete_unsolved(std::move(record), "rejected");
+  }
+  Trigger trigger;
+  trigger.verb = Verb::kStart;
+  trigger.subject = task;
+  trigger.priority = priority;
+  trigger.parameters = event.parameters;
+  coordinate(std::move(record), trigger);
+}
+
+void Oracle::run_stop(const Event& event) {
+  const std::size_t task = event.subject;
+  const std::optional<Request>& request = state_.requests[task];
+  const int priority = event.priority.value_or(request ? request->priority : 0);
+  ordered_json record = new_record("script", Verb::kStop);
+  record["name"] = task_name(task);
+  record["priority"] = priority;
+  if (state_.values[task] == kNone) {
+    queue_[task].reset();
+    return complete_unsolved(std::move(record), "unchanged");
+  }
+  if (request && request->priority > priority) {
+    count("rejected by the priority of its own request: stop");
+    return complete_unsolved(std::move(record), "rejected");
+  }
+  Trigger trigger;
+  trigger.verb = Verb::kStop;
+  trigger.subject = task;
+  trigger.priority = priority;
+  coordinate(std::move(record), trigger);
+}
+
+void Oracle::run_finish(const char* origin, std::size_t behavior, Cause cause) {
+  ordered_json record = new_record(origin, Verb::kFinish);
+  record["name"] = behavior_name(behavior);
+  record["cause"] = to_string(cause);
+  if (!is_active(behavior)) {
+    count(std::string("finish of an inactive behavior, origin ") + origin);
+    return complete_unsolved(std::move(record), "unchanged");
+  }
+  count(std::string("finish: ") + to_string(cause));
+  Trigger trigger;
+  trigger.verb = Verb::kFinish;
+  trigger.subject = behavior;
+  trigger.cause = cause;
+  coordinate(std::move(record), trigger);
+}
+
+void Oracle::run_situation(const Event& event) {
+  ordered_json record = new_record("script", Verb::kSituation);
+  ordered_json map = ordered_json::object();
+  for (const auto& [behavior, available] : event.situation) {
+    map[behavior_name(behavior)] = available;
+    if (available && !available_[behavior]) {
+      join_queue_by_group(facts_->group_of_behavior(behavior));
+    }
+    available_[behavior] = available;
+  }
+  record["situation"] = std::move(map);
+  complete_unsolved(std::move(record), "unchanged");
+}
+
+void Oracle::run_fault(const Event& event) {
+  ordered_json record = new_record("script", Verb::kFault);
+  record["name"] = behavior_name(event.subject);
+  faulty_[event.subject] = true;
+  complete_unsolved(std::move(record), "unchanged");
+}
+
+void Oracle::run_repair(const Event& event) {
+  ordered_json record = new_record("script", Verb::kRepair);
+  record["name"] = behavior_name(event.subject);
+  if (faulty_[event.subject]) {
+    join_queue_by_group(facts_->group_of_behavior(event.subject));
+  }
+  faulty_[event.subject] = false;
+  complete_unsolved(std::move(record), "unchanged");
+}
+
+void Oracle::run_reactive_start(std::size_t task) {
+  queue_[task].reset();
+  if (state_.values[task] != kNone) {
+    return;
+  }
+  const std::set<std::size_t>& excluded = facts_->excludes[task];
+  const std::vector<std::size_t>& behaviors = facts_->behaviors_of[task];
+  const bool blocked = std::any_of(excluded.begin(), excluded.end(), [&](std::size_t other) {
+    return state_.values[other] != kNone;
+  });
+  const bool possible = std::any_of(behaviors.begin(), behaviors.end(),
+                                    [&](std::size_t behavior) { return available(behavior); });
+  if (blocked || !possible) {
+    count("reactive start: dropped");
+    return;
+  }
+  ordered_json record = new_record("reactive", Verb::kStart);
+  record["name"] = task_name(task);
+  record["priority"] = 0;
+  Trigger trigger;
+  trigger.verb = Verb::kStart;
+  trigger.subject = task;
+  trigger.reactive = true;
+  coordinate(std::move(record), trigger);
+}
+
+// Coordination
+
+void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
+  Transition transition = begin(trigger);
+  std::optional<Solution> solution = solve_at_some_level(transition);
+  while (solution) {
+    const std::optional<std::size_t> failed = apply(transition, solution->values);
+    if (!failed) {
+      break;
+    }
+    transition.excluded.insert(*failed);
+    solution = solve_at_some_level(transition);
+  }
+  const std::string outcome = solution ? "accepted" : "rejected";
+  if (trigger.verb == Verb::kFinish) {
+    const int depth = transition.level - transition.first_level;
+    count("escalation: " + (depth < 3 ? std::to_string(depth) : std::string("3 or more")));
+  }
+  if (trigger.reactive) {
+    count("reactive start: " + outcome);
+  }
+
+  ordered_json stopped = ordered_json::array();
+  ordered_json objectives;
+  if (solution) {
+    for (const std::size_t task : stopped_tasks(solution->values)) {
+      const bool own = contains(transition.finished_tasks, task);
+      stopped.push_back({{"task", task_name(task)},
+                         {"cause", to_string(own ? trigger.cause : Cause::kInterrupted)}});
+    }
+    objectives = objective(transition, *solution);
+    commit(transition, solution->values);
+  } else {
+    take_back(transition);
+    if (!transition.changes.empty()) {
+      count("rejected and taken back");
+    }
+  }
+
+  record["outcome"] = outcome;
+  record["changes"] = transition.changes;
+  record["stopped_tasks"] = std::move(stopped);
+  record["objective"] = std::move(objectives);
+  record["search"] = {{"status", solution ? "optimal" : "infeasible"},
+                      {"group", transition.group},
+                      {"space", transition.space.str()},
+                      {"protection", transition.level}};
+  complete(std::move(record), outcome);
+
+  for (const std::size_t behavior : transition.lost) {
+    run_finish("fault", behavior, Cause::kProcessFailure);
+  }
+}
+
+Oracle::Transition Oracle::begin(const Trigger& trigger) const {
+  Transition transition;
+  transition.trigger = trigger;
+  transition.active_before = active_behaviors(state_.values);
+  transition.tasks_of.resize(facts_->catalog.behaviors.size());
+  for (const std::size_t behavior : transition.active_before) {
+    transition.tasks_of[behavior] = tasks_performed(state_.values, behavior);
+  }
+  if (trigger.verb == Verb::kFinish) {
+    transition.finished_tasks = transition.tasks_of[trigger.subject];
+    transition.active_before.erase(trigger.subject);
+    transition.group = facts_->group_of_behavior(trigger.subject);
+    for (const std::size_t task : transition.finished_tasks) {
+      const std::optional<Request>& request = state_.requests[task];
+      transition.first_level = std::max(transition.first_level, request ? request->priority : 0);
+    }
+    if (is_failure(trigger.cause)) {
+      transition.excluded.insert(trigger.subject);
+    }
+  } else {
+    transition.group = facts_->group_of[trigger.subject];
+    transition.first_level = trigger.priority;
+  }
+  transition.active = transition.active_before;
+  return transition;
+}
+
+// A finish always finds a solution, as in the end nothing is protected.
+std::optional<Solution> Oracle::solve_at_some_level(Transition& transition) const {
+  transition.level = transition.first_level;
+  while (true) {
+    const Problem to_solve = problem(transition);
+    transition.space = search_space(to_solve);
+    std::optional<Solution> solution = solve(*facts_, to_solve, statistics_);
+    if (solution || transition.trigger.verb != Verb::kFinish) {
+      return solution;
+    }
+    ++transition.level;
+  }
+}
+
+Problem Oracle::problem(const Transition& transition) const {
+  Problem result;
+  result.group = transition.group;
+  result.before = state_.values;
+  for (const std::size_t task : facts_->groups[transition.group]) {
+    result.domains.push_back(domain(transition, task));
+  }
+  for (const ActiveRequest& request : active_requests(transition)) {
+    if (facts_->group_of[request.task] == transition.group) {
+      result.requests.push_back(request);
+    }
+  }
+  sort_requests(result.requests);
+  for (const std::size_t behavior : transition.active_before) {
+    if (facts_->group_of_behavior(behavior) == transition.group) {
+      result.active.insert(behavior);
+    }
+  }
+  return result;
+}
+
+std::vector<std::size_t> Oracle::domain(const Transition& transition, std::size_t task) const {
+  const Trigger& trigger = transition.trigger;
+  std::vector<std::size_t> values = selectable(transition, task);
+  if (trigger.verb == Verb::kStart && task == trigger.subject) {
+    return values;
+  }
+  if (trigger.verb == Verb::kStop && task == trigger.subject) {
+    return {kNone};
+  }
+  if (contains(transition.finished_tasks, task)) {
+    if (trigger.cause == Cause::kGoalAchieved) {
+      return {kNone};
+    }
+    values.push_back(kNone);
+    return values;
+  }
+  if (facts_->catalog.tasks[task].start_on_request && state_.values[task] == kNone) {
+    return {kNone};
+  }
+  if (!is_protected(transition, task)) {
+    values.push_back(kNone);
+  }
+  return values;
+}
+
+// S(x), without the excluded behaviors.
+std::vector<std::size_t> Oracle::selectable(const Transition& transition, std::size_t task) const {
+  const bool finished = contains(transition.finished_tasks, task);
+  std::vector<std::size_t> result;
+  for (const std::size_t behavior : facts_->behaviors_of[task]) {
+    const bool keeps_it = behavior == state_.values[task] && !finished;
+    if ((available(behavior) || keeps_it) && transition.excluded.count(behavior) == 0) {
+      result.push_back(behavior);
+    }
+  }
+  return result;
+}
+
+bool Oracle::is_protected(const Transition& transition, std::size_t task) const {
+  const std::optional<Request>& request = state_.requests[task];
+  return request && (transition.trigger.reactive || request->priority > transition.level);
+}
+
+// Of the whole catalog: those of running tasks, the new one included, one stopped or done excluded.
+std::vector<ActiveRequest> Oracle::active_requests(const Transition& transition) const {
+  const Trigger& trigger = transition.trigger;
+  const bool success = trigger.cause == Cause::kGoalAchieved;
+  std::vector<ActiveRequest> result;
+  for (std::size_t task = 0; task < state_.requests.size(); ++task) {
+    const std::optional<Request>& request = state_.requests[task];
+    if (trigger.verb == Verb::kStart && task == trigger.subject) {
+      result.push_back({task, trigger.priority, event_number_});
+      continue;
+    }
+    const bool stopped = trigger.verb == Verb::kStop && task == trigger.subject;
+    const bool done = success && contains(transition.finished_tasks, task);
+    if (request && !stopped && !done) {
+      result.push_back({task, request->priority, request->set_by});
+    }
+  }
+  return result;
+}
+
+// Applying a solution
+
+std::optional<std::size_t> Oracle::apply(Transition& transition, const Assignment& values) {
+  const std::set<std::size_t> target = active_behaviors(values);
+  const bool restart = restarts(transition, values);
+  const std::size_t restarted = restart ? values[transition.trigger.subject] : kNone;
+
+  for (const std::size_t behavior :
+       difference(*facts_, transition.active, target, LevelOrder::kHighestFirst)) {
+    const std::vector<std::size_t>& tasks = transition.tasks_of[behavior];
+    if (transition.active_before.count(behavior) == 0) {
+      deactivate(transition, behavior, "undone", std::nullopt);
+    } else {
+      deactivate(transition, behavior, deactivation_cause(transition, values, tasks),
+                 priority_before(tasks));
+    }
+  }
+  for (const std::size_t behavior :
+       difference(*facts_, target, transition.active, LevelOrder::kLowestFirst)) {
+    if (behavior == restarted) {
+      continue;
+    }
+    const std::vector<std::size_t> tasks = tasks_performed(values, behavior);
+    const std::optional<int> priority = priority_after(transition, tasks);
+    const char* cause = !priority ? "required" : *priority >= 1 ? "requested" : "reactive";
+    const bool undone = transition.active_before.count(behavior) != 0;
+    if (!activate(transition, behavior, tasks, undone ? "undone" : cause,
+                  undone ? std::nullopt : priority)) {
+      return behavior;
+    }
+  }
+  if (restart) {
+    if (transition.active.count(restarted) != 0) {
+      deactivate(transition, restarted, "restarted",
+                 priority_before(transition.tasks_of[restarted]));
+    }
+    const std::vector<std::size_t> tasks = tasks_performed(values, restarted);
+    if (!activate(transition, restarted, tasks, "restarted", priority_after(transition, tasks))) {
+      return restarted;
+    }
+  }
+  return std::nullopt;
+}
+
+// The cause of the deactivation of a behavior that performed these tasks.
+const char* Oracle::deactivation_cause(const Transition& transition, const Assignment& values,
+                                       const std::vector<std::size_t>& tasks) const {
+  const Trigger& trigger = transition.trigger;
+  if (trigger.verb == Verb::kStop && contains(tasks, trigger.subject)) {
+    return "requested";
+  }
+  const bool goes_on = std::any_of(tasks.begin(), tasks.end(),
+                                   [&](std::size_t task) { return values[task] != kNone; });
+  if (goes_on) {
+    return "replaced";
+  }
+  return priority_before(tasks) ? "displaced" : "released";
+}
+
+std::optional<int> Oracle::priority_before(const std::vector<std::size_t>& tasks) const {
+  std::optional<int> priority;
+  for (const std::size_t task : tasks) {
+    if (const std::optional<Request>& request = state_.requests[task]) {
+      priority = higher(priority, request->priority);
+    }
+  }
+  return priority;
+}
+
+std::optional<int> Oracle::priority_after(const Transition& transition,
+                                          const std::vector<std::size_t>& tasks) const {
+  std::optional<int> priority;
+  for (const ActiveRequest& request : active_requests(transition)) {
+    if (contains(tasks, request.task)) {
+      priority = higher(priority, request.priority);
+    }
+  }
+  return priority;
+}
+
+// Returns to what was active before the event, as far as that can be activated.
+void Oracle::take_back(Transition& transition) {
+  const std::set<std::size_t>& before = transition.active_before;
+  for (const std::size_t behavior :
+       difference(*facts_, transition.active, before, LevelOrder::kHighestFirst)) {
+    deactivate(transition, behavior, "undone", std::nullopt);
+  }
+  for (const std::size_t behavior :
+       difference(*facts_, before, transition.active, LevelOrder::kLowestFirst)) {
+    if (!activate(transition, behavior, tasks_performed(state_.values, behavior), "undone",
+                  std::nullopt)) {
+      transition.lost.push_back(behavior);
+    }
+  }
+  std::sort(transition.lost.begin(), transition.lost.end());
+}
+
+void Oracle::deactivate(Transition& transition, std::size_t behavior, const std::string& cause,
+                        std::optional<int> priority) {
+  add_change(transition, "deactivate", behavior, transition.tasks_of[behavior], cause, priority,
+             true);
+  transition.active.erase(behavior);
+}
+
+// False if the activation fails.
+bool Oracle::activate(Transition& transition, std::size_t behavior,
+                      const std::vector<std::size_t>& tasks, const std::string& cause,
+                      std::optional<int> priority) {
+  const bool success = !faulty(behavior);
+  add_change(transition, "activate", behavior, tasks, cause, priority, success);
+  if (!success) {
+    count("activation failed: " + cause);
+    return false;
+  }
+  if (tasks.size() >= 2) {
+    count("activated for two or more tasks");
+    count("activated for two or more tasks: " + cause);
+  }
+  transition.active.insert(behavior);
+  transition.tasks_of[behavior] = tasks;
+  activated_at_[behavior] = now_;
+  return true;
+}
+
+void Oracle::add_change(Transition& transition, const std::string& operation, std::size_t behavior,
+                        const std::vector<std::size_t>& tasks, const std::string& cause,
+                        std::optional<int> priority, bool success) const {
+  ordered_json names = ordered_json::array();
+  for (const std::size_t task : tasks) {
+    names.push_back(task_name(task));
+  }
+  ordered_json change;
+  change["op"] = operation;
+  change["behavior"] = behavior_name(behavior);
+  change["tasks"] = std::move(names);
+  change["cause"] = cause;
+  change["priority"] = priority ? ordered_json(*priority) : ordered_json();
+  change["success"] = success;
+  transition.changes.push_back(std::move(change));
+  count(operation + ": " + cause);
+}
+
+// Whether the started task keeps its behavior, with other parameters.
+bool Oracle::restarts(const Transition& transition, const Assignment& values) const {
+  const Trigger& trigger = transition.trigger;
+  if (trigger.verb != Verb::kStart || !trigger.parameters) {
+    return false;
+  }
+  const std::size_t before = state_.values[trigger.subject];
+  if (before == kNone || before != values[trigger.subject]) {
+    return false;
+  }
+  const std::optional<Request>& request = state_.requests[trigger.subject];
+  return !same_parameters(*trigger.parameters, request ? request->parameters : Parameters());
+}
+
+std::vector<std::size_t> Oracle::stopped_tasks(const Assignment& values) const {
+  std::vector<std::size_t> result;
+  for (std::size_t task = 0; task < values.size(); ++task) {
+    if (state_.values[task] != kNone && values[task] == kNone) {
+      result.push_back(task);
+    }
+  }
+  return result;
+}
+
+void Oracle::commit(const Transition& transition, const Assignment& values) {
+  const Trigger& trigger = transition.trigger;
+  const Assignment before = state_.values;
+  state_.values = values;
+  if (trigger.verb == Verb::kStart) {
+    std::optional<Request>& request = state_.requests[trigger.subject];
+    Parameters parameters = request ? request->parameters : Parameters();
+    if (trigger.parameters) {
+      parameters = *trigger.parameters;
+    }
+    request = Request{trigger.priority, std::move(parameters), event_number_};
+  }
+  for (std::size_t task = 0; task < values.size(); ++task) {
+    if (values[task] == kNone) {
+      state_.requests[task].reset();
+    } else if (values[task] != before[task]) {
+      taken_at_[task] = now_;
+    }
+  }
+  update_queue(transition, before);
+}
+
+// The stops count before the starts.
+void Oracle::update_queue(const Transition& transition, const Assignment& before) {
+  const Trigger& trigger = transition.trigger;
+  for (std::size_t task = 0; task < before.size(); ++task) {
+    if (before[task] == kNone || state_.values[task] != kNone) {
+      continue;
+    }
+    for (const std::size_t other : facts_->excludes[task]) {
+      join_queue(other);
+    }
+    const bool own_stop = trigger.verb == Verb::kStop && task == trigger.subject;
+    if (!own_stop && !contains(transition.finished_tasks, task)) {
+      join_queue(task);
+    }
+  }
+  for (std::size_t task = 0; task < before.size(); ++task) {
+    if (before[task] == kNone && state_.values[task] != kNone) {
+      queue_[task].reset();
+      for (const std::size_t other : facts_->excludes[task]) {
+        queue_[other].reset();
+      }
+    }
+  }
+}
+
+// A reactive task that is neither running nor in Q joins it.
+void Oracle::join_queue(std::size_t task) {
+  if (facts_->catalog.tasks[task].reactive_start && state_.values[task] == kNone && !queue_[task]) {
+    queue_[task] = now_ + reactive_delay_;
+  }
+}
+
+void Oracle::join_queue_by_group(std::size_t group) {
+  for (const std::size_t task : facts_->groups[group]) {
+    join_queue(task);
+  }
+}
+
+// Reports
+
+ordered_json Oracle::objective(const Transition& transition, const Solution& solution) const {
+  const std::vector<Task>& tasks = facts_->catalog.tasks;
+  const std::vector<ActiveRequest> requests = active_requests(transition);
+  std::size_t satisfied = 0;
+  for (const ActiveRequest& request : requests) {
+    satisfied += solution.values[request.task] != kNone ? 1U : 0U;
+  }
+  Integer suitability = 1;
+  std::size_t automatic = 0;
+  std::size_t idle = 0;
+  for (std::size_t task = 0; task < tasks.size(); ++task) {
+    const std::size_t behavior = solution.values[task];
+    suitability *= behavior == kNone ? kWhole : facts_->suitability(behavior, task);
+    if (!tasks[task].start_on_request) {
+      ++automatic;
+      idle += behavior == kNone ? 1U : 0U;
+    }
+  }
+  const double idle_share =
+      automatic == 0 ? 1.0 : static_cast<double>(idle) / static_cast<double>(automatic);
+  return {{"satisfied", satisfied},
+          {"requests", requests.size()},
+          {"suitability", nearest_double(suitability, power_of_million(tasks.size()))},
+          {"idle", idle_share},
+          {"changes", solution.changes}};
+}
+
+ordered_json Oracle::new_record(const std::string& origin, Verb verb) {
+  ++event_number_;
+  count("origin: " + origin);
+  return {{"index", event_number_},
+          {"time", seconds(now_)},
+          {"origin", origin},
+          {"verb", to_string(verb)}};
+}
+
+void Oracle::complete_unsolved(ordered_json record, const std::string& outcome) {
+  record["outcome"] = outcome;
+  record["changes"] = ordered_json::array();
+  record["stopped_tasks"] = ordered_json::array();
+  record["objective"] = nullptr;
+  record["search"] = nullptr;
+  complete(std::move(record), outcome);
+}
+
+// Adds the state after the event.
+void Oracle::complete(ordered_json record, const std::string& outcome) {
+  ordered_json running = ordered_json::object();
+  ordered_json requests = ordered_json::object();
+  ordered_json queue = ordered_json::object();
+  for (std::size_t task = 0; task < state_.values.size(); ++task) {
+    if (state_.values[task] != kNone) {
+      running[task_name(task)] = behavior_name(state_.values[task]);
+    }
+    if (state_.requests[task]) {
+      requests[task_name(task)] = state_.requests[task]->priority;
+    }
+    if (queue_[task]) {
+      queue[task_name(task)] = seconds(*queue_[task]);
+    }
+  }
+  record["running"] = std::move(running);
+  record["requests"] = std::move(requests);
+  record["queue"] = std::move(queue);
+  events_.push_back(std::move(record));
+  count("outcome: " + outcome);
+}
+
+std::vector<std::size_t> Oracle::tasks_performed(const Assignment& values,
+                                                 std::size_t behavior) const {
+  std::vector<std::size_t> result;
+  for (std::size_t task = 0; task < values.size(); ++task) {
+    if (values[task] == behavior) {
+      result.push_back(task);
+    }
+  }
+  return result;
+}
+
+bool Oracle::is_active(std::size_t behavior) const { return contains(state_.values, behavior); }
+
+const std::string& Oracle::task_name(std::size_t task) const {
+  return facts_->catalog.tasks[task].name;
+}
+
+const std::string& Oracle::behavior_name(std::size_t behavior) const {
+  return facts_->catalog.behaviors[behavior].name;
+}
+
+void Oracle::count(const std::string& what) const {
+  if (statistics_ != nullptr) {
+    statistics_->count(what);
+  }
+}
+
+ordered_json run_oracle(const Catalog& catalog, const Script& script, Statistics* statistics) {
+  Oracle oracle(std::make_shared<const CatalogFacts>(catalog), script, statistics);
+  for (const Event& event : script.events) {
+    oracle.handle(event);
+  }
+  oracle.finish();
+  return oracle.events();
+}
+
+}  // namespace cbc::oracle

@@ -1,0 +1,169 @@
+// The coordinator, written from the definition of catalogs and scripts alone and by the letter, as
+// slow and as simple as it can be. The implementation under test must give the same events.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "enumeration.h"
+#include "model.h"
+#include "statistics.h"
+
+namespace cbc::oracle {
+
+struct Request {
+  int priority = 0;
+  Parameters parameters;
+  std::int64_t set_by = 0;  // number of the event that last set it
+};
+
+struct State {
+  Assignment values;
+  std::vector<std::optional<Request>> requests;  // of each task
+};
+
+// A start, stop or finish, of whatever origin.
+struct Trigger {
+  Verb verb = Verb::kStart;
+  std::size_t subject = kNone;  // a task, or the behavior that finishes
+  int priority = 0;             // start, stop
+  bool reactive = false;        // a start from the queue
+  std::optional<Parameters> parameters;
+  Cause cause = Cause::kGoalAchieved;
+};
+
+// Whether two parameters are the same data: mappings without order; null, empty and absent alike.
+bool same_parameters(const Parameters& a, const Parameters& b);
+
+class Oracle {
+ public:
+  // Only the delay and the situation of the script are used; its events are given to handle().
+  // Statistics may be null.
+  Oracle(std::shared_ptr<const CatalogFacts> facts, const Script& script, Statistics* statistics);
+
+  // Moves the clock to the event, runs what is due before it, then the event.
+  void handle(const Event& event);
+
+  // Runs what is due by the last instant of the script.
+  void finish();
+
+  // All that happened so far; `search` lacks solutions and nodes, and `conflict` is left out.
+  const nlohmann::ordered_json& events() const { return events_; }
+
+  // What the event would do, as events(). Statistics may be null.
+  nlohmann::ordered_json preview(const Event& event, Statistics* statistics) const;
+
+  const CatalogFacts& facts() const { return *facts_; }
+  const State& state() const { return state_; }
+  bool available(std::size_t behavior) const { return available_[behavior]; }
+  bool faulty(std::size_t behavior) const { return faulty_[behavior]; }
+  Microseconds now() const { return now_; }
+  std::optional<Microseconds> next_due_time() const;
+
+ private:
+  enum class DueKind { kTimeout, kReactiveStart };
+  struct Due {
+    Microseconds time = 0;
+    DueKind kind = DueKind::kTimeout;
+    std::size_t task = 0;
+
+    auto operator<=>(const Due&) const = default;
+  };
+
+  // A start, stop or finish while it is solved and applied.
+  struct Transition {
+    Trigger trigger;
+    std::vector<std::size_t> finished_tasks;  // of a finish: what the behavior performed
+    std::size_t group = 0;
+    std::set<std::size_t> active_before;             // a finished behavior not counted
+    std::set<std::size_t> active;                    // by now
+    std::vector<std::vector<std::size_t>> tasks_of;  // of each behavior, since its activation
+    std::set<std::size_t> excluded;
+    int first_level = 0;
+    int level = 0;  // of protection
+    Integer space;
+    nlohmann::ordered_json changes = nlohmann::ordered_json::array();
+    std::vector<std::size_t> lost;  // active before the event; could not be activated again
+  };
+
+  std::optional<Due> next_due() const;
+  std::optional<Microseconds> deadline(std::size_t task) const;
+  void run_due(const Due& due);
+
+  void run_start(const Event& event);
+  void run_stop(const Event& event);
+  void run_finish(const char* origin, std::size_t behavior, Cause cause);
+  void run_situation(const Event& event);
+  void run_fault(const Event& event);
+  void run_repair(const Event& event);
+  void run_reactive_start(std::size_t task);
+
+  // Solves and applies; adds the results to the record, completes it, and lets the behaviors that
+  // were lost finish.
+  void coordinate(nlohmann::ordered_json record, const Trigger& trigger);
+  Transition begin(const Trigger& trigger) const;
+  std::optional<Solution> solve_at_some_level(Transition& transition) const;
+  Problem problem(const Transition& transition) const;
+  std::vector<std::size_t> domain(const Transition& transition, std::size_t task) const;
+  std::vector<std::size_t> selectable(const Transition& transition, std::size_t task) const;
+  bool is_protected(const Transition& transition, std::size_t task) const;
+  std::vector<ActiveRequest> active_requests(const Transition& transition) const;
+
+  // The behavior whose activation failed, if one did.
+  std::optional<std::size_t> apply(Transition& transition, const Assignment& values);
+  void take_back(Transition& transition);
+  const char* deactivation_cause(const Transition& transition, const Assignment& values,
+                                 const std::vector<std::size_t>& tasks) const;
+  std::optional<int> priority_before(const std::vector<std::size_t>& tasks) const;
+  std::optional<int> priority_after(const Transition& transition,
+                                    const std::vector<std::size_t>& tasks) const;
+  void deactivate(Transition& transition, std::size_t behavior, const std::string& cause,
+                  std::optional<int> priority);
+  bool activate(Transition& transition, std::size_t behavior, const std::vector<std::size_t>& tasks,
+                const std::string& cause, std::optional<int> priority);
+  void add_change(Transition& transition, const std::string& operation, std::size_t behavior,
+                  const std::vector<std::size_t>& tasks, const std::string& cause,
+                  std::optional<int> priority, bool success) const;
+  bool restarts(const Transition& transition, const Assignment& values) const;
+  std::vector<std::size_t> stopped_tasks(const Assignment& values) const;
+  void commit(const Transition& transition, const Assignment& values);
+  void update_queue(const Transition& transition, const Assignment& before);
+  void join_queue(std::size_t task);
+  void join_queue_by_group(std::size_t group);
+
+  nlohmann::ordered_json objective(const Transition& transition, const Solution& solution) const;
+  nlohmann::ordered_json new_record(const std::string& origin, Verb verb);
+  void complete(nlohmann::ordered_json record, const std::string& outcome);
+  void complete_unsolved(nlohmann::ordered_json record, const std::string& outcome);
+  std::vector<std::size_t> tasks_performed(const Assignment& values, std::size_t behavior) const;
+  bool is_active(std::size_t behavior) const;
+  const std::string& task_name(std::size_t task) const;
+  const std::string& behavior_name(std::size_t behavior) const;
+  void count(const std::string& what) const;
+
+  std::shared_ptr<const CatalogFacts> facts_;
+  Statistics* statistics_;
+  Microseconds reactive_delay_;
+  State state_;
+  std::vector<bool> available_;
+  std::vector<bool> faulty_;
+  std::vector<std::optional<Microseconds>> queue_;  // due time of each task in Q
+  std::vector<Microseconds> activated_at_;          // of each behavior: its last activation
+  std::vector<Microseconds> taken_at_;              // of each task: when it took its behavior
+  Microseconds now_ = 0;
+  std::int64_t event_number_ = 0;
+  nlohmann::ordered_json events_ = nlohmann::ordered_json::array();
+};
+
+// The "events" of a whole script. Statistics may be null.
+nlohmann::ordered_json run_oracle(const Catalog& catalog, const Script& script,
+                                  Statistics* statistics);
+
+}  // namespace cbc::oracle

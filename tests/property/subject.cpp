@@ -1,0 +1,88 @@
+#include "property/subject.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "catalog/reader.h"
+#include "compiled/compile.h"
+#include "report/solve_json.h"
+#include "script/reader.h"
+#include "script/runner.h"
+#include "yaml/document.h"
+
+namespace cbc::oracle {
+namespace {
+
+[[noreturn]] void refuse(const Diagnostics& diagnostics) {
+  std::string text;
+  for (const Diagnostic& diagnostic : diagnostics.all()) {
+    text += diagnostic.file + ":" + std::to_string(diagnostic.range.begin.line) + ": " +
+            diagnostic.message + "\n";
+  }
+  throw std::runtime_error(text);
+}
+
+class Events final : public RunListener {
+ public:
+  explicit Events(const CompiledCatalog& catalog) : catalog_(catalog) {}
+
+  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+    events_.push_back(event_to_json(catalog_, record, step, state));
+  }
+  void on_failure(const Failure& failure) override { throw std::runtime_error(failure.message); }
+  void on_end(const State& /*state*/) override {}
+
+  [[nodiscard]] nlohmann::ordered_json take() { return std::move(events_); }
+
+ private:
+  const CompiledCatalog& catalog_;
+  nlohmann::ordered_json events_ = nlohmann::ordered_json::array();
+};
+
+/// `easy_nodes`: see SearchOptions; 0 puts all of the search's means to work from the start.
+nlohmann::ordered_json run(const CompiledCatalog& catalog, const Script& script,
+                           std::uint64_t easy_nodes) {
+  Events events(catalog);
+  CoordinatorOptions options;
+  options.search.easy_nodes = easy_nodes;
+  const RunResult result = run_script(catalog, script, options, events);
+  if (result.status != Coordinator::Status::ok) {
+    throw std::runtime_error("the run ended early: " + result.internal_error);
+  }
+  return events.take();
+}
+
+void strip_effort(nlohmann::ordered_json& events) {
+  for (auto& event : events) {
+    if (event["search"].is_object()) {
+      event["search"].erase("nodes");
+      event["search"].erase("solutions");
+    }
+  }
+}
+
+}  // namespace
+
+nlohmann::ordered_json run_subject(const std::string& catalog_yaml,
+                                   const std::string& script_yaml) {
+  Diagnostics diagnostics;
+  const auto catalog = read_catalog(catalog_yaml, "catalog.yaml", diagnostics);
+  if (!catalog) refuse(diagnostics);
+  const CompiledCatalog compiled = compile(*catalog);
+
+  const auto document = yaml::parse(script_yaml, "script.yaml", diagnostics);
+  if (!document) refuse(diagnostics);
+  const ScriptNames names{{compiled.task_names.begin(), compiled.task_names.end()},
+                          {compiled.behavior_names.begin(), compiled.behavior_names.end()}};
+  const auto script = read_script(*document, names, diagnostics);
+  if (!script) refuse(diagnostics);
+
+  nlohmann::ordered_json easy = run(compiled, *script, SearchOptions{}.easy_nodes);
+  nlohmann::ordered_json hard = run(compiled, *script, 0);
+  strip_effort(easy);
+  strip_effort(hard);
+  if (easy != hard) throw std::runtime_error("answers depend on when the search looks ahead");
+  return easy;
+}
+
+}  // namespace cbc::oracle

@@ -1,0 +1,14 @@
+// The implementation under test, behind one function.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace cbc::oracle {
+
+// The "events" that `cbc solve --format json` prints for one catalog and one script. Throws
+// std::runtime_error with the diagnostics if the catalog or the script is refused.
+nlohmann::ordered_json run_subject(const std::string& catalog_yaml, const std::string& script_yaml);
+
+}  // namespace cbc::oracle
