@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "report/exact_values.h"
+#include "report/reasons.h"
 
 namespace cbc {
 namespace {
@@ -100,6 +101,18 @@ Json search_to_json(const SearchRecord& search) {
           {"solutions", search.result.solutions},       {"nodes", search.result.nodes}};
 }
 
+/// So far the only reason that is told is a stronger request, which comes before any search.
+Json conflict_to_json(const CompiledCatalog& catalog, const EventRecord& record) {
+  Json reasons = Json::array();
+  if (record.priority_conflict) {
+    reasons.push_back({{"kind", "priority"},
+                       {"task", catalog.name_of_task(record.priority_conflict->task)},
+                       {"priority", record.priority_conflict->priority},
+                       {"message", describe_priority_conflict(catalog, record)}});
+  }
+  return reasons;
+}
+
 }  // namespace
 
 Json event_to_json(const CompiledCatalog& catalog, const EventRecord& record, const Step* step,
@@ -113,7 +126,7 @@ Json event_to_json(const CompiledCatalog& catalog, const EventRecord& record, co
   json["objective"] =
       record.objective ? objective_to_json(catalog, *record.objective, state) : Json(nullptr);
   json["search"] = record.search ? search_to_json(*record.search) : Json(nullptr);
-  json["conflict"] = Json::array();
+  json["conflict"] = conflict_to_json(catalog, record);
   return json;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "report/exact_values.h"
+#include "report/reasons.h"
 #include "text/quote.h"
 
 namespace cbc {
@@ -86,9 +87,7 @@ void TextReport::on_event(const EventRecord& record, const Step* step, const Sta
 
 void TextReport::write_reason(const EventRecord& record) {
   if (record.priority_conflict) {
-    fmt::print(out_, "{}{} has a request of priority {}, higher than {}\n", change_indent,
-               printable(catalog_->name_of_task(record.priority_conflict->task)),
-               record.priority_conflict->priority, record.priority);
+    fmt::print(out_, "{}{}\n", change_indent, describe_priority_conflict(*catalog_, record));
   } else if (record.search && record.search->result.status == SearchStatus::unknown) {
     fmt::print(out_, "{}a search limit came before the first solution\n", change_indent);
   } else if (record.search) {

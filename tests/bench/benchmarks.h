@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "bench/scenario.h"
+
+namespace cbc::bench {
+
+/// The paper's m as in names: "m1", "m5", or "optimum" for 0.
+[[nodiscard]] std::string name_of_m(std::uint64_t m);
+
+[[nodiscard]] double median(std::vector<double> values);
+
+/// One handled event: initialization of the domains, search, checker and applying.
+void register_event(const std::string& name, std::shared_ptr<const Scenario> scenario,
+                    std::size_t moment);
+
+/// mission/NAME/…, every event of the missions of catalogs/; table1/…, the missions as a whole.
+void register_mission_benchmarks();
+
+/// table2/…, a first event on catalogs of growing size; optimum/…, all such events of theirs.
+void register_catalog_benchmarks();
+
+}  // namespace cbc::bench

@@ -1,0 +1,77 @@
+#include "bench/inputs.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "catalog/reader.h"
+#include "compiled/compile.h"
+#include "diagnostic/text.h"
+#include "script/reader.h"
+#include "yaml/document.h"
+
+namespace cbc::bench {
+namespace {
+
+[[noreturn]] void refuse(const Diagnostics& diagnostics) {
+  std::string message = "unusable input:\n";
+  for (const Diagnostic& diagnostic : diagnostics.all()) {
+    message += render(diagnostic, SourceTexts(), false);
+  }
+  throw std::runtime_error(message);
+}
+
+Script understand_script(const std::string& path, const CompiledCatalog& catalog) {
+  Diagnostics diagnostics;
+  const std::string text = read_file(path);
+  const auto document = yaml::parse(text, path, diagnostics);
+  if (document == nullptr) refuse(diagnostics);
+  const ScriptNames names{{catalog.task_names.begin(), catalog.task_names.end()},
+                          {catalog.behavior_names.begin(), catalog.behavior_names.end()}};
+  std::optional<Script> script = read_script(*document, names, diagnostics);
+  if (!script) refuse(diagnostics);
+  return std::move(*script);
+}
+
+}  // namespace
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot read " + path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::shared_ptr<const CompiledCatalog> compile_text(std::string_view text,
+                                                    const std::string& name) {
+  Diagnostics diagnostics;
+  const std::optional<Catalog> catalog = read_catalog(text, name, diagnostics);
+  if (!catalog) refuse(diagnostics);
+  return std::make_shared<const CompiledCatalog>(compile(*catalog));
+}
+
+std::shared_ptr<const Mission> load_mission(const std::string& name) {
+  const std::string stem = CBC_SOURCE_DIR "/catalogs/" + name;
+  auto mission = std::make_shared<Mission>();
+  mission->catalog = compile_text(read_file(stem + ".yaml"), name);
+  mission->script = understand_script(stem + ".mission.yaml", *mission->catalog);
+  return mission;
+}
+
+std::shared_ptr<const Mission> mission_of_start(std::shared_ptr<const CompiledCatalog> catalog,
+                                                std::string_view task) {
+  const auto& names = catalog->task_names;
+  const auto place = std::find(names.begin(), names.end(), task);
+  if (place == names.end()) throw std::runtime_error("no task " + std::string(task));
+  Step step;
+  step.verb = Verb::start;
+  step.subject = static_cast<std::uint32_t>(place - names.begin());
+  auto mission = std::make_shared<Mission>();
+  mission->catalog = std::move(catalog);
+  mission->script.steps.push_back(std::move(step));
+  return mission;
+}
+
+}  // namespace cbc::bench
