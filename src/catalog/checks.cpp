@@ -105,7 +105,9 @@ void check_exclusive_requirements(const Catalog& catalog, Reporter& reporter) {
           behavior.performs.size() == 1
               ? quote(catalog.tasks[behavior.performs.front().task].name) + ", the task it performs"
               : std::string("every task it performs");
-      reporter.error(
+      // The meaning is clear: the behavior is never active. Catalogs in use have such behaviors,
+      // and the others of their tasks work, so this does not keep a catalog from being solved.
+      reporter.warning(
           rule::exclusive_requirement, requirement.range,
           "behavior " + quote(behavior.name) + " requires " +
               quote(catalog.tasks[requirement.task].name) + ", which excludes " + own,

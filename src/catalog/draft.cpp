@@ -237,7 +237,7 @@ class Reader {
 
   void read_behavior(const Node& node) {
     if (!expect_entry(node, "a behavior", "behavior: NAME")) {
-      catalog_.lacks_a_section = true;
+      ++catalog_.nameless_tasks;
       return;
     }
     Fields fields(node, shape::behavior, reporter_);
@@ -251,8 +251,8 @@ class Reader {
     behavior.timeout = read_timeout(fields);
     behavior.suitability = read_suitability(fields);
     read_performed(fields, behavior);
-    if (const Node* requires_ = fields.find("requires")) {
-      read_requirements(*requires_, behavior.requires_);
+    if (const Node* list = fields.find("requires")) {
+      read_requirements(*list, behavior.requirements);
     }
     fields.report_unknown(Severity::warning);
     catalog_.behaviors.push_back(std::move(behavior));

@@ -55,7 +55,7 @@ struct Behavior {
   std::optional<Microseconds> timeout;
   std::optional<Millionths> suitability;
   std::vector<Performance> performs;
-  std::vector<Requirement> requires_;
+  std::vector<Requirement> requirements;
 };
 
 struct ExclusivityList {

@@ -113,7 +113,7 @@ class Resolver {
                                    performance.suitability.value_or(suitability),
                                    performance.task.range});
     }
-    for (const draft::Requirement& requirement : entry.requires_) {
+    for (const draft::Requirement& requirement : entry.requirements) {
       const auto task = find_task(requirement.task, "required by behavior ", entry.name.text);
       if (task) {
         behavior.requires_.push_back(

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -139,13 +140,24 @@ std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_at(const std::stri
   return entry->second;
 }
 
+/// All errors; of warnings, the first few of each rule and file.
 void MissionLoader::report() {
-  diagnostics_.sort();
+  constexpr std::size_t most_warnings = 3;
   SourceTexts sources;
   for (const auto& [file, text] : texts_) sources.add(file, text);
   const bool use_color = wants_color(stderr);
+  diagnostics_.sort();
+  std::map<std::pair<std::string_view, std::string_view>, std::size_t> warnings;
   for (const Diagnostic& diagnostic : diagnostics_.all()) {
-    fmt::print(stderr, "{}", render(diagnostic, sources, use_color));
+    if (diagnostic.severity == Severity::error ||
+        ++warnings[{diagnostic.file, diagnostic.rule}] <= most_warnings) {
+      fmt::print(stderr, "{}", render(diagnostic, sources, use_color));
+    }
+  }
+  for (const auto& [kind, count] : warnings) {
+    if (count <= most_warnings) continue;
+    fmt::print(stderr, "{}: {} more like these [{}]\n", printable(kind.first),
+               count - most_warnings, kind.second);
   }
 }
 

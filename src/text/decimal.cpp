@@ -67,9 +67,10 @@ class Scanner {
   }
 
   std::string take_digits() {
-    const auto end = std::find_if_not(text_.begin(), text_.end(), is_digit);
-    std::string digits(text_.begin(), end);
-    text_.remove_prefix(digits.size());
+    std::size_t size = 0;
+    while (size < text_.size() && is_digit(text_[size])) ++size;
+    std::string digits(text_.substr(0, size));
+    text_.remove_prefix(size);
     return digits;
   }
 

@@ -1,6 +1,7 @@
 #include "text/nearest.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace cbc {
@@ -141,7 +142,7 @@ std::optional<std::string_view> Suggestions::nearest(std::string_view name) {
 
 std::optional<std::string_view> nearest(std::string_view name,
                                         std::span<const std::string_view> names) {
-  std::size_t work_left = static_cast<std::size_t>(-1);
+  std::size_t work_left = std::numeric_limits<std::size_t>::max();
   return search(name, names, work_left);
 }
 

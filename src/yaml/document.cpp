@@ -1,8 +1,6 @@
 #include "yaml/document.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <exception>
 #include <istream>
 #include <optional>
 #include <stdexcept>
@@ -36,14 +34,15 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 // Ends the parsing of a document; becomes a finding.
 struct Refusal : std::runtime_error {
-  Refusal(const Range& where, std::string message, std::vector<Note> more = {})
-      : std::runtime_error(std::move(message)), range(where), notes(std::move(more)) {}
+  Refusal(const Range& where, const std::string& message, std::vector<Note> more = {})
+      : std::runtime_error(message), range(where), notes(std::move(more)) {}
   Range range;
   std::vector<Note> notes;
 };
 
 constexpr std::string_view unclosed_text = "a text in quotes does not end";
 constexpr std::string_view unclosed_said = "illegal EOF in scalar";
+constexpr std::string_view bad_escape_said = "invalid unicode";
 constexpr std::string_view undefined_anchor_said = "the referenced anchor is not defined";
 
 std::string too_deep() {
@@ -107,8 +106,8 @@ class Builder : public YAML::EventHandler {
 
   // The innermost collection in brackets or braces that is still open.
   [[nodiscard]] std::optional<Range> open_bracket() const {
-    for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
-      if (frame->flow) return frame->node->range;
+    for (std::size_t i = frames_.size(); i > 0; --i) {
+      if (frames_[i - 1].flow) return frames_[i - 1].node->range;
     }
     return std::nullopt;
   }
@@ -424,6 +423,11 @@ void check_characters(std::string_view text, const PositionMap& positions) {
     const std::size_t end = end_of_alias(text, offset);
     throw Refusal(builder.range_at(offset, end),
                   "there is no anchor " + quote(text.substr(offset + 1, end - offset - 1)));
+  }
+  if (exception.msg.starts_with(bad_escape_said)) {
+    // JSON writes such characters as two escapes; the parser does not know that.
+    throw Refusal(builder.range_at(offset, offset + 1),
+                  "this escape is no character; write the character itself, or \\U and 8 digits");
   }
   std::vector<Note> notes;
   const std::optional<Range> bracket = builder.open_bracket();

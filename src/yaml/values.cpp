@@ -167,7 +167,7 @@ std::optional<std::size_t> read_choice(const Node& node, std::string_view what,
   }
   const std::optional<std::string_view> text = read_text(node, what, expected, reporter);
   if (!text) return std::nullopt;
-  const auto found = std::find(choices.begin(), choices.end(), *text);
+  const auto* const found = std::find(choices.begin(), choices.end(), *text);
   if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
 
   std::string message = must_be(what, expected) + ", found " + describe(node);
