@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <bit>
 
+#include <fmt/format.h>
+
 #include "coordinator/ranks.h"
+#include "text/quote.h"
 
 namespace cbc {
 
@@ -215,8 +218,8 @@ Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
   for (;;) {
     const Problem* const problem = search(trigger);
     if (problem == nullptr) return reject(trigger);
-    if (auto violation = checker_.find_violation(*problem, solution_)) {
-      internal_error_ = std::move(*violation);
+    if (const auto violation = checker_.find_violation(*problem, solution_)) {
+      internal_error_ = describe_refusal(*violation);
       return Status::refused_answer;
     }
     const auto failed = transition_.apply(solution_, behavior_to_restart(trigger), now_);
@@ -226,6 +229,23 @@ Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
     }
     question_.exclude(*failed);
   }
+}
+
+/// What a report of an internal error needs: the event, what is wrong, and the answer.
+std::string Coordinator::describe_refusal(const std::string& violation) const {
+  std::string text = fmt::format("event {} ({}): {}; the answer was", record_.index,
+                                 name_of(record_.verb), violation);
+  const TaskId first = catalog_.group_tasks[record_.search->group];
+  for (std::uint32_t task = 0; task < solution_.size(); ++task) {
+    const std::uint32_t place = solution_[task];
+    if (place == none) continue;
+    text += fmt::format(
+        " {}={}", printable(catalog_.name_of_task(first + task)),
+        place < catalog_.values[first + task].size()
+            ? printable(catalog_.name_of_behavior(catalog_.values[first + task][place].behavior))
+            : "?");
+  }
+  return text;
 }
 
 /// Solves the problem of the trigger. A finish is tried again at higher protection levels, up to

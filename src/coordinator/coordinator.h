@@ -82,6 +82,7 @@ class Coordinator {
 
   Status coordinate(const Trigger& trigger);
   [[nodiscard]] const Problem* search(const Trigger& trigger);
+  [[nodiscard]] std::string describe_refusal(const std::string& violation) const;
   void note_domain_sizes(const Problem& problem, SearchRecord& record) const;
   [[nodiscard]] BehaviorId behavior_to_restart(const Trigger& trigger) const;
   void accept(const Trigger& trigger, const Problem& problem);

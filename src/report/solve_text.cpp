@@ -77,9 +77,10 @@ void TextReport::on_event(const EventRecord& record, const Step* step, const Sta
   std::string_view color = style_.faint;
   if (record.outcome == Outcome::accepted) color = style_.good;
   if (record.outcome == Outcome::rejected) color = style_.bad;
-  fmt::print(out_, "{:10.3f}  {}{}{}: {}{}{}\n", to_seconds(record.time), style_.strong,
+  const bool is_cut = record.search && record.search->result.status == SearchStatus::feasible;
+  fmt::print(out_, "{:10.3f}  {}{}{}: {}{}{}{}\n", to_seconds(record.time), style_.strong,
              describe_event(*catalog_, record, step), style_.reset, color, name_of(record.outcome),
-             style_.reset);
+             style_.reset, is_cut ? " (not proven best: a search limit came first)" : "");
   if (record.outcome == Outcome::rejected) write_reason(record);
   for (const Change& change : record.changes) write_change(change);
   write_stopped(record);

@@ -67,20 +67,16 @@ bool Solver::search() {
   bool is_consistent = begin();
   for (;;) {
     if (is_consistent && may_improve()) {
-      const std::optional<Decision> decision = decide();
-      if (!decision) {
-        if (!accept()) return false;
-      } else if (is_out_of_budget()) {
-        return false;
-      } else if (!looks_ahead_ && result_.nodes >= options_.easy_nodes) {
-        start_to_look_ahead();
-        continue;
-      } else if (!enter_part(*decision)) {
-        is_consistent = branch(*decision);
-        continue;
-      } else {
+      if (const std::optional<Decision> decision = decide()) {
+        if (is_out_of_budget()) return false;
+        if (is_to_look_ahead()) {
+          start_to_look_ahead();
+        } else if (!enter_part(*decision)) {
+          is_consistent = branch(*decision);
+        }
         continue;
       }
+      if (!accept()) return false;
     }
     if (frames_.size() > scope().base) {
       is_consistent = backtrack();
@@ -137,6 +133,12 @@ bool Solver::is_out_of_budget() const {
          std::chrono::steady_clock::now() >= deadline_;
 }
 
+/// Whether the search turns out to be a hard one. The enumeration of the first m solutions stays as
+/// it is.
+bool Solver::is_to_look_ahead() const {
+  return !looks_ahead_ && options_.max_solutions == 0 && result_.nodes >= options_.easy_nodes;
+}
+
 /// Begins anew at the root, with the best solution so far.
 void Solver::start_to_look_ahead() {
   looks_ahead_ = true;
@@ -147,7 +149,7 @@ void Solver::start_to_look_ahead() {
 
 /// If what is undecided falls into parts: begins to solve the part of the decision's task apart.
 bool Solver::enter_part(const Decision& decision) {
-  if (!looks_ahead_ || decision.kind != Decision::Kind::assign || options_.max_solutions > 0 ||
+  if (!looks_ahead_ || decision.kind != Decision::Kind::assign ||
       !parts_.enter_part_of(decision.task)) {
     return false;
   }

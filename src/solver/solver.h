@@ -73,6 +73,7 @@ class Solver {
   [[nodiscard]] Lookahead::Cost enough_to_prune(const Incumbent& best) const;
   [[nodiscard]] bool accept();
   [[nodiscard]] bool is_out_of_budget() const;
+  [[nodiscard]] bool is_to_look_ahead() const;
   void start_to_look_ahead();
   [[nodiscard]] bool enter_part(const Decision& decision);
   [[nodiscard]] bool leave_part();
