@@ -1,0 +1,823 @@
+#include <string>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+#include "catalog/reader.h"
+#include "unit/findings.h"
+
+namespace cbc {
+namespace {
+
+std::string findings(std::string_view text) {
+  Diagnostics diagnostics;
+  const auto catalog = read_catalog(text, "a.yaml", diagnostics);
+  EXPECT_EQ(catalog.has_value(), !diagnostics.has_errors()) << text;
+  return show(diagnostics);
+}
+
+// A catalog that is expected to have no errors.
+Catalog read(std::string_view text) {
+  Diagnostics diagnostics;
+  auto catalog = read_catalog(text, "a.yaml", diagnostics);
+  EXPECT_TRUE(catalog.has_value()) << show(diagnostics);
+  return catalog.value_or(Catalog{});
+}
+
+std::string text_of(Millionths degree) { return std::to_string(degree); }
+
+// A catalog in the order of its parts, without places.
+std::string describe(const Catalog& catalog) {
+  std::string text;
+  for (const Task& task : catalog.tasks) {
+    text += "task " + task.name + (task.implicit ? " implicit" : "") +
+            (task.execution_goal == ExecutionGoal::keep_running ? " keep_running" : "") +
+            (task.start_on_request ? " on_request" : "") + (task.reactive_start ? " reactive" : "");
+    if (task.timeout) text += " timeout " + std::to_string(*task.timeout);
+    if (task.minimum_performance > 0) text += " minimum " + text_of(task.minimum_performance);
+    for (const Parameter& parameter : task.parameters) {
+      text += " " + parameter.name + (parameter.allowed_is_list ? "[" : "(");
+      for (const std::string& value : parameter.allowed_values) text += value + ",";
+      text += parameter.allowed_is_list ? "]" : ")";
+    }
+    text += "\n";
+  }
+  for (const Behavior& behavior : catalog.behaviors) {
+    text += "behavior " + behavior.name;
+    if (!behavior.package.empty()) text += " package " + behavior.package;
+    if (behavior.timeout) text += " timeout " + std::to_string(*behavior.timeout);
+    for (const Performance& performance : behavior.performs) {
+      text += " performs " + catalog.tasks[performance.task].name + " " +
+              text_of(performance.suitability);
+    }
+    for (const Requirement& requirement : behavior.requires_) {
+      text += " requires " + catalog.tasks[requirement.task].name;
+      if (requirement.minimum_performance > 0)
+        text += " " + text_of(requirement.minimum_performance);
+    }
+    text += "\n";
+  }
+  for (const ExclusivityList& list : catalog.exclusivity) {
+    text += "exclusive";
+    for (const TaskIndex task : list.tasks) text += " " + catalog.tasks[task].name;
+    text += "\n";
+  }
+  return text;
+}
+
+// What is read ---------------------------------------------------------------------------------
+
+TEST(CatalogReader, ReadsEverything) {
+  EXPECT_EQ(
+      describe(read(R"(default_values:
+- tasks:
+  - execution_goal: achieve_goal
+    start_on_request: TRUE
+    reactive_start: FALSE
+    timeout: 15
+- behaviors:
+  - suitability: 100
+    package: basics
+behaviors:
+- behavior: ROTATE_WITH_PID
+  package: motion
+  task: ROTATE
+  suitability: 90.5
+  timeout: 2.5
+  requires:
+  - task: PID
+    minimum_performance: 70
+  - task: THRUST
+- behavior: MPC
+  tasks: [{task: PID, suitability: 80}, {task: EXTRA}]
+  suitability: 33.3333
+tasks:
+- task: ROTATE
+  timeout: 30
+  minimum_performance: 12.5
+  parameters:
+  - parameter: angle
+    allowed_values: [-360, 360]
+  - parameter: name
+    allowed_values: string
+  - parameter: free
+- task: PID
+  start_on_request: FALSE
+  execution_goal: keep_running
+- task: THRUST
+  reactive_start: TRUE
+exclusivity_constraints:
+- mutually_exclusive: [EXTRA, ROTATE]
+- mutually_exclusive: []
+)")),
+      R"(task ROTATE on_request timeout 30000000 minimum 125000 angle[-360,360,] name(string,) free()
+task PID keep_running timeout 15000000
+task THRUST reactive timeout 15000000
+task EXTRA implicit on_request timeout 15000000
+behavior ROTATE_WITH_PID package motion timeout 2500000 performs ROTATE 905000 requires PID 700000 requires THRUST
+behavior MPC package basics performs PID 800000 performs EXTRA 333333
+exclusive EXTRA ROTATE
+exclusive
+)");
+}
+
+TEST(CatalogReader, OnlyBehaviorsAreNeeded) {
+  EXPECT_EQ(describe(read("behaviors:\n- {behavior: B, task: X}\n- {behavior: A, task: Y}\n")),
+            "task X implicit on_request\n"
+            "task Y implicit on_request\n"
+            "behavior B performs X 1000000\n"
+            "behavior A performs Y 1000000\n");
+  EXPECT_EQ(describe(read("behaviors: []")), "");
+}
+
+TEST(CatalogReader, ReadsJson) {
+  EXPECT_EQ(describe(read(R"({"behaviors": [{"behavior": "B", "task": "X", "suitability": 50}]})")),
+            "task X implicit on_request\nbehavior B performs X 500000\n");
+}
+
+TEST(CatalogReader, DefaultsMayBeMappings) {
+  EXPECT_EQ(describe(read("default_values: {tasks: {timeout: 3, start_on_request: no}, behaviors: "
+                          "{suitability: 60}}\nbehaviors: [{behavior: B, task: X}]\n")),
+            "task X implicit timeout 3000000\nbehavior B performs X 600000\n");
+  // Each key may have a list entry of its own.
+  EXPECT_EQ(describe(read("default_values:\n- tasks:\n  - timeout: 3\n  - start_on_request: no\n"
+                          "behaviors: [{behavior: B, task: X}]\n")),
+            "task X implicit timeout 3000000\nbehavior B performs X 1000000\n");
+}
+
+TEST(CatalogReader, NullIsAbsent) {
+  EXPECT_EQ(findings(R"(default_values: {tasks: {timeout: ~}, behaviors: {suitability: }}
+behaviors:
+- behavior: B
+  task: X
+  tasks: ~
+  package:
+  suitability: ~
+  timeout: null
+  requires:
+tasks:
+- task: X
+  execution_goal:
+  start_on_request:
+  reactive_start: ~
+  timeout:
+  minimum_performance:
+  parameters:
+- task: Y
+  parameters: [{parameter: a, allowed_values: }]
+exclusivity_constraints: ~
+)"),
+            "");
+  EXPECT_EQ(findings("behaviors: [{behavior: B, task: X}]\ntasks:\ndefault_values:\n"), "");
+}
+
+TEST(CatalogReader, KeysThatBeginWithXAreTheUsersOwn) {
+  EXPECT_EQ(findings(R"(x-version: {a: [1]}
+behaviors:
+- behavior: B
+  x-owner: me
+  x-owner: you
+  tasks: [{task: X, x-: 1}]
+tasks:
+- task: X
+  x-: ~
+)"),
+            "");
+}
+
+TEST(CatalogReader, NamesAreAnyScalars) {
+  EXPECT_EQ(
+      describe(read("behaviors:\n- {behavior: 12, task: yes}\n- {behavior: 'null', task: é b}\n")),
+      "task yes implicit on_request\ntask é b implicit on_request\n"
+      "behavior 12 performs yes 1000000\nbehavior null performs é b 1000000\n");
+  EXPECT_EQ(describe(read("behaviors: [{behavior: A, task: A}]")),
+            "task A implicit on_request\nbehavior A performs A 1000000\n");
+}
+
+TEST(CatalogReader, BooleansAreThoseOfYaml) {
+  for (const std::string word :
+       {"y", "Y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"}) {
+    const Catalog catalog =
+        read("behaviors: []\ntasks: [{task: X, reactive_start: " + word + "}]\n");
+    EXPECT_TRUE(catalog.tasks.at(0).reactive_start) << word;
+  }
+  for (const std::string word :
+       {"n", "N", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"}) {
+    const Catalog catalog =
+        read("behaviors: []\ntasks: [{task: X, start_on_request: " + word + "}]\n");
+    EXPECT_FALSE(catalog.tasks.at(0).start_on_request) << word;
+  }
+}
+
+TEST(CatalogReader, GivesPlaces) {
+  const Catalog catalog = read(R"(behaviors:
+- behavior: B
+  task: X
+  requires: [{task: Y}]
+tasks:
+- task: Y
+  minimum_performance: 50
+  parameters: [{parameter: p}]
+exclusivity_constraints:
+- mutually_exclusive: [Y, Y]
+)");
+  EXPECT_EQ(catalog.file, "a.yaml");
+  EXPECT_EQ(show(catalog.behaviors.at(0).range), "2:13-14");
+  EXPECT_EQ(show(catalog.behaviors.at(0).performs.at(0).range), "3:9-10");
+  EXPECT_EQ(show(catalog.behaviors.at(0).requires_.at(0).range), "4:21-22");
+  EXPECT_EQ(show(catalog.tasks.at(0).range), "6:9-10");
+  EXPECT_EQ(show(catalog.tasks.at(0).minimum_performance_range), "7:24-26");
+  EXPECT_EQ(show(catalog.tasks.at(0).parameters.at(0).range), "8:28-29");
+  EXPECT_EQ(show(catalog.tasks.at(1).range), "3:9-10");
+  EXPECT_EQ(show(catalog.exclusivity.at(0).range), "10:3-21");
+  EXPECT_EQ(show(catalog.exclusivity.at(0).ranges.at(1)), "10:27-28");
+}
+
+// Start flags ----------------------------------------------------------------------------------
+
+// The flags of task X: R for start_on_request, A for reactive_start.
+std::string flags(const std::string& defaults, const std::string& task) {
+  const Catalog catalog = read("default_values: {tasks: {" + defaults +
+                               "}}\nbehaviors: []\ntasks: [{task: X, " + task + "}]\n");
+  if (catalog.tasks.empty()) return "error";
+  return std::string(catalog.tasks[0].start_on_request ? "R" : "-") +
+         (catalog.tasks[0].reactive_start ? "A" : "-");
+}
+
+TEST(CatalogReader, StartFlags) {
+  EXPECT_EQ(flags("", ""), "R-");
+  EXPECT_EQ(flags("", "reactive_start: TRUE"), "-A");
+  EXPECT_EQ(flags("start_on_request: TRUE", "reactive_start: TRUE"), "-A");
+  EXPECT_EQ(flags("start_on_request: FALSE", "reactive_start: FALSE"), "--");
+  EXPECT_EQ(flags("start_on_request: FALSE", "start_on_request: TRUE"), "R-");
+  EXPECT_EQ(flags("start_on_request: FALSE, reactive_start: TRUE", ""), "-A");
+  EXPECT_EQ(flags("start_on_request: FALSE, reactive_start: TRUE", "reactive_start: FALSE"), "--");
+  EXPECT_EQ(flags("start_on_request: TRUE, reactive_start: TRUE", "reactive_start: TRUE"), "-A");
+  EXPECT_EQ(flags("start_on_request: TRUE, reactive_start: TRUE", "reactive_start: FALSE"), "R-");
+  EXPECT_EQ(flags("reactive_start: TRUE", "start_on_request: FALSE"), "-A");
+}
+
+TEST(CatalogReader, OlderStartFlags) {
+  EXPECT_EQ(flags("automatic_activation: FALSE, default: FALSE", "default: TRUE"), "-A");
+  EXPECT_EQ(flags("", "automatic_activation: TRUE"), "--");
+  EXPECT_EQ(flags("automatic_activation: TRUE", ""), "--");
+  EXPECT_EQ(flags("automatic_activation: TRUE", "automatic_activation: FALSE"), "R-");
+}
+
+TEST(CatalogReader, BothFlagsOfOneTask) {
+  EXPECT_EQ(findings("behaviors: []\ntasks:\n- task: X\n  start_on_request: TRUE\n"
+                     "  reactive_start: TRUE\n"),
+            "5:3-17 error on-request-and-reactive: task 'X' has both reactive_start and "
+            "start_on_request; one of them must be FALSE\n"
+            "  4:3-19 the other one is given here\n");
+}
+
+TEST(CatalogReader, BothFlagsOfATaskAndTheDefaults) {
+  EXPECT_EQ(findings("default_values: {tasks: {start_on_request: FALSE, reactive_start: TRUE}}\n"
+                     "behaviors: []\ntasks:\n- task: X\n  start_on_request: TRUE\n- task: Y\n"),
+            "5:3-19 error on-request-and-reactive: task 'X' has both reactive_start and "
+            "start_on_request; one of them must be FALSE\n"
+            "  1:51-65 reactive_start is given here for all tasks\n");
+}
+
+TEST(CatalogReader, BothFlagsOfTheDefaultsAreReportedOnce) {
+  EXPECT_EQ(findings("default_values: {tasks: {reactive_start: TRUE}}\n"
+                     "behaviors: [{behavior: B, task: Z}]\ntasks:\n- task: X\n- task: Y\n"),
+            "1:26-40 error on-request-and-reactive: by default tasks have both reactive_start and "
+            "start_on_request; one of them must be FALSE\n"
+            "  4:9-10 task 'X' has both of them\n");
+  // They reach tasks that only behaviors name.
+  EXPECT_EQ(findings("default_values: {tasks: {reactive_start: TRUE}}\n"
+                     "behaviors: [{behavior: B, task: Z}]\n"),
+            "1:26-40 error on-request-and-reactive: by default tasks have both reactive_start and "
+            "start_on_request; one of them must be FALSE\n"
+            "  2:33-34 task 'Z' has both of them\n");
+  // No task, no fault.
+  EXPECT_EQ(findings("default_values: {tasks: {reactive_start: TRUE}}\nbehaviors: []\n"), "");
+}
+
+// Keys -----------------------------------------------------------------------------------------
+
+TEST(CatalogReader, MissingKeys) {
+  EXPECT_EQ(findings(""),
+            "1:1-1 error missing-key: missing key 'behaviors': the catalog is empty\n");
+  EXPECT_EQ(findings("tasks: []"),
+            "1:1-2 error missing-key: missing key 'behaviors' in a catalog\n");
+  EXPECT_EQ(findings("behaviors:\n"), "1:1-10 error missing-key: 'behaviors' has no value\n");
+  EXPECT_EQ(findings("behaviors:\n- package: p\n  task: X\n"),
+            "2:3-4 error missing-key: missing key 'behavior' in a behavior\n");
+  EXPECT_EQ(findings("behaviors:\n- behavior: B\n- behavior: C\n  task: ~\n"),
+            "2:13-14 error missing-key: missing key 'task' in behavior 'B'\n"
+            "4:3-7 error missing-key: 'task' has no value\n");
+  EXPECT_EQ(findings("behaviors: [{behavior: B, task: X, requires: [{minimum_performance: 3}]}]\n"),
+            "1:47-48 error missing-key: missing key 'task' in a requirement\n");
+  EXPECT_EQ(findings("behaviors: [{behavior: B, tasks: [{suitability: 3}]}]\n"),
+            "1:35-36 error missing-key: missing key 'task' in a task of a behavior\n");
+  EXPECT_EQ(findings("behaviors: []\ntasks: [{timeout: 3}, {task: X, parameters: [{}]}]\n"),
+            "2:9-10 error missing-key: missing key 'task' in a task\n"
+            "2:46-47 error missing-key: missing key 'parameter' in a parameter\n");
+  EXPECT_EQ(findings("behaviors: []\nexclusivity_constraints: [{}]\n"),
+            "2:27-28 error missing-key: missing key 'mutually_exclusive' in an exclusivity "
+            "constraint\n");
+}
+
+TEST(CatalogReader, MisspeltRequiredKeysAreOneFinding) {
+  EXPECT_EQ(findings("behaviors:\n- behavior: B\n  tsak: X\ntasks:\n- tak: Y\n"
+                     "exclusivity_constraints:\n- mutualy_exclusive: [X, Y]\n"),
+            "3:3-7 error missing-key: missing key 'task' in behavior 'B': 'tsak' is unknown; did "
+            "you mean 'task'?\n"
+            "5:3-6 error missing-key: missing key 'task' in a task: 'tak' is unknown; did you mean "
+            "'task'?\n"
+            "7:3-20 error missing-key: missing key 'mutually_exclusive' in an exclusivity "
+            "constraint: 'mutualy_exclusive' is unknown; did you mean 'mutually_exclusive'?\n");
+  EXPECT_EQ(findings("behavors:\n- behavor: B\n  task: X\n"),
+            "1:1-9 error missing-key: missing key 'behaviors' in a catalog: 'behavors' is "
+            "unknown; did you mean 'behaviors'?\n"
+            "2:3-10 error missing-key: missing key 'behavior' in a behavior: 'behavor' is "
+            "unknown; did you mean 'behavior'?\n");
+}
+
+TEST(CatalogReader, UnknownKeys) {
+  EXPECT_EQ(findings("behaviors:\n- behavior: B\n  task: X\n  suitablity: 30\n  color: red\n"),
+            "4:3-13 warning unknown-key: unknown key 'suitablity' in behavior 'B'; did you mean "
+            "'suitability'?\n"
+            "5:3-8 warning unknown-key: unknown key 'color' in behavior 'B'\n");
+  EXPECT_EQ(findings("behaviors: []\nTasks: []\n"),
+            "2:1-6 warning unknown-key: unknown key 'Tasks' in a catalog; did you mean 'tasks'?\n");
+  // An older name is no suggestion.
+  EXPECT_EQ(findings("behaviors: [{behavior: B, task: X, eficacy: 3}]\n"),
+            "1:36-43 warning unknown-key: unknown key 'eficacy' in behavior 'B'; did you mean "
+            "'suitability'?\n");
+  EXPECT_EQ(findings("behaviors: [{behavior: B, task: X, package:p}]\n"),
+            "1:36-45 warning unknown-key: unknown key 'package:p' in behavior 'B'; did you mean "
+            "'package'?\n");
+  EXPECT_EQ(findings("default_values: {tasks: {suitability: 3}, tsks: 3}\nbehaviors: []\n"),
+            "1:26-37 warning unknown-key: unknown key 'suitability' in the defaults of tasks\n"
+            "1:43-47 warning unknown-key: unknown key 'tsks' in default_values; did you mean "
+            "'tasks'?\n");
+}
+
+TEST(CatalogReader, KeysAtTheWrongLevel) {
+  EXPECT_EQ(findings("behaviors: []\ntasks:\n- task: X\n  parameters:\n  - parameter: p\n"
+                     "  allowed_values: string\n"),
+            "6:3-17 warning unknown-key: unknown key 'allowed_values' in task 'X': it belongs to a "
+            "parameter, one level down\n");
+  EXPECT_EQ(findings("behaviors:\n- behavior: B\n  task: X\n  requires:\n  - task: Y\n"
+                     "    package: p\ntasks: [{task: Y}]\n"),
+            "6:5-12 warning unknown-key: unknown key 'package' in a requirement: it belongs to a "
+            "behavior, one level up\n");
+}
+
+TEST(CatalogReader, OlderNames) {
+  EXPECT_EQ(findings(R"(default_values:
+- tasks:
+  - category: recurrent
+    automatic_activation: TRUE
+    default: FALSE
+- behaviors:
+  - efficacy: 50
+behaviors:
+- behavior: B
+  efficacy: 40
+  tasks: [{task: X, efficacy: 30}]
+tasks:
+- task: X
+  category: goal_based
+)"),
+            "3:5-13 warning deprecated-key: 'category' is an older name: write 'execution_goal'\n"
+            "4:5-25 warning deprecated-key: 'automatic_activation' is an older name: write "
+            "'start_on_request'\n"
+            "5:5-12 warning deprecated-key: 'default' is an older name: write 'reactive_start'\n"
+            "7:5-13 warning deprecated-key: 'efficacy' is an older name: write 'suitability'\n"
+            "10:3-11 warning deprecated-key: 'efficacy' is an older name: write 'suitability'\n"
+            "11:21-29 warning deprecated-key: 'efficacy' is an older name: write 'suitability'\n"
+            "14:3-11 warning deprecated-key: 'category' is an older name: write "
+            "'execution_goal'\n");
+  EXPECT_EQ(
+      describe(read("default_values: {tasks: {category: recurrent}, behaviors: {efficacy: 50}}\n"
+                    "behaviors: [{behavior: A, task: X}, {behavior: B, task: Y, efficacy: 40},"
+                    " {behavior: C, tasks: [{task: Z, efficacy: 30}, {task: X}]}]\n"
+                    "tasks: [{task: Y, category: goal_based}]\n")),
+      "task Y on_request\n"
+      "task X implicit keep_running on_request\n"
+      "task Z implicit keep_running on_request\n"
+      "behavior A performs X 500000\n"
+      "behavior B performs Y 400000\n"
+      "behavior C performs Z 300000 performs X 500000\n");
+}
+
+TEST(CatalogReader, DuplicateKeys) {
+  EXPECT_EQ(findings("behaviors:\n- behavior: B\n  task: X\n  task: Y\n"),
+            "4:3-7 error duplicate-key: 'task' is given twice\n  3:3-7 first given here\n");
+  EXPECT_EQ(findings("behaviors: []\nbehaviors: []\n"),
+            "2:1-10 error duplicate-key: 'behaviors' is given twice\n  1:1-10 first given here\n");
+  EXPECT_EQ(
+      findings("default_values:\n- tasks: {timeout: 3}\n- tasks: {timeout: 4}\nbehaviors: []\n"),
+      "3:3-8 error duplicate-key: 'tasks' is given twice\n  2:3-8 first given here\n");
+}
+
+TEST(CatalogReader, AnOlderAndThePresentNameAreDuplicates) {
+  EXPECT_EQ(findings("behaviors:\n- behavior: B\n  task: X\n  efficacy: 3\n  suitability: 4\n"),
+            "5:3-14 error duplicate-key: 'efficacy', an older name, and 'suitability' are both "
+            "given\n  4:3-11 first given here\n");
+  EXPECT_EQ(findings("behaviors: []\ntasks: [{task: X, reactive_start: no, default: no}]\n"),
+            "2:39-46 error duplicate-key: 'default', an older name, and 'reactive_start' are both "
+            "given\n  2:19-33 first given here\n");
+  // One without a value is absent.
+  EXPECT_EQ(findings("behaviors: [{behavior: B, task: X, suitability: ~, efficacy: 3}]\n"),
+            "1:52-60 warning deprecated-key: 'efficacy' is an older name: write 'suitability'\n");
+}
+
+TEST(CatalogReader, TaskAndTasks) {
+  EXPECT_EQ(findings("behaviors: [{behavior: B, task: X, tasks: [{task: Y}]}]\n"),
+            "1:36-41 error duplicate-key: 'task' and 'tasks' are both given in a behavior\n"
+            "  1:27-31 first given here\n");
+  EXPECT_EQ(findings("behaviors: [{behavior: B, tasks: []}]\n"),
+            "1:27-32 error invalid-value: a behavior must have at least one task\n");
+  EXPECT_EQ(findings("behaviors: [{behavior: B, tasks: [{task: X}, {task: Y}, {task: X}]}]\n"),
+            "1:64-65 error invalid-value: task 'X' stands twice in one behavior\n"
+            "  1:42-43 first given here\n");
+}
+
+// Values ---------------------------------------------------------------------------------------
+
+TEST(CatalogReader, WrongTypesOfSections) {
+  EXPECT_EQ(findings("hello"),
+            "1:1-6 error wrong-type: a catalog must be a mapping with the key 'behaviors', found "
+            "'hello'\n");
+  EXPECT_EQ(findings("- behaviors: []"),
+            "1:1-2 error wrong-type: a catalog must be a mapping with the key 'behaviors', found a "
+            "list\n");
+  EXPECT_EQ(findings("default_values: 3\nbehaviors: {}\ntasks: x\nexclusivity_constraints: 'y'\n"),
+            "1:17-18 error wrong-type: 'default_values' must be a mapping, or a list of mappings, "
+            "found '3'\n"
+            "2:12-13 error wrong-type: 'behaviors' must be a list of behaviors, found an empty "
+            "mapping\n"
+            "3:8-9 error wrong-type: 'tasks' must be a list of tasks, found 'x'\n"
+            "4:26-29 error wrong-type: 'exclusivity_constraints' must be a list of "
+            "'mutually_exclusive' lists, found 'y' in quotes\n");
+  EXPECT_EQ(findings("default_values: [3, {tasks: [4], behaviors: 5}]\nbehaviors: []\n"),
+            "1:18-19 error wrong-type: an entry of 'default_values' must be a mapping, found '3'\n"
+            "1:30-31 error wrong-type: an entry of 'tasks' must be a mapping, found '4'\n"
+            "1:45-46 error wrong-type: 'behaviors' must be a mapping, or a list of mappings, found "
+            "'5'\n");
+}
+
+TEST(CatalogReader, WrongTypesOfEntries) {
+  EXPECT_EQ(
+      findings("behaviors:\n-\n- B\n- {behavior: C, task: X, requires: [Y, ~]}\ntasks: [Y, [Z]]\n"
+               "exclusivity_constraints: [[X, Y]]\n"),
+      "2:1-2 error wrong-type: a behavior must be a mapping ('behavior: NAME'), found "
+      "nothing\n"
+      "3:3-4 error wrong-type: a behavior must be a mapping ('behavior: NAME'), found 'B'\n"
+      "4:37-38 error wrong-type: a requirement must be a mapping ('task: NAME'), found 'Y'\n"
+      "4:40-41 error wrong-type: a requirement must be a mapping ('task: NAME'), found "
+      "nothing\n"
+      "5:9-10 error wrong-type: a task must be a mapping ('task: NAME'), found 'Y'\n"
+      "5:12-13 error wrong-type: a task must be a mapping ('task: NAME'), found a list\n"
+      "6:27-28 error wrong-type: an exclusivity constraint must be a mapping "
+      "('mutually_exclusive: [A, B]'), found a list\n");
+  EXPECT_EQ(
+      findings("behaviors:\n- {behavior: B, tasks: [X]}\n- {behavior: C, tasks: X}\n"
+               "- {behavior: D, task: X, requires: {task: X}}\n"),
+      "2:25-26 error wrong-type: a task of a behavior must be a mapping ('task: NAME'), found "
+      "'X'\n"
+      "3:24-25 error wrong-type: 'tasks' must be a list of tasks, found 'X'\n"
+      "4:36-37 error wrong-type: 'requires' must be a list of requirements, found a "
+      "mapping\n");
+}
+
+TEST(CatalogReader, WrongNames) {
+  EXPECT_EQ(
+      findings("behaviors:\n- {behavior: [B], task: {}}\n- {behavior: '', task: \"\"}\n"),
+      "2:14-15 error wrong-type: 'behavior' must be the name of a behavior, found a list\n"
+      "2:25-26 error wrong-type: 'task' must be the name of a task, found an empty mapping\n"
+      "3:14-16 error invalid-value: 'behavior' must be the name of a behavior, found an empty "
+      "text\n"
+      "3:24-26 error invalid-value: 'task' must be the name of a task, found an empty "
+      "text\n");
+  EXPECT_EQ(
+      findings("behaviors: [{behavior: B, task: X, package: []}]\n"
+               "exclusivity_constraints:\n- mutually_exclusive: [X, ~, [X]]\n"
+               "- mutually_exclusive: X\n"),
+      "1:45-46 error wrong-type: 'package' must be the name of a package, found an empty "
+      "list\n"
+      "3:27-28 error wrong-type: 'mutually_exclusive' must be a list of names of tasks, found "
+      "nothing\n"
+      "3:30-31 error wrong-type: 'mutually_exclusive' must be a list of names of tasks, found "
+      "a list\n"
+      "4:23-24 error wrong-type: 'mutually_exclusive' must be a list of names of tasks, found "
+      "'X'\n");
+}
+
+// The finding about a value of a behavior's key, without its place.
+std::string value_finding(const std::string& key_and_value) {
+  const std::string text = findings("behaviors: [{behavior: B, task: X, " + key_and_value + "}]\n");
+  return text.empty() ? "" : text.substr(text.find(' ') + 1);
+}
+
+TEST(CatalogReader, Percentages) {
+  const std::string must = "'suitability' must be a number from 0 to 100 (percent), found ";
+  for (const std::string value : {"0", "100", "99.9999", "1e1", "50.00000"}) {
+    EXPECT_EQ(value_finding("suitability: " + value), "") << value;
+  }
+  EXPECT_EQ(value_finding("suitability: high"), "error wrong-type: " + must + "'high'\n");
+  EXPECT_EQ(value_finding("suitability: 80%"), "error wrong-type: " + must + "'80%'\n");
+  EXPECT_EQ(value_finding("suitability: '80'"), "error wrong-type: " + must + "'80' in quotes\n");
+  EXPECT_EQ(value_finding("suitability: [80]"), "error wrong-type: " + must + "a list\n");
+  EXPECT_EQ(value_finding("suitability: -1"), "error invalid-value: " + must + "'-1'\n");
+  EXPECT_EQ(value_finding("suitability: 100.0001"),
+            "error invalid-value: " + must + "'100.0001'\n");
+  EXPECT_EQ(value_finding("suitability: 0.00001"),
+            "error invalid-value: 'suitability' has at most 4 decimals, found '0.00001'\n");
+}
+
+TEST(CatalogReader, Timeouts) {
+  const std::string must = "'timeout' must be a number of seconds over 0 to 1000000000, found ";
+  for (const std::string value : {"15", "0.000001", "1000000000"}) {
+    EXPECT_EQ(value_finding("timeout: " + value), "") << value;
+  }
+  EXPECT_EQ(value_finding("timeout: 15s"), "error wrong-type: " + must + "'15s'\n");
+  EXPECT_EQ(value_finding("timeout: \"15\""), "error wrong-type: " + must + "'15' in quotes\n");
+  EXPECT_EQ(value_finding("timeout: 0"), "error invalid-value: " + must + "'0'\n");
+  EXPECT_EQ(value_finding("timeout: -3"), "error invalid-value: " + must + "'-3'\n");
+  EXPECT_EQ(value_finding("timeout: 1000000001"),
+            "error invalid-value: " + must + "'1000000001'\n");
+  EXPECT_EQ(value_finding("timeout: 0.0000001"),
+            "error invalid-value: 'timeout' has at most 6 decimals, found '0.0000001'\n");
+}
+
+TEST(CatalogReader, ValuesOfTasks) {
+  EXPECT_EQ(findings("behaviors: []\ntasks:\n- task: X\n  start_on_request: 'TRUE'\n"
+                     "  reactive_start: 1\n  execution_goal: achieve\n  minimum_performance: 101\n"
+                     "  parameters: {parameter: p}\n"),
+            "4:21-27 error wrong-type: 'start_on_request' must be true or false, found 'TRUE' in "
+            "quotes\n"
+            "5:19-20 error wrong-type: 'reactive_start' must be true or false, found '1'\n"
+            "6:19-26 error invalid-value: 'execution_goal' must be achieve_goal or keep_running, "
+            "found 'achieve'; did you mean 'achieve_goal'?\n"
+            "7:24-27 error invalid-value: 'minimum_performance' must be a number from 0 to 100 "
+            "(percent), found '101'\n"
+            "8:15-16 error wrong-type: 'parameters' must be a list of parameters, found a "
+            "mapping\n");
+  EXPECT_EQ(
+      findings("behaviors: []\ntasks:\n- {task: X, category: 3, parameters: [p, {parameter: p,"
+               " allowed_values: {}}, {parameter: q, allowed_values: [1, [2], ~]}]}\n"),
+      "3:13-21 warning deprecated-key: 'category' is an older name: write 'execution_goal'\n"
+      "3:23-24 error invalid-value: 'category' must be goal_based or recurrent, found '3'\n"
+      "3:39-40 error wrong-type: a parameter must be a mapping ('parameter: NAME'), found "
+      "'p'\n"
+      "3:73-74 error wrong-type: 'allowed_values' must be a list of values, or the name of a "
+      "type, found an empty mapping\n"
+      "3:113-114 error wrong-type: 'allowed_values' must be a list of plain values, found a "
+      "list\n"
+      "3:118-119 error wrong-type: 'allowed_values' must be a list of plain values, found "
+      "nothing\n");
+}
+
+// Names ----------------------------------------------------------------------------------------
+
+TEST(CatalogReader, DuplicateBehaviors) {
+  EXPECT_EQ(findings("behaviors:\n- {behavior: B, task: X}\n- {behavior: B, task: Y}\n"
+                     "- {behavior: B, task: Z}\n"),
+            "3:14-15 error duplicate-behavior: behavior 'B' is defined twice\n"
+            "  2:14-15 first defined here\n"
+            "4:14-15 error duplicate-behavior: behavior 'B' is defined twice\n"
+            "  2:14-15 first defined here\n");
+}
+
+TEST(CatalogReader, DuplicateTasksHaveThePlaceOfTheFirstAndTheAttributesOfTheLast) {
+  const std::string text = R"(default_values: {tasks: {timeout: 15}}
+behaviors: []
+tasks:
+- {task: X, timeout: 180, execution_goal: keep_running, minimum_performance: 3}
+- {task: Y}
+- {task: X, start_on_request: no, parameters: [{parameter: p}]}
+- {task: Y, timeout: 15}
+)";
+  EXPECT_EQ(describe(read(text)),
+            "task X timeout 15000000 p()\ntask Y on_request timeout 15000000\n");
+  EXPECT_EQ(show(read(text).tasks.at(0).range), "4:10-11");
+  EXPECT_EQ(findings(text),
+            "6:10-11 warning duplicate-task: task 'X' is listed twice; the last entry counts: "
+            "execution_goal achieve_goal, was keep_running; start_on_request FALSE, was TRUE; "
+            "timeout 15 s, was 180 s; minimum_performance none, was 3 %; other parameters\n"
+            "  4:10-11 first listed here\n"
+            "7:10-11 warning duplicate-task: task 'Y' is listed twice, with the same attributes\n"
+            "  5:10-11 first listed here\n");
+}
+
+TEST(CatalogReader, OnlyTheLastEntryOfATaskHasFlags) {
+  const std::string both = "- {task: X, start_on_request: yes, reactive_start: yes}\n";
+  EXPECT_EQ(findings("behaviors: []\ntasks:\n" + both + "- {task: X}\n"),
+            "4:10-11 warning duplicate-task: task 'X' is listed twice; the last entry counts: "
+            "reactive_start FALSE, was TRUE\n  3:10-11 first listed here\n");
+}
+
+TEST(CatalogReader, UndefinedTasks) {
+  EXPECT_EQ(findings(R"(behaviors:
+- behavior: B
+  task: HOVER
+  requires:
+  - task: HOVR
+  - task: SELF_LOCALIZE_NON_EXISTENT
+  - task: B
+tasks:
+- task: SELF_LOCALIZE
+exclusivity_constraints:
+- mutually_exclusive: [HOVER, MOON]
+)"),
+            "5:11-15 error undefined-task: task 'HOVR', required by behavior 'B', is not defined; "
+            "did you mean 'HOVER'?\n"
+            "6:11-37 error undefined-task: task 'SELF_LOCALIZE_NON_EXISTENT', required by behavior "
+            "'B', is not defined; did you mean 'SELF_LOCALIZE'?\n"
+            "7:11-12 error undefined-task: task 'B', required by behavior 'B', is not defined: "
+            "there is a behavior of this name, but no task\n"
+            "11:31-35 error undefined-task: task 'MOON', named in an exclusivity list, is not "
+            "defined\n");
+}
+
+TEST(CatalogReader, UndefinedTasksThatOtherFindingsExplain) {
+  // The section that may define them could not be read.
+  EXPECT_EQ(findings("behaviors: [{behavior: B, task: X, requires: [{task: MOON}]}]\ntasks: 3\n"),
+            "2:8-9 error wrong-type: 'tasks' must be a list of tasks, found '3'\n");
+  // The entry that may define it has no name.
+  EXPECT_EQ(findings("behaviors: [{behavior: B, task: X, requires: [{task: MOON}]}]\n"
+                     "tasks: [{timeout: 3}]\n"),
+            "2:9-10 error missing-key: missing key 'task' in a task\n");
+  // The name is there, though in the wrong form.
+  EXPECT_EQ(findings("behaviors: [{behavior: B, task: X, requires: [{task: MOON}, {task: SUN}]}]\n"
+                     "tasks: [{task: [MOON]}, SUN]\n"),
+            "2:16-17 error wrong-type: 'task' must be the name of a task, found a list\n"
+            "2:25-28 error wrong-type: a task must be a mapping ('task: NAME'), found 'SUN'\n");
+  // A behavior without a task hides nothing.
+  EXPECT_EQ(
+      findings("behaviors:\n- behavior: A\n- {behavior: B, task: X, requires: [{task: MOON}]}\n"),
+      "2:13-14 error missing-key: missing key 'task' in behavior 'A'\n"
+      "3:44-48 error undefined-task: task 'MOON', required by behavior 'B', is not defined\n");
+}
+
+TEST(CatalogReader, AliasesGiveOneFinding) {
+  EXPECT_EQ(findings("behaviors:\n- {behavior: A, task: X, requires: &r [{task: MOON, suit: 3}]}\n"
+                     "- {behavior: A2, task: X, requires: *r}\n"),
+            "2:47-51 error undefined-task: task 'MOON', required by behavior 'A', is not defined\n"
+            "2:53-57 warning unknown-key: unknown key 'suit' in a requirement\n");
+}
+
+// Requirements ---------------------------------------------------------------------------------
+
+TEST(CatalogReader, RequirementCycles) {
+  EXPECT_EQ(findings(R"(behaviors:
+- {behavior: A, task: X, requires: [{task: W}, {task: Y}]}
+- {behavior: B, task: Y, requires: [{task: Z}]}
+- {behavior: C, task: Z, requires: [{task: X}]}
+- {behavior: D, task: W}
+)"),
+            "2:55-56 error requirement-cycle: tasks require one another: 'X' -> 'Y' -> 'Z' -> 'X'\n"
+            "  2:55-56 behavior 'A', which performs 'X', requires 'Y'\n"
+            "  3:44-45 behavior 'B', which performs 'Y', requires 'Z'\n"
+            "  4:44-45 behavior 'C', which performs 'Z', requires 'X'\n");
+}
+
+TEST(CatalogReader, OneShortestCycleForEachSetOfTasks) {
+  EXPECT_EQ(findings(R"(behaviors:
+- {behavior: A, task: P, requires: [{task: Q}]}
+- {behavior: B, task: Q, requires: [{task: R}, {task: X}]}
+- {behavior: C, task: R, requires: [{task: P}, {task: Q}]}
+- {behavior: D, task: X, requires: [{task: Y}]}
+- {behavior: E, task: Y, requires: [{task: X}]}
+)"),
+            "3:44-45 error requirement-cycle: tasks require one another: 'Q' -> 'R' -> 'Q'\n"
+            "  3:44-45 behavior 'B', which performs 'Q', requires 'R'\n"
+            "  4:55-56 behavior 'C', which performs 'R', requires 'Q'\n"
+            "5:44-45 error requirement-cycle: tasks require one another: 'X' -> 'Y' -> 'X'\n"
+            "  5:44-45 behavior 'D', which performs 'X', requires 'Y'\n"
+            "  6:44-45 behavior 'E', which performs 'Y', requires 'X'\n");
+}
+
+TEST(CatalogReader, CyclesOfOneBehavior) {
+  EXPECT_EQ(findings("behaviors: [{behavior: A, task: X, requires: [{task: X}]}]\n"),
+            "1:54-55 error requirement-cycle: tasks require one another: 'X' -> 'X'\n"
+            "  1:54-55 behavior 'A', which performs 'X', requires 'X'\n");
+  // One of several tasks; performed and required by the same behavior.
+  EXPECT_EQ(
+      findings(
+          "behaviors: [{behavior: A, tasks: [{task: X}, {task: Y}], requires: [{task: Y}]}]\n"),
+      "1:76-77 error requirement-cycle: tasks require one another: 'Y' -> 'Y'\n"
+      "  1:76-77 behavior 'A', which performs 'Y', requires 'Y'\n");
+}
+
+TEST(CatalogReader, DiamondsAreNoCycles) {
+  EXPECT_EQ(findings(R"(behaviors:
+- {behavior: A, task: X, requires: [{task: Y}, {task: Z}]}
+- {behavior: B, task: Y, requires: [{task: W}]}
+- {behavior: C, task: Z, requires: [{task: W}]}
+- {behavior: D, task: W}
+)"),
+            "");
+}
+
+TEST(CatalogReader, LongCyclesAreShownByTheirBeginning) {
+  std::string text = "behaviors:\n";
+  for (int i = 0; i < 12; ++i) {
+    text += "- {behavior: B" + std::to_string(i) + ", task: T" + std::to_string(i) +
+            ", requires: [{task: T" + std::to_string((i + 1) % 12) + "}]}\n";
+  }
+  const std::string found = findings(text);
+  EXPECT_EQ(found.substr(0, found.find('\n')),
+            "2:46-48 error requirement-cycle: tasks require one another: 'T0' -> 'T1' -> 'T2' -> "
+            "'T3' -> 'T4' -> 'T5' -> 'T6' -> 'T7' -> 'T8' -> 'T9' -> ... -> 'T0'");
+  // All steps are in the notes.
+  EXPECT_NE(found.find("13:48-50 behavior 'B11', which performs 'T11', requires 'T0'"),
+            std::string::npos);
+}
+
+TEST(CatalogReader, ExclusiveRequirements) {
+  EXPECT_EQ(findings(R"(behaviors:
+- {behavior: A, task: X, requires: [{task: Y}, {task: Y}, {task: Z}]}
+- {behavior: B, task: Y}
+- {behavior: C, task: Z}
+exclusivity_constraints:
+- mutually_exclusive: [Z, Y]
+- mutually_exclusive: [Y, Z, X2, X]
+)"
+                     "tasks: [{task: X2}]\n"),
+            "2:44-45 warning exclusive-requirement: behavior 'A' requires 'Y', which excludes 'X', "
+            "the task it performs\n"
+            "  7:3-21 mutually exclusive by this list\n"
+            "2:66-67 warning exclusive-requirement: behavior 'A' requires 'Z', which excludes 'X', "
+            "the task it performs\n"
+            "  7:3-21 mutually exclusive by this list\n");
+}
+
+TEST(CatalogReader, ARequirementMustExcludeAllTasksOfABehavior) {
+  const std::string behaviors =
+      "behaviors:\n- {behavior: A, tasks: [{task: X}, {task: Y}], requires: [{task: Z}]}\n"
+      "- {behavior: B, task: Z}\nexclusivity_constraints:\n- mutually_exclusive: [X, Z]\n";
+  EXPECT_EQ(findings(behaviors), "");
+  EXPECT_EQ(findings(behaviors + "- mutually_exclusive: [Z, Y]\n"),
+            "2:66-67 warning exclusive-requirement: behavior 'A' requires 'Z', which excludes every "
+            "task it performs\n"
+            "  5:3-21 mutually exclusive by this list\n");
+}
+
+// All at once ----------------------------------------------------------------------------------
+
+TEST(CatalogReader, ReportsAllProblemsAtOnce) {
+  EXPECT_EQ(findings(R"(default_values: {tasks: {timeout: never}}
+behaviors:
+- behavior: A
+- behavior: B
+  task: X
+  suitability: 120
+  requires:
+  - task: MOON
+  - task: X
+- behavior: B
+  task: Y
+tasks:
+- task: X
+  reactive_start: maybe
+- task: X
+)"),
+            "1:35-40 error wrong-type: 'timeout' must be a number of seconds over 0 to 1000000000, "
+            "found 'never'\n"
+            "3:13-14 error missing-key: missing key 'task' in behavior 'A'\n"
+            "6:16-19 error invalid-value: 'suitability' must be a number from 0 to 100 (percent), "
+            "found '120'\n"
+            "8:11-15 error undefined-task: task 'MOON', required by behavior 'B', is not defined\n"
+            "9:11-12 error requirement-cycle: tasks require one another: 'X' -> 'X'\n"
+            "  9:11-12 behavior 'B', which performs 'X', requires 'X'\n"
+            "10:13-14 error duplicate-behavior: behavior 'B' is defined twice\n"
+            "  4:13-14 first defined here\n"
+            "14:19-24 error wrong-type: 'reactive_start' must be true or false, found 'maybe'\n"
+            "15:9-10 warning duplicate-task: task 'X' is listed twice, with the same attributes\n"
+            "  13:9-10 first listed here\n");
+}
+
+TEST(CatalogReader, SyntaxErrorsAreFindings) {
+  EXPECT_EQ(findings("behaviors: [\n"),
+            "2:1-1 error yaml-syntax: expected ',' or ']' in a list in brackets\n"
+            "  1:12-13 opened here\n");
+}
+
+TEST(CatalogReader, LargeCatalogsTakeLinearTime) {
+  // Chains, shared lists and unknown names that would take minutes if anything were quadratic.
+  constexpr int tasks = 5'000;
+  std::string text = "behaviors:\n";
+  for (int i = 0; i < tasks; ++i) {
+    text += "- {behavior: b" + std::to_string(i) + ", task: t" + std::to_string(i) +
+            ", requires: [{task: t" + std::to_string((i + 1) % tasks) + "}, {task: unknown" +
+            std::to_string(i) + "}]}\n";
+  }
+  text += "exclusivity_constraints:\n";
+  for (int i = 0; i < tasks; ++i)
+    text += "- mutually_exclusive: [t0, t" + std::to_string(i) + "]\n";
+  Diagnostics diagnostics;
+  EXPECT_FALSE(read_catalog(text, "a.yaml", diagnostics).has_value());
+  // The unknown ones, one cycle, and t0 that excludes what it requires and what requires it.
+  EXPECT_EQ(diagnostics.all().size(), tasks + 1U + 2U);
+}
+
+}  // namespace
+}  // namespace cbc

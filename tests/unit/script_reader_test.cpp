@@ -1,0 +1,440 @@
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "script/reader.h"
+#include "unit/findings.h"
+#include "yaml/document.h"
+
+namespace cbc {
+namespace {
+
+const ScriptNames& names() {
+  static const ScriptNames names{{"TAKE_OFF", "LAND", "HOVER", "BOTH"},
+                                 {"TAKE_OFF_BASIC", "HOVER_PID", "HOVER_MPC", "BOTH", "any"}};
+  return names;
+}
+
+struct Result {
+  std::optional<Script> script;
+  std::string findings;
+};
+
+Result read_any(std::string_view text) {
+  Diagnostics diagnostics;
+  const auto document = yaml::parse(text, "s.yaml", diagnostics);
+  Result result;
+  if (document != nullptr) result.script = read_script(*document, names(), diagnostics);
+  EXPECT_EQ(result.script.has_value(), !diagnostics.has_errors()) << text;
+  result.findings = show(diagnostics);
+  return result;
+}
+
+std::string findings(std::string_view text) { return read_any(text).findings; }
+
+Script read(std::string_view text) {
+  Result result = read_any(text);
+  EXPECT_EQ(result.findings, "") << text;
+  return result.script.value_or(Script{});
+}
+
+std::string describe(const std::vector<Availability>& situation) {
+  std::string text;
+  for (const Availability& entry : situation) {
+    text += " " + std::to_string(entry.behavior) + (entry.available ? "+" : "-");
+  }
+  return text;
+}
+
+std::string describe(const Expectation& expectation) {
+  std::string text = "expect";
+  if (expectation.outcome) text += " " + std::string(name_of(*expectation.outcome));
+  for (const Expectation::Running& running : expectation.running) {
+    text += " running " + std::to_string(running.task) + "=" +
+            (running.behavior ? std::to_string(*running.behavior) : "any");
+  }
+  for (const std::uint32_t task : expectation.stopped) text += " stopped " + std::to_string(task);
+  if (expectation.active) {
+    text += " active";
+    for (const std::uint32_t behavior : *expectation.active) text += " " + std::to_string(behavior);
+  }
+  return text;
+}
+
+std::string describe(const Step& step) {
+  std::string text = step.time ? "@" + std::to_string(*step.time) + " " : "";
+  if (step.expect) return text + describe(*step.expect);
+  text += std::string(name_of(step.verb)) + " " + std::to_string(step.subject);
+  if (step.priority) text += " priority " + std::to_string(*step.priority);
+  if (step.parameters) text += " parameters " + step.parameters->json;
+  if (step.verb == Verb::finish) text += " " + std::string(name_of(step.cause));
+  return text + describe(step.situation);
+}
+
+std::string describe(const Script& script) {
+  std::string text;
+  for (const Step& step : script.steps) text += describe(step) + "\n";
+  return text;
+}
+
+// What is read ---------------------------------------------------------------------------------
+
+TEST(ScriptReader, ReadsEverything) {
+  const Script script = read(R"(catalog: a.yaml
+reactive_delay: 0.5
+situation: {HOVER_PID: false, HOVER_MPC: yes}
+events:
+- start: TAKE_OFF
+  priority: 2
+- finish: TAKE_OFF_BASIC
+  at: 4.0
+- finish: HOVER_MPC
+  cause: wrong_progress
+  wait: 0.000001
+- start: HOVER
+  parameters: {path: [[1, 1.5]], x: ~}
+- stop: HOVER
+- stop: LAND
+  priority: 0
+- situation: {HOVER_PID: true}
+- fault: HOVER_PID
+- repair: HOVER_PID
+- at: 6
+- wait: 1.5
+- expect:
+    outcome: accepted
+    running: {HOVER: HOVER_MPC, LAND: any}
+    stopped: [TAKE_OFF]
+    active: [HOVER_MPC, BOTH]
+- expect: {active: []}
+  wait: 1
+)");
+  EXPECT_EQ(script.file, "s.yaml");
+  EXPECT_EQ(script.reactive_delay, 500'000);
+  EXPECT_EQ(describe(script.situation), " 1- 2+");
+  EXPECT_EQ(describe(script), R"(start 0 priority 2
+@4000000 finish 0 goal_achieved
+@4000001 finish 2 wrong_progress
+start 2 parameters {"path":[[1,1.5]],"x":null}
+stop 2
+stop 1 priority 0
+situation 0 1+
+fault 1
+repair 1
+@6000000 wait 0
+@7500000 wait 0
+expect accepted running 2=2 running 1=any stopped 0 active 2 3
+@8500000 expect active
+)");
+  EXPECT_EQ(show(script.steps.at(1).range), "7:3-4");
+}
+
+TEST(ScriptReader, AScriptMayBeABareListOrJson) {
+  EXPECT_EQ(describe(read("- start: LAND\n- stop: LAND\n")), "start 1\nstop 1\n");
+  EXPECT_EQ(describe(read(R"({"events": [{"start": "LAND", "priority": 3, "wait": 1e1}]})")),
+            "@10000000 start 1 priority 3\n");
+  EXPECT_EQ(read("[]").reactive_delay, 80'000);
+  EXPECT_EQ(describe(read("events: []")), "");
+}
+
+TEST(ScriptReader, AllCauses) {
+  for (const std::string cause : {"goal_achieved", "time_out", "wrong_progress", "situation_change",
+                                  "process_failure", "interrupted"}) {
+    EXPECT_EQ(describe(read("- {finish: HOVER_PID, cause: " + cause + "}")),
+              "finish 1 " + cause + "\n");
+  }
+}
+
+TEST(ScriptReader, NullIsAbsent) {
+  EXPECT_EQ(describe(read("catalog: ~\nreactive_delay:\nsituation: ~\nevents:\n"
+                          "- {start: LAND, priority: ~, parameters: null, at: ~, wait: ~, stop: ~, "
+                          "cause: ~}\n"
+                          "- {expect: {outcome: ~, running: ~, stopped: ~, active: ~}}\n")),
+            "start 1\nexpect\n");
+  EXPECT_FALSE(read("- {start: LAND, parameters: ~}").steps.at(0).parameters.has_value());
+  EXPECT_EQ(read("- {start: LAND, parameters: {}}").steps.at(0).parameters.value().canonical, "");
+}
+
+TEST(ScriptReader, TheCatalogOfAScript) {
+  const auto catalog = [](std::string_view text) {
+    Diagnostics diagnostics;
+    const auto document = yaml::parse(text, "s.yaml", diagnostics);
+    return document == nullptr ? std::nullopt : catalog_of_script(*document);
+  };
+  EXPECT_EQ(catalog("catalog: ../a.yaml\nevents: []"), "../a.yaml");
+  EXPECT_EQ(catalog("events: []"), std::nullopt);
+  EXPECT_EQ(catalog("catalog: ~\nevents: []"), std::nullopt);
+  EXPECT_EQ(catalog("catalog: [a]\nevents: []"), std::nullopt);
+  EXPECT_EQ(catalog("- start: LAND"), std::nullopt);
+  EXPECT_EQ(catalog(""), std::nullopt);
+}
+
+// Errors of form -------------------------------------------------------------------------------
+
+TEST(ScriptReader, WrongScripts) {
+  EXPECT_EQ(findings(""), "1:1-1 error missing-key: missing key 'events': the script is empty\n");
+  EXPECT_EQ(findings("hello"),
+            "1:1-6 error wrong-type: a script must be a list of events, or a mapping with the key "
+            "'events', found 'hello'\n");
+  EXPECT_EQ(findings("catalog: a.yaml"),
+            "1:1-2 error missing-key: missing key 'events' in a script\n");
+  EXPECT_EQ(
+      findings("event: []"),
+      "1:1-6 error missing-key: missing key 'events' in a script: 'event' is unknown; did you "
+      "mean 'events'?\n");
+  EXPECT_EQ(findings("events: {start: LAND}"),
+            "1:9-10 error wrong-type: 'events' must be a list of events, found a mapping\n");
+  EXPECT_EQ(findings("events: []\nevents: []\n"),
+            "2:1-7 error duplicate-key: 'events' is given twice\n  1:1-7 first given here\n");
+  EXPECT_EQ(
+      findings("catalog: []\nreactive_delay: 0\nsituation: HOVER\ndelay: 1\nevents: []\n"),
+      "1:10-11 error wrong-type: 'catalog' must be the path of a catalog, found an empty "
+      "list\n"
+      "2:17-18 error invalid-value: 'reactive_delay' must be a number of seconds over 0 to "
+      "1000000000, found '0'\n"
+      "3:12-17 error wrong-type: 'situation' must be a mapping of behaviors to true or false, "
+      "found 'HOVER'\n"
+      "4:1-6 error unknown-key: unknown key 'delay' in a script; did you mean "
+      "'reactive_delay'?\n");
+}
+
+TEST(ScriptReader, OneVerbForEachEvent) {
+  EXPECT_EQ(
+      findings("- {stop: LAND, start: LAND}\n- {}\n- {priority: 3}\n- start:\n- 7\n- ~\n"),
+      "1:16-21 error invalid-value: an event has one verb, found 'stop' and 'start'\n"
+      "  1:4-8 the first one is here\n"
+      "2:3-4 error missing-key: an event needs one of 'start', 'stop', 'finish', 'situation', "
+      "'fault', 'repair', 'expect', 'at' and 'wait'\n"
+      "3:3-4 error missing-key: an event needs one of 'start', 'stop', 'finish', 'situation', "
+      "'fault', 'repair', 'expect', 'at' and 'wait'\n"
+      "4:3-8 error missing-key: 'start' has no value\n"
+      "5:3-4 error wrong-type: an event must be a mapping ('start: TASK'), found '7'\n"
+      "6:3-4 error wrong-type: an event must be a mapping ('start: TASK'), found nothing\n");
+}
+
+TEST(ScriptReader, UnknownKeysAreErrors) {
+  EXPECT_EQ(findings("- strat: LAND\n- {finsh: HOVER_PID, at: 3}\n- {start: LAND, prioritty: 2}\n"
+                     "- {wait: 1, for: 3}\n"),
+            "1:3-8 error unknown-key: unknown key 'strat' in an event; did you mean 'start'?\n"
+            "2:4-9 error unknown-key: unknown key 'finsh' in an event; did you mean 'finish'?\n"
+            "3:17-26 error unknown-key: unknown key 'prioritty' in an event; did you mean "
+            "'priority'?\n"
+            "4:13-16 error unknown-key: unknown key 'for' in an event\n");
+  EXPECT_EQ(
+      findings("- {start: LAND, outcome: accepted}\n- expect: {stoped: [], at: 3}\n"),
+      "1:17-24 error unknown-key: unknown key 'outcome' in an event: it belongs to an expect, "
+      "one level down\n"
+      "2:12-18 error unknown-key: unknown key 'stoped' in an expect; did you mean "
+      "'stopped'?\n"
+      "2:24-26 error unknown-key: unknown key 'at' in an expect: it belongs to an event, one "
+      "level up\n");
+}
+
+TEST(ScriptReader, KeysOfOtherVerbs) {
+  EXPECT_EQ(
+      findings("- {finish: HOVER_PID, priority: 2}\n- {start: LAND, cause: time_out}\n"
+               "- {stop: LAND, parameters: {}}\n- {wait: 3, priority: 1}\n"
+               "- {expect: {}, cause: time_out}\n"),
+      "1:23-31 error unknown-key: 'priority' does not belong to 'finish', only to 'start' and "
+      "'stop'\n"
+      "2:17-22 error unknown-key: 'cause' does not belong to 'start', only to 'finish'\n"
+      "3:16-26 error unknown-key: 'parameters' does not belong to 'stop', only to 'start'\n"
+      "4:13-21 error unknown-key: 'priority' does not belong to 'wait', only to 'start' and "
+      "'stop'\n"
+      "5:16-21 error unknown-key: 'cause' does not belong to 'expect', only to 'finish'\n");
+}
+
+TEST(ScriptReader, DuplicateKeys) {
+  EXPECT_EQ(findings("- {start: LAND, start: HOVER}\n"
+                     "- {start: LAND, parameters: {a: 1, b: [{c: 1, c: 2}], a: 3}}\n"
+                     "- {situation: {HOVER_PID: yes, HOVER_PID: no}}\n"
+                     "- {expect: {running: {LAND: any, LAND: any}}}\n"),
+            "1:17-22 error duplicate-key: 'start' is given twice\n  1:4-9 first given here\n"
+            "2:47-48 error duplicate-key: 'c' is given twice\n  2:41-42 first given here\n"
+            "2:55-56 error duplicate-key: 'a' is given twice\n  2:30-31 first given here\n"
+            "3:32-41 error duplicate-key: 'HOVER_PID' is given twice\n  3:16-25 first given here\n"
+            "4:34-38 error duplicate-key: 'LAND' is given twice\n  4:23-27 first given here\n");
+}
+
+// Names and values -----------------------------------------------------------------------------
+
+TEST(ScriptReader, UnknownNames) {
+  EXPECT_EQ(findings("- start: LAMD\n- finish: HOVER_PIT\n- stop: MOON\n- fault: SUN\n"
+                     "- situation: {HOVER_MPX: true}\n"),
+            "1:10-14 error undefined-task: there is no task 'LAMD'; did you mean 'LAND'?\n"
+            "2:11-20 error undefined-behavior: there is no behavior 'HOVER_PIT'; did you mean "
+            "'HOVER_PID'?\n"
+            "3:9-13 error undefined-task: there is no task 'MOON'\n"
+            "4:10-13 error undefined-behavior: there is no behavior 'SUN'\n"
+            "5:15-24 error undefined-behavior: there is no behavior 'HOVER_MPX'; did you mean "
+            "'HOVER_MPC'?\n");
+}
+
+TEST(ScriptReader, TasksAndBehaviorsTakenForEachOther) {
+  EXPECT_EQ(
+      findings("- start: TAKE_OFF_BASIC\n- finish: LAND\n- {start: BOTH}\n- {fault: BOTH}\n"),
+      "1:10-24 error undefined-task: there is no task 'TAKE_OFF_BASIC': it is a behavior; did "
+      "you mean 'TAKE_OFF'?\n"
+      "2:11-15 error undefined-behavior: there is no behavior 'LAND': it is a task\n");
+}
+
+TEST(ScriptReader, NamesInExpectations) {
+  EXPECT_EQ(
+      findings("- expect:\n    outcome: acepted\n    running: {LAMD: any, LAND: HOVER, HOVER: ~}\n"
+               "    stopped: LAND\n    active: [HOVER_PIT, ~]\n"),
+      "2:14-21 error invalid-value: 'outcome' must be accepted, rejected or unchanged, found "
+      "'acepted'; did you mean 'accepted'?\n"
+      "3:15-19 error undefined-task: there is no task 'LAMD'; did you mean 'LAND'?\n"
+      "3:32-37 error undefined-behavior: there is no behavior 'HOVER': it is a task; did you "
+      "mean 'HOVER_PID'?\n"
+      "3:46-47 error wrong-type: 'HOVER' must be a behavior or 'any', found nothing\n"
+      "4:14-18 error wrong-type: 'stopped' must be a list of tasks, found 'LAND'\n"
+      "5:14-23 error undefined-behavior: there is no behavior 'HOVER_PIT'; did you mean "
+      "'HOVER_PID'?\n"
+      "5:25-26 error wrong-type: 'active' must be the name of a behavior, found nothing\n");
+}
+
+TEST(ScriptReader, Priorities) {
+  const std::string must = "error invalid-value: 'priority' must be an integer from ";
+  EXPECT_EQ(findings("- {start: LAND, priority: 0}\n- {stop: LAND, priority: -1}\n"
+                     "- {start: LAND, priority: 2147483648}\n"),
+            "1:27-28 " + must + "1 to 2147483647, found '0'\n" + "2:26-28 " + must +
+                "0 to 2147483647, found '-1'\n" + "3:27-37 " + must +
+                "1 to 2147483647, found '2147483648'\n");
+  EXPECT_EQ(findings("- {start: LAND, priority: 1.5}\n- {start: LAND, priority: '1'}\n"),
+            "1:27-30 error wrong-type: 'priority' must be an integer from 1 to 2147483647, found "
+            "'1.5'\n"
+            "2:27-30 error wrong-type: 'priority' must be an integer from 1 to 2147483647, found "
+            "'1' in quotes\n");
+  EXPECT_EQ(describe(read("- {start: LAND, priority: 2147483647}")),
+            "start 1 priority 2147483647\n");
+}
+
+TEST(ScriptReader, OtherValues) {
+  EXPECT_EQ(
+      findings("- {finish: HOVER_PID, cause: timeout}\n- situation: [HOVER_PID]\n"
+               "- situation: {HOVER_PID: 'true', HOVER_MPC: }\n- {start: LAND, parameters: 3}\n"
+               "- {start: [LAND]}\n- {start: ''}\n- expect: 3\n"),
+      "1:30-37 error invalid-value: 'cause' must be goal_achieved, time_out, wrong_progress, "
+      "situation_change, process_failure or interrupted, found 'timeout'; did you mean "
+      "'time_out'?\n"
+      "2:14-15 error wrong-type: 'situation' must be a mapping of behaviors to true or false, "
+      "found a list\n"
+      "3:26-32 error wrong-type: 'HOVER_PID' must be true or false, found 'true' in quotes\n"
+      "3:34-43 error wrong-type: 'HOVER_MPC' must be true or false, found nothing\n"
+      "4:29-30 error wrong-type: 'parameters' must be a mapping, found '3'\n"
+      "5:11-12 error wrong-type: 'start' must be the name of a task, found a list\n"
+      "6:11-13 error invalid-value: 'start' must be the name of a task, found an empty text\n"
+      "7:11-12 error wrong-type: 'expect' must be a mapping, found '3'\n");
+}
+
+// Time -----------------------------------------------------------------------------------------
+
+TEST(ScriptReader, TimeNeverGoesBack) {
+  EXPECT_EQ(
+      findings("- at: 5\n- {wait: 0.5}\n- {start: LAND, at: 5.499999}\n- {start: LAND, at: 5.5}\n"
+               "- {expect: {}, at: 1}\n- wait: 1\n- at: 6.4\n"),
+      "3:21-29 error time-order: time goes back to 5.499999 s: the event before is at 5.5 s\n"
+      "5:20-21 error time-order: time goes back to 1 s: the event before is at 5.5 s\n"
+      "7:7-10 error time-order: time goes back to 6.4 s: the event before is at 6.5 s\n");
+}
+
+TEST(ScriptReader, Times) {
+  EXPECT_EQ(findings("- {at: 1, wait: 2}\n- {wait: 2, start: LAND, at: 1}\n"),
+            "1:11-15 error invalid-value: 'at' and 'wait' are both given in an event\n"
+            "  1:4-6 first given here\n"
+            "2:26-28 error invalid-value: 'at' and 'wait' are both given in an event\n"
+            "  2:4-8 first given here\n");
+  const std::string must = " must be a number of seconds from 0 to 1000000000, found ";
+  EXPECT_EQ(
+      findings("- at: -1\n- wait: soon\n- wait: '1'\n- wait: 0.0000001\n- at: 1000000000.1\n"),
+      "1:7-9 error invalid-value: 'at'" + must + "'-1'\n" + "2:9-13 error wrong-type: 'wait'" +
+          must + "'soon'\n" + "3:9-12 error wrong-type: 'wait'" + must + "'1' in quotes\n" +
+          "4:9-18 error invalid-value: 'wait' has at most 6 decimals, found '0.0000001'\n" +
+          "5:7-19 error invalid-value: 'at'" + must + "'1000000000.1'\n");
+  EXPECT_EQ(findings("- at: 1000000000\n- wait: 0\n- wait: 0.000001\n"),
+            "3:9-17 error invalid-value: after this wait it is later than 1000000000 s, the end of "
+            "time\n");
+}
+
+// Parameters -----------------------------------------------------------------------------------
+
+Parameters parameters(const std::string& value) {
+  const Script script = read("- {start: LAND, parameters: " + value + "}\n");
+  return script.steps.empty() ? Parameters{} : script.steps[0].parameters.value_or(Parameters{});
+}
+
+bool same(const std::string& a, const std::string& b) {
+  return parameters(a).canonical == parameters(b).canonical;
+}
+
+TEST(ScriptParameters, AreComparedAsData) {
+  EXPECT_TRUE(same("{a: 1, b: 2}", "{b: 2, a: 1}"));
+  EXPECT_TRUE(same("{a: 1}", "{'a': \"1\"}"));
+  EXPECT_TRUE(same("{a: {x: 1, y: [1, 2]}}", "{a: {y: ['1', 2], x: 1}}"));
+  EXPECT_FALSE(same("{a: 1}", "{a: 2}"));
+  EXPECT_FALSE(same("{a: 1}", "{b: 1}"));
+  EXPECT_FALSE(same("{a: 1}", "{a: 1.0}"));
+  EXPECT_FALSE(same("{a: [1, 2]}", "{a: [2, 1]}"));
+  EXPECT_FALSE(same("{a: 1}", "{a: [1]}"));
+  EXPECT_FALSE(same("{a: {b: 1}}", "{a: [b, 1]}"));
+}
+
+TEST(ScriptParameters, NullEmptyAndAbsentAreAlikeAtEveryDepth) {
+  for (const std::string nothing :
+       {"~", "null", "''", "[]", "{}", "[[], ~, '']", "{b: ~, c: {d: []}}"}) {
+    EXPECT_EQ(parameters("{a: " + nothing + "}").canonical, "") << nothing;
+    EXPECT_TRUE(same("{x: 1, a: " + nothing + "}", "{x: 1}")) << nothing;
+    EXPECT_TRUE(same("{x: [1, " + nothing + "]}", "{x: [1]}")) << nothing;
+    EXPECT_TRUE(same("{x: [" + nothing + ", 1]}", "{x: [~, 1]}")) << nothing;
+  }
+  EXPECT_EQ(parameters("{}").canonical, "");
+  EXPECT_FALSE(same("{x: [~, 1]}", "{x: [1]}"));
+  EXPECT_FALSE(same("{x: [1, ~, 2]}", "{x: [1, 2]}"));
+  EXPECT_FALSE(same("{x: 'null'}", "{x: null}"));
+  EXPECT_FALSE(same("{x: '~'}", "{}"));
+}
+
+TEST(ScriptParameters, DifferentDataHaveDifferentTexts) {
+  EXPECT_FALSE(same("{a: '1s1:bs1:2'}", "{a: 1, b: 2}"));
+  EXPECT_FALSE(same("{a: [1, 2]}", "{a: ['1, 2']}"));
+  EXPECT_FALSE(same("{a: [s1:x]}", "{a: [[x]]}"));
+  EXPECT_FALSE(same("{a: [n, 1]}", "{a: [~, 1]}"));
+  EXPECT_FALSE(same("{a: [[1], 2]}", "{a: [[1, 2]]}"));
+  EXPECT_FALSE(same("{a: {b: 1}, c: 2}", "{a: {b: 1, c: 2}}"));
+}
+
+TEST(ScriptParameters, JsonKeepsTheOrderAndTheValues) {
+  EXPECT_EQ(parameters("{b: 1, a: [1.5, -2, true, false, ~, x], c: {}, d: []}").json,
+            R"({"b":1,"a":[1.5,-2,true,false,null,"x"],"c":{},"d":[]})");
+  EXPECT_EQ(parameters("{}").json, "{}");
+}
+
+TEST(ScriptParameters, JsonHasNumbersOnlyWhereJsonWouldWriteThemSo) {
+  EXPECT_EQ(parameters("{a: [0, 10, -1, 0.1, 1.0, 18446744073709551615]}").json,
+            R"({"a":[0,10,-1,0.1,1.0,18446744073709551615]})");
+  EXPECT_EQ(parameters("{a: [01, +1, 1e5, 1.50, 0x10, -0, .5, 1., 1_0, .inf, 1e999, "
+                       "123456789012345678901]}")
+                .json,
+            R"({"a":["01","+1","1e5","1.50","0x10","-0",".5","1.","1_0",".inf","1e999",)"
+            R"("123456789012345678901"]})");
+  EXPECT_EQ(parameters("{a: ['1', 'true', 'null', True, yes, Null]}").json,
+            R"({"a":["1","true","null","True","yes",null]})");
+}
+
+TEST(ScriptParameters, JsonIsValidForAnyText) {
+  const std::string json = parameters(R"({"a\"\\\n\0": "é\t\x01\u2028/"})").json;
+  EXPECT_EQ(json, "{\"a\\\"\\\\\\n\\u0000\":\"é\\t\\u0001\xE2\x80\xA8/\"}");
+  EXPECT_TRUE(nlohmann::json::accept(json));
+}
+
+TEST(ScriptParameters, AliasesAreWrittenOut) {
+  EXPECT_EQ(parameters("{a: &x [1], b: *x}").json, R"({"a":[1],"b":[1]})");
+  EXPECT_TRUE(same("{a: &x [1], b: *x}", "{a: [1], b: [1]}"));
+}
+
+}  // namespace
+}  // namespace cbc

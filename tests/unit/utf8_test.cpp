@@ -1,0 +1,79 @@
+#include "text/utf8.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "text/position_map.h"
+#include "text/quote.h"
+
+namespace cbc {
+namespace {
+
+TEST(Utf8, CountsCharacters) {
+  EXPECT_EQ(utf8::count_characters(""), 0U);
+  EXPECT_EQ(utf8::count_characters("abc"), 3U);
+  EXPECT_EQ(utf8::count_characters("é日😀"), 3U);
+  EXPECT_EQ(utf8::count_characters("\xff\x80z"), 3U);
+}
+
+TEST(Utf8, FindsTheFirstInvalidByte) {
+  EXPECT_EQ(utf8::find_invalid("aé日😀"), std::nullopt);
+  EXPECT_EQ(utf8::find_invalid("ab\xff"), 2U);
+  EXPECT_EQ(utf8::find_invalid("\x80"), 0U);                        // a continuation alone
+  EXPECT_EQ(utf8::find_invalid("a\xc3"), 1U);                       // cut short
+  EXPECT_EQ(utf8::find_invalid("a\xe6\x97"), 1U);                   // cut short
+  EXPECT_EQ(utf8::find_invalid("\xc3z"), 0U);                       // no continuation
+  EXPECT_EQ(utf8::find_invalid("\xc0\xaf"), 0U);                    // overlong
+  EXPECT_EQ(utf8::find_invalid("\xe0\x80\x80"), 0U);                // overlong
+  EXPECT_EQ(utf8::find_invalid("\xed\xa0\x80"), 0U);                // surrogate
+  EXPECT_EQ(utf8::find_invalid("\xf4\x90\x80\x80"), 0U);            // beyond Unicode
+  EXPECT_EQ(utf8::find_invalid("\xf4\x8f\xbf\xbf"), std::nullopt);  // the last one
+}
+
+TEST(PositionMap, CountsLinesAndCharacters) {
+  const PositionMap map("aé\nb\r\n\nc");
+  EXPECT_EQ(map.at(0), (Position{1, 1}));
+  EXPECT_EQ(map.at(1), (Position{1, 2}));
+  EXPECT_EQ(map.at(3), (Position{1, 3}));  // the line break
+  EXPECT_EQ(map.at(4), (Position{2, 1}));
+  EXPECT_EQ(map.at(7), (Position{3, 1}));
+  EXPECT_EQ(map.at(8), (Position{4, 1}));
+  EXPECT_EQ(map.at(9), (Position{4, 2}));
+  EXPECT_EQ(map.at(1'000), (Position{4, 2}));
+  EXPECT_EQ(map.line(1), "aé");
+  EXPECT_EQ(map.line(2), "b");
+  EXPECT_EQ(map.line(3), "");
+  EXPECT_EQ(map.line(4), "c");
+  EXPECT_EQ(map.line(5), "");
+  EXPECT_EQ(map.line(0), "");
+}
+
+TEST(PositionMap, AgreesWithCountingOnLongLines) {
+  std::string text = "first line\n";
+  while (text.size() < 5'000) text += "xé日😀";
+  const PositionMap map(text);
+  std::uint32_t column = 1;
+  for (std::size_t offset = 11; offset < text.size(); ++column) {
+    ASSERT_EQ(map.at(offset), (Position{2, column})) << offset;
+    offset += utf8::decode(text, offset).bytes;
+  }
+}
+
+TEST(Quote, ShowsWhatIsNotPrintable) {
+  EXPECT_EQ(quote("a b"), "'a b'");
+  EXPECT_EQ(quote(""), "''");
+  EXPECT_EQ(quote("é日"), "'é日'");
+  EXPECT_EQ(quote("a\nb\tc\rd"), "'a\\nb\\tc\\rd'");
+  EXPECT_EQ(quote(std::string_view("\0\x1b\x7f", 3)), "'\\x00\\x1b\\x7f'");
+  EXPECT_EQ(quote("\xc2\x9b\xe2\x80\xa8"), "'\\x9b\\u2028'");
+  EXPECT_EQ(quote("\xff"), "'\\xff'");
+}
+
+TEST(Quote, CutsLongTexts) {
+  EXPECT_EQ(quote(std::string(80, 'a')), "'" + std::string(80, 'a') + "'");
+  EXPECT_EQ(quote(std::string(81, 'a')), "'" + std::string(80, 'a') + "...'");
+}
+
+}  // namespace
+}  // namespace cbc
