@@ -116,6 +116,7 @@ class Compiler {
       task.group = group_of_task_[index];
       task.minimum_performance = from.minimum_performance;
       task.minimum_cost = costs_.of(from.minimum_performance);
+      task.minimum_line = from.minimum_performance_range.begin.line;
       task.timeout = from.timeout.value_or(0);
       task.start_on_request = from.start_on_request;
       task.reactive_start = from.reactive_start;
@@ -218,24 +219,33 @@ class Compiler {
   }
 
   void add_cliques() {
-    std::vector<std::vector<TaskId>> cliques;
+    struct Clique {
+      std::vector<TaskId> tasks;
+      std::uint32_t line = 0;
+      auto operator<=>(const Clique&) const = default;
+    };
+    std::vector<Clique> cliques;
     for (const ExclusivityList& list : catalog_.exclusivity) {
-      std::vector<TaskId> clique;
-      for (const TaskIndex task : list.tasks) clique.push_back(out_.task_ids[task]);
-      std::sort(clique.begin(), clique.end());
-      clique.erase(std::unique(clique.begin(), clique.end()), clique.end());
-      if (clique.size() > 1) cliques.push_back(std::move(clique));
+      Clique clique;
+      clique.line = list.range.begin.line;
+      for (const TaskIndex task : list.tasks) clique.tasks.push_back(out_.task_ids[task]);
+      std::sort(clique.tasks.begin(), clique.tasks.end());
+      clique.tasks.erase(std::unique(clique.tasks.begin(), clique.tasks.end()), clique.tasks.end());
+      if (clique.tasks.size() > 1) cliques.push_back(std::move(clique));
     }
     std::sort(cliques.begin(), cliques.end());
-    cliques.erase(std::unique(cliques.begin(), cliques.end()), cliques.end());
+    cliques.erase(std::unique(cliques.begin(), cliques.end(),
+                              [](const auto& a, const auto& b) { return a.tasks == b.tasks; }),
+                  cliques.end());
 
     std::vector<std::vector<std::uint32_t>> cliques_of(task_count());
-    for (const std::vector<TaskId>& clique : cliques) {
-      for (const TaskId task : clique) {
+    for (const Clique& clique : cliques) {
+      for (const TaskId task : clique.tasks) {
         cliques_of[task].push_back(static_cast<std::uint32_t>(out_.cliques.size()));
       }
-      out_.cliques.items.insert(out_.cliques.items.end(), clique.begin(), clique.end());
+      out_.cliques.items.insert(out_.cliques.items.end(), clique.tasks.begin(), clique.tasks.end());
       out_.cliques.close_row();
+      out_.clique_lines.push_back(clique.line);
     }
     for (const std::vector<std::uint32_t>& row : cliques_of) {
       out_.task_cliques.items.insert(out_.task_cliques.items.end(), row.begin(), row.end());

@@ -39,6 +39,7 @@ struct CompiledTask {
   std::uint32_t level = 0;             ///< highest level of its behaviors
   Millionths minimum_performance = 0;  ///< 0: none
   std::int64_t minimum_cost = 0;       ///< log_cost(minimum_performance)
+  std::uint32_t minimum_line = 0;      ///< of minimum_performance
   Microseconds timeout = 0;            ///< 0: none
   bool start_on_request = true;
   bool reactive_start = false;
@@ -115,7 +116,8 @@ struct CompiledCatalog {
   Rows<CompiledRequirement> requirements;  ///< distinct tasks, the strongest minimum of each
   Rows<ValueId> performs;                  ///< its values
 
-  Rows<TaskId> cliques;  ///< distinct tasks of which at most one runs
+  Rows<TaskId> cliques;                     ///< distinct tasks of which at most one runs
+  std::vector<std::uint32_t> clique_lines;  ///< by clique: of its (first) list
   std::vector<std::uint64_t> masks;
 
   [[nodiscard]] std::size_t group_count() const { return group_constraints.size(); }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/conflict.h"
 #include "coordinator/ranks.h"
 #include "text/quote.h"
 
@@ -114,7 +115,7 @@ void Coordinator::open_record(Origin origin, Verb verb) {
   record_.stopped_tasks.clear();
   record_.objective.reset();
   record_.search.reset();
-  record_.priority_conflict.reset();
+  record_.conflict.clear();
   record_.index = index;
   record_.time = now_;
   record_.origin = origin;
@@ -140,9 +141,7 @@ Coordinator::Status Coordinator::start(TaskId task, std::int32_t priority,
   record_.priority = priority;
   const Request* const request = state_.has_request(task) ? &state_.request(task) : nullptr;
   if (request != nullptr && request->priority > priority) {
-    record_.outcome = Outcome::rejected;
-    record_.priority_conflict = PriorityConflict{task, request->priority};
-    return report();
+    return reject_by_priority(task, request->priority);
   }
   Trigger trigger;
   trigger.kind = Trigger::Kind::start;
@@ -167,9 +166,7 @@ Coordinator::Status Coordinator::stop(TaskId task, std::optional<std::int32_t> p
     return report();
   }
   if (request != nullptr && request->priority > record_.priority) {
-    record_.outcome = Outcome::rejected;
-    record_.priority_conflict = PriorityConflict{task, request->priority};
-    return report();
+    return reject_by_priority(task, request->priority);
   }
   Trigger trigger;
   trigger.kind = Trigger::Kind::stop;
@@ -177,6 +174,16 @@ Coordinator::Status Coordinator::stop(TaskId task, std::optional<std::int32_t> p
   trigger.task = task;
   trigger.priority = record_.priority;
   return coordinate(trigger);
+}
+
+/// The task's own request is stronger than the event.
+Coordinator::Status Coordinator::reject_by_priority(TaskId task, std::int32_t priority) {
+  record_.outcome = Outcome::rejected;
+  Reason& reason = record_.conflict.emplace_back();
+  reason.kind = Reason::Kind::priority;
+  reason.task = task;
+  reason.priority = priority;
+  return report();
 }
 
 Coordinator::Status Coordinator::finish(BehaviorId behavior, FinishCause cause) {
@@ -324,6 +331,9 @@ void Coordinator::accept(const Trigger& trigger, const Problem& problem) {
 /// Nothing changes, but for behaviors that could not be activated again: they finish right after.
 Coordinator::Status Coordinator::reject(const Trigger& trigger) {
   record_.outcome = Outcome::rejected;
+  if (record_.search->result.status == SearchStatus::infeasible) {
+    record_.conflict = find_conflict(catalog_, state_, trigger, question_.excluded());
+  }
   const std::vector<BehaviorId> lost = transition_.take_back(now_);
   if (trigger.kind == Trigger::Kind::finish) state_.leave_active(trigger.behavior);
   update_timeouts(trigger.group);

@@ -76,6 +76,7 @@ class Coordinator {
   Status start(TaskId task, std::int32_t priority, std::optional<std::string_view> parameters,
                bool is_reactive);
   Status stop(TaskId task, std::optional<std::int32_t> priority);
+  Status reject_by_priority(TaskId task, std::int32_t priority);
   Status finish(BehaviorId behavior, FinishCause cause);
   void change_situation(std::span<const Availability> situation);
   void repair(BehaviorId behavior);

@@ -35,6 +35,7 @@ class Question {
 
   /// A behavior that may not be chosen any more in this event.
   void exclude(BehaviorId behavior) { excluded_.push_back(behavior); }
+  [[nodiscard]] const std::vector<BehaviorId>& excluded() const { return excluded_; }
 
   /// The first protection level to try.
   [[nodiscard]] std::int32_t first_protection() const { return first_protection_; }

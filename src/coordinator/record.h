@@ -9,6 +9,7 @@
 #include "cbc/event.h"
 #include "cbc/units.h"
 #include "compiled/compiled_catalog.h"
+#include "coordinator/reason.h"
 #include "solver/problem.h"
 
 namespace cbc {
@@ -59,12 +60,6 @@ struct SearchRecord {
   std::vector<std::uint32_t> domain_sizes;  ///< their product is the search space
 };
 
-/// A running task whose request is stronger than the event.
-struct PriorityConflict {
-  TaskId task = 0;
-  std::int32_t priority = 0;
-};
-
 /// What one event did. Valid until the coordinator handles the next one.
 struct EventRecord {
   std::uint64_t index = 0;  ///< counts all events from 1
@@ -81,7 +76,7 @@ struct EventRecord {
   std::vector<StoppedTask> stopped_tasks;
   std::optional<ObjectiveValues> objective;
   std::optional<SearchRecord> search;
-  std::optional<PriorityConflict> priority_conflict;
+  std::vector<Reason> conflict;  ///< of a rejected event: a minimal set of reasons
 };
 
 }  // namespace cbc

@@ -7,8 +7,8 @@
 
 namespace cbc {
 
-/// Why an event was rejected before any search. Needs record.priority_conflict.
-[[nodiscard]] std::string describe_priority_conflict(const CompiledCatalog& catalog,
-                                                     const EventRecord& record);
+/// A reason why an event was rejected, in a sentence, with the place in the catalog if it has one.
+[[nodiscard]] std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& record,
+                                          const Reason& reason);
 
 }  // namespace cbc

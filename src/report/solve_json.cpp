@@ -101,16 +101,24 @@ Json search_to_json(const SearchRecord& search) {
           {"solutions", search.result.solutions},       {"nodes", search.result.nodes}};
 }
 
-/// So far the only reason that is told is a stronger request, which comes before any search.
 Json conflict_to_json(const CompiledCatalog& catalog, const EventRecord& record) {
-  Json reasons = Json::array();
-  if (record.priority_conflict) {
-    reasons.push_back({{"kind", "priority"},
-                       {"task", catalog.name_of_task(record.priority_conflict->task)},
-                       {"priority", record.priority_conflict->priority},
-                       {"message", describe_priority_conflict(catalog, record)}});
+  Json list = Json::array();
+  for (const Reason& reason : record.conflict) {
+    Json& entry = list.emplace_back(Json::object());
+    entry["kind"] = name_of(reason.kind);
+    if (reason.behavior != none) entry["behavior"] = catalog.name_of_behavior(reason.behavior);
+    if (reason.other_task != none) {
+      entry["tasks"] = tasks_to_json(catalog, {reason.task, reason.other_task});
+    } else if (reason.task != none) {
+      entry["task"] = catalog.name_of_task(reason.task);
+    }
+    if (reason.kind == Reason::Kind::priority || reason.kind == Reason::Kind::is_protected) {
+      entry["priority"] = reason.priority;
+    }
+    if (reason.line != 0) entry["line"] = reason.line;
+    entry["message"] = describe_reason(catalog, record, reason);
   }
-  return reasons;
+  return list;
 }
 
 }  // namespace

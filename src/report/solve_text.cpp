@@ -87,13 +87,13 @@ void TextReport::on_event(const EventRecord& record, const Step* step, const Sta
 }
 
 void TextReport::write_reason(const EventRecord& record) {
-  if (record.priority_conflict) {
-    fmt::print(out_, "{}{}\n", change_indent, describe_priority_conflict(*catalog_, record));
-  } else if (record.search && record.search->result.status == SearchStatus::unknown) {
+  for (const Reason& reason : record.conflict) {
+    fmt::print(out_, "{}{}\n", change_indent, describe_reason(*catalog_, record, reason));
+  }
+  if (record.search && record.search->result.status == SearchStatus::unknown) {
     fmt::print(out_, "{}a search limit came before the first solution\n", change_indent);
-  } else if (record.search) {
-    fmt::print(out_, "{}no consistent set of behaviors at protection level {}\n", change_indent,
-               record.search->protection);
+  } else if (record.conflict.empty()) {
+    fmt::print(out_, "{}no consistent set of behaviors\n", change_indent);
   }
 }
 

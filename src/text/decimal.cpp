@@ -102,7 +102,7 @@ Decimal parse_decimal(std::string_view text, int decimals, std::int64_t lowest,
       ((!parts.negative && value >= highest) || (parts.negative && value <= lowest));
   if (value < lowest || value > highest || beyond) return failure(DecimalError::out_of_range);
   if (!whole && !parts.digits.empty()) return failure(DecimalError::too_precise);
-  return {value, DecimalError::none};
+  return {value, DecimalError::no_error};
 }
 
 Decimal parse_percent(std::string_view text) { return parse_decimal(text, 4, 0, one_million); }

@@ -9,12 +9,12 @@
 namespace cbc {
 
 /// Why a text is no value of the kind that was asked for.
-enum class DecimalError : std::uint8_t { none, not_a_number, out_of_range, too_precise };
+enum class DecimalError : std::uint8_t { no_error, not_a_number, out_of_range, too_precise };
 
 /// A number that was read from text, in units of 10^-decimals.
 struct Decimal {
   std::int64_t value = 0;
-  DecimalError error = DecimalError::none;
+  DecimalError error = DecimalError::no_error;
 };
 
 /// Reads a decimal number exactly: sign, digits, fraction and exponent are allowed ("-1.50",

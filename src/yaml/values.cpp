@@ -21,7 +21,7 @@ std::string must_be(std::string_view what, std::string_view expected) {
 void report_number(const Node& node, std::string_view what, std::string_view expected,
                    std::string_view precision, DecimalError error, Reporter& reporter) {
   switch (error) {
-    case DecimalError::none:
+    case DecimalError::no_error:
       break;
     case DecimalError::not_a_number:
       report_wrong_type(node, what, expected, reporter);
@@ -118,7 +118,7 @@ std::optional<Millionths> read_percent(const Node& node, std::string_view what,
   }
   const Decimal decimal = parse_percent(node.text);
   report_number(node, what, expected, "at most 4 decimals", decimal.error, reporter);
-  if (decimal.error != DecimalError::none) return std::nullopt;
+  if (decimal.error != DecimalError::no_error) return std::nullopt;
   return static_cast<Millionths>(decimal.value);
 }
 
@@ -132,11 +132,11 @@ std::optional<Microseconds> read_seconds(const Node& node, std::string_view what
     return std::nullopt;
   }
   Decimal decimal = parse_seconds(node.text);
-  if (positive && decimal.error == DecimalError::none && decimal.value == 0) {
+  if (positive && decimal.error == DecimalError::no_error && decimal.value == 0) {
     decimal.error = DecimalError::out_of_range;
   }
   report_number(node, what, expected, "at most 6 decimals", decimal.error, reporter);
-  if (decimal.error != DecimalError::none) return std::nullopt;
+  if (decimal.error != DecimalError::no_error) return std::nullopt;
   return decimal.value;
 }
 
@@ -151,7 +151,7 @@ std::optional<std::int32_t> read_integer(const Node& node, std::string_view what
   }
   const Decimal decimal = parse_integer(node.text, lowest, highest);
   report_number(node, what, expected, {}, decimal.error, reporter);
-  if (decimal.error != DecimalError::none) return std::nullopt;
+  if (decimal.error != DecimalError::no_error) return std::nullopt;
   return static_cast<std::int32_t>(decimal.value);
 }
 

@@ -1,0 +1,185 @@
+#include "coordinator/relaxed_problem.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace cbc {
+
+RelaxedProblem::RelaxedProblem(const CompiledCatalog& catalog, std::uint32_t group,
+                               const std::vector<std::uint32_t>& present, TaskId task,
+                               bool is_start)
+    : catalog_(catalog),
+      present_(present),
+      task_(task),
+      is_start_(is_start),
+      first_task_(catalog.group_tasks[group]),
+      end_task_(catalog.group_tasks[group + 1]),
+      first_value_(catalog.values.begin[first_task_]),
+      in_closure_(end_task_ - first_task_, 0) {}
+
+/// Depth first over what is left. As in Domains, a task that nothing needs can be left out, so a
+/// subtree is solved when each needed task has one value.
+bool RelaxedProblem::has_solution(std::span<const Reason> reasons) {
+  constexpr std::size_t most_nodes = 10'000;
+  std::vector<Domains> open(1);
+  if (!begin(open.back(), reasons)) return false;
+  for (std::size_t nodes = 0; !open.empty(); ++nodes) {
+    if (nodes == most_nodes) return true;
+    Domains now = std::move(open.back());
+    open.pop_back();
+    if (!propagate(now, reasons)) continue;
+    const TaskId task = choose(now);
+    if (task == none) return true;
+    const std::uint32_t chosen = best(now, task);
+    Domains without = now;
+    if (remove(without, task, chosen)) open.push_back(std::move(without));
+    for (std::uint32_t place = 0; place < catalog_.values[task].size(); ++place) {
+      // One value is left in the end, so no removal fails.
+      if (place != chosen) (void)remove(now, task, place);
+    }
+    open.push_back(std::move(now));
+  }
+  return false;
+}
+
+bool RelaxedProblem::begin(Domains& domains, std::span<const Reason> reasons) {
+  domains.values.assign(catalog_.values.begin[end_task_] - first_value_, 1);
+  domains.needed.assign(end_task_ - first_task_, 0);
+  for (TaskId task = first_task_; task < end_task_; ++task) {
+    domains.counts.push_back(static_cast<std::uint32_t>(catalog_.values[task].size()));
+  }
+  if (is_start_ ? !need(domains, task_) : !close(domains, task_)) return false;
+  for (const Reason& reason : reasons) {
+    switch (reason.kind) {
+      case Reason::Kind::is_protected:
+        if (!need(domains, reason.task)) return false;
+        break;
+      case Reason::Kind::on_request:
+        if (!close(domains, reason.task)) return false;
+        break;
+      case Reason::Kind::unavailable:
+      case Reason::Kind::faulty:
+        for (const ValueId id : catalog_.performs[reason.behavior]) {
+          const TaskId task = catalog_.task_of(id);
+          const std::uint32_t place = id - catalog_.values.begin[task];
+          const bool is_kept =
+              reason.kind == Reason::Kind::unavailable && present_[task - first_task_] == place;
+          if (!is_kept && !remove(domains, task, place)) return false;
+        }
+        break;
+      default:
+        break;
+    }
+  }
+  return true;
+}
+
+bool RelaxedProblem::remove(Domains& domains, TaskId task, std::uint32_t place) {
+  std::uint8_t& is_left = domains.values[value(task, place)];
+  if (is_left == 0) return true;
+  is_left = 0;
+  has_changed_ = true;
+  return --domains.counts[task - first_task_] > 0 || !is_needed(domains, task);
+}
+
+bool RelaxedProblem::close(Domains& domains, TaskId task) {
+  for (std::uint32_t place = 0; place < catalog_.values[task].size(); ++place) {
+    if (!remove(domains, task, place)) return false;
+  }
+  return !is_needed(domains, task);
+}
+
+bool RelaxedProblem::need(Domains& domains, TaskId task) {
+  if (!is_needed(domains, task)) has_changed_ = true;
+  domains.needed[task - first_task_] = 1;
+  return domains.counts[task - first_task_] > 0;
+}
+
+bool RelaxedProblem::propagate(Domains& domains, std::span<const Reason> reasons) {
+  do {
+    has_changed_ = false;
+    for (const Reason& reason : reasons) {
+      switch (reason.kind) {
+        case Reason::Kind::exclusive:
+          if (is_needed(domains, reason.task) && !close(domains, reason.other_task)) return false;
+          if (is_needed(domains, reason.other_task) && !close(domains, reason.task)) return false;
+          break;
+        case Reason::Kind::requires_task:
+          if (!apply_requirement(domains, reason)) return false;
+          break;
+        case Reason::Kind::performance:
+          if (!may_perform(domains, reason)) return false;
+          break;
+        default:
+          break;
+      }
+    }
+  } while (has_changed_);
+  return true;
+}
+
+bool RelaxedProblem::apply_requirement(Domains& domains, const Reason& reason) {
+  for (const ValueId id : catalog_.performs[reason.behavior]) {
+    const TaskId task = catalog_.task_of(id);
+    const std::uint32_t place = id - catalog_.values.begin[task];
+    if (domains.values[value(task, place)] == 0) continue;
+    if (is_fixed(domains, task)) {
+      if (!need(domains, reason.task)) return false;
+    } else if (domains.counts[reason.task - first_task_] == 0) {
+      if (!remove(domains, task, place)) return false;
+    }
+  }
+  return true;
+}
+
+/// Whether the performance can still reach the minimum: exact where all that it depends on is
+/// fixed. Required tasks count if they run.
+bool RelaxedProblem::may_perform(const Domains& domains, const Reason& reason) {
+  if (!is_needed(domains, reason.task)) return true;
+  const bool applies =
+      reason.behavior == none ||
+      std::any_of(catalog_.performs[reason.behavior].begin(),
+                  catalog_.performs[reason.behavior].end(), [&](ValueId id) {
+                    return fixed_behavior(domains, catalog_.task_of(id)) == reason.behavior;
+                  });
+  if (!applies) return true;
+  closure_.assign(1, reason.task);
+  std::fill(in_closure_.begin(), in_closure_.end(), 0);
+  in_closure_[reason.task - first_task_] = 1;
+  product_.clear();
+  for (std::size_t next = 0; next < closure_.size(); ++next) {
+    const TaskId task = closure_[next];
+    product_.multiply(catalog_.values[task][best(domains, task)].suitability);
+    const BehaviorId behavior = fixed_behavior(domains, task);
+    if (behavior == none) continue;
+    for (const CompiledRequirement& requirement : catalog_.requirements[behavior]) {
+      const TaskId target = requirement.task;
+      if (!is_needed(domains, target) || in_closure_[target - first_task_] != 0) continue;
+      in_closure_[target - first_task_] = 1;
+      closure_.push_back(target);
+    }
+  }
+  minimum_.clear();
+  minimum_.multiply(reason.minimum_performance);
+  return ExactProduct::compare(product_, minimum_) >= 0;
+}
+
+TaskId RelaxedProblem::choose(const Domains& domains) const {
+  for (TaskId task = first_task_; task < end_task_; ++task) {
+    if (is_needed(domains, task) && domains.counts[task - first_task_] > 1) return task;
+  }
+  return none;
+}
+
+/// Place of the most suitable value that is left.
+std::uint32_t RelaxedProblem::best(const Domains& domains, TaskId task) const {
+  std::uint32_t place = 0;
+  while (domains.values[value(task, place)] == 0) ++place;
+  return place;
+}
+
+BehaviorId RelaxedProblem::fixed_behavior(const Domains& domains, TaskId task) const {
+  return is_fixed(domains, task) ? catalog_.values[task][best(domains, task)].behavior : none;
+}
+
+}  // namespace cbc
