@@ -60,7 +60,7 @@ struct Behavior {
   std::string package;
   std::optional<Microseconds> timeout;
   std::vector<Performance> performs;   ///< at least one; tasks differ
-  std::vector<Requirement> requires_;  ///< in the order of the file; a task may stand twice
+  std::vector<Requirement> requirements;  ///< in the order of the file; a task may stand twice
 };
 
 /// Tasks of which at most one runs.

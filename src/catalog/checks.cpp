@@ -77,7 +77,7 @@ void check_requirement_cycles(const Catalog& catalog, Reporter& reporter) {
     std::vector<Note> notes;
     for (const CycleStep& step : cycle) {
       const Behavior& behavior = catalog.behaviors[step.behavior];
-      const Requirement& requirement = behavior.requires_[step.requirement];
+      const Requirement& requirement = behavior.requirements[step.requirement];
       const std::string task = quote(catalog.tasks[step.task].name);
       if (notes.size() < longest_chain) chain += task + " -> ";
       notes.push_back(reporter.note(
@@ -98,7 +98,7 @@ void check_exclusive_requirements(const Catalog& catalog, Reporter& reporter) {
   for (const Behavior& behavior : catalog.behaviors) {
     if (behavior.performs.empty()) continue;
     reported.clear();
-    for (const Requirement& requirement : behavior.requires_) {
+    for (const Requirement& requirement : behavior.requirements) {
       const auto list = excluding_list(behavior, requirement.task, lists);
       if (!list || !reported.insert(requirement.task).second) continue;
       const std::string own =

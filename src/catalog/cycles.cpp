@@ -33,7 +33,7 @@ class RequirementGraph {
       for (const Performance& performance : catalog.behaviors[index].performs) {
         edges.emplace_back(performance.task, vertex);
       }
-      for (const Requirement& requirement : catalog.behaviors[index].requires_) {
+      for (const Requirement& requirement : catalog.behaviors[index].requirements) {
         edges.emplace_back(vertex, requirement.task);
       }
     }
@@ -122,7 +122,7 @@ class RequirementGraph {
     for (std::size_t i = 0; i + 1 < path.size(); i += 2) {
       const Vertex next = i + 2 < path.size() ? path[i + 2] : path[0];
       const BehaviorIndex behavior = path[i + 1] - tasks_;
-      const auto& requirements = catalog_.behaviors[behavior].requires_;
+      const auto& requirements = catalog_.behaviors[behavior].requirements;
       const auto found =
           std::find_if(requirements.begin(), requirements.end(),
                        [next](const Requirement& requirement) { return requirement.task == next; });

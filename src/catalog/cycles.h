@@ -11,7 +11,7 @@ namespace cbc {
 struct CycleStep {
   TaskIndex task = 0;
   BehaviorIndex behavior = 0;
-  std::size_t requirement = 0;  ///< place in Behavior::requires_
+  std::size_t requirement = 0;  ///< place in Behavior::requirements
 };
 
 /// Tasks that require themselves in the end: each step's requirement is the task of the next step,

@@ -116,7 +116,7 @@ class Resolver {
     for (const draft::Requirement& requirement : entry.requirements) {
       const auto task = find_task(requirement.task, "required by behavior ", entry.name.text);
       if (task) {
-        behavior.requires_.push_back(
+        behavior.requirements.push_back(
             {*task, requirement.minimum_performance, requirement.task.range});
       }
     }

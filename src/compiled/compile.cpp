@@ -83,7 +83,7 @@ class Compiler {
       const TaskIndex first = one.performs.front().task;
       for (const Performance& performance : one.performs)
         edges.emplace_back(first, performance.task);
-      for (const Requirement& requirement : one.requires_)
+      for (const Requirement& requirement : one.requirements)
         edges.emplace_back(first, requirement.task);
     }
     for (const ExclusivityList& list : catalog_.exclusivity) {
@@ -140,7 +140,7 @@ class Compiler {
   /// Sorted by task; of requirements of the same task the strongest is enough.
   void add_requirements(const Behavior& from) {
     std::vector<CompiledRequirement> row;
-    for (const Requirement& requirement : from.requires_) {
+    for (const Requirement& requirement : from.requirements) {
       CompiledRequirement to;
       to.task = out_.task_ids[requirement.task];
       to.minimum_performance = requirement.minimum_performance;

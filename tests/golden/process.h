@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace cbc::golden {
+
+/// How to call the program.
+struct Call {
+  std::vector<std::string> arguments;
+  std::filesystem::path folder{};  ///< working directory
+  std::filesystem::path standard_input = "/dev/null";
+  std::filesystem::path standard_output{};  ///< a file, or empty: a pipe
+  /// Added to the environment of the test, from which NO_COLOR is taken.
+  std::map<std::string, std::string> environment = {{"TERM", "xterm"}};
+};
+
+/// What came of it.
+struct Result {
+  int status = 0;   ///< the exit status; 128 and more: the number of a signal was added
+  std::string out;  ///< standard output
+  std::string err;  ///< standard error
+};
+
+/// Runs the program with pipes for its output.
+[[nodiscard]] Result run(const Call& call);
+
+/// Runs the program with its output, that is both of its streams, on a terminal. The result has all
+/// of it in `out`, with the line ends of a terminal ("\r\n").
+[[nodiscard]] Result run_on_terminal(const Call& call);
+
+/// The whole text of a file.
+[[nodiscard]] std::string read_file(const std::filesystem::path& path);
+
+}  // namespace cbc::golden
