@@ -1,19 +1,27 @@
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "cbc/version.h"
 #include "cli/exit_status.h"
 #include "cli/solve_command.h"
+#include "text/nearest.h"
+#include "text/quote.h"
 
 namespace {
 
 constexpr const char* description =
-    "Checks, compiles and solves behavior catalogs: which behaviors of a robot should be active,\n"
-    "proven best, on every event.";
+    "Solves behavior catalogs offline: which behaviors of a robot should be active, proven best,\n"
+    "on every event.";
 
 constexpr const char* footer =
     "Examples:\n"
@@ -22,6 +30,32 @@ constexpr const char* footer =
     "\n"
     "Exit status: 0 all is well, 1 an expectation failed, 2 the input or the usage is wrong,\n"
     "3 an internal error.";
+
+std::string full_name(const CLI::App& app) {
+  const CLI::App* const used = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
+  return used == &app ? "cbc" : "cbc " + used->get_name();
+}
+
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+bool is_command(const CLI::App& program, const std::string& name) {
+  const std::vector<std::string> names = command_names(program);
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void complain_of_command(const CLI::App& program, const std::string& name) {
+  const std::vector<std::string> names = command_names(program);
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  const std::optional<std::string_view> meant = cbc::nearest(name, views);
+  fmt::print(stderr, "cbc: unknown command {}{}\nSee 'cbc --help'.\n", cbc::quote(name),
+             meant ? fmt::format("; did you mean {}?", cbc::quote(*meant)) : "");
+}
 
 int run(int argc, char** argv) {
   using namespace cbc::cli;
@@ -32,12 +66,22 @@ int run(int argc, char** argv) {
   int status = exit_ok;
   add_solve_command(program, status);
 
+  program.failure_message([](const CLI::App* app, const CLI::Error& error) {
+    return "cbc: " + std::string(error.what()) + "\nSee '" + full_name(*app) + " --help'.\n";
+  });
+
+  if (argc > 1 && argv[1][0] != '-' && !is_command(program, argv[1])) {
+    complain_of_command(program, argv[1]);
+    return exit_unusable;
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? exit_ok : exit_unusable;
+    std::cout
+        << std::unitbuf;  // help is written here, and must have arrived before the check below
+    status = program.exit(error) == 0 ? exit_ok : exit_unusable;
   }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout) {
     std::fprintf(stderr, "cbc: cannot write the output\n");
     return exit_unusable;
   }

@@ -1,7 +1,9 @@
 #include "cli/mission.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
 #include <string_view>
 #include <utility>
 
@@ -20,10 +22,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a file is, is told by its content: a script is a list of events or has the key `events`.
+// What a file is, is told by its content.
+
+bool has_any(const yaml::Document& document, std::initializer_list<std::string_view> keys) {
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](std::string_view key) { return document.root().find(key) != nullptr; });
+}
+
+bool is_catalog(const yaml::Document& document) {
+  return has_any(document, {"behaviors", "tasks", "exclusivity_constraints", "default_values"});
+}
+
 bool is_script(const yaml::Document& document) {
-  const yaml::Node& root = document.root();
-  return root.kind == yaml::Kind::sequence || root.find("events") != nullptr;
+  return document.root().kind == yaml::Kind::sequence ||
+         (!is_catalog(document) &&
+          has_any(document, {"events", "catalog", "reactive_delay", "situation"}));
 }
 
 bool is_folder(const std::string& path) {
@@ -37,6 +50,11 @@ void complain(const std::string& message) { fmt::print(stderr, "cbc: {}\n", mess
 
 std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::string>& paths) {
   std::size_t first_script = 0;
+  const auto from_stdin = std::count(paths.begin(), paths.end(), "-");
+  if (from_stdin > 1) {
+    complain("standard input can be read only once, but is given several times");
+    return std::nullopt;
+  }
   if (!is_folder(paths.front())) {
     const DocumentPointer first = read(paths.front());
     if (first != nullptr && is_script(*first)) {
@@ -50,10 +68,10 @@ std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::s
   report();
   if (has_failed_) return std::nullopt;
   if (missions_.empty()) {
-    complain(given_catalog_ == nullptr
-                 ? fmt::format("found no event script in {}", quote(paths.front()))
-                 : fmt::format("no event script given to solve on catalog {}",
-                               quote(display_name(paths.front()))));
+    complain(given_catalog_ != nullptr && paths.size() == 1
+                 ? fmt::format("no event script given to solve on catalog {}",
+                               quote(display_name(paths.front())))
+                 : fmt::format("found no event script in {}", quote(paths.back())));
     return std::nullopt;
   }
   return std::move(missions_);
@@ -102,6 +120,12 @@ void MissionLoader::add_folder(const std::string& path) {
 }
 
 void MissionLoader::add_script(const std::string& path, const yaml::Document& document) {
+  if (is_catalog(document)) {
+    complain(fmt::format("{} is a catalog; expected a script here (a catalog goes first)",
+                         quote(display_name(path))));
+    has_failed_ = true;
+    return;
+  }
   std::shared_ptr<const CompiledCatalog> catalog = catalog_of(path, document);
   if (catalog == nullptr) {
     has_failed_ = true;

@@ -1,11 +1,14 @@
 #include "cli/solve_command.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -31,6 +34,10 @@ constexpr const char* footer =
     "                                                 a script from standard input\n"
     "  cbc solve quadrotor.yaml mission.yaml --max-solutions 5\n"
     "                                                 the best of the first 5 solutions only\n"
+    "\n"
+    "In the text, P is the priority of the request behind a change, T is + for an activation and "
+    "-\n"
+    "for a deactivation, S says whether it succeeded (Y) or failed (N).\n"
     "\n"
     "Exit status: 0 all expectations hold, 1 one does not, 2 the input or the usage is wrong,\n"
     "3 an internal error (please report it).";
@@ -92,7 +99,7 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
                  Report& report) {
   int status = exit_ok;
   for (const Mission& mission : missions) {
-    report.begin_run(*mission.catalog, mission.script.file);
+    report.begin_run(*mission.catalog, mission.script);
     const RunResult result =
         run_script(*mission.catalog, mission.script, to_coordinator_options(options), report);
     const std::string reason = describe_end(result, options);
@@ -100,7 +107,21 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
     if (!reason.empty()) complain(mission, result, reason);
     status = std::max(status, status_of(result));
   }
+  report.end();
   return status;
+}
+
+/// Accepts a whole number from `least` to 2^63 - 1.
+CLI::Validator whole_number(std::int64_t least) {
+  const auto check = [least](const std::string& text) -> std::string {
+    std::int64_t number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    if (error == std::errc() && stop == end && number >= least) return {};
+    return fmt::format("expected a whole number from {} to {}, found {}", least,
+                       std::numeric_limits<std::int64_t>::max(), quote(text));
+  };
+  return {check, ""};
 }
 
 int solve(const SolveOptions& options) {
@@ -108,9 +129,7 @@ int solve(const SolveOptions& options) {
   if (!missions) return exit_unusable;
   if (options.format == "json") {
     JsonReport report(stdout);
-    const int status = run_missions(*missions, options, report);
-    report.end();
-    return status;
+    return run_missions(*missions, options, report);
   }
   TextReport report(wants_color(stdout) ? color_style() : plain_style(), stdout);
   return run_missions(*missions, options, report);
@@ -125,38 +144,42 @@ void add_solve_command(CLI::App& program, int& status) {
   command->footer(footer);
   command
       ->add_option("CATALOG SCRIPT", options->paths,
-                   "The catalog, then one or more event scripts: files, folders, or - for standard "
-                   "input. Without a catalog each script names its own (catalog: FILE).")
+                   "The catalog, then event scripts: files, folders, or - for\n"
+                   "standard input. Without a catalog each script names its\n"
+                   "own (catalog: FILE).")
+      ->option_text("...")
       ->required();
-  command->add_option("--format", options->format, "How to write the result")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->capture_default_str();
+  command->add_option("--format", options->format, "text (the default) or json")
+      ->option_text("FORMAT")
+      ->check(CLI::IsMember({"text", "json"}));
   command
       ->add_option("--max-solutions", options->max_solutions,
-                   "Take the best of the first M solutions in the order of the paper, instead of "
-                   "the proven optimum")
-      ->type_name("M")
-      ->check(CLI::PositiveNumber);
+                   "Take the best of the first M solutions, in the order of\n"
+                   "the paper, instead of the proven optimum")
+      ->option_text("M")
+      ->check(whole_number(1));
   command
       ->add_option("--time-limit", options->time_limit,
-                   "Stop each search after this time and take the best so far")
-      ->type_name("SECONDS")
-      ->check(CLI::Range(1e-6, 1e9));
+                   "Stop each search after this time, take the best so far")
+      ->option_text("SECONDS")
+      ->check(CLI::Range(1e-6, 1e9).description("seconds"));
   command
       ->add_option("--max-nodes", options->max_nodes,
-                   "Stop each search after N decisions and take the best so far")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
+                   "Stop each search after N decisions, take the best so far")
+      ->option_text("N")
+      ->check(whole_number(1));
   command
       ->add_option("--tie-seed", options->tie_seed,
-                   "Order behaviors of equal suitability at random, instead of as in the catalog")
-      ->type_name("N");
+                   "Order behaviors of equal suitability at random, by the\n"
+                   "seed N, instead of as in the catalog")
+      ->option_text("N")
+      ->check(whole_number(0));
   command
       ->add_option("--max-clock-events", options->max_clock_events,
-                   "Give up when timeouts and reactive starts have made more events than this")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+                   "Give up when timeouts and reactive starts have made more\n"
+                   "than N events (default: 1000000)")
+      ->option_text("N")
+      ->check(whole_number(1));
   command->callback([options, &status] { status = solve(*options); });
 }
 

@@ -47,6 +47,7 @@ class Candidates {
     for (TaskId task = first_task_; task < first_task_ + is_relevant_.size(); ++task) {
       if (task == trigger_.task || is_protected(task)) reach(task);
     }
+    // NOLINTNEXTLINE(modernize-loop-convert): the list grows
     for (std::size_t next = 0; next < relevant_.size(); ++next) {
       for (const Arc& arc : catalog_.arcs[relevant_[next]]) reach(arc.target);
     }

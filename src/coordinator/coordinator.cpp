@@ -64,7 +64,7 @@ Coordinator::Status Coordinator::process_next_due() {
   now_ = *next_due();
   if (!timeouts.empty() && timeouts.first_due() == now_) {
     const BehaviorId behavior = state_.behavior(catalog_.task_ids[timeouts.first()]);
-    open_record(Origin::timeout, Verb::finish);
+    if (!open_clock_record(Origin::timeout, Verb::finish)) return Status::too_many_clock_events;
     return finish(behavior, FinishCause::time_out);
   }
   const TaskId task = catalog_.task_ids[queue.first()];
@@ -77,7 +77,7 @@ Coordinator::Status Coordinator::start_reactive(TaskId task) {
       !state_.has_available_behavior(task)) {
     return Status::ok;
   }
-  open_record(Origin::reactive, Verb::start);
+  if (!open_clock_record(Origin::reactive, Verb::start)) return Status::too_many_clock_events;
   return start(task, 0, std::string_view{}, true);
 }
 
@@ -126,10 +126,15 @@ void Coordinator::open_record(Origin origin, Verb verb) {
   record_.outcome = Outcome::unchanged;
 }
 
+/// For an event that nobody asked for. False, and no record, if it is one too many.
+bool Coordinator::open_clock_record(Origin origin, Verb verb) {
+  if (clock_events_ == options_.max_clock_events) return false;
+  ++clock_events_;
+  open_record(origin, verb);
+  return true;
+}
+
 Coordinator::Status Coordinator::report() {
-  if (record_.origin != Origin::script && ++clock_events_ > options_.max_clock_events) {
-    return Status::too_many_clock_events;
-  }
   listener_.on_event(record_);
   return Status::ok;
 }
@@ -339,7 +344,7 @@ Coordinator::Status Coordinator::reject(const Trigger& trigger) {
   update_timeouts(trigger.group);
   Status status = report();
   for (std::size_t next = 0; next < lost.size() && status == Status::ok; ++next) {
-    open_record(Origin::fault, Verb::finish);
+    if (!open_clock_record(Origin::fault, Verb::finish)) return Status::too_many_clock_events;
     status = finish(lost[next], FinishCause::process_failure);
   }
   return status;

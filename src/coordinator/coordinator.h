@@ -71,6 +71,7 @@ class Coordinator {
   Status start_reactive(TaskId task);
 
   void open_record(Origin origin, Verb verb);
+  [[nodiscard]] bool open_clock_record(Origin origin, Verb verb);
   Status report();
 
   Status start(TaskId task, std::int32_t priority, std::optional<std::string_view> parameters,

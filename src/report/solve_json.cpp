@@ -138,15 +138,13 @@ Json event_to_json(const CompiledCatalog& catalog, const EventRecord& record, co
   return json;
 }
 
-JsonReport::JsonReport(std::FILE* out) : out_(out) {
-  write(R"({"schema": "cbc.solve/1", "runs": [)");
-}
+JsonReport::JsonReport(std::FILE* out) : out_(out) { write(R"({"schema":"cbc.solve/1","runs":[)"); }
 
-void JsonReport::begin_run(const CompiledCatalog& catalog, const std::string& script_file) {
+void JsonReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
   catalog_ = &catalog;
   begin_item(is_first_run_, "\n");
-  write(R"({"catalog": )" + to_text(catalog.file) + R"(, "script": )" + to_text(script_file) +
-        R"(, "events": [)");
+  write(R"({"catalog":)" + to_text(catalog.file) + R"(,"script":)" + to_text(script.file) +
+        R"(,"events":[)");
   is_first_event_ = true;
   failures_ = Json::array();
 }
@@ -164,8 +162,8 @@ void JsonReport::on_failure(const Failure& failure) {
 void JsonReport::end_run(const RunResult& result, const std::string& error) {
   const Json expectations = {
       {"passed", result.passed}, {"failed", result.failed}, {"failures", failures_}};
-  write(R"(], "expectations": )" + to_text(expectations));
-  if (!error.empty()) write(R"(, "error": )" + to_text(error));
+  write(R"(],"expectations":)" + to_text(expectations));
+  if (!error.empty()) write(R"(,"error":)" + to_text(error));
   write("}");
 }
 

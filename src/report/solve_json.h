@@ -23,7 +23,7 @@ class JsonReport final : public RunListener {
  public:
   explicit JsonReport(std::FILE* out);
 
-  void begin_run(const CompiledCatalog& catalog, const std::string& script_file);
+  void begin_run(const CompiledCatalog& catalog, const Script& script);
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
   void on_failure(const Failure& failure) override;
   void on_end(const State& /*state*/) override {}

@@ -13,7 +13,8 @@ namespace cbc {
 namespace {
 
 constexpr std::size_t widest_column = 48;
-constexpr const char* change_indent = "           ";
+constexpr const char* change_indent = "          ";
+constexpr const char* text_indent = "           ";
 
 std::size_t column_width(const std::vector<std::string>& names, std::size_t least) {
   std::size_t width = least;
@@ -41,6 +42,11 @@ std::string describe_situation(const CompiledCatalog& catalog,
   return text;
 }
 
+/// Seconds, to the millisecond, or to the microsecond where it takes that.
+std::string format_time(Microseconds time) {
+  return fmt::format("{:.{}f}", to_seconds(time), time % 1000 == 0 ? 3 : 6);
+}
+
 std::string describe_event(const CompiledCatalog& catalog, const EventRecord& record,
                            const Step* step) {
   std::string text(name_of(record.verb));
@@ -53,54 +59,70 @@ std::string describe_event(const CompiledCatalog& catalog, const EventRecord& re
   if (step != nullptr && record.verb == Verb::situation) {
     text += describe_situation(catalog, step->situation);
   }
+  if (step != nullptr && step->parameters) text += " " + printable(step->parameters->json);
   if (record.origin != Origin::script) text += fmt::format(" ({})", name_of(record.origin));
   return text;
 }
 
 }  // namespace
 
-void TextReport::begin_run(const CompiledCatalog& catalog, const std::string& script_file) {
+void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
   catalog_ = &catalog;
-  script_file_ = printable(script_file);
+  script_file_ = printable(script.file);
   behavior_width_ = column_width(catalog.behavior_names, 8);
   task_width_ = column_width(catalog.task_names, 4);
-  if (!is_first_run_) fmt::print(out_, "\n");
-  is_first_run_ = false;
+  if (runs_ > 0) fmt::print(out_, "\n");
   fmt::print(out_, "{}{}{} with {}\n\n", style_.strong, script_file_, style_.reset,
              printable(catalog.file));
   fmt::print(out_, "{}  time [s]  event{}\n", style_.faint, style_.reset);
-  fmt::print(out_, "{}{}P T S  {:<{}}  {:<{}}  cause{}\n", style_.faint, change_indent, "behavior",
+  fmt::print(out_, "{}{} P T S  {:<{}}  {:<{}}  cause{}\n", style_.faint, change_indent, "behavior",
              behavior_width_, "task", task_width_, style_.reset);
+  if (!script.situation.empty()) {
+    fmt::print(out_, "{:>10}  {}situation{}{}\n", "before", style_.strong,
+               describe_situation(catalog, script.situation), style_.reset);
+  }
 }
 
 void TextReport::on_event(const EventRecord& record, const Step* step, const State& /*state*/) {
-  std::string_view color = style_.faint;
-  if (record.outcome == Outcome::accepted) color = style_.good;
-  if (record.outcome == Outcome::rejected) color = style_.bad;
-  const bool is_cut = record.search && record.search->result.status == SearchStatus::feasible;
-  fmt::print(out_, "{:10.3f}  {}{}{}: {}{}{}{}\n", to_seconds(record.time), style_.strong,
-             describe_event(*catalog_, record, step), style_.reset, color, name_of(record.outcome),
-             style_.reset, is_cut ? " (not proven best: a search limit came first)" : "");
+  fmt::print(out_, "{:>10}  {}{}{}{}\n", format_time(record.time), style_.strong,
+             describe_event(*catalog_, record, step), style_.reset, describe_outcome(record));
   if (record.outcome == Outcome::rejected) write_reason(record);
   for (const Change& change : record.changes) write_change(change);
   write_stopped(record);
 }
 
+std::string TextReport::describe_outcome(const EventRecord& record) const {
+  std::string_view color = style_.faint;
+  switch (record.verb) {
+    case Verb::start:
+    case Verb::stop:
+    case Verb::finish:
+      break;
+    default:
+      return {};  // there is nothing to accept or reject
+  }
+  if (record.outcome == Outcome::accepted) color = style_.good;
+  if (record.outcome == Outcome::rejected) color = style_.bad;
+  const bool is_cut = record.search && record.search->result.status == SearchStatus::feasible;
+  return fmt::format(": {}{}{}{}", color, name_of(record.outcome), style_.reset,
+                     is_cut ? " (not proven best: a search limit came first)" : "");
+}
+
 void TextReport::write_reason(const EventRecord& record) {
   for (const Reason& reason : record.conflict) {
-    fmt::print(out_, "{}{}\n", change_indent, describe_reason(*catalog_, record, reason));
+    fmt::print(out_, "{}{}\n", text_indent, describe_reason(*catalog_, record, reason));
   }
   if (record.search && record.search->result.status == SearchStatus::unknown) {
-    fmt::print(out_, "{}a search limit came before the first solution\n", change_indent);
+    fmt::print(out_, "{}a search limit came before the first solution\n", text_indent);
   } else if (record.conflict.empty()) {
-    fmt::print(out_, "{}no consistent set of behaviors\n", change_indent);
+    fmt::print(out_, "{}no consistent set of behaviors\n", text_indent);
   }
 }
 
 void TextReport::write_change(const Change& change) {
-  const std::string priority = change.priority ? std::to_string(*change.priority) : "-";
+  const std::string priority = change.priority ? std::to_string(*change.priority) : ".";
   const std::string_view color = change.success ? std::string_view() : style_.bad;
-  fmt::print(out_, "{}{}{} {} {}  {:<{}}  {:<{}}  {}{}\n", change_indent, color, priority,
+  fmt::print(out_, "{}{}{:>2} {} {}  {:<{}}  {:<{}}  {}{}\n", change_indent, color, priority,
              change.is_activation ? '+' : '-', change.success ? 'Y' : 'N',
              printable(catalog_->name_of_behavior(change.behavior)), behavior_width_,
              join_tasks(*catalog_, change.tasks), task_width_, name_of(change.cause),
@@ -114,7 +136,7 @@ void TextReport::write_stopped(const EventRecord& record) {
     text += fmt::format("{}{} ({})", text.empty() ? "" : ", ",
                         printable(catalog_->name_of_task(stopped.task)), name_of(stopped.cause));
   }
-  fmt::print(out_, "{}stopped: {}\n", change_indent, text);
+  fmt::print(out_, "{}stopped: {}\n", text_indent, text);
 }
 
 void TextReport::on_failure(const Failure& failure) {
@@ -141,10 +163,18 @@ void TextReport::on_end(const State& state) {
 }
 
 void TextReport::end_run(const RunResult& result, const std::string& /*error*/) {
+  ++runs_;
+  if (result.failed > 0) ++failed_runs_;
   if (result.passed + result.failed == 0) return;
   fmt::print(out_, "\n{}expectations: {} passed, {} failed{}\n",
              result.failed > 0 ? style_.bad : style_.good, result.passed, result.failed,
              style_.reset);
+}
+
+void TextReport::end() {
+  if (runs_ < 2) return;
+  fmt::print(out_, "\n{}{} scripts, {} with failed expectations{}\n",
+             failed_runs_ > 0 ? style_.bad : style_.good, runs_, failed_runs_, style_.reset);
 }
 
 }  // namespace cbc

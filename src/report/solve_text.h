@@ -19,14 +19,17 @@ class TextReport final : public RunListener {
  public:
   TextReport(const Style& style, std::FILE* out) : style_(style), out_(out) {}
 
-  void begin_run(const CompiledCatalog& catalog, const std::string& script_file);
+  void begin_run(const CompiledCatalog& catalog, const Script& script);
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
   void on_failure(const Failure& failure) override;
   void on_end(const State& state) override;
   /// `error`: why the run ended early, or empty; it is told elsewhere.
   void end_run(const RunResult& result, const std::string& error);
+  /// The sum, if there are several runs.
+  void end();
 
  private:
+  [[nodiscard]] std::string describe_outcome(const EventRecord& record) const;
   void write_reason(const EventRecord& record);
   void write_change(const Change& change);
   void write_stopped(const EventRecord& record);
@@ -37,7 +40,8 @@ class TextReport final : public RunListener {
   std::string script_file_;
   std::size_t behavior_width_ = 0;
   std::size_t task_width_ = 0;
-  bool is_first_run_ = true;
+  std::size_t runs_ = 0;
+  std::size_t failed_runs_ = 0;
 };
 
 }  // namespace cbc

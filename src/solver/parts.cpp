@@ -67,6 +67,7 @@ void Parts::find_open_tasks() {
   for (const std::uint32_t task : domains_.needed_tasks()) {
     if (domains_.count(task) > 1 && contains(task, depth_)) open(task);
   }
+  // NOLINTNEXTLINE(modernize-loop-convert): the list grows
   for (std::size_t next = 0; next < open_.size(); ++next) {
     const std::uint32_t task = open_[next];
     for (const Arc& arc : catalog_.arcs[domains_.first_task() + task]) {
