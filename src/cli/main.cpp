@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -93,6 +94,10 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const std::system_error& error) {
+    // Of all that is called, only the printing throws it.
+    std::fprintf(stderr, "cbc: cannot write the output: %s\n", error.code().message().c_str());
+    return cbc::cli::exit_unusable;
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "cbc: out of memory\n");
     return cbc::cli::exit_unusable;

@@ -20,6 +20,7 @@
 #include "report/solve_json.h"
 #include "report/solve_text.h"
 #include "script/runner.h"
+#include "text/decimal.h"
 #include "text/quote.h"
 
 namespace cbc::cli {
@@ -46,7 +47,7 @@ struct SolveOptions {
   std::vector<std::string> paths;
   std::string format = "text";
   std::uint64_t max_solutions = 0;
-  double time_limit = 0;
+  std::string time_limit;
   std::uint64_t max_nodes = 0;
   std::optional<std::uint64_t> tie_seed;
   std::uint64_t max_clock_events = CoordinatorOptions{}.max_clock_events;
@@ -56,8 +57,9 @@ CoordinatorOptions to_coordinator_options(const SolveOptions& options) {
   CoordinatorOptions result;
   result.search.max_solutions = options.max_solutions;
   result.search.max_nodes = options.max_nodes;
-  result.search.time_limit =
-      std::chrono::microseconds(static_cast<std::int64_t>(options.time_limit * 1e6));
+  if (!options.time_limit.empty()) {
+    result.search.time_limit = std::chrono::microseconds(parse_seconds(options.time_limit).value);
+  }
   result.tie_seed = options.tie_seed;
   result.max_clock_events = options.max_clock_events;
   return result;
@@ -124,6 +126,12 @@ CLI::Validator whole_number(std::int64_t least) {
   return {check, ""};
 }
 
+std::string check_seconds(const std::string& text) {
+  const Decimal seconds = parse_seconds(text);
+  if (seconds.error == DecimalError::no_error && seconds.value > 0) return {};
+  return fmt::format("expected seconds, from 0.000001 to 1000000000, found {}", quote(text));
+}
+
 int solve(const SolveOptions& options) {
   const std::optional<std::vector<Mission>> missions = MissionLoader().load(options.paths);
   if (!missions) return exit_unusable;
@@ -162,7 +170,7 @@ void add_solve_command(CLI::App& program, int& status) {
       ->add_option("--time-limit", options->time_limit,
                    "Stop each search after this time, take the best so far")
       ->option_text("SECONDS")
-      ->check(CLI::Range(1e-6, 1e9).description("seconds"));
+      ->check(CLI::Validator(check_seconds, ""));
   command
       ->add_option("--max-nodes", options->max_nodes,
                    "Stop each search after N decisions, take the best so far")

@@ -63,7 +63,9 @@ Coordinator::Status Coordinator::process_next_due() {
   const Timers& queue = state_.queue();
   now_ = *next_due();
   if (!timeouts.empty() && timeouts.first_due() == now_) {
-    const BehaviorId behavior = state_.behavior(catalog_.task_ids[timeouts.first()]);
+    const TaskId task = catalog_.task_ids[timeouts.first()];
+    const BehaviorId behavior = state_.behavior(task);
+    state_.drop_timeout(task);
     if (!open_clock_record(Origin::timeout, Verb::finish)) return Status::too_many_clock_events;
     return finish(behavior, FinishCause::time_out);
   }
@@ -378,7 +380,7 @@ void Coordinator::assign(const Trigger& trigger) {
 
 void Coordinator::update_timeouts(std::uint32_t group) {
   for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
-    state_.update_timeout(task);
+    state_.update_timeout(task, now_);
   }
 }
 

@@ -77,18 +77,21 @@ void State::set_active(BehaviorId behavior, Microseconds now) {
   activated_at_[behavior] = now;
 }
 
-void State::update_timeout(TaskId task) {
+void State::update_timeout(TaskId task, Microseconds now) {
   const CompiledTask& compiled = catalog_.tasks[task];
   Microseconds timeout = 0;
   if (is_running(task) && !compiled.keep_running) {
     const Microseconds own = catalog_.behaviors[behavior(task)].timeout;
     timeout = own > 0 ? own : compiled.timeout;
   }
-  if (timeout > 0) {
-    timeouts_.set(compiled.catalog_index,
-                  std::max(activated_at_[behavior(task)], taken_at_[task]) + timeout);
-  } else {
+  if (timeout == 0) {
     timeouts_.remove(compiled.catalog_index);
+    return;
+  }
+  const Microseconds due = std::max(activated_at_[behavior(task)], taken_at_[task]) + timeout;
+  // What is not waited for any more and was due by now has been dealt with.
+  if (due > now || timeouts_.has(compiled.catalog_index)) {
+    timeouts_.set(compiled.catalog_index, due);
   }
 }
 

@@ -71,7 +71,9 @@ class State {
 
   /// When the present behavior of each task times out.
   [[nodiscard]] const Timers& timeouts() const { return timeouts_; }
-  void update_timeout(TaskId task);
+  void update_timeout(TaskId task, Microseconds now);
+  /// The timeout has been dealt with; it is due again when the behavior is activated again.
+  void drop_timeout(TaskId task) { timeouts_.remove(catalog_.tasks[task].catalog_index); }
   /// The queue Q of reactive tasks.
   [[nodiscard]] const Timers& queue() const { return queue_; }
   void enqueue(TaskId task, Microseconds due);

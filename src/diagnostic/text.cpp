@@ -86,14 +86,15 @@ std::string_view name_of(Severity severity) {
 }
 
 // The line of a place and a caret below it, with a tail to the end of the range.
-std::string render_line(const Range& range, std::string_view line, const Painter& painter) {
-  const std::vector<Cell> cells = split(line);
-  const std::size_t begin = std::min<std::size_t>(range.begin.column - 1, cells.size());
-  std::size_t end = cells.size();
-  if (range.end.line == range.begin.line) {
-    end = std::min<std::size_t>(range.end.column - 1, cells.size());
-  }
-  end = std::max(end, begin + 1);
+std::string render_line(const Range& range, const PositionMap::Excerpt& line,
+                        const Painter& painter) {
+  const std::vector<Cell> cells = split(line.text);
+  const auto cell_of = [&](std::uint32_t column) {
+    return std::min<std::size_t>(column - 1 - line.characters_before, cells.size());
+  };
+  const std::size_t begin = cell_of(range.begin.column);
+  const bool ends_here = range.end.line == range.begin.line;
+  const std::size_t end = std::max(ends_here ? cell_of(range.end.column) : cells.size(), begin + 1);
 
   std::size_t first = 0;
   std::size_t last = cells.size();
@@ -106,7 +107,7 @@ std::string render_line(const Range& range, std::string_view line, const Painter
   std::string source(indentation);
   std::string blank(indentation);
   std::size_t tail = 0;
-  if (first > 0) {
+  if (first > 0 || line.characters_before > 0) {
     source += ellipsis;
     blank.append(ellipsis.size(), ' ');
   }
@@ -116,7 +117,7 @@ std::string render_line(const Range& range, std::string_view line, const Painter
     if (i > begin && i < end) tail += cells[i].width;
     if (i == begin && cells[i].width > 1) tail += cells[i].width - 1;
   }
-  if (last < cells.size()) source += ellipsis;
+  if (last < cells.size() || line.is_cut_after) source += ellipsis;
   return source + "\n" + blank + painter.paint(caret_style, "^" + std::string(tail, '~')) + "\n";
 }
 
@@ -128,8 +129,8 @@ std::string render_place(const std::string& file, const Range& range, Severity s
   std::string text = painter.paint(bold, place) + " " +
                      painter.paint(style_of(severity), std::string(name_of(severity)) + ":") + " " +
                      message + "\n";
-  const std::string_view line = sources.line(file, range.begin.line);
-  if (!line.empty()) text += render_line(range, line, painter);
+  const PositionMap::Excerpt line = sources.excerpt(file, range.begin, longest_line);
+  if (!line.text.empty()) text += render_line(range, line, painter);
   return text;
 }
 
@@ -142,9 +143,10 @@ void SourceTexts::add(std::string file, std::string_view text) {
   texts_.try_emplace(std::move(file), text);
 }
 
-std::string_view SourceTexts::line(std::string_view file, std::uint32_t number) const {
+PositionMap::Excerpt SourceTexts::excerpt(std::string_view file, const Position& place,
+                                          std::size_t radius) const {
   const auto found = texts_.find(file);
-  return found == texts_.end() ? std::string_view{} : found->second.line(number);
+  return found == texts_.end() ? PositionMap::Excerpt{} : found->second.excerpt(place, radius);
 }
 
 std::string render(const Diagnostic& diagnostic, const SourceTexts& sources, bool color) {

@@ -17,8 +17,9 @@ class SourceTexts {
   /// `text` must outlive this object. The first text of a name counts.
   void add(std::string file, std::string_view text);
 
-  /// A line, which counts from 1; empty if the file or the line is not known.
-  [[nodiscard]] std::string_view line(std::string_view file, std::uint32_t number) const;
+  /// See PositionMap::excerpt; empty if the file or the line is not known.
+  [[nodiscard]] PositionMap::Excerpt excerpt(std::string_view file, const Position& place,
+                                             std::size_t radius) const;
 
  private:
   std::map<std::string, PositionMap, std::less<>> texts_;

@@ -67,20 +67,26 @@ Json stopped_to_json(const CompiledCatalog& catalog, const std::vector<StoppedTa
   return list;
 }
 
+/// Appends a member whose name is known to be new: the look-up of operator[] is linear.
+template <typename Value>
+void append(Json& object, const std::string& name, const Value& value) {
+  object.get_ref<Json::object_t&>().emplace_back(name, value);
+}
+
 void add_state(Json& json, const CompiledCatalog& catalog, const State& state) {
   Json running = Json::object();
   Json requests = Json::object();
   for (const std::uint32_t index : state.running()) {
     const TaskId task = catalog.task_ids[index];
     const std::string& name = catalog.task_names[index];
-    running[name] = catalog.name_of_behavior(state.behavior(task));
-    if (state.has_request(task)) requests[name] = state.request(task).priority;
+    append(running, name, catalog.name_of_behavior(state.behavior(task)));
+    if (state.has_request(task)) append(requests, name, state.request(task).priority);
   }
   Json queue = Json::object();
   std::vector<std::pair<std::uint32_t, Microseconds>> due;
   for (const auto& [time, index] : state.queue().entries()) due.emplace_back(index, time);
   std::sort(due.begin(), due.end());
-  for (const auto& [index, time] : due) queue[catalog.task_names[index]] = to_seconds(time);
+  for (const auto& [index, time] : due) append(queue, catalog.task_names[index], to_seconds(time));
   json["running"] = std::move(running);
   json["requests"] = std::move(requests);
   json["queue"] = std::move(queue);

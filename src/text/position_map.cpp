@@ -7,12 +7,13 @@ namespace {
 
 constexpr std::size_t stride = 256;
 
+bool is_continuation(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
+
 // Bytes that begin a character. Texts that are no valid UTF-8 are refused at the first bad byte,
 // so what stray continuation bytes count for does not matter.
 std::size_t count_beginnings(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
-    return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
-  }));
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char byte) { return !is_continuation(byte); }));
 }
 
 }  // namespace
@@ -55,6 +56,33 @@ std::string_view PositionMap::line(std::uint32_t number) const {
   std::size_t end = number < line_starts_.size() ? line_starts_[number] - 1 : text_.size();
   if (end > begin && text_[end - 1] == '\r') --end;
   return text_.substr(begin, end - begin);
+}
+
+/// Where in [begin, end] the given number of characters lies behind `begin`.
+std::size_t PositionMap::offset_of(std::size_t begin, std::size_t end,
+                                   std::size_t characters) const {
+  const std::size_t wanted = characters_before(begin) + characters;
+  const auto next = std::upper_bound(checkpoints_.begin(), checkpoints_.end(), wanted);
+  const auto block = static_cast<std::size_t>(next - checkpoints_.begin()) - 1;
+  std::size_t offset = std::max(begin, block * stride);
+  for (std::size_t seen = characters_before(offset); seen < wanted && offset < end; ++seen) {
+    do {
+      ++offset;
+    } while (offset < end && is_continuation(text_[offset]));
+  }
+  return std::min(offset, end);
+}
+
+PositionMap::Excerpt PositionMap::excerpt(const Position& place, std::size_t radius) const {
+  const std::string_view whole = line(place.line);
+  if (whole.empty()) return {};
+  const std::size_t begin = line_starts_[place.line - 1];
+  const std::size_t end = begin + whole.size();
+  const std::size_t column = place.column - 1;
+  const std::size_t before = column > radius ? column - radius : 0;
+  const std::size_t from = offset_of(begin, end, before);
+  const std::size_t to = offset_of(begin, end, column + radius);
+  return {text_.substr(from, to - from), characters_between(begin, from), to < end};
 }
 
 }  // namespace cbc

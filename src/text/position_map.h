@@ -21,9 +21,21 @@ class PositionMap {
   /// The text of a line, which counts from 1, without its line break; empty if there is none.
   [[nodiscard]] std::string_view line(std::uint32_t number) const;
 
+  /// A piece of a line.
+  struct Excerpt {
+    std::string_view text;
+    std::size_t characters_before = 0;  ///< of the line, left out
+    bool is_cut_after = false;
+  };
+  /// The line of a place, at most about `radius` characters to either side of it, however long the
+  /// line is.
+  [[nodiscard]] Excerpt excerpt(const Position& place, std::size_t radius) const;
+
  private:
   [[nodiscard]] std::size_t characters_before(std::size_t offset) const;
   [[nodiscard]] std::size_t characters_between(std::size_t begin, std::size_t end) const;
+  [[nodiscard]] std::size_t offset_of(std::size_t begin, std::size_t end,
+                                      std::size_t characters) const;
 
   std::string_view text_;
   std::vector<std::size_t> line_starts_;

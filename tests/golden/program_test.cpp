@@ -1,7 +1,10 @@
 // What golden files do not show: the program on a terminal, and what differs from build to build.
+#include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -98,6 +101,30 @@ TEST(PublishedMissions, MeetTheirExpectations) {
   const Result result = run({{"solve", "catalogs"}, CBC_SOURCE_DIR});
   EXPECT_EQ(result.status, 0) << result.out;
   EXPECT_EQ(result.err, "");
+}
+
+/// The lines of the README's first console block, the command and the "..." left out.
+std::vector<std::string> lines_of_readme() {
+  std::ifstream readme(fs::path(CBC_SOURCE_DIR) / "README.md");
+  std::vector<std::string> lines;
+  std::string line;
+  while (std::getline(readme, line) && line != "```console") continue;
+  while (std::getline(readme, line) && line != "```") {
+    if (line != "..." && line.substr(0, 1) != "$") lines.push_back(line);
+  }
+  return lines;
+}
+
+TEST(Readme, ShowsWhatTheProgramPrints) {
+  const Result result = run(
+      {{"solve", "catalogs/quadrotor.yaml", "catalogs/quadrotor.mission.yaml"}, CBC_SOURCE_DIR});
+  const std::vector<std::string> lines = lines_of_readme();
+  ASSERT_GT(lines.size(), 10U);
+  std::size_t place = 0;
+  for (const std::string& line : lines) {
+    place = result.out.find(line + "\n", place);
+    ASSERT_NE(place, std::string::npos) << "not printed here: " << line;
+  }
 }
 
 TEST(Version, IsThatOfTheHeaders) {

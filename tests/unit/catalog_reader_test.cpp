@@ -50,7 +50,7 @@ std::string describe(const Catalog& catalog) {
       text += " performs " + catalog.tasks[performance.task].name + " " +
               text_of(performance.suitability);
     }
-    for (const Requirement& requirement : behavior.requires_) {
+    for (const Requirement& requirement : behavior.requirements) {
       text += " requires " + catalog.tasks[requirement.task].name;
       if (requirement.minimum_performance > 0)
         text += " " + text_of(requirement.minimum_performance);
@@ -224,7 +224,7 @@ exclusivity_constraints:
   EXPECT_EQ(catalog.file, "a.yaml");
   EXPECT_EQ(show(catalog.behaviors.at(0).range), "2:13-14");
   EXPECT_EQ(show(catalog.behaviors.at(0).performs.at(0).range), "3:9-10");
-  EXPECT_EQ(show(catalog.behaviors.at(0).requires_.at(0).range), "4:21-22");
+  EXPECT_EQ(show(catalog.behaviors.at(0).requirements.at(0).range), "4:21-22");
   EXPECT_EQ(show(catalog.tasks.at(0).range), "6:9-10");
   EXPECT_EQ(show(catalog.tasks.at(0).minimum_performance_range), "7:24-26");
   EXPECT_EQ(show(catalog.tasks.at(0).parameters.at(0).range), "8:28-29");
@@ -755,10 +755,11 @@ TEST(CatalogReader, ARequirementMustExcludeAllTasksOfABehavior) {
       "behaviors:\n- {behavior: A, tasks: [{task: X}, {task: Y}], requires: [{task: Z}]}\n"
       "- {behavior: B, task: Z}\nexclusivity_constraints:\n- mutually_exclusive: [X, Z]\n";
   EXPECT_EQ(findings(behaviors), "");
-  EXPECT_EQ(findings(behaviors + "- mutually_exclusive: [Z, Y]\n"),
-            "2:66-67 warning exclusive-requirement: behavior 'A' requires 'Z', which excludes every "
-            "task it performs\n"
-            "  5:3-21 mutually exclusive by this list\n");
+  EXPECT_EQ(
+      findings(behaviors + "- mutually_exclusive: [Z, Y]\n"),
+      "2:66-67 warning exclusive-requirement: behavior 'A' requires 'Z', which excludes every "
+      "task it performs\n"
+      "  5:3-21 mutually exclusive by this list\n");
 }
 
 // All at once ----------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 #include "text/utf8.h"
 
+#include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -76,4 +77,24 @@ TEST(Quote, CutsLongTexts) {
 }
 
 }  // namespace
+TEST(PositionMap, ExcerptOfALongLine) {
+  std::string line;
+  for (int i = 0; i < 3000; ++i) line += i % 3 == 0 ? "é" : "x";
+  const std::string text = "a\n" + line + "\r\nb";
+  const PositionMap map(text);
+  for (const std::uint32_t column : {1U, 5U, 300U, 1500U, 2990U, 3000U, 3001U}) {
+    const PositionMap::Excerpt excerpt = map.excerpt({2, column}, 10);
+    const std::size_t begin = column > 11 ? column - 11 : 0;
+    const std::size_t end = std::min<std::size_t>(column + 9, 3000);
+    EXPECT_EQ(excerpt.characters_before, begin) << column;
+    EXPECT_EQ(excerpt.is_cut_after, end < 3000) << column;
+    // Every third character takes two bytes.
+    const auto bytes = [](std::size_t characters) { return characters + (characters + 2) / 3; };
+    EXPECT_EQ(excerpt.text, std::string_view(line).substr(bytes(begin), bytes(end) - bytes(begin)))
+        << column;
+  }
+  EXPECT_EQ(map.excerpt({1, 1}, 10).text, "a");
+  EXPECT_EQ(map.excerpt({4, 1}, 10).text, "");
+}
+
 }  // namespace cbc
