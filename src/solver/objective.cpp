@@ -8,7 +8,18 @@ namespace cbc {
 
 Objective::Objective(const CompiledCatalog& catalog, const Domains& domains, const Parts& parts,
                      const std::vector<std::uint32_t>& ranks)
-    : catalog_(catalog), domains_(domains), parts_(parts), ranks_(ranks) {}
+    : catalog_(catalog), domains_(domains), parts_(parts), ranks_(ranks) {
+  const std::size_t tasks = most_in_a_group(catalog.group_tasks);
+  const std::size_t behaviors = most_in_a_group(catalog.group_behaviors);
+  is_request_.reserve(tasks);
+  empty_first_.reserve(tasks);
+  kept_first_.reserve(tasks);
+  active_.reserve(behaviors);
+  free_.reserve(tasks + most_values_in_a_group(catalog) / 64);
+  counted_.resize(behaviors, 0);
+  ours_.reserve(tasks);
+  theirs_.reserve(tasks);
+}
 
 void Objective::load(const Problem& problem) {
   problem_ = &problem;
@@ -20,7 +31,6 @@ void Objective::load(const Problem& problem) {
   for (const std::uint32_t task : problem.requests) is_request_[task] = 1;
   active_.assign(behaviors, 0);
   for (const BehaviorId behavior : problem.active) active_[behavior - first_behavior] = 1;
-  if (counted_.size() < behaviors) counted_.resize(behaviors, 0);
 
   empty_first_.resize(tasks);
   kept_first_.resize(tasks);

@@ -412,7 +412,7 @@ void check_characters(std::string_view text, const PositionMap& positions) {
                          const std::string& file, const Builder& builder) {
   const auto offset = static_cast<std::size_t>(std::max(exception.mark.pos, 0));
   const std::size_t tab = find_indenting_tab(text, offset + 1);
-  if (tab <= offset) {
+  if (tab <= offset && tab < text.size() && text[tab] == '\t') {
     throw Refusal(builder.range_at(tab, tab + 1), "a tab may not indent; use spaces");
   }
   if (exception.msg == unclosed_said) {
