@@ -5,16 +5,12 @@
 #include <optional>
 #include <utility>
 
-#include <boost/graph/compressed_sparse_row_graph.hpp>
-#include <boost/graph/strong_components.hpp>
-#include <boost/range/iterator_range.hpp>
+#include "graph/graph.h"
 
 namespace cbc {
 namespace {
 
 using Vertex = std::uint32_t;
-using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property,
-                                                 boost::no_property, boost::no_property, Vertex>;
 
 // Steps that the search for the shortest cycles may take; enough for every catalog that a person
 // writes.
@@ -27,22 +23,20 @@ class RequirementGraph {
   explicit RequirementGraph(const Catalog& catalog)
       : catalog_(catalog), tasks_(static_cast<Vertex>(catalog.tasks.size())) {
     const std::size_t vertices = catalog.tasks.size() + catalog.behaviors.size();
-    std::vector<std::pair<Vertex, Vertex>> edges;
     for (std::size_t index = 0; index < catalog.behaviors.size(); ++index) {
       const auto vertex = static_cast<Vertex>(tasks_ + index);
       for (const Performance& performance : catalog.behaviors[index].performs) {
-        edges.emplace_back(performance.task, vertex);
+        edges_.emplace_back(performance.task, vertex);
       }
       for (const Requirement& requirement : catalog.behaviors[index].requirements) {
-        edges.emplace_back(vertex, requirement.task);
+        edges_.emplace_back(vertex, requirement.task);
       }
     }
-    graph_ = Graph(boost::edges_are_unsorted_multi_pass, edges.begin(), edges.end(),
-                   static_cast<Vertex>(vertices));
-    component_.resize(vertices);
-    components_ = boost::strong_components(
-        graph_,
-        boost::make_iterator_property_map(component_.begin(), get(boost::vertex_index, graph_)));
+    component_ = strong_components(vertices, edges_);
+    for (const Vertex component : component_) {
+      components_ = std::max<std::size_t>(components_, component + 1);
+    }
+    std::sort(edges_.begin(), edges_.end());
     reached_.resize(vertices, unreached);
     from_.resize(vertices);
   }
@@ -93,7 +87,9 @@ class RequirementGraph {
         if (++length >= bound) break;
       }
       const Vertex vertex = queue[next];
-      for (const Vertex target : boost::make_iterator_range(adjacent_vertices(vertex, graph_))) {
+      for (auto edge = std::lower_bound(edges_.begin(), edges_.end(), std::pair(vertex, Vertex{0}));
+           edge != edges_.end() && edge->first == vertex; ++edge) {
+        const Vertex target = edge->second;
         ++work_;
         if (component_[target] != component_[start]) continue;
         if (target == start) {
@@ -133,7 +129,7 @@ class RequirementGraph {
 
   const Catalog& catalog_;
   Vertex tasks_;
-  Graph graph_;
+  Edges edges_;  // sorted
   std::vector<Vertex> component_;
   std::size_t components_ = 0;
   std::vector<Vertex> reached_;

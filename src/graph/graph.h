@@ -13,6 +13,10 @@ using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 [[nodiscard]] std::vector<std::uint32_t> connected_components(std::size_t vertices,
                                                               const Edges& edges);
 
+/// Strongly connected component of each vertex in the directed graph, counted from 0.
+[[nodiscard]] std::vector<std::uint32_t> strong_components(std::size_t vertices,
+                                                           const Edges& edges);
+
 /// Vertices of an acyclic graph such that every edge (from, to) has `to` before `from`.
 [[nodiscard]] std::vector<std::uint32_t> reverse_topological_order(std::size_t vertices,
                                                                    const Edges& edges);

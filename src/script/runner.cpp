@@ -54,14 +54,7 @@ class Runner final : public EventListener {
       return Coordinator::Status::ok;
     }
     step_ = &step;
-    Event event;
-    event.verb = step.verb;
-    event.subject = step.subject;
-    event.priority = step.priority;
-    if (step.parameters) event.parameters = step.parameters->canonical;
-    event.cause = step.cause;
-    event.situation = step.situation;
-    return coordinator_.handle(event);
+    return coordinator_.handle(event_of(step));
   }
 
   void check(const Step& step) {
@@ -85,6 +78,17 @@ class Runner final : public EventListener {
 };
 
 }  // namespace
+
+Event event_of(const Step& step) {
+  Event event;
+  event.verb = step.verb;
+  event.subject = step.subject;
+  event.priority = step.priority;
+  if (step.parameters) event.parameters = step.parameters->canonical;
+  event.cause = step.cause;
+  event.situation = step.situation;
+  return event;
+}
 
 RunResult run_script(const CompiledCatalog& catalog, const Script& script,
                      const CoordinatorOptions& options, RunListener& listener) {

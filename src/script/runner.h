@@ -36,6 +36,9 @@ struct RunResult {
   std::uint64_t failed = 0;
 };
 
+/// The event of a step, which is no expectation. Refers to the step.
+[[nodiscard]] Event event_of(const Step& step);
+
 /// Runs a script, with its own reactive delay, through a coordinator.
 [[nodiscard]] RunResult run_script(const CompiledCatalog& catalog, const Script& script,
                                    const CoordinatorOptions& options, RunListener& listener);

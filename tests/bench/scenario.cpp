@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "script/runner.h"
+
 namespace cbc::bench {
 namespace {
 
@@ -15,17 +17,6 @@ namespace {
 
 void demand_ok(bool is_ok, const Moment& moment) {
   if (!is_ok) throw std::runtime_error("the coordinator failed at event " + moment.name);
-}
-
-Event event_of(const Step& step) {
-  Event event;
-  event.verb = step.verb;
-  event.subject = step.subject;
-  event.priority = step.priority;
-  if (step.parameters) event.parameters = step.parameters->canonical;
-  event.cause = step.cause;
-  event.situation = step.situation;
-  return event;
 }
 
 std::optional<Microseconds> next_due(const State& state) {

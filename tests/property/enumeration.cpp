@@ -36,7 +36,7 @@ std::size_t compute_level(const CatalogFacts& facts, std::size_t behavior) {
 // Adds R(task) to `required`.
 void collect_required(const CatalogFacts& facts, const Assignment& values, std::size_t task,
                       std::vector<bool>& required) {
-  if (values[task] == kNone) {
+  if (values[task] == none) {
     return;
   }
   for (const Requirement& requirement : facts.catalog.behaviors[values[task]].requirements) {
@@ -63,11 +63,11 @@ bool reaches(const CatalogFacts& facts, const Assignment& values, std::size_t ta
 bool exclusivity_holds(const CatalogFacts& facts, const Assignment& values,
                        const std::vector<std::size_t>& tasks) {
   for (const std::size_t task : tasks) {
-    if (values[task] == kNone) {
+    if (values[task] == none) {
       continue;
     }
     for (const std::size_t other : facts.excludes[task]) {
-      if (values[other] != kNone) {
+      if (values[other] != none) {
         return false;
       }
     }
@@ -78,11 +78,11 @@ bool exclusivity_holds(const CatalogFacts& facts, const Assignment& values,
 bool required_tasks_run(const CatalogFacts& facts, const Assignment& values,
                         const std::vector<std::size_t>& tasks) {
   for (const std::size_t task : tasks) {
-    if (values[task] == kNone) {
+    if (values[task] == none) {
       continue;
     }
     for (const Requirement& requirement : facts.catalog.behaviors[values[task]].requirements) {
-      if (values[requirement.task] == kNone) {
+      if (values[requirement.task] == none) {
         return false;
       }
     }
@@ -93,7 +93,7 @@ bool required_tasks_run(const CatalogFacts& facts, const Assignment& values,
 bool performances_suffice(const CatalogFacts& facts, const Assignment& values,
                           const std::vector<std::size_t>& tasks) {
   for (const std::size_t task : tasks) {
-    if (values[task] == kNone) {
+    if (values[task] == none) {
       continue;
     }
     if (!reaches(facts, values, task, facts.catalog.tasks[task].minimum)) {
@@ -119,14 +119,14 @@ std::vector<std::size_t> ranked_domain(const CatalogFacts& facts, const Problem&
                                        std::size_t task, std::vector<std::size_t> domain) {
   const std::size_t before = problem.before[task];
   const auto suitability = [&](std::size_t behavior) { return facts.suitability(behavior, task); };
-  const bool may_stop = std::find(domain.begin(), domain.end(), kNone) != domain.end();
-  domain.erase(std::remove(domain.begin(), domain.end(), kNone), domain.end());
+  const bool may_stop = std::find(domain.begin(), domain.end(), none) != domain.end();
+  domain.erase(std::remove(domain.begin(), domain.end(), none), domain.end());
   std::sort(domain.begin(), domain.end(), [&](std::size_t a, std::size_t b) {
     return suitability(a) != suitability(b) ? suitability(a) > suitability(b) : a < b;
   });
-  if (before == kNone) {
+  if (before == none) {
     if (may_stop) {
-      domain.insert(domain.begin(), kNone);
+      domain.insert(domain.begin(), none);
     }
     return domain;
   }
@@ -135,7 +135,7 @@ std::vector<std::size_t> ranked_domain(const CatalogFacts& facts, const Problem&
     std::rotate(domain.begin(), own, own + 1);
   }
   if (may_stop) {
-    domain.push_back(kNone);
+    domain.push_back(none);
   }
   return domain;
 }
@@ -146,15 +146,15 @@ Solution evaluate(const CatalogFacts& facts, const Problem& problem, const Assig
   solution.values = values;
   solution.ranks = std::move(ranks);
   for (const ActiveRequest& request : problem.requests) {
-    const bool runs = values[request.task] != kNone;
+    const bool runs = values[request.task] != none;
     solution.satisfied.push_back(runs);
     solution.satisfied_count += runs ? 1U : 0U;
   }
   solution.suitability = 1;
   std::set<std::size_t> active;
   for (const std::size_t task : facts.groups[problem.group]) {
-    if (values[task] == kNone) {
-      solution.suitability *= kWhole;
+    if (values[task] == none) {
+      solution.suitability *= whole_degree;
       continue;
     }
     active.insert(values[task]);
@@ -170,23 +170,23 @@ Solution evaluate(const CatalogFacts& facts, const Problem& problem, const Assig
   return solution;
 }
 
-enum class Criterion { kSatisfied, kRequestOrder, kSuitability, kIdle, kChanges, kRanks, kNothing };
+enum class Criterion { satisfied, request_order, suitability, idle, changes, ranks, nothing };
 
 const char* to_string(Criterion criterion) {
   switch (criterion) {
-    case Criterion::kSatisfied:
+    case Criterion::satisfied:
       return "f1, number of requests";
-    case Criterion::kRequestOrder:
+    case Criterion::request_order:
       return "f1, order of requests";
-    case Criterion::kSuitability:
+    case Criterion::suitability:
       return "f2, suitability";
-    case Criterion::kIdle:
+    case Criterion::idle:
       return "f3, idle tasks";
-    case Criterion::kChanges:
+    case Criterion::changes:
       return "f4, changes";
-    case Criterion::kRanks:
+    case Criterion::ranks:
       return "rule 5, ranks";
-    case Criterion::kNothing:
+    case Criterion::nothing:
       return "nothing";
   }
   return "";
@@ -194,30 +194,30 @@ const char* to_string(Criterion criterion) {
 
 struct Comparison {
   bool first_is_better = false;
-  Criterion decided_by = Criterion::kNothing;
+  Criterion decided_by = Criterion::nothing;
 };
 
 // Compares two solutions of one problem by the objectives, in their order.
 Comparison compare(const Solution& a, const Solution& b) {
   if (a.satisfied_count != b.satisfied_count) {
-    return {a.satisfied_count > b.satisfied_count, Criterion::kSatisfied};
+    return {a.satisfied_count > b.satisfied_count, Criterion::satisfied};
   }
   for (std::size_t i = 0; i < a.satisfied.size(); ++i) {
     if (a.satisfied[i] != b.satisfied[i]) {
-      return {a.satisfied[i], Criterion::kRequestOrder};
+      return {a.satisfied[i], Criterion::request_order};
     }
   }
   if (a.suitability != b.suitability) {
-    return {a.suitability > b.suitability, Criterion::kSuitability};
+    return {a.suitability > b.suitability, Criterion::suitability};
   }
   if (a.running_unasked != b.running_unasked) {
-    return {a.running_unasked < b.running_unasked, Criterion::kIdle};
+    return {a.running_unasked < b.running_unasked, Criterion::idle};
   }
   if (a.changes != b.changes) {
-    return {a.changes < b.changes, Criterion::kChanges};
+    return {a.changes < b.changes, Criterion::changes};
   }
   if (a.ranks != b.ranks) {
-    return {a.ranks < b.ranks, Criterion::kRanks};
+    return {a.ranks < b.ranks, Criterion::ranks};
   }
   return {};
 }
@@ -237,7 +237,7 @@ void count_boundaries(const CatalogFacts& facts, const Problem& problem, const A
     }
   };
   for (const std::size_t task : facts.groups[problem.group]) {
-    if (values[task] == kNone) {
+    if (values[task] == none) {
       continue;
     }
     look_at(task, facts.catalog.tasks[task].minimum);
@@ -260,7 +260,7 @@ void count_criteria(const Solution& best, const std::vector<Solution>& solutions
   for (const Solution& solution : solutions) {
     decisive.insert(compare(best, solution).decided_by);
   }
-  decisive.erase(Criterion::kNothing);
+  decisive.erase(Criterion::nothing);
   for (const Criterion criterion : decisive) {
     statistics.count(std::string("decided by: ") + to_string(criterion));
   }
@@ -299,10 +299,10 @@ CatalogFacts::CatalogFacts(Catalog source) : catalog(std::move(source)) {
     }
   }
 
-  std::vector<std::size_t> group_of_root(tasks, kNone);
+  std::vector<std::size_t> group_of_root(tasks, none);
   for (std::size_t task = 0; task < tasks; ++task) {
     std::size_t& group = group_of_root[root_of(parent, task)];
-    if (group == kNone) {
+    if (group == none) {
       group = groups.size();
       groups.emplace_back();
     }
@@ -339,7 +339,7 @@ ExactPerformance performance(const CatalogFacts& facts, const Assignment& values
       const Millionths suitability = facts.suitability(values[t], t);
       result.product *= suitability;
       ++result.factors;
-      result.factors_below_one += suitability < kWhole ? 1U : 0U;
+      result.factors_below_one += suitability < whole_degree ? 1U : 0U;
     }
   }
   return result;
@@ -348,7 +348,7 @@ ExactPerformance performance(const CatalogFacts& facts, const Assignment& values
 Integer power_of_million(std::size_t exponent) {
   Integer result = 1;
   for (std::size_t i = 0; i < exponent; ++i) {
-    result *= kWhole;
+    result *= whole_degree;
   }
   return result;
 }

@@ -16,7 +16,7 @@ namespace cbc::oracle {
 
 using Integer = boost::multiprecision::cpp_int;
 
-// The value of every task of the catalog: kNone or a behavior.
+// The value of every task of the catalog: none or a behavior.
 using Assignment = std::vector<std::size_t>;
 
 // What follows from a catalog alone.
@@ -56,7 +56,7 @@ struct ActiveRequest {
 
 struct Problem {
   std::size_t group = 0;
-  std::vector<std::vector<std::size_t>> domains;  // of the tasks of the group; may include kNone
+  std::vector<std::vector<std::size_t>> domains;  // of the tasks of the group; may include none
   std::vector<ActiveRequest> requests;            // of the group; see sort_requests
   Assignment before;             // values before the event, a finished behavior still included
   std::set<std::size_t> active;  // behaviors active just before the event, a finished one not

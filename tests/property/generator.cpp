@@ -37,7 +37,7 @@ std::vector<Millionths> pick_palette(Random& random) {
   }
   std::vector<Millionths> palette;
   for (int i = 0; i < 4; ++i) {
-    palette.push_back(random.between(0, kWhole));
+    palette.push_back(random.between(0, whole_degree));
   }
   return palette;
 }
@@ -245,7 +245,7 @@ class CatalogGenerator {
   }
 
   void add_requirements(const Block& block, Behavior& behavior) {
-    std::size_t first_own = kNone;
+    std::size_t first_own = none;
     for (const Performance& performed : behavior.performs) {
       first_own = std::min(first_own, performed.task);
     }
@@ -294,7 +294,7 @@ class CatalogGenerator {
     if (exact && random_.percent(90)) {
       return reached;
     }
-    return std::min<Millionths>(kWhole, reached + random_.between(0, 1));
+    return std::min<Millionths>(whole_degree, reached + random_.between(0, 1));
   }
 
   // Multiplies the suitabilities of a random choice for a task and all it requires.
@@ -517,7 +517,7 @@ class ScriptGenerator {
     std::vector<Event> candidates;
     for (std::size_t task = 0; task < task_count(); ++task) {
       Event event;
-      event.verb = Verb::kStart;
+      event.verb = Verb::start;
       event.subject = task;
       event.priority = static_cast<int>(random_.between(1, 4));
       candidates.push_back(event);
@@ -525,9 +525,9 @@ class ScriptGenerator {
     for (std::size_t b = 0; b < facts_->catalog.behaviors.size(); ++b) {
       if (is_active(b)) {
         Event event;
-        event.verb = Verb::kFinish;
+        event.verb = Verb::finish;
         event.subject = b;
-        event.cause = random_.percent(50) ? Cause::kProcessFailure : Cause::kInterrupted;
+        event.cause = random_.percent(50) ? Cause::process_failure : Cause::interrupted;
         candidates.push_back(event);
       }
     }
@@ -549,7 +549,7 @@ class ScriptGenerator {
   std::vector<std::size_t> tasks_where(bool running, bool requested) const {
     std::vector<std::size_t> result;
     for (std::size_t task = 0; task < task_count(); ++task) {
-      const bool runs = oracle_.state().values[task] != kNone;
+      const bool runs = oracle_.state().values[task] != none;
       if (runs == running && (!requested || oracle_.state().requests[task])) {
         result.push_back(task);
       }
@@ -575,9 +575,9 @@ class ScriptGenerator {
 
   Event start_event(std::size_t task) {
     Event event;
-    event.verb = Verb::kStart;
+    event.verb = Verb::start;
     // A task that runs already is tried again with another one, most of the time.
-    if (oracle_.state().values[task] != kNone && random_.percent(70)) {
+    if (oracle_.state().values[task] != none && random_.percent(70)) {
       const std::vector<std::size_t> idle = tasks_where(false, false);
       task = idle.empty() ? task : random_.pick(idle);
     }
@@ -632,7 +632,7 @@ class ScriptGenerator {
 
   Event stop_event() {
     Event event;
-    event.verb = Verb::kStop;
+    event.verb = Verb::stop;
     const std::vector<std::size_t> running = tasks_where(true, false);
     event.subject = running.empty() || random_.percent(12) ? random_.below(task_count())
                                                            : random_.pick(running);
@@ -645,12 +645,12 @@ class ScriptGenerator {
   void add_stop() { emit_timed(stop_event()); }
 
   Event finish_event() {
-    static const std::vector<Cause> causes = {Cause::kGoalAchieved,    Cause::kGoalAchieved,
-                                              Cause::kSituationChange, Cause::kTimeOut,
-                                              Cause::kWrongProgress,   Cause::kProcessFailure,
-                                              Cause::kInterrupted,     Cause::kSituationChange};
+    static const std::vector<Cause> causes = {Cause::goal_achieved,    Cause::goal_achieved,
+                                              Cause::situation_change, Cause::time_out,
+                                              Cause::wrong_progress,   Cause::process_failure,
+                                              Cause::interrupted,      Cause::situation_change};
     Event event;
-    event.verb = Verb::kFinish;
+    event.verb = Verb::finish;
     event.cause = random_.pick(causes);
     const std::vector<std::size_t> active =
         behaviors_where([&](std::size_t b) { return is_active(b); });
@@ -666,9 +666,9 @@ class ScriptGenerator {
       return;
     }
     Event event = finish_event();
-    if (event.cause == Cause::kSituationChange && random_.percent(60)) {
+    if (event.cause == Cause::situation_change && random_.percent(60)) {
       Event change;
-      change.verb = Verb::kSituation;
+      change.verb = Verb::situation;
       change.situation.emplace_back(event.subject, false);
       emit_timed(change);
       emit(event);
@@ -679,7 +679,7 @@ class ScriptGenerator {
 
   void add_wait() {
     Event event;
-    event.verb = Verb::kWait;
+    event.verb = Verb::wait;
     add_time(event);
     if (!event.at && !event.wait) {
       event.wait = unit_ * random_.between(0, 4);
@@ -691,7 +691,7 @@ class ScriptGenerator {
     const std::vector<std::size_t> unavailable =
         behaviors_where([&](std::size_t b) { return !oracle_.available(b); });
     Event event;
-    event.verb = Verb::kSituation;
+    event.verb = Verb::situation;
     const std::size_t behaviors = facts_->catalog.behaviors.size();
     if (!unavailable.empty() && random_.percent(65)) {
       event.situation.emplace_back(random_.pick(unavailable), true);
@@ -712,7 +712,7 @@ class ScriptGenerator {
 
   void emit_fault(std::size_t behavior) {
     Event event;
-    event.verb = Verb::kFault;
+    event.verb = Verb::fault;
     event.subject = behavior;
     emit(event);
   }
@@ -739,7 +739,7 @@ class ScriptGenerator {
       return;
     }
     Event event;
-    event.verb = Verb::kRepair;
+    event.verb = Verb::repair;
     event.subject = faulty.empty() ? random_.below(behaviors) : random_.pick(faulty);
     emit_timed(event);
   }
@@ -767,7 +767,7 @@ class ScriptGenerator {
   // Often looks again, at what it would do then.
   void add_failing_event() {
     const Event event = event_to_fail();
-    const bool all_of_task = event.verb == Verb::kStart && random_.percent(45);
+    const bool all_of_task = event.verb == Verb::start && random_.percent(45);
     const std::size_t chance_if_active = random_.percent(50) ? 90 : 20;
     if (all_of_task) {
       for (const std::size_t behavior : facts_->behaviors_of[event.subject]) {

@@ -16,11 +16,11 @@ using Microseconds = std::int64_t;
 
 // A percentage, exact to four decimals: 100 % is one million.
 using Millionths = std::int64_t;
-inline constexpr Millionths kWhole = 1'000'000;
+inline constexpr Millionths whole_degree = 1'000'000;
 
-// Tasks and behaviors are numbered in catalog order. As the value of a task, kNone is "not
+// Tasks and behaviors are numbered in catalog order. As the value of a task, none is "not
 // running".
-inline constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+inline constexpr std::size_t none = static_cast<std::size_t>(-1);
 
 struct Task {
   std::string name;
@@ -36,7 +36,7 @@ struct Task {
 
 struct Performance {
   std::size_t task = 0;
-  Millionths suitability = kWhole;
+  Millionths suitability = whole_degree;
 
   bool operator==(const Performance&) const = default;
 };
@@ -75,15 +75,15 @@ struct Catalog {
   std::vector<std::vector<std::size_t>> exclusivity;
 };
 
-enum class Verb { kStart, kStop, kFinish, kSituation, kFault, kRepair, kWait };
+enum class Verb { start, stop, finish, situation, fault, repair, wait };
 
 enum class Cause {
-  kGoalAchieved,
-  kSituationChange,
-  kTimeOut,
-  kWrongProgress,
-  kProcessFailure,
-  kInterrupted
+  goal_achieved,
+  situation_change,
+  time_out,
+  wrong_progress,
+  process_failure,
+  interrupted
 };
 
 // Any YAML value whose scalars are text or null.
@@ -92,13 +92,13 @@ using Parameters = nlohmann::ordered_json;
 using Situation = std::vector<std::pair<std::size_t, bool>>;  // behavior, available
 
 struct Event {
-  Verb verb = Verb::kWait;
+  Verb verb = Verb::wait;
   std::optional<Microseconds> at;        // at most one of at and wait
   std::optional<Microseconds> wait;      // since the event before
-  std::size_t subject = kNone;           // start, stop: a task; finish, fault, repair: a behavior
+  std::size_t subject = none;            // start, stop: a task; finish, fault, repair: a behavior
   std::optional<int> priority;           // start, stop
   std::optional<Parameters> parameters;  // start
-  Cause cause = Cause::kGoalAchieved;    // finish
+  Cause cause = Cause::goal_achieved;    // finish
   Situation situation;
 };
 
@@ -110,19 +110,19 @@ struct Script {
 
 inline const char* to_string(Verb verb) {
   switch (verb) {
-    case Verb::kStart:
+    case Verb::start:
       return "start";
-    case Verb::kStop:
+    case Verb::stop:
       return "stop";
-    case Verb::kFinish:
+    case Verb::finish:
       return "finish";
-    case Verb::kSituation:
+    case Verb::situation:
       return "situation";
-    case Verb::kFault:
+    case Verb::fault:
       return "fault";
-    case Verb::kRepair:
+    case Verb::repair:
       return "repair";
-    case Verb::kWait:
+    case Verb::wait:
       return "wait";
   }
   return "";
@@ -130,17 +130,17 @@ inline const char* to_string(Verb verb) {
 
 inline const char* to_string(Cause cause) {
   switch (cause) {
-    case Cause::kGoalAchieved:
+    case Cause::goal_achieved:
       return "goal_achieved";
-    case Cause::kSituationChange:
+    case Cause::situation_change:
       return "situation_change";
-    case Cause::kTimeOut:
+    case Cause::time_out:
       return "time_out";
-    case Cause::kWrongProgress:
+    case Cause::wrong_progress:
       return "wrong_progress";
-    case Cause::kProcessFailure:
+    case Cause::process_failure:
       return "process_failure";
-    case Cause::kInterrupted:
+    case Cause::interrupted:
       return "interrupted";
   }
   return "";

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr Microseconds kDefaultReactiveDelay = 80'000;
+constexpr Microseconds default_reactive_delay = 80'000;
 
 bool contains(const std::vector<std::size_t>& items, std::size_t item) {
   return std::find(items.begin(), items.end(), item) != items.end();
@@ -45,11 +45,11 @@ nlohmann::json canonical(const Parameters& value) {
 
 std::set<std::size_t> active_behaviors(const Assignment& values) {
   std::set<std::size_t> active(values.begin(), values.end());
-  active.erase(kNone);
+  active.erase(none);
   return active;
 }
 
-enum class LevelOrder { kHighestFirst, kLowestFirst };
+enum class LevelOrder { highest_first, lowest_first };
 
 // The behaviors of one set that are not in another; of one level in catalog order.
 std::vector<std::size_t> difference(const CatalogFacts& facts, const std::set<std::size_t>& from,
@@ -60,7 +60,7 @@ std::vector<std::size_t> difference(const CatalogFacts& facts, const std::set<st
   std::stable_sort(result.begin(), result.end(), [&](std::size_t a, std::size_t b) {
     const std::size_t level_a = facts.level_of[a];
     const std::size_t level_b = facts.level_of[b];
-    return order == LevelOrder::kHighestFirst ? level_a > level_b : level_a < level_b;
+    return order == LevelOrder::highest_first ? level_a > level_b : level_a < level_b;
   });
   return result;
 }
@@ -69,7 +69,7 @@ std::vector<std::size_t> difference(const CatalogFacts& facts, const std::set<st
 std::optional<int> higher(std::optional<int> a, std::optional<int> b) { return a < b ? b : a; }
 
 bool is_failure(Cause cause) {
-  return cause != Cause::kGoalAchieved && cause != Cause::kSituationChange;
+  return cause != Cause::goal_achieved && cause != Cause::situation_change;
 }
 
 }  // namespace
@@ -82,10 +82,10 @@ Oracle::Oracle(std::shared_ptr<const CatalogFacts> facts, const Script& script,
                Statistics* statistics)
     : facts_(std::move(facts)),
       statistics_(statistics),
-      reactive_delay_(script.reactive_delay.value_or(kDefaultReactiveDelay)) {
+      reactive_delay_(script.reactive_delay.value_or(default_reactive_delay)) {
   const std::size_t tasks = facts_->catalog.tasks.size();
   const std::size_t behaviors = facts_->catalog.behaviors.size();
-  state_.values.assign(tasks, kNone);
+  state_.values.assign(tasks, none);
   state_.requests.resize(tasks);
   queue_.resize(tasks);
   taken_at_.resize(tasks, 0);
@@ -112,20 +112,20 @@ void Oracle::handle(const Event& event) {
     count("due at the instant of a scripted event");
   }
   switch (event.verb) {
-    case Verb::kStart:
+    case Verb::start:
       return run_start(event);
-    case Verb::kStop:
+    case Verb::stop:
       return run_stop(event);
-    case Verb::kFinish:
+    case Verb::finish:
       return run_finish("script", event.subject, event.cause);
-    case Verb::kSituation:
+    case Verb::situation:
       return run_situation(event);
-    case Verb::kFault:
+    case Verb::fault:
       return run_fault(event);
-    case Verb::kRepair:
+    case Verb::repair:
       return run_repair(event);
-    case Verb::kWait:
-      return complete_unsolved(new_record("script", Verb::kWait), "unchanged");
+    case Verb::wait:
+      return complete_unsolved(new_record("script", Verb::wait), "unchanged");
   }
 }
 
@@ -158,10 +158,10 @@ std::optional<Oracle::Due> Oracle::next_due() const {
   };
   for (std::size_t task = 0; task < state_.values.size(); ++task) {
     if (const std::optional<Microseconds> time = deadline(task)) {
-      consider({*time, DueKind::kTimeout, task});
+      consider({*time, DueKind::timeout, task});
     }
     if (queue_[task]) {
-      consider({*queue_[task], DueKind::kReactiveStart, task});
+      consider({*queue_[task], DueKind::reactive_start, task});
     }
   }
   return first;
@@ -170,7 +170,7 @@ std::optional<Oracle::Due> Oracle::next_due() const {
 std::optional<Microseconds> Oracle::deadline(std::size_t task) const {
   const std::size_t behavior = state_.values[task];
   const Task& attributes = facts_->catalog.tasks[task];
-  if (behavior == kNone || attributes.keep_running) {
+  if (behavior == none || attributes.keep_running) {
     return std::nullopt;
   }
   std::optional<Microseconds> timeout = facts_->catalog.behaviors[behavior].timeout;
@@ -185,8 +185,8 @@ std::optional<Microseconds> Oracle::deadline(std::size_t task) const {
 
 void Oracle::run_due(const Due& due) {
   now_ = due.time;
-  if (due.kind == DueKind::kTimeout) {
-    run_finish("timeout", state_.values[due.task], Cause::kTimeOut);
+  if (due.kind == DueKind::timeout) {
+    run_finish("timeout", state_.values[due.task], Cause::time_out);
   } else {
     run_reactive_start(due.task);
   }
@@ -200,7 +200,7 @@ void Oracle::run_due(const Due& due) {
 void Oracle::run_start(const Event& event) {
   const std::size_t task = event.subject;
   const int priority = event.priority.value_or(1);
-  ordered_json record = new_record("script", Verb::kStart);
+  ordered_json record = new_record("script", Verb::start);
   record["name"] = task_name(task);
   record["priority"] = priority;
   if (event.parameters) {
@@ -212,7 +212,7 @@ void Oracle::run_start(const Event& event) {
     return complete_unsolved(std::move(record), "rejected");
   }
   Trigger trigger;
-  trigger.verb = Verb::kStart;
+  trigger.verb = Verb::start;
   trigger.subject = task;
   trigger.priority = priority;
   trigger.parameters = event.parameters;
@@ -223,10 +223,10 @@ void Oracle::run_stop(const Event& event) {
   const std::size_t task = event.subject;
   const std::optional<Request>& request = state_.requests[task];
   const int priority = event.priority.value_or(request ? request->priority : 0);
-  ordered_json record = new_record("script", Verb::kStop);
+  ordered_json record = new_record("script", Verb::stop);
   record["name"] = task_name(task);
   record["priority"] = priority;
-  if (state_.values[task] == kNone) {
+  if (state_.values[task] == none) {
     queue_[task].reset();
     return complete_unsolved(std::move(record), "unchanged");
   }
@@ -235,14 +235,14 @@ void Oracle::run_stop(const Event& event) {
     return complete_unsolved(std::move(record), "rejected");
   }
   Trigger trigger;
-  trigger.verb = Verb::kStop;
+  trigger.verb = Verb::stop;
   trigger.subject = task;
   trigger.priority = priority;
   coordinate(std::move(record), trigger);
 }
 
 void Oracle::run_finish(const char* origin, std::size_t behavior, Cause cause) {
-  ordered_json record = new_record(origin, Verb::kFinish);
+  ordered_json record = new_record(origin, Verb::finish);
   record["name"] = behavior_name(behavior);
   record["cause"] = to_string(cause);
   if (!is_active(behavior)) {
@@ -251,14 +251,14 @@ void Oracle::run_finish(const char* origin, std::size_t behavior, Cause cause) {
   }
   count(std::string("finish: ") + to_string(cause));
   Trigger trigger;
-  trigger.verb = Verb::kFinish;
+  trigger.verb = Verb::finish;
   trigger.subject = behavior;
   trigger.cause = cause;
   coordinate(std::move(record), trigger);
 }
 
 void Oracle::run_situation(const Event& event) {
-  ordered_json record = new_record("script", Verb::kSituation);
+  ordered_json record = new_record("script", Verb::situation);
   ordered_json map = ordered_json::object();
   for (const auto& [behavior, available] : event.situation) {
     map[behavior_name(behavior)] = available;
@@ -272,14 +272,14 @@ void Oracle::run_situation(const Event& event) {
 }
 
 void Oracle::run_fault(const Event& event) {
-  ordered_json record = new_record("script", Verb::kFault);
+  ordered_json record = new_record("script", Verb::fault);
   record["name"] = behavior_name(event.subject);
   faulty_[event.subject] = true;
   complete_unsolved(std::move(record), "unchanged");
 }
 
 void Oracle::run_repair(const Event& event) {
-  ordered_json record = new_record("script", Verb::kRepair);
+  ordered_json record = new_record("script", Verb::repair);
   record["name"] = behavior_name(event.subject);
   if (faulty_[event.subject]) {
     join_queue_by_group(facts_->group_of_behavior(event.subject));
@@ -290,25 +290,24 @@ void Oracle::run_repair(const Event& event) {
 
 void Oracle::run_reactive_start(std::size_t task) {
   queue_[task].reset();
-  if (state_.values[task] != kNone) {
+  if (state_.values[task] != none) {
     return;
   }
   const std::set<std::size_t>& excluded = facts_->excludes[task];
   const std::vector<std::size_t>& behaviors = facts_->behaviors_of[task];
-  const bool blocked = std::any_of(excluded.begin(), excluded.end(), [&](std::size_t other) {
-    return state_.values[other] != kNone;
-  });
+  const bool blocked = std::any_of(excluded.begin(), excluded.end(),
+                                   [&](std::size_t other) { return state_.values[other] != none; });
   const bool possible = std::any_of(behaviors.begin(), behaviors.end(),
                                     [&](std::size_t behavior) { return available(behavior); });
   if (blocked || !possible) {
     count("reactive start: dropped");
     return;
   }
-  ordered_json record = new_record("reactive", Verb::kStart);
+  ordered_json record = new_record("reactive", Verb::start);
   record["name"] = task_name(task);
   record["priority"] = 0;
   Trigger trigger;
-  trigger.verb = Verb::kStart;
+  trigger.verb = Verb::start;
   trigger.subject = task;
   trigger.reactive = true;
   coordinate(std::move(record), trigger);
@@ -328,7 +327,7 @@ void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
     solution = solve_at_some_level(transition);
   }
   const std::string outcome = solution ? "accepted" : "rejected";
-  if (trigger.verb == Verb::kFinish) {
+  if (trigger.verb == Verb::finish) {
     const int depth = transition.level - transition.first_level;
     count("escalation: " + (depth < 3 ? std::to_string(depth) : std::string("3 or more")));
   }
@@ -342,7 +341,7 @@ void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
     for (const std::size_t task : stopped_tasks(solution->values)) {
       const bool own = contains(transition.finished_tasks, task);
       stopped.push_back({{"task", task_name(task)},
-                         {"cause", to_string(own ? trigger.cause : Cause::kInterrupted)}});
+                         {"cause", to_string(own ? trigger.cause : Cause::interrupted)}});
     }
     objectives = objective(transition, *solution);
     commit(transition, solution->values);
@@ -364,7 +363,7 @@ void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
   complete(std::move(record), outcome);
 
   for (const std::size_t behavior : transition.lost) {
-    run_finish("fault", behavior, Cause::kProcessFailure);
+    run_finish("fault", behavior, Cause::process_failure);
   }
 }
 
@@ -376,7 +375,7 @@ Oracle::Transition Oracle::begin(const Trigger& trigger) const {
   for (const std::size_t behavior : transition.active_before) {
     transition.tasks_of[behavior] = tasks_performed(state_.values, behavior);
   }
-  if (trigger.verb == Verb::kFinish) {
+  if (trigger.verb == Verb::finish) {
     transition.finished_tasks = transition.tasks_of[trigger.subject];
     transition.active_before.erase(trigger.subject);
     transition.group = facts_->group_of_behavior(trigger.subject);
@@ -402,7 +401,7 @@ std::optional<Solution> Oracle::solve_at_some_level(Transition& transition) cons
     const Problem to_solve = problem(transition);
     transition.space = search_space(to_solve);
     std::optional<Solution> solution = solve(*facts_, to_solve, statistics_);
-    if (solution || transition.trigger.verb != Verb::kFinish) {
+    if (solution || transition.trigger.verb != Verb::finish) {
       return solution;
     }
     ++transition.level;
@@ -433,24 +432,24 @@ Problem Oracle::problem(const Transition& transition) const {
 std::vector<std::size_t> Oracle::domain(const Transition& transition, std::size_t task) const {
   const Trigger& trigger = transition.trigger;
   std::vector<std::size_t> values = selectable(transition, task);
-  if (trigger.verb == Verb::kStart && task == trigger.subject) {
+  if (trigger.verb == Verb::start && task == trigger.subject) {
     return values;
   }
-  if (trigger.verb == Verb::kStop && task == trigger.subject) {
-    return {kNone};
+  if (trigger.verb == Verb::stop && task == trigger.subject) {
+    return {none};
   }
   if (contains(transition.finished_tasks, task)) {
-    if (trigger.cause == Cause::kGoalAchieved) {
-      return {kNone};
+    if (trigger.cause == Cause::goal_achieved) {
+      return {none};
     }
-    values.push_back(kNone);
+    values.push_back(none);
     return values;
   }
-  if (facts_->catalog.tasks[task].start_on_request && state_.values[task] == kNone) {
-    return {kNone};
+  if (facts_->catalog.tasks[task].start_on_request && state_.values[task] == none) {
+    return {none};
   }
   if (!is_protected(transition, task)) {
-    values.push_back(kNone);
+    values.push_back(none);
   }
   return values;
 }
@@ -461,7 +460,7 @@ std::vector<std::size_t> Oracle::selectable(const Transition& transition, std::s
   std::vector<std::size_t> result;
   for (const std::size_t behavior : facts_->behaviors_of[task]) {
     const bool keeps_it = behavior == state_.values[task] && !finished;
-    if ((available(behavior) || keeps_it) && transition.excluded.count(behavior) == 0) {
+    if ((available(behavior) || keeps_it) && !transition.excluded.contains(behavior)) {
       result.push_back(behavior);
     }
   }
@@ -476,15 +475,15 @@ bool Oracle::is_protected(const Transition& transition, std::size_t task) const 
 // Of the whole catalog: those of running tasks, the new one included, one stopped or done excluded.
 std::vector<ActiveRequest> Oracle::active_requests(const Transition& transition) const {
   const Trigger& trigger = transition.trigger;
-  const bool success = trigger.cause == Cause::kGoalAchieved;
+  const bool success = trigger.cause == Cause::goal_achieved;
   std::vector<ActiveRequest> result;
   for (std::size_t task = 0; task < state_.requests.size(); ++task) {
     const std::optional<Request>& request = state_.requests[task];
-    if (trigger.verb == Verb::kStart && task == trigger.subject) {
+    if (trigger.verb == Verb::start && task == trigger.subject) {
       result.push_back({task, trigger.priority, event_number_});
       continue;
     }
-    const bool stopped = trigger.verb == Verb::kStop && task == trigger.subject;
+    const bool stopped = trigger.verb == Verb::stop && task == trigger.subject;
     const bool done = success && contains(transition.finished_tasks, task);
     if (request && !stopped && !done) {
       result.push_back({task, request->priority, request->set_by});
@@ -498,12 +497,12 @@ std::vector<ActiveRequest> Oracle::active_requests(const Transition& transition)
 std::optional<std::size_t> Oracle::apply(Transition& transition, const Assignment& values) {
   const std::set<std::size_t> target = active_behaviors(values);
   const bool restart = restarts(transition, values);
-  const std::size_t restarted = restart ? values[transition.trigger.subject] : kNone;
+  const std::size_t restarted = restart ? values[transition.trigger.subject] : none;
 
   for (const std::size_t behavior :
-       difference(*facts_, transition.active, target, LevelOrder::kHighestFirst)) {
+       difference(*facts_, transition.active, target, LevelOrder::highest_first)) {
     const std::vector<std::size_t>& tasks = transition.tasks_of[behavior];
-    if (transition.active_before.count(behavior) == 0) {
+    if (!transition.active_before.contains(behavior)) {
       deactivate(transition, behavior, "undone", std::nullopt);
     } else {
       deactivate(transition, behavior, deactivation_cause(transition, values, tasks),
@@ -511,21 +510,21 @@ std::optional<std::size_t> Oracle::apply(Transition& transition, const Assignmen
     }
   }
   for (const std::size_t behavior :
-       difference(*facts_, target, transition.active, LevelOrder::kLowestFirst)) {
+       difference(*facts_, target, transition.active, LevelOrder::lowest_first)) {
     if (behavior == restarted) {
       continue;
     }
     const std::vector<std::size_t> tasks = tasks_performed(values, behavior);
     const std::optional<int> priority = priority_after(transition, tasks);
     const char* cause = !priority ? "required" : *priority >= 1 ? "requested" : "reactive";
-    const bool undone = transition.active_before.count(behavior) != 0;
+    const bool undone = transition.active_before.contains(behavior);
     if (!activate(transition, behavior, tasks, undone ? "undone" : cause,
                   undone ? std::nullopt : priority)) {
       return behavior;
     }
   }
   if (restart) {
-    if (transition.active.count(restarted) != 0) {
+    if (transition.active.contains(restarted)) {
       deactivate(transition, restarted, "restarted",
                  priority_before(transition.tasks_of[restarted]));
     }
@@ -541,11 +540,11 @@ std::optional<std::size_t> Oracle::apply(Transition& transition, const Assignmen
 const char* Oracle::deactivation_cause(const Transition& transition, const Assignment& values,
                                        const std::vector<std::size_t>& tasks) const {
   const Trigger& trigger = transition.trigger;
-  if (trigger.verb == Verb::kStop && contains(tasks, trigger.subject)) {
+  if (trigger.verb == Verb::stop && contains(tasks, trigger.subject)) {
     return "requested";
   }
   const bool goes_on = std::any_of(tasks.begin(), tasks.end(),
-                                   [&](std::size_t task) { return values[task] != kNone; });
+                                   [&](std::size_t task) { return values[task] != none; });
   if (goes_on) {
     return "replaced";
   }
@@ -577,11 +576,11 @@ std::optional<int> Oracle::priority_after(const Transition& transition,
 void Oracle::take_back(Transition& transition) {
   const std::set<std::size_t>& before = transition.active_before;
   for (const std::size_t behavior :
-       difference(*facts_, transition.active, before, LevelOrder::kHighestFirst)) {
+       difference(*facts_, transition.active, before, LevelOrder::highest_first)) {
     deactivate(transition, behavior, "undone", std::nullopt);
   }
   for (const std::size_t behavior :
-       difference(*facts_, before, transition.active, LevelOrder::kLowestFirst)) {
+       difference(*facts_, before, transition.active, LevelOrder::lowest_first)) {
     if (!activate(transition, behavior, tasks_performed(state_.values, behavior), "undone",
                   std::nullopt)) {
       transition.lost.push_back(behavior);
@@ -638,11 +637,11 @@ void Oracle::add_change(Transition& transition, const std::string& operation, st
 // Whether the started task keeps its behavior, with other parameters.
 bool Oracle::restarts(const Transition& transition, const Assignment& values) const {
   const Trigger& trigger = transition.trigger;
-  if (trigger.verb != Verb::kStart || !trigger.parameters) {
+  if (trigger.verb != Verb::start || !trigger.parameters) {
     return false;
   }
   const std::size_t before = state_.values[trigger.subject];
-  if (before == kNone || before != values[trigger.subject]) {
+  if (before == none || before != values[trigger.subject]) {
     return false;
   }
   const std::optional<Request>& request = state_.requests[trigger.subject];
@@ -652,7 +651,7 @@ bool Oracle::restarts(const Transition& transition, const Assignment& values) co
 std::vector<std::size_t> Oracle::stopped_tasks(const Assignment& values) const {
   std::vector<std::size_t> result;
   for (std::size_t task = 0; task < values.size(); ++task) {
-    if (state_.values[task] != kNone && values[task] == kNone) {
+    if (state_.values[task] != none && values[task] == none) {
       result.push_back(task);
     }
   }
@@ -663,7 +662,7 @@ void Oracle::commit(const Transition& transition, const Assignment& values) {
   const Trigger& trigger = transition.trigger;
   const Assignment before = state_.values;
   state_.values = values;
-  if (trigger.verb == Verb::kStart) {
+  if (trigger.verb == Verb::start) {
     std::optional<Request>& request = state_.requests[trigger.subject];
     Parameters parameters = request ? request->parameters : Parameters();
     if (trigger.parameters) {
@@ -672,7 +671,7 @@ void Oracle::commit(const Transition& transition, const Assignment& values) {
     request = Request{trigger.priority, std::move(parameters), event_number_};
   }
   for (std::size_t task = 0; task < values.size(); ++task) {
-    if (values[task] == kNone) {
+    if (values[task] == none) {
       state_.requests[task].reset();
     } else if (values[task] != before[task]) {
       taken_at_[task] = now_;
@@ -685,19 +684,19 @@ void Oracle::commit(const Transition& transition, const Assignment& values) {
 void Oracle::update_queue(const Transition& transition, const Assignment& before) {
   const Trigger& trigger = transition.trigger;
   for (std::size_t task = 0; task < before.size(); ++task) {
-    if (before[task] == kNone || state_.values[task] != kNone) {
+    if (before[task] == none || state_.values[task] != none) {
       continue;
     }
     for (const std::size_t other : facts_->excludes[task]) {
       join_queue(other);
     }
-    const bool own_stop = trigger.verb == Verb::kStop && task == trigger.subject;
+    const bool own_stop = trigger.verb == Verb::stop && task == trigger.subject;
     if (!own_stop && !contains(transition.finished_tasks, task)) {
       join_queue(task);
     }
   }
   for (std::size_t task = 0; task < before.size(); ++task) {
-    if (before[task] == kNone && state_.values[task] != kNone) {
+    if (before[task] == none && state_.values[task] != none) {
       queue_[task].reset();
       for (const std::size_t other : facts_->excludes[task]) {
         queue_[other].reset();
@@ -708,7 +707,7 @@ void Oracle::update_queue(const Transition& transition, const Assignment& before
 
 // A reactive task that is neither running nor in Q joins it.
 void Oracle::join_queue(std::size_t task) {
-  if (facts_->catalog.tasks[task].reactive_start && state_.values[task] == kNone && !queue_[task]) {
+  if (facts_->catalog.tasks[task].reactive_start && state_.values[task] == none && !queue_[task]) {
     queue_[task] = now_ + reactive_delay_;
   }
 }
@@ -726,17 +725,17 @@ ordered_json Oracle::objective(const Transition& transition, const Solution& sol
   const std::vector<ActiveRequest> requests = active_requests(transition);
   std::size_t satisfied = 0;
   for (const ActiveRequest& request : requests) {
-    satisfied += solution.values[request.task] != kNone ? 1U : 0U;
+    satisfied += solution.values[request.task] != none ? 1U : 0U;
   }
   Integer suitability = 1;
   std::size_t automatic = 0;
   std::size_t idle = 0;
   for (std::size_t task = 0; task < tasks.size(); ++task) {
     const std::size_t behavior = solution.values[task];
-    suitability *= behavior == kNone ? kWhole : facts_->suitability(behavior, task);
+    suitability *= behavior == none ? whole_degree : facts_->suitability(behavior, task);
     if (!tasks[task].start_on_request) {
       ++automatic;
-      idle += behavior == kNone ? 1U : 0U;
+      idle += behavior == none ? 1U : 0U;
     }
   }
   const double idle_share =
@@ -772,7 +771,7 @@ void Oracle::complete(ordered_json record, const std::string& outcome) {
   ordered_json requests = ordered_json::object();
   ordered_json queue = ordered_json::object();
   for (std::size_t task = 0; task < state_.values.size(); ++task) {
-    if (state_.values[task] != kNone) {
+    if (state_.values[task] != none) {
       running[task_name(task)] = behavior_name(state_.values[task]);
     }
     if (state_.requests[task]) {

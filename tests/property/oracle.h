@@ -31,12 +31,12 @@ struct State {
 
 // A start, stop or finish, of whatever origin.
 struct Trigger {
-  Verb verb = Verb::kStart;
-  std::size_t subject = kNone;  // a task, or the behavior that finishes
-  int priority = 0;             // start, stop
-  bool reactive = false;        // a start from the queue
+  Verb verb = Verb::start;
+  std::size_t subject = none;  // a task, or the behavior that finishes
+  int priority = 0;            // start, stop
+  bool reactive = false;       // a start from the queue
   std::optional<Parameters> parameters;
-  Cause cause = Cause::kGoalAchieved;
+  Cause cause = Cause::goal_achieved;
 };
 
 // Whether two parameters are the same data: mappings without order; null, empty and absent alike.
@@ -68,10 +68,10 @@ class Oracle {
   std::optional<Microseconds> next_due_time() const;
 
  private:
-  enum class DueKind { kTimeout, kReactiveStart };
+  enum class DueKind { timeout, reactive_start };
   struct Due {
     Microseconds time = 0;
-    DueKind kind = DueKind::kTimeout;
+    DueKind kind = DueKind::timeout;
     std::size_t task = 0;
 
     auto operator<=>(const Due&) const = default;

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr Microseconds kSecond = 1'000'000;
+constexpr Microseconds one_second = 1'000'000;
 
 // Percentages are whole here.
 Millionths percent(int value) { return value * 10'000; }
@@ -53,7 +53,7 @@ Behavior behavior(const std::string& name, std::size_t task, int suitability, st
 
 Event start(std::size_t task, int priority = 1) {
   Event event;
-  event.verb = Verb::kStart;
+  event.verb = Verb::start;
   event.subject = task;
   event.priority = priority;
   return event;
@@ -72,11 +72,11 @@ Event with_subject(Verb verb, std::size_t subject) {
   return event;
 }
 
-Event stop(std::size_t task) { return with_subject(Verb::kStop, task); }
-Event fault(std::size_t behavior) { return with_subject(Verb::kFault, behavior); }
+Event stop(std::size_t task) { return with_subject(Verb::stop, task); }
+Event fault(std::size_t behavior) { return with_subject(Verb::fault, behavior); }
 
 Event finish(std::size_t behavior, Cause cause) {
-  Event event = with_subject(Verb::kFinish, behavior);
+  Event event = with_subject(Verb::finish, behavior);
   event.cause = cause;
   return event;
 }
@@ -240,7 +240,7 @@ TEST(Oracle, TiesAreDecidedByRank) {
   catalog.tasks = {on_request("A")};
   catalog.behaviors = {behavior("A1", 0, 80), behavior("A2", 0, 90), behavior("A3", 0, 90)};
   const ordered_json events = run(
-      catalog, {start(0), finish(1, Cause::kSituationChange), finish(1, Cause::kWrongProgress)});
+      catalog, {start(0), finish(1, Cause::situation_change), finish(1, Cause::wrong_progress)});
   EXPECT_EQ(changes(events[0]), "+A2 requested(1)");
   // A2 and A3 are one activation each; the behavior that has just finished has the first rank.
   EXPECT_EQ(changes(events[1]), "+A2 requested(1)");
@@ -251,7 +251,7 @@ TEST(Oracle, FinishEscalatesOneLevelAtATime) {
   Catalog catalog;
   catalog.tasks = {on_request("A"), automatic("S")};
   catalog.behaviors = {behavior("A1", 0, 100, 1), behavior("S1", 1)};
-  const ordered_json events = run(catalog, {start(0, 3), finish(1, Cause::kProcessFailure)});
+  const ordered_json events = run(catalog, {start(0, 3), finish(1, Cause::process_failure)});
   EXPECT_EQ(events[1]["search"]["protection"], 3);
   EXPECT_EQ(changes(events[1]), "-A1 displaced(3)");
   EXPECT_EQ(events[1]["stopped_tasks"].dump(),
@@ -264,7 +264,7 @@ TEST(Oracle, ABehaviorOfSeveralTasks) {
   catalog.behaviors = {behavior("A1", 0), behavior("B1", 1), behavior("AB", 0)};
   catalog.behaviors[2].performs.push_back({1, percent(100)});
   const ordered_json apart =
-      run(catalog, {start(0, 2), start(1), finish(1, Cause::kInterrupted), start(1, 3)});
+      run(catalog, {start(0, 2), start(1), finish(1, Cause::interrupted), start(1, 3)});
   EXPECT_EQ(changes(apart[0]), "+A1 requested(2)");
   // AB for both tasks would be two changes.
   EXPECT_EQ(changes(apart[1]), "+B1 requested(1)");
@@ -273,8 +273,8 @@ TEST(Oracle, ABehaviorOfSeveralTasks) {
   EXPECT_EQ(apart[2]["running"].dump(), R"({"A":"A1","B":"AB"})");
   EXPECT_EQ(changes(apart[3]), "");
 
-  const ordered_json together = run(catalog, {start(1), finish(1, Cause::kInterrupted), start(0),
-                                              finish(2, Cause::kGoalAchieved)});
+  const ordered_json together = run(catalog, {start(1), finish(1, Cause::interrupted), start(0),
+                                              finish(2, Cause::goal_achieved)});
   EXPECT_EQ(changes(together[1]), "+AB requested(1)");
   // A joins AB, which is active: no change at all.
   EXPECT_EQ(changes(together[2]), "");
@@ -341,14 +341,14 @@ TEST(Oracle, RejectedAndTakenBack) {
 TEST(Oracle, TimeoutsAndReactiveStarts) {
   Catalog catalog;
   catalog.tasks = {on_request("MOVE"), reactive("HOVER")};
-  catalog.tasks[0].timeout = 2 * kSecond;
+  catalog.tasks[0].timeout = 2 * one_second;
   catalog.behaviors = {behavior("M1", 0), behavior("H1", 1)};
   catalog.exclusivity = {{0, 1}};
   Event move = start(0, 2);
-  move.at = kSecond;
+  move.at = one_second;
   Event stop_hover = stop(1);
-  stop_hover.at = 4 * kSecond;
-  const ordered_json events = run(catalog, {move, stop_hover, wait_for(kSecond)});
+  stop_hover.at = 4 * one_second;
+  const ordered_json events = run(catalog, {move, stop_hover, wait_for(one_second)});
   ASSERT_EQ(events.size(), 6U);
   EXPECT_EQ(events[0]["origin"], "reactive");
   EXPECT_EQ(events[0]["time"], 0.08);
@@ -368,11 +368,11 @@ TEST(Oracle, TimeoutsAndReactiveStarts) {
 TEST(Oracle, ScriptedEventsComeBeforeWhatIsDueThen) {
   Catalog catalog;
   catalog.tasks = {on_request("A"), on_request("B")};
-  catalog.tasks[0].timeout = kSecond;
-  catalog.tasks[1].timeout = kSecond;
+  catalog.tasks[0].timeout = one_second;
+  catalog.tasks[1].timeout = one_second;
   catalog.behaviors = {behavior("A1", 0), behavior("B1", 1)};
   Event restart = start_with(0, 1, {{"p", "1"}});
-  restart.at = kSecond;
+  restart.at = one_second;
   const ordered_json events = run(catalog, {start(0), start(1), restart});
   // The restart comes first and puts off the timeout of A.
   ASSERT_EQ(events.size(), 4U);
@@ -387,7 +387,7 @@ TEST(Oracle, AReactiveStartStopsNoRequestedTask) {
   catalog.tasks = {reactive("R"), automatic("S"), on_request("B")};
   catalog.behaviors = {behavior("R1", 0, 100, 1), behavior("S1", 1), behavior("B1", 2)};
   catalog.exclusivity = {{1, 2}};
-  const ordered_json events = run(catalog, {start(2), wait_for(kSecond)});
+  const ordered_json events = run(catalog, {start(2), wait_for(one_second)});
   EXPECT_EQ(events[1]["origin"], "reactive");
   EXPECT_EQ(events[1]["outcome"], "rejected");
   EXPECT_EQ(events[1]["search"]["protection"], 0);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -13,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "conflict_check.h"
 #include "generator.h"
 #include "oracle.h"
 #include "statistics.h"
@@ -25,11 +27,11 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::uint64_t kDefaultSeed = 1;
-constexpr std::uint64_t kDefaultCases = 3000;
-constexpr std::uint64_t kCasesForStatistics = 500;  // fewer say nothing about how often
-constexpr std::size_t kDifferencesShown = 3;
-constexpr std::uint64_t kWorkers = 2;
+constexpr std::uint64_t default_seed = 1;
+constexpr std::uint64_t default_cases = 3000;
+constexpr std::uint64_t cases_for_statistics = 500;  // fewer say nothing about how often
+constexpr std::size_t differences_shown = 3;
+constexpr std::uint64_t worker_count = 2;
 
 std::uint64_t environment(const char* name, std::uint64_t otherwise) {
   const char* value = std::getenv(name);
@@ -117,34 +119,42 @@ void run_case(std::uint64_t seed, Results& results) {
                                                std::to_string(index + 1) + "\n--- oracle\n" +
                                                event_text(expected, index) + "\n--- subject\n" +
                                                event_text(actual, index) + "\n"});
+      return;
+    }
+    const std::optional<ConflictFault> fault = check_conflicts(
+        CatalogFacts(sample.catalog), catalog, sample.script, actual, &results.statistics);
+    if (fault) {
+      results.differences.push_back(
+          {seed, inputs + "--- wrong conflict: event " + std::to_string(fault->event + 1) + "\n" +
+                     fault->what + "\n--- subject\n" + event_text(actual, fault->event) + "\n"});
     }
   } catch (const std::exception& error) {
     results.differences.push_back({seed, inputs + "--- refused\n" + error.what() + "\n"});
   }
 }
 
-// Every worker takes each kWorkers-th case, and stops by itself, so the answer does not depend on
-// which is faster.
+// Every worker takes each worker_count-th case, and stops by itself, so the answer does not depend
+// on which is faster.
 void run_share(std::uint64_t first_seed, std::uint64_t cases, std::uint64_t worker,
                Results& results) {
-  for (std::uint64_t i = worker; i < cases; i += kWorkers) {
+  for (std::uint64_t i = worker; i < cases; i += worker_count) {
     run_case(first_seed + i, results);
-    if (results.differences.size() >= kDifferencesShown) {
+    if (results.differences.size() >= differences_shown) {
       return;
     }
   }
 }
 
 Results run_all(std::uint64_t first_seed, std::uint64_t cases) {
-  std::vector<Results> shares(kWorkers);
+  std::vector<Results> shares(worker_count);
   std::vector<std::thread> workers;
-  for (std::uint64_t worker = 0; worker < kWorkers; ++worker) {
+  for (std::uint64_t worker = 0; worker < worker_count; ++worker) {
     workers.emplace_back([&shares, first_seed, cases, worker] {
       run_share(first_seed, cases, worker, shares[worker]);
     });
   }
   Results all;
-  for (std::uint64_t worker = 0; worker < kWorkers; ++worker) {
+  for (std::uint64_t worker = 0; worker < worker_count; ++worker) {
     workers[worker].join();
     all.statistics.merge(shares[worker].statistics);
     for (Difference& difference : shares[worker].differences) {
@@ -162,7 +172,7 @@ struct LowerBound {
   std::int64_t per_thousand;
 };
 
-const LowerBound kLowerBounds[] = {
+const LowerBound lower_bounds[] = {
     {"outcome: accepted", 5000},
     {"outcome: rejected", 1000},
     {"outcome: unchanged", 1000},
@@ -216,6 +226,24 @@ const LowerBound kLowerBounds[] = {
     {"reactive start: accepted", 200},
     {"reactive start: rejected", 60},
     {"reactive start: dropped", 40},
+    {"conflict of a start", 1500},
+    {"conflict of a stop", 30},
+    {"conflict of a reactive start", 60},
+    {"conflict of 1", 300},
+    {"conflict of 2", 500},
+    {"conflict of 3", 250},
+    {"conflict of 4", 200},
+    {"conflict of 5 or more", 250},
+    {"conflict: priority", 250},
+    {"conflict: no_behavior", 250},
+    {"conflict: protected", 400},
+    {"conflict: exclusive", 350},
+    {"conflict: on_request", 350},
+    {"conflict: requires", 1500},
+    {"conflict: performance", 350},
+    {"conflict: performance of a task alone", 250},
+    {"conflict: unavailable", 450},
+    {"conflict: faulty", 800},
 };
 
 void print_statistics(const Statistics& statistics) {
@@ -227,21 +255,60 @@ void print_statistics(const Statistics& statistics) {
   }
 }
 
+// A conflict with something left out, added or altered must not pass.
+TEST(Property, ConflictCheckSeesWhatIsWrong) {
+  constexpr std::uint64_t cases = 40;
+  for (std::uint64_t seed = default_seed; seed < default_seed + cases; ++seed) {
+    const Case sample = generate_case(seed);
+    Random forms(~seed);
+    const std::string catalog = catalog_yaml(sample.catalog, forms);
+    const std::string script = script_yaml(sample.catalog, sample.script, forms);
+    const CatalogFacts facts(sample.catalog);
+    ordered_json events = run_subject(catalog, script);
+    for (ordered_json& event : events) {
+      const ordered_json conflict = event["conflict"];
+      const auto expect_fault = [&](const ordered_json& wrong) {
+        event["conflict"] = wrong;
+        EXPECT_TRUE(check_conflicts(facts, catalog, sample.script, events, nullptr))
+            << "seed " << seed << ": " << event.dump(1);
+        event["conflict"] = conflict;
+      };
+      for (std::size_t i = 0; i < conflict.size(); ++i) {
+        ordered_json one_less = conflict;
+        one_less.erase(i);
+        expect_fault(one_less);
+        ordered_json one_twice = conflict;
+        one_twice.push_back(conflict[i]);
+        expect_fault(one_twice);
+        ordered_json silent = conflict;
+        silent[i]["message"] = "";
+        expect_fault(silent);
+        // The list on the next line may exclude the same pair.
+        if (conflict[i].contains("line") && !conflict[i].contains("tasks")) {
+          ordered_json next_line = conflict;
+          next_line[i]["line"] = conflict[i]["line"].get<int>() + 1;
+          expect_fault(next_line);
+        }
+      }
+    }
+  }
+}
+
 TEST(Property, SameEventsAsTheOracle) {
-  const std::uint64_t seed = environment("CBC_SEED", kDefaultSeed);
-  const std::uint64_t cases = environment("CBC_PROPERTY_CASES", kDefaultCases);
+  const std::uint64_t seed = environment("CBC_SEED", default_seed);
+  const std::uint64_t cases = environment("CBC_PROPERTY_CASES", default_cases);
   std::cout << "CBC_SEED=" << seed << " CBC_PROPERTY_CASES=" << cases << std::endl;
 
   const Results results = run_all(seed, cases);
-  const std::size_t shown = std::min(results.differences.size(), kDifferencesShown);
+  const std::size_t shown = std::min(results.differences.size(), differences_shown);
   for (std::size_t i = 0; i < shown; ++i) {
     ADD_FAILURE() << results.differences[i].report;
   }
   print_statistics(results.statistics);
-  if (!results.differences.empty() || cases < kCasesForStatistics) {
+  if (!results.differences.empty() || cases < cases_for_statistics) {
     return;
   }
-  for (const LowerBound& bound : kLowerBounds) {
+  for (const LowerBound& bound : lower_bounds) {
     const std::int64_t needed = bound.per_thousand * static_cast<std::int64_t>(cases) / 1000;
     EXPECT_GE(results.statistics.of(bound.what), needed) << "too rare: " << bound.what;
   }

@@ -12,10 +12,10 @@ namespace {
 struct Entry;
 
 struct Node {
-  enum class Kind { kNull, kPlain, kText, kSequence, kMapping };
+  enum class Kind { null, plain, text, sequence, mapping };
 
-  Kind kind = Kind::kNull;
-  std::string text;  // of kPlain (a number or boolean) and kText
+  Kind kind = Kind::null;
+  std::string text;  // of plain (a number or boolean) and text
   std::vector<Node> items;
   std::vector<Entry> entries;
 
@@ -44,11 +44,11 @@ Node empty(Node::Kind kind) {
   return node;
 }
 
-Node null() { return empty(Node::Kind::kNull); }
-Node plain(std::string value) { return scalar(Node::Kind::kPlain, std::move(value)); }
-Node text(std::string value) { return scalar(Node::Kind::kText, std::move(value)); }
-Node sequence() { return empty(Node::Kind::kSequence); }
-Node mapping() { return empty(Node::Kind::kMapping); }
+Node null() { return empty(Node::Kind::null); }
+Node plain(std::string value) { return scalar(Node::Kind::plain, std::move(value)); }
+Node text(std::string value) { return scalar(Node::Kind::text, std::move(value)); }
+Node sequence() { return empty(Node::Kind::sequence); }
+Node mapping() { return empty(Node::Kind::mapping); }
 
 bool is_number(const std::string& value) {
   return std::all_of(value.begin(), value.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -83,9 +83,9 @@ class Printer {
 
   std::string flow_scalar(const Node& node) {
     switch (node.kind) {
-      case Node::Kind::kNull:
+      case Node::Kind::null:
         return json_ || random_.percent(50) ? "null" : "~";
-      case Node::Kind::kText: {
+      case Node::Kind::text: {
         if (json_) {
           return is_number(node.text) && random_.percent(50) ? node.text : '"' + node.text + '"';
         }
@@ -98,14 +98,14 @@ class Printer {
   }
 
   std::string flow(const Node& node) {
-    if (node.kind == Node::Kind::kSequence) {
+    if (node.kind == Node::Kind::sequence) {
       std::string result;
       for (const Node& item : node.items) {
         result += (result.empty() ? "" : ", ") + flow(item);
       }
       return "[" + result + "]";
     }
-    if (node.kind == Node::Kind::kMapping) {
+    if (node.kind == Node::Kind::mapping) {
       std::string result;
       for (const auto& [key, value] : node.entries) {
         const std::string written = json_ ? '"' + key + '"' : key;
@@ -131,14 +131,14 @@ class Printer {
       result += lines;
     }
     for (const auto& [key, value] : node.entries) {
-      if (value.kind == Node::Kind::kNull && random_.percent(50)) {
+      if (value.kind == Node::Kind::null && random_.percent(50)) {
         result += margin + key + ":" + comment() + "\n";
       } else if (choose_flow(value)) {
         result += margin + key + ": " + flow(value);
         result += comment() + "\n";
       } else {
         // A sequence may stand at the margin of its key.
-        const bool at_margin = value.kind == Node::Kind::kSequence && random_.percent(60);
+        const bool at_margin = value.kind == Node::Kind::sequence && random_.percent(60);
         result += margin + key + ":" + comment() + "\n";
         result += block(value, at_margin ? indent : indent + 2);
       }
@@ -439,7 +439,7 @@ class CatalogWriter : public Writer {
   // As `task:` or as `tasks:`; the suitability of the behavior itself stands in for those that the
   // entries leave out, the default for that.
   void add_performed(Node& node, const Behavior& behavior) {
-    const Millionths by_default = catalog_.defaults.suitability.value_or(kWhole);
+    const Millionths by_default = catalog_.defaults.suitability.value_or(whole_degree);
     const Performance& first = behavior.performs.front();
     if (behavior.performs.size() == 1 && random_.percent(75)) {
       node.add("task", text(catalog_.tasks[first.task].name));
@@ -516,7 +516,7 @@ class ScriptWriter : public Writer {
   Node event_entry(const Event& event) {
     Node node = mapping();
     switch (event.verb) {
-      case Verb::kStart:
+      case Verb::start:
         node.add("start", text(catalog_.tasks[event.subject].name));
         if (event.parameters) {
           node.add("parameters", any(*event.parameters));
@@ -524,25 +524,25 @@ class ScriptWriter : public Writer {
           node.add("parameters", null());
         }
         break;
-      case Verb::kStop:
+      case Verb::stop:
         node.add("stop", text(catalog_.tasks[event.subject].name));
         break;
-      case Verb::kFinish:
+      case Verb::finish:
         node.add("finish", text(catalog_.behaviors[event.subject].name));
-        if (event.cause != Cause::kGoalAchieved || random_.percent(50)) {
+        if (event.cause != Cause::goal_achieved || random_.percent(50)) {
           node.add("cause", text(to_string(event.cause)));
         }
         break;
-      case Verb::kSituation:
+      case Verb::situation:
         node.add("situation", situation(event.situation));
         break;
-      case Verb::kFault:
+      case Verb::fault:
         node.add("fault", text(catalog_.behaviors[event.subject].name));
         break;
-      case Verb::kRepair:
+      case Verb::repair:
         node.add("repair", text(catalog_.behaviors[event.subject].name));
         break;
-      case Verb::kWait:
+      case Verb::wait:
         break;
     }
     if (event.priority) {

@@ -29,12 +29,12 @@ TEST(Decimal, AllowsEveryPlainSpelling) {
   for (const std::string text : {"10", "+10", "10.", "10.0000000000", "010", "1e1", "1E+1", "1.0e1",
                                  "100e-1", ".1e2", "0.00001e6"}) {
     const Decimal decimal = parse_percent(text);
-    EXPECT_EQ(decimal.error, none) << text;
+    EXPECT_EQ(decimal.error, no_error) << text;
     EXPECT_EQ(decimal.value, 100'000) << text;
   }
   EXPECT_EQ(parse_percent(".5").value, 5'000);
-  EXPECT_EQ(parse_percent("-0").error, none);
-  EXPECT_EQ(parse_percent("0e999999999999999999999").error, none);
+  EXPECT_EQ(parse_percent("-0").error, no_error);
+  EXPECT_EQ(parse_percent("0e999999999999999999999").error, no_error);
 }
 
 TEST(Decimal, TellsErrorsApart) {

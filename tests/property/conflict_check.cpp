@@ -1,0 +1,578 @@
+#include "conflict_check.h"
+
+#include <algorithm>
+#include <cctype>
+#include <exception>
+#include <map>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace cbc::oracle {
+namespace {
+
+using nlohmann::ordered_json;
+
+void demand(bool holds, const std::string& otherwise) {
+  if (!holds) {
+    throw std::runtime_error(otherwise);
+  }
+}
+
+bool contains(const std::vector<std::size_t>& items, std::size_t item) {
+  return std::find(items.begin(), items.end(), item) != items.end();
+}
+
+// Where things stand in the text of a catalog
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+// Whether the words occur, and not as a part of longer ones.
+bool has_words(const std::string& line, const std::string& words) {
+  for (std::size_t at = line.find(words); at != std::string::npos; at = line.find(words, at + 1)) {
+    const std::size_t end = at + words.size();
+    if ((at == 0 || !is_word(line[at - 1])) && (end == line.size() || !is_word(line[end]))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Understands the forms that catalog_yaml() gives a catalog, no others.
+class CatalogText {
+ public:
+  explicit CatalogText(const std::string& yaml) {
+    std::istringstream stream(yaml);
+    for (std::string line; std::getline(stream, line);) {
+      line.erase(
+          std::remove_if(line.begin(), line.end(), [](char c) { return c == '"' || c == '\''; }),
+          line.end());
+      lines_.push_back(line.substr(0, line.find(" #")));
+    }
+  }
+
+  // A behavior requires no task that it performs, so only one line names the task.
+  void check_requirement(std::size_t line, const std::string& behavior,
+                         const std::string& task) const {
+    const Item item = find_item("behaviors", "behavior: " + behavior);
+    demand(item.has(line), "not a line of " + behavior);
+    demand(has_words(at(line), task), "a line that does not name " + task);
+  }
+
+  void check_task_minimum(std::size_t line, const std::string& task) const {
+    const Item item = find_item("tasks", "task: " + task);
+    demand(item.has(line), "not a line of " + task);
+    demand(has_words(at(line), "minimum_performance"), "a line without the minimum");
+  }
+
+  // The names may stand on lines of their own; there may be more than one list with both.
+  void check_exclusivity(std::size_t line, const std::string& task,
+                         const std::string& other) const {
+    for (const Item& item : items("exclusivity_constraints")) {
+      if (item.has(line)) {
+        demand(names(item, task) && names(item, other), "a list without both tasks");
+        demand(has_words(at(line), "mutually_exclusive"), "not the first line of a list");
+        return;
+      }
+    }
+    demand(false, "not a line of an exclusivity list");
+  }
+
+ private:
+  // An entry of a section: some of the lines, counted from 1.
+  struct Item {
+    std::size_t first = 0;
+    std::size_t last = 0;
+
+    bool has(std::size_t line) const { return first <= line && line <= last; }
+  };
+
+  const std::string& at(std::size_t line) const { return lines_.at(line - 1); }
+
+  bool names(const Item& item, const std::string& words) const {
+    for (std::size_t line = item.first; line <= item.last; ++line) {
+      if (has_words(at(line), words)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  Item find_item(const std::string& section, const std::string& words) const {
+    for (const Item& item : items(section)) {
+      if (names(item, words)) {
+        return item;
+      }
+    }
+    throw std::runtime_error("the catalog has no \"" + words + "\"");
+  }
+
+  // All entries are one if they share their line.
+  std::vector<Item> items(const std::string& section) const {
+    if (at(1).front() == '{') {
+      return {{1, 1}};
+    }
+    std::size_t line = 1;
+    while (at(line).rfind(section + ":", 0) != 0) {
+      ++line;
+    }
+    if (at(line).find_first_not_of(' ', section.size() + 1) != std::string::npos) {
+      return {{line, line}};
+    }
+    std::vector<Item> result;
+    const std::string bullet = std::string(at(line + 1).find('-'), ' ') + "- ";
+    for (++line; line <= lines_.size() && !is_word(at(line).front()); ++line) {
+      if (at(line).rfind(bullet, 0) == 0) {
+        result.push_back({line, line});
+      }
+      result.back().last = line;
+    }
+    return result;
+  }
+
+  std::vector<std::string> lines_;  // without quotes and remarks
+};
+
+// The state before an event
+
+struct Moment {
+  Assignment values;
+  std::vector<std::optional<int>> requests;  // priorities
+  std::vector<bool> available;
+  std::vector<bool> faulty;
+};
+
+// An event and what is needed to judge it.
+struct Rejection {
+  const ordered_json& event;
+  const Moment& before;
+  bool starts = false;  // or stops
+  bool reactive = false;
+  std::size_t subject = none;
+  int priority = 0;
+};
+
+// Reasons
+
+enum class Kind {
+  priority,
+  no_behavior,
+  is_protected,
+  exclusive,
+  on_request,
+  requirement,
+  performance,
+  unavailable,
+  faulty
+};
+
+// The keys of an entry besides kind and message.
+struct Form {
+  Kind kind = Kind::priority;
+  std::string_view name;
+  std::set<std::string_view> keys;
+};
+
+const std::vector<Form>& forms() {
+  static const std::vector<Form> all = {
+      {Kind::priority, "priority", {"task", "priority"}},
+      {Kind::no_behavior, "no_behavior", {"task"}},
+      {Kind::is_protected, "protected", {"task", "priority"}},
+      {Kind::exclusive, "exclusive", {"tasks", "line"}},
+      {Kind::on_request, "on_request", {"task"}},
+      {Kind::requirement, "requires", {"behavior", "task", "line"}},
+      {Kind::performance, "performance", {"behavior", "task", "line"}},
+      {Kind::performance, "performance", {"task", "line"}},
+      {Kind::unavailable, "unavailable", {"behavior"}},
+      {Kind::faulty, "faulty", {"behavior"}},
+  };
+  return all;
+}
+
+struct Reason {
+  Kind kind = Kind::priority;
+  std::size_t task = none;
+  std::size_t other_task = none;
+  std::size_t behavior = none;
+  int priority = 0;
+  std::size_t line = 0;
+  Millionths minimum = 0;
+};
+
+// Performance(task), where a required task that does not run counts for nothing.
+bool reaches(const CatalogFacts& facts, const Assignment& values, std::size_t task,
+             Millionths minimum) {
+  std::vector<std::size_t> running = {task};
+  for (std::size_t i = 0; i < running.size(); ++i) {
+    for (const Requirement& requirement :
+         facts.catalog.behaviors[values[running[i]]].requirements) {
+      if (values[requirement.task] != none && !contains(running, requirement.task)) {
+        running.push_back(requirement.task);
+      }
+    }
+  }
+  Integer product = 1;
+  for (const std::size_t required : running) {
+    product *= facts.suitability(values[required], required);
+  }
+  return product >= power_of_million(running.size() - 1) * minimum;
+}
+
+class Checker {
+ public:
+  Checker(const CatalogFacts& facts, const std::string& catalog_yaml, const Script& script,
+          Statistics* statistics)
+      : facts_(facts), text_(catalog_yaml), statistics_(statistics) {
+    for (std::size_t task = 0; task < facts.catalog.tasks.size(); ++task) {
+      tasks_[facts.catalog.tasks[task].name] = task;
+    }
+    for (std::size_t behavior = 0; behavior < facts.catalog.behaviors.size(); ++behavior) {
+      behaviors_[facts.catalog.behaviors[behavior].name] = behavior;
+    }
+    now_.values.assign(tasks_.size(), none);
+    now_.requests.resize(tasks_.size());
+    now_.available.resize(behaviors_.size(), true);
+    now_.faulty.resize(behaviors_.size(), false);
+    for (const auto& [behavior, available] : script.situation) {
+      now_.available[behavior] = available;
+    }
+  }
+
+  // Checks an event against the state before it, then follows it.
+  void handle(const ordered_json& event) {
+    if (event.at("outcome") == "rejected") {
+      check_rejection(event);
+    } else {
+      demand(event.at("conflict") == ordered_json::array(), "a conflict without a rejection");
+    }
+    follow(event);
+  }
+
+ private:
+  void follow(const ordered_json& event) {
+    const auto& verb = event.at("verb").get_ref<const std::string&>();
+    if (verb == "situation") {
+      for (const auto& [name, available] : event.at("situation").items()) {
+        now_.available[behaviors_.at(name)] = available.get<bool>();
+      }
+    } else if (verb == "fault" || verb == "repair") {
+      now_.faulty[behavior_of(event.at("name"))] = verb == "fault";
+    }
+    now_.values.assign(tasks_.size(), none);
+    for (const auto& [name, behavior] : event.at("running").items()) {
+      now_.values[tasks_.at(name)] = behavior_of(behavior);
+    }
+    now_.requests.assign(tasks_.size(), std::nullopt);
+    for (const auto& [name, priority] : event.at("requests").items()) {
+      now_.requests[tasks_.at(name)] = priority.get<int>();
+    }
+  }
+
+  void check_rejection(const ordered_json& event) {
+    Rejection rejection{event, now_};
+    rejection.starts = event.at("verb") == "start";
+    demand(rejection.starts || event.at("verb") == "stop", "neither a start nor a stop");
+    rejection.reactive = event.at("origin") == "reactive";
+    rejection.subject = task_of(event.at("name"));
+    rejection.priority = event.at("priority").get<int>();
+
+    std::vector<Reason> reasons;
+    for (const ordered_json& entry : event.at("conflict")) {
+      reasons.push_back(read_reason(entry));
+      try {
+        check_line(reasons.back());
+        check_truth(rejection, reasons.back());
+      } catch (const std::exception& error) {
+        throw std::runtime_error(entry.dump() + ": " + error.what());
+      }
+      count_kind(rejection, reasons.back(), entry["kind"].get<std::string>());
+    }
+    if (event.at("search").is_null()) {
+      demand(reasons.size() == 1 && reasons.front().kind == Kind::priority,
+             "rejected without a search, but not by one priority");
+      return;
+    }
+    demand(event.at("search").at("status") == "infeasible", "rejected, but not infeasible");
+    demand(!reasons.empty(), "rejected without a reason");
+    if (reasons.size() == 1 && reasons.front().kind == Kind::no_behavior) {
+      return;
+    }
+    for (const Reason& reason : reasons) {
+      demand(reason.kind != Kind::priority && reason.kind != Kind::no_behavior,
+             "a reason that comes alone, or before a search");
+    }
+    check_minimal(rejection, reasons);
+    count("conflict of " + (reasons.size() < 5 ? std::to_string(reasons.size()) : "5 or more"));
+    count(std::string("conflict of a ") + (rejection.reactive ? "reactive start"
+                                           : rejection.starts ? "start"
+                                                              : "stop"));
+  }
+
+  std::size_t task_of(const ordered_json& name) const { return find(tasks_, name); }
+  std::size_t behavior_of(const ordered_json& name) const { return find(behaviors_, name); }
+
+  static std::size_t find(const std::map<std::string, std::size_t>& numbers,
+                          const ordered_json& name) {
+    const auto found = numbers.find(name.get<std::string>());
+    demand(found != numbers.end(), "unknown name: " + name.dump());
+    return found->second;
+  }
+
+  Reason read_reason(const ordered_json& entry) const {
+    std::set<std::string_view> keys;
+    for (const auto& [key, value] : entry.items()) {
+      keys.insert(key);
+    }
+    demand(keys.erase("kind") == 1 && keys.erase("message") == 1, "no kind or message");
+    demand(!entry["message"].get<std::string>().empty(), "an empty message");
+    const auto form = std::find_if(forms().begin(), forms().end(), [&](const Form& candidate) {
+      return entry["kind"].get<std::string>() == candidate.name && keys == candidate.keys;
+    });
+    demand(form != forms().end(), "unknown kind, or wrong keys: " + entry.dump());
+
+    Reason reason;
+    reason.kind = form->kind;
+    if (entry.contains("task")) {
+      reason.task = task_of(entry["task"]);
+    }
+    if (entry.contains("tasks")) {
+      demand(entry["tasks"].size() == 2, "not a pair");
+      reason.task = task_of(entry["tasks"][0]);
+      reason.other_task = task_of(entry["tasks"][1]);
+    }
+    if (entry.contains("behavior")) {
+      reason.behavior = behavior_of(entry["behavior"]);
+    }
+    if (entry.contains("priority")) {
+      reason.priority = entry["priority"].get<int>();
+    }
+    if (entry.contains("line")) {
+      reason.line = entry["line"].get<std::size_t>();
+    }
+    if (reason.kind == Kind::requirement || reason.kind == Kind::performance) {
+      reason.minimum = minimum_of(reason);
+    }
+    return reason;
+  }
+
+  Millionths minimum_of(const Reason& reason) const {
+    if (reason.behavior == none) {
+      return facts_.catalog.tasks[reason.task].minimum;
+    }
+    for (const Requirement& requirement : facts_.catalog.behaviors[reason.behavior].requirements) {
+      if (requirement.task == reason.task) {
+        return requirement.minimum;
+      }
+    }
+    throw std::runtime_error("the behavior does not require the task");
+  }
+
+  void check_line(const Reason& reason) const {
+    const std::vector<Task>& tasks = facts_.catalog.tasks;
+    if (reason.kind == Kind::exclusive) {
+      text_.check_exclusivity(reason.line, tasks[reason.task].name, tasks[reason.other_task].name);
+    } else if (reason.behavior != none && reason.task != none) {
+      text_.check_requirement(reason.line, facts_.catalog.behaviors[reason.behavior].name,
+                              tasks[reason.task].name);
+    } else if (reason.kind == Kind::performance) {
+      text_.check_task_minimum(reason.line, tasks[reason.task].name);
+    }
+  }
+
+  // Whether the catalog, or the state before the event, is what the reason says.
+  void check_truth(const Rejection& rejection, const Reason& reason) const {
+    const Moment& before = rejection.before;
+    const bool is_subject = reason.task == rejection.subject;
+    switch (reason.kind) {
+      case Kind::priority:
+        demand(is_subject, "not the task of the event");
+        demand(before.requests[reason.task] == reason.priority, "not the priority of the request");
+        demand(reason.priority > rejection.priority, "not a higher priority");
+        return;
+      case Kind::no_behavior:
+        demand(is_subject && rejection.starts, "not the task of a start");
+        demand(facts_.behaviors_of[reason.task].empty(), "the task has a behavior");
+        return;
+      case Kind::is_protected:
+        demand(!is_subject, "the task of the event");
+        demand(before.requests[reason.task] == reason.priority, "not the priority of the request");
+        demand(rejection.reactive || reason.priority > rejection.priority, "not protected");
+        return;
+      case Kind::exclusive:
+        demand(facts_.excludes[reason.task].contains(reason.other_task), "not exclusive");
+        return;
+      case Kind::on_request:
+        demand(!is_subject, "the task of the event");
+        demand(before.values[reason.task] == none, "the task is running");
+        demand(facts_.catalog.tasks[reason.task].start_on_request, "it starts by itself");
+        return;
+      case Kind::requirement:
+        return;  // known to exist
+      case Kind::performance:
+        demand(reason.minimum > 0, "no minimum");
+        return;
+      case Kind::unavailable:
+        demand(!before.available[reason.behavior], "available");
+        return;
+      case Kind::faulty:
+        demand(before.faulty[reason.behavior], "not faulty");
+        demand(has_failed(rejection, reason.behavior), "not activated in this event");
+        return;
+    }
+  }
+
+  bool has_failed(const Rejection& rejection, std::size_t behavior) const {
+    const ordered_json& changes = rejection.event.at("changes");
+    return std::any_of(changes.begin(), changes.end(), [&](const ordered_json& change) {
+      return change.at("op") == "activate" && change.at("success") == false &&
+             behavior_of(change.at("behavior")) == behavior;
+    });
+  }
+
+  // Every assignment of the relaxed problem must be ruled out by a reason, and every reason must be
+  // the only one to rule out some assignment.
+  void check_minimal(const Rejection& rejection, const std::vector<Reason>& reasons) const {
+    const std::vector<std::size_t>& tasks = facts_.groups[facts_.group_of[rejection.subject]];
+    std::vector<std::vector<std::size_t>> domains;
+    for (const std::size_t task : tasks) {
+      domains.push_back(facts_.behaviors_of[task]);
+      if (task == rejection.subject && !rejection.starts) {
+        domains.back().clear();
+      }
+      if (task != rejection.subject || !rejection.starts) {
+        domains.back().push_back(none);
+      }
+    }
+    demand(std::none_of(domains.begin(), domains.end(), [](const auto& d) { return d.empty(); }),
+           "the task has no behavior, but the reason is another one");
+
+    std::vector<bool> needed(reasons.size(), false);
+    std::vector<std::size_t> digits(tasks.size(), 0);
+    Assignment values = rejection.before.values;
+    for (bool more = true; more;) {
+      for (std::size_t i = 0; i < tasks.size(); ++i) {
+        values[tasks[i]] = domains[i][digits[i]];
+      }
+      const std::vector<std::size_t> violated = first_violated(rejection, reasons, values);
+      if (violated.empty()) {
+        throw std::runtime_error("the reasons leave a solution: " + describe(values, tasks));
+      }
+      if (violated.size() == 1) {
+        needed[violated.front()] = true;
+      }
+      more = false;
+      for (std::size_t i = 0; i < tasks.size() && !more; ++i) {
+        more = ++digits[i] < domains[i].size();
+        if (!more) {
+          digits[i] = 0;
+        }
+      }
+    }
+    for (std::size_t i = 0; i < reasons.size(); ++i) {
+      demand(needed[i], "superfluous: " + rejection.event["conflict"][i].dump());
+    }
+  }
+
+  // At most two: more make no difference.
+  std::vector<std::size_t> first_violated(const Rejection& rejection,
+                                          const std::vector<Reason>& reasons,
+                                          const Assignment& values) const {
+    std::vector<std::size_t> violated;
+    for (std::size_t i = 0; i < reasons.size() && violated.size() < 2; ++i) {
+      if (!holds(rejection, reasons[i], values)) {
+        violated.push_back(i);
+      }
+    }
+    return violated;
+  }
+
+  bool holds(const Rejection& rejection, const Reason& reason, const Assignment& values) const {
+    const auto runs = [&](std::size_t task) { return values[task] != none; };
+    const auto assigned = [&] { return contains(values, reason.behavior); };
+    switch (reason.kind) {
+      case Kind::priority:
+      case Kind::no_behavior:
+        return true;
+      case Kind::is_protected:
+        return runs(reason.task);
+      case Kind::exclusive:
+        return !runs(reason.task) || !runs(reason.other_task);
+      case Kind::on_request:
+        return !runs(reason.task);
+      case Kind::requirement:
+        return !assigned() || runs(reason.task);
+      case Kind::performance:
+        return !runs(reason.task) || (reason.behavior != none && !assigned()) ||
+               reaches(facts_, values, reason.task, reason.minimum);
+      case Kind::unavailable:
+        for (const Performance& performed : facts_.catalog.behaviors[reason.behavior].performs) {
+          if (values[performed.task] == reason.behavior &&
+              rejection.before.values[performed.task] != reason.behavior) {
+            return false;
+          }
+        }
+        return true;
+      case Kind::faulty:
+        return !assigned();
+    }
+    return true;
+  }
+
+  std::string describe(const Assignment& values, const std::vector<std::size_t>& tasks) const {
+    std::string result;
+    for (const std::size_t task : tasks) {
+      if (values[task] != none) {
+        result += facts_.catalog.tasks[task].name + " = " +
+                  facts_.catalog.behaviors[values[task]].name + "; ";
+      }
+    }
+    return result.empty() ? "nothing runs" : result;
+  }
+
+  void count_kind(const Rejection& rejection, const Reason& reason, const std::string& kind) const {
+    count("conflict: " + kind);
+    if (reason.kind == Kind::performance && reason.behavior == none) {
+      count("conflict: performance of a task alone");
+    }
+    if (reason.kind == Kind::is_protected && reason.priority == 0) {
+      count("conflict: protected from a reactive start, by priority 0");
+    }
+    if (reason.kind == Kind::unavailable && contains(rejection.before.values, reason.behavior)) {
+      count("conflict: unavailable, but active");
+    }
+  }
+
+  void count(const std::string& what) const {
+    if (statistics_ != nullptr) {
+      statistics_->count(what);
+    }
+  }
+
+  const CatalogFacts& facts_;
+  CatalogText text_;
+  Statistics* statistics_;
+  std::map<std::string, std::size_t> tasks_;
+  std::map<std::string, std::size_t> behaviors_;
+  Moment now_;
+};
+
+}  // namespace
+
+std::optional<ConflictFault> check_conflicts(const CatalogFacts& facts,
+                                             const std::string& catalog_yaml, const Script& script,
+                                             const ordered_json& events, Statistics* statistics) {
+  Checker checker(facts, catalog_yaml, script, statistics);
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    try {
+      checker.handle(events[i]);
+    } catch (const std::exception& error) {
+      return ConflictFault{i, error.what()};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace cbc::oracle
