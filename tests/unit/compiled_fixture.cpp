@@ -1,0 +1,129 @@
+#include "unit/compiled_fixture.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "catalog/reader.h"
+#include "compiled/compile.h"
+#include "unit/findings.h"
+
+namespace cbc::test {
+namespace {
+
+std::uint32_t place_in(const std::vector<std::string>& names, std::string_view name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  EXPECT_NE(found, names.end()) << name;
+  return found == names.end() ? 0 : static_cast<std::uint32_t>(found - names.begin());
+}
+
+/// The domain word of a value.
+std::uint64_t& word_of(Problem& problem, const CompiledCatalog& catalog, TaskId task,
+                       std::uint32_t place) {
+  const TaskId first = catalog.group_tasks[problem.group];
+  return problem.domains[catalog.words[task] - catalog.words[first] + place / 64];
+}
+
+}  // namespace
+
+CompiledCatalog compile_text(std::string_view yaml) {
+  Diagnostics diagnostics;
+  const auto catalog = read_catalog(yaml, "a.yaml", diagnostics);
+  EXPECT_TRUE(catalog.has_value()) << cbc::show(diagnostics);
+  return compile(catalog.value_or(Catalog{}));
+}
+
+TaskId task_id(const CompiledCatalog& catalog, std::string_view name) {
+  return catalog.task_ids[place_in(catalog.task_names, name)];
+}
+
+BehaviorId behavior_id(const CompiledCatalog& catalog, std::string_view name) {
+  return catalog.behavior_ids[place_in(catalog.behavior_names, name)];
+}
+
+std::uint32_t local_task(const CompiledCatalog& catalog, std::string_view name) {
+  const TaskId task = task_id(catalog, name);
+  return task - catalog.group_tasks[catalog.tasks[task].group];
+}
+
+std::uint32_t place_of(const CompiledCatalog& catalog, std::string_view task,
+                       std::string_view behavior) {
+  const BehaviorId wanted = behavior_id(catalog, behavior);
+  const auto values = catalog.values[task_id(catalog, task)];
+  for (std::uint32_t place = 0; place < values.size(); ++place) {
+    if (values[place].behavior == wanted) return place;
+  }
+  ADD_FAILURE() << behavior << " does not perform " << task;
+  return none;
+}
+
+Problem open_problem(const CompiledCatalog& catalog, std::uint32_t group) {
+  Problem problem;
+  problem.group = group;
+  const TaskId first = catalog.group_tasks[group];
+  const TaskId end = catalog.group_tasks[group + 1];
+  problem.domains.assign(catalog.words[end] - catalog.words[first], 0);
+  problem.may_stop.assign(end - first, 1);
+  problem.present.assign(end - first, none);
+  for (TaskId task = first; task < end; ++task) {
+    for (std::uint32_t place = 0; place < catalog.values[task].size(); ++place) {
+      word_of(problem, catalog, task, place) |= std::uint64_t{1} << (place % 64);
+    }
+  }
+  return problem;
+}
+
+void demand(Problem& problem, const CompiledCatalog& catalog, std::string_view task) {
+  problem.may_stop[local_task(catalog, task)] = 0;
+}
+
+void request(Problem& problem, const CompiledCatalog& catalog, std::string_view task) {
+  problem.requests.push_back(local_task(catalog, task));
+}
+
+void set_present(Problem& problem, const CompiledCatalog& catalog, std::string_view task,
+                 std::string_view behavior) {
+  problem.present[local_task(catalog, task)] = place_of(catalog, task, behavior);
+  const BehaviorId active = behavior_id(catalog, behavior);
+  const auto place = std::lower_bound(problem.active.begin(), problem.active.end(), active);
+  if (place == problem.active.end() || *place != active) problem.active.insert(place, active);
+}
+
+void leave_out(Problem& problem, const CompiledCatalog& catalog, std::string_view task,
+               std::string_view behavior) {
+  const std::uint32_t place = place_of(catalog, task, behavior);
+  word_of(problem, catalog, task_id(catalog, task), place) &= ~(std::uint64_t{1} << (place % 64));
+}
+
+void leave_out_all(Problem& problem, const CompiledCatalog& catalog, std::string_view task) {
+  for (const Value& value : catalog.values[task_id(catalog, task)]) {
+    leave_out(problem, catalog, task, catalog.name_of_behavior(value.behavior));
+  }
+}
+
+std::string show(const CompiledCatalog& catalog, const Assignment& answer, std::uint32_t group) {
+  std::string text;
+  for (std::uint32_t task = 0; task < answer.size(); ++task) {
+    if (answer[task] == none) continue;
+    const TaskId id = catalog.group_tasks[group] + task;
+    if (!text.empty()) text += " ";
+    text += catalog.name_of_task(id) + "=" +
+            catalog.name_of_behavior(catalog.values[id][answer[task]].behavior);
+  }
+  return text;
+}
+
+Assignment answer_of(const CompiledCatalog& catalog, std::string_view text, std::uint32_t group) {
+  Assignment answer(catalog.group_tasks[group + 1] - catalog.group_tasks[group], none);
+  while (!text.empty()) {
+    const std::string_view entry = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(text.size(), entry.size() + 1));
+    const std::size_t sign = entry.find('=');
+    const std::string_view task = entry.substr(0, sign);
+    answer[local_task(catalog, task)] = place_of(catalog, task, entry.substr(sign + 1));
+  }
+  return answer;
+}
+
+}  // namespace cbc::test

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "compiled/compiled_catalog.h"
+#include "solver/problem.h"
+
+/// What the tests of the modules behind the readers share: catalogs from text, and names instead of
+/// numbers. A name that is not there fails the test.
+namespace cbc::test {
+
+/// Reads and compiles a catalog without errors.
+[[nodiscard]] CompiledCatalog compile_text(std::string_view yaml);
+
+[[nodiscard]] TaskId task_id(const CompiledCatalog& catalog, std::string_view name);
+[[nodiscard]] BehaviorId behavior_id(const CompiledCatalog& catalog, std::string_view name);
+/// Place of a task within its group.
+[[nodiscard]] std::uint32_t local_task(const CompiledCatalog& catalog, std::string_view name);
+/// Place of a behavior among the values of a task.
+[[nodiscard]] std::uint32_t place_of(const CompiledCatalog& catalog, std::string_view task,
+                                     std::string_view behavior);
+
+/// A problem in which every task of the group may have every value, and nothing runs before.
+[[nodiscard]] Problem open_problem(const CompiledCatalog& catalog, std::uint32_t group = 0);
+/// The task has to run.
+void demand(Problem& problem, const CompiledCatalog& catalog, std::string_view task);
+/// A request, less important than those added before.
+void request(Problem& problem, const CompiledCatalog& catalog, std::string_view task);
+/// The task runs with the behavior before the event.
+void set_present(Problem& problem, const CompiledCatalog& catalog, std::string_view task,
+                 std::string_view behavior);
+/// Leaves a value out of the domain.
+void leave_out(Problem& problem, const CompiledCatalog& catalog, std::string_view task,
+               std::string_view behavior);
+/// Leaves all behaviors out of the domain.
+void leave_out_all(Problem& problem, const CompiledCatalog& catalog, std::string_view task);
+
+/// The running tasks of an answer: "A=a B=b".
+[[nodiscard]] std::string show(const CompiledCatalog& catalog, const Assignment& answer,
+                               std::uint32_t group = 0);
+/// The answer of which this is the text.
+[[nodiscard]] Assignment answer_of(const CompiledCatalog& catalog, std::string_view text,
+                                   std::uint32_t group = 0);
+
+}  // namespace cbc::test

@@ -1,0 +1,98 @@
+#include "compiled/log_cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "property/random.h"
+
+namespace cbc {
+namespace {
+
+constexpr long double unit = 0x1p-40L;
+
+TEST(LogCost, ADegreeOfOneCostsNothing) { EXPECT_EQ(log_cost(one_million), 0); }
+
+TEST(LogCost, ADegreeOfZeroIsLeftToTheCaller) { EXPECT_EQ(log_cost(0), 0); }
+
+TEST(LogCost, IsTheLogarithmOfEveryDegreeUpToItsErrorAndFalls) {
+  std::int64_t before = log_cost(1) + 1;
+  std::int64_t largest_error = 0;
+  for (Millionths degree = 1; degree <= one_million; ++degree) {
+    const std::int64_t cost = log_cost(degree);
+    const long double exact = -std::log(static_cast<long double>(degree) / 1e6L) / unit;
+    const auto error =
+        static_cast<std::int64_t>(std::ceil(std::fabs(static_cast<long double>(cost) - exact)));
+    largest_error = std::max(largest_error, error);
+    ASSERT_LT(cost, before) << degree;
+    before = cost;
+  }
+  EXPECT_LE(largest_error, log_cost_error);
+}
+
+TEST(LogCost, NinetyTimesEightyPercentCostsWhatSeventyTwoDoes) {
+  EXPECT_EQ(log_cost(900'000) + log_cost(800'000), log_cost(720'000));
+}
+
+/// Splits the prime factors of the numerators (and as many tens as the denominators hold) anew.
+std::vector<Millionths> factor_anew(const std::vector<Millionths>& degrees,
+                                    oracle::Random& random) {
+  std::vector<Millionths> primes;
+  for (Millionths degree : degrees) {
+    for (Millionths divisor = 2; degree > 1; ++divisor) {
+      for (; degree % divisor == 0; degree /= divisor) primes.push_back(divisor);
+      if (divisor * divisor > degree && degree > 1) {
+        primes.push_back(degree);
+        degree = 1;
+      }
+    }
+  }
+  random.shuffle(primes);
+  std::vector<Millionths> products(degrees.size(), 1);
+  for (const Millionths prime : primes) {
+    const std::size_t first = random.below(products.size());
+    std::size_t place = first;
+    while (std::uint64_t{products[place]} * prime > one_million) {
+      place = (place + 1) % products.size();
+      if (place == first) return {};
+    }
+    products[place] *= prime;
+  }
+  return products;
+}
+
+TEST(LogCost, EqualProductsHaveEqualSumsToTheBit) {
+  oracle::Random random(2);
+  int compared = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    std::vector<Millionths> degrees;
+    const std::size_t count = 2 + random.below(4);
+    for (std::size_t i = 0; i < count; ++i) {
+      degrees.push_back(
+          static_cast<Millionths>(random.between(1, 100)) *
+          (random.percent(50) ? 10'000 : static_cast<Millionths>(random.between(1, 100))));
+    }
+    const std::vector<Millionths> others = factor_anew(degrees, random);
+    if (others.empty() || others == degrees) continue;
+    std::int64_t sum = 0;
+    std::int64_t other_sum = 0;
+    for (const Millionths degree : degrees) sum += log_cost(degree);
+    for (const Millionths degree : others) other_sum += log_cost(degree);
+    ASSERT_EQ(sum, other_sum);
+    ++compared;
+  }
+  EXPECT_GT(compared, 5'000);
+}
+
+TEST(LogCost, SumsFurtherApartThanTheErrorAreInTheRightOrder) {
+  // 0.999999 * 0.999999 is more than 1 * 0.999998, by 10^-12: too close for two factors.
+  const std::int64_t difference = log_cost(999'998) - (log_cost(999'999) + log_cost(999'999));
+  EXPECT_LE(std::abs(difference), 3 * log_cost_error);
+  // Neighbors are far enough apart.
+  EXPECT_GT(log_cost(999'999) - log_cost(one_million), 2 * log_cost_error);
+}
+
+}  // namespace
+}  // namespace cbc

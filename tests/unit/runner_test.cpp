@@ -1,0 +1,178 @@
+#include "script/runner.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "script/reader.h"
+#include "unit/compiled_fixture.h"
+#include "unit/findings.h"
+
+namespace cbc {
+namespace {
+
+constexpr const char* catalog_text = R"(
+tasks:
+- {task: A, timeout: 5}
+- {task: H, reactive_start: true}
+behaviors:
+- {behavior: a, task: A}
+- {behavior: h, task: H}
+exclusivity_constraints:
+- mutually_exclusive: [A, H]
+)";
+
+/// A run as text, one line for each event and each failure, and what it comes to.
+class Protocol final : public RunListener {
+ public:
+  explicit Protocol(std::string_view script, const CoordinatorOptions& options = {})
+      : catalog_(test::compile_text(catalog_text)) {
+    Diagnostics diagnostics;
+    const auto document = yaml::parse(script, "s.yaml", diagnostics);
+    const ScriptNames names{{catalog_.task_names.begin(), catalog_.task_names.end()},
+                            {catalog_.behavior_names.begin(), catalog_.behavior_names.end()}};
+    const auto read =
+        document != nullptr ? read_script(*document, names, diagnostics) : std::optional<Script>{};
+    EXPECT_TRUE(read.has_value()) << show(diagnostics);
+    result = run_script(catalog_, read.value_or(Script{}), options, *this);
+    text += "end " + std::to_string(result.passed) + " " + std::to_string(result.failed);
+  }
+
+  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+    text += std::to_string(record.index) + " " + std::to_string(record.time / 1'000) + " " +
+            std::string(name_of(record.origin)) + " " + std::string(name_of(record.verb)) + " " +
+            (record.verb == Verb::finish ? std::string(name_of(record.cause)) + " " : "") +
+            std::string(name_of(record.outcome)) +
+            (step != nullptr ? " line " + std::to_string(step->range.begin.line) : "") +
+            " running " + std::to_string(state.running().size()) + "\n";
+  }
+  void on_failure(const Failure& failure) override {
+    text += "failure after " + std::to_string(failure.index) + " line " +
+            std::to_string(failure.range.begin.line) + ": " + failure.message + "\n";
+  }
+  void on_end(const State& state) override {
+    text += "last running " + std::to_string(state.running().size()) + "\n";
+  }
+
+  std::string text;
+  RunResult result;
+
+ private:
+  CompiledCatalog catalog_;
+};
+
+TEST(Runner, AnEmptyScriptEndsAtZero) { EXPECT_EQ(Protocol("[]").text, "last running 0\nend 0 0"); }
+
+TEST(Runner, WhatIsDueAtTheLastInstantIsProcessedAtTheEnd) {
+  EXPECT_EQ(Protocol("[{at: 0.08}]").text,
+            "1 80 script wait unchanged line 1 running 0\n"
+            "2 80 reactive start accepted running 1\n"
+            "last running 1\nend 0 0")
+      << "scripted events come first";
+}
+
+TEST(Runner, WhatIsDueBetweenTwoInstantsComesBetween) {
+  EXPECT_EQ(Protocol("[{start: A}, {wait: 6}]").text,
+            "1 0 script start accepted line 1 running 1\n"
+            "2 5000 timeout finish time_out accepted running 0\n"
+            "3 5080 reactive start accepted running 1\n"
+            "4 6000 script wait unchanged line 1 running 1\n"
+            "last running 1\nend 0 0");
+}
+
+TEST(Runner, WhatIsDueLaterNeverHappens) {
+  EXPECT_EQ(Protocol("[{start: A}, {at: 4.999999}]").text,
+            "1 0 script start accepted line 1 running 1\n"
+            "2 4999 script wait unchanged line 1 running 1\n"
+            "last running 1\nend 0 0");
+}
+
+TEST(Runner, ExpectationsSeeTheStateBeforeWhatIsDueAtTheirInstant) {
+  EXPECT_EQ(Protocol(R"(- start: A
+- at: 5
+  expect: {running: {A: a}}
+- at: 5
+  expect: {stopped: [A]}
+- at: 5.000001
+  expect: {stopped: [A]}
+)")
+                .text,
+            "1 0 script start accepted line 1 running 1\n"
+            "failure after 1 line 4: expected task 'A' not to run, but it runs with 'a'\n"
+            "2 5000 timeout finish time_out accepted running 0\n"
+            "last running 0\nend 2 1");
+}
+
+TEST(Runner, OutcomesAreThoseOfTheLastScriptedStartStopOrFinish) {
+  const Protocol protocol(R"(
+- expect: {outcome: accepted}
+- start: A
+  priority: 2
+- fault: a
+- wait: 1
+- expect: {outcome: accepted}
+- stop: A
+  priority: 1
+- situation: {h: false}
+- expect: {outcome: rejected}
+- at: 5.5
+- expect: {outcome: rejected}
+- finish: h
+- repair: a
+- expect: {outcome: unchanged}
+)");
+  EXPECT_EQ(protocol.result.passed, 4U);
+  EXPECT_EQ(protocol.result.failed, 1U);
+  EXPECT_EQ(protocol.text.substr(0, protocol.text.find('\n')),
+            "failure after 0 line 2: expected outcome 'accepted', but there was no start, stop or "
+            "finish yet");
+}
+
+TEST(Runner, TakesSituationAndDelayFromTheScript) {
+  EXPECT_EQ(Protocol(R"(
+reactive_delay: 2
+situation: {a: false}
+events:
+- start: A
+- at: 2
+)")
+                .text,
+            "1 0 script start rejected line 5 running 0\n"
+            "2 2000 script wait unchanged line 6 running 0\n"
+            "3 2000 reactive start accepted running 1\n"
+            "last running 1\nend 0 0");
+}
+
+TEST(Runner, PassesPrioritiesParametersAndCausesOn) {
+  const Protocol protocol(R"(
+- {start: A, priority: 4, parameters: {x: 1}}
+- {at: 1, start: A, priority: 4, parameters: {x: 1}}
+- {at: 2, start: A, priority: 4, parameters: {x: 2}}
+- {start: A, priority: 3}
+- expect: {outcome: rejected}
+- at: 6.9
+- expect: {running: {A: any}}
+- at: 7.01
+- expect: {stopped: [A]}
+- {start: A}
+- {finish: a, cause: process_failure}
+- expect: {outcome: accepted, stopped: [A], active: []}
+)");
+  EXPECT_EQ(protocol.result.passed, 4U) << protocol.text;
+  EXPECT_EQ(protocol.result.failed, 0U);
+  EXPECT_NE(protocol.text.find("script finish process_failure accepted"), std::string::npos);
+}
+
+TEST(Runner, EndsEarlyAfterTooManyEventsOfTheClock) {
+  CoordinatorOptions options;
+  options.max_clock_events = 1;
+  const Protocol protocol("[{start: A}, {at: 100}]", options);
+  EXPECT_EQ(protocol.result.status, Coordinator::Status::too_many_clock_events);
+  EXPECT_EQ(protocol.text.substr(0, protocol.text.find("last")),
+            "1 0 script start accepted line 1 running 1\n"
+            "2 5000 timeout finish time_out accepted running 0\n");
+}
+
+}  // namespace
+}  // namespace cbc

@@ -1,0 +1,79 @@
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "compiled/compile.h"
+#include "solver/checker.h"
+#include "solver/solver.h"
+#include "unit/compiled_fixture.h"
+#include "unit/random_problems.h"
+
+// Counts the allocations of this program. The operators are not to be inlined, as GCC would then
+// see new answered by free.
+
+namespace {
+
+std::atomic<std::uint64_t> allocations{0};
+
+}  // namespace
+
+// NOLINTBEGIN(cppcoreguidelines-no-malloc): this is what the operators are made of
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
+// NOLINTEND(cppcoreguidelines-no-malloc)
+
+namespace cbc {
+namespace {
+
+TEST(SolverAllocation, TheCounterCounts) {
+  const std::uint64_t before = allocations;
+  const std::vector<int> some(10'000);
+  EXPECT_GT(allocations, before) << some.size();
+}
+
+TEST(SolverAllocation, NothingIsAllocatedInTheSearch) {
+  test::Random random(11);
+  std::uint64_t nodes = 0;
+  for (int round = 0; round < 300; ++round) {
+    test::Shape shape;
+    shape.tasks = static_cast<std::uint32_t>(random.between(2, 30));
+    shape.most_behaviors = round % 10 == 0 ? 100 : 4;
+    shape.most_requirements = 3;
+    shape.exclusivity_lists = static_cast<std::uint32_t>(random.below(6));
+    shape.minimum = 15;
+    shape.on_request = 15;
+    const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
+    for (const std::uint64_t easy_nodes : {0U, 20U}) {
+      SearchOptions options;
+      options.easy_nodes = easy_nodes;
+      options.max_nodes = 3'000;
+      options.max_solutions = random.percent(20) ? 10 : 0;
+      const std::vector<std::uint32_t> ranks;
+      Solver solver(catalog, options, ranks);
+      Assignment solution;
+      solution.reserve(catalog.tasks.size());
+      for (int i = 0; i < 3; ++i) {
+        const auto group = static_cast<std::uint32_t>(random.below(catalog.group_count()));
+        const Problem problem = test::random_problem(random, catalog, group);
+        const std::uint64_t before = allocations;
+        nodes += solver.solve(problem, solution).nodes;
+        ASSERT_EQ(allocations - before, 0U) << "round " << round;
+      }
+    }
+  }
+  EXPECT_GT(nodes, 10'000U);
+}
+
+}  // namespace
+}  // namespace cbc

@@ -1,0 +1,494 @@
+#include "solver/solver.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "catalog/catalog.h"
+#include "compiled/compile.h"
+#include "unit/brute_force.h"
+#include "unit/compiled_fixture.h"
+#include "unit/random_problems.h"
+
+namespace cbc {
+namespace {
+
+using test::compile_text;
+using test::open_problem;
+
+constexpr std::uint64_t never = UINT64_MAX;
+
+SearchOptions looking_ahead_after(std::uint64_t easy_nodes) {
+  SearchOptions options;
+  options.easy_nodes = easy_nodes;
+  return options;
+}
+
+SearchOptions first_solutions(std::uint64_t m) {
+  SearchOptions options;
+  options.max_solutions = m;
+  return options;
+}
+
+struct Answer {
+  SearchResult result;
+  Assignment places;
+};
+
+Answer solve(const CompiledCatalog& catalog, const Problem& problem,
+             const SearchOptions& options = {}, const std::vector<std::uint32_t>& ranks = {}) {
+  Solver solver(catalog, options, ranks);
+  Answer answer;
+  answer.result = solver.solve(problem, answer.places);
+  return answer;
+}
+
+std::string text_of(const CompiledCatalog& catalog, const Problem& problem,
+                    const SearchOptions& options = {}) {
+  const Answer answer = solve(catalog, problem, options);
+  switch (answer.result.status) {
+    case SearchStatus::optimal:
+      return test::show(catalog, answer.places, problem.group);
+    case SearchStatus::feasible:
+      return "feasible " + test::show(catalog, answer.places, problem.group);
+    case SearchStatus::infeasible:
+      return "infeasible";
+    case SearchStatus::unknown:
+      return "unknown";
+  }
+  return "";
+}
+
+TEST(Solver, StopsWhatNothingNeeds) {
+  const CompiledCatalog catalog = compile_text(R"(
+default_values: {tasks: {start_on_request: false}}
+behaviors:
+- {behavior: a, task: A, requires: [{task: B}]}
+- {behavior: b, task: B}
+)");
+  Problem problem = open_problem(catalog);
+  test::set_present(problem, catalog, "B", "b");
+  EXPECT_EQ(text_of(catalog, problem), "");
+}
+
+TEST(Solver, TakesTheBestProductOfTheWholeClosure) {
+  const CompiledCatalog catalog = compile_text(R"(
+default_values: {tasks: {start_on_request: false}}
+behaviors:
+- {behavior: a1, task: A, requires: [{task: B}]}
+- {behavior: a2, task: A, suitability: 75}
+- {behavior: b, task: B, suitability: 70}
+)");
+  Problem problem = open_problem(catalog);
+  test::demand(problem, catalog, "A");
+  test::request(problem, catalog, "A");
+  EXPECT_EQ(text_of(catalog, problem), "A=a2");
+}
+
+TEST(Solver, KeepsMoreRequestsBeforeBetterBehaviors) {
+  const CompiledCatalog catalog = compile_text(R"(
+behaviors:
+- {behavior: a1, task: A, requires: [{task: C}]}
+- {behavior: a2, task: A, suitability: 1}
+- {behavior: b, task: B}
+- {behavior: c, task: C}
+exclusivity_constraints:
+- mutually_exclusive: [B, C]
+)");
+  Problem problem = open_problem(catalog);
+  test::demand(problem, catalog, "A");
+  test::request(problem, catalog, "A");
+  test::request(problem, catalog, "B");
+  EXPECT_EQ(text_of(catalog, problem), "A=a2 B=b");
+}
+
+TEST(Solver, SaysThatThereIsNoSolution) {
+  const CompiledCatalog catalog = compile_text(R"(
+behaviors:
+- {behavior: a, task: A}
+- {behavior: b, task: B}
+exclusivity_constraints:
+- mutually_exclusive: [A, B]
+)");
+  Problem problem = open_problem(catalog);
+  test::demand(problem, catalog, "A");
+  test::demand(problem, catalog, "B");
+  EXPECT_EQ(text_of(catalog, problem), "infeasible");
+}
+
+TEST(Solver, CanBeUsedAgainForOtherGroups) {
+  const CompiledCatalog catalog = compile_text(R"(
+behaviors:
+- {behavior: a, task: A}
+- {behavior: b1, task: B, suitability: 50}
+- {behavior: b2, task: B, suitability: 60, requires: [{task: C}]}
+- {behavior: c, task: C}
+)");
+  const std::vector<std::uint32_t> ranks;
+  Solver solver(catalog, {}, ranks);
+  Assignment places;
+  for (int round = 0; round < 3; ++round) {
+    Problem one = open_problem(catalog, 0);
+    test::demand(one, catalog, "A");
+    EXPECT_EQ(solver.solve(one, places).status, SearchStatus::optimal);
+    EXPECT_EQ(test::show(catalog, places, 0), "A=a");
+    Problem other = open_problem(catalog, 1);
+    test::demand(other, catalog, "B");
+    EXPECT_EQ(solver.solve(other, places).status, SearchStatus::optimal);
+    EXPECT_EQ(test::show(catalog, places, 1), "B=b2 C=c");
+  }
+}
+
+// Compared with brute force --------------------------------------------------------------------
+
+/// Orders the values of equal suitability of each task at random.
+std::vector<std::uint32_t> random_ranks(test::Random& random, const CompiledCatalog& catalog) {
+  std::vector<std::uint32_t> ranks;
+  for (TaskId task = 0; task < catalog.tasks.size(); ++task) {
+    const auto values = catalog.values[task];
+    std::vector<std::uint32_t> order(values.size());
+    std::iota(order.begin(), order.end(), 0U);
+    random.shuffle(order);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return values[a].suitability > values[b].suitability;
+    });
+    std::vector<std::uint32_t> rank(values.size());
+    for (std::uint32_t place = 0; place < order.size(); ++place) rank[order[place]] = place;
+    ranks.insert(ranks.end(), rank.begin(), rank.end());
+  }
+  return ranks;
+}
+
+class Agreement {
+ public:
+  /// Solves the problem in every way, and compares.
+  void check(const CompiledCatalog& catalog, const Problem& problem, test::Random& random) {
+    const std::vector<std::uint32_t> ranks =
+        random.percent(30) ? random_ranks(random, catalog) : std::vector<std::uint32_t>{};
+    const test::BruteForce truth(catalog, problem, ranks);
+    const std::optional<Assignment> best = truth.best();
+    for (const std::uint64_t easy_nodes :
+         {std::uint64_t{0}, static_cast<std::uint64_t>(random.between(1, 6)), never}) {
+      const Answer answer = solve(catalog, problem, looking_ahead_after(easy_nodes), ranks);
+      ASSERT_EQ(answer.result.status, best ? SearchStatus::optimal : SearchStatus::infeasible);
+      if (best) {
+        ASSERT_EQ(test::show(catalog, answer.places, problem.group),
+                  test::show(catalog, *best, problem.group));
+      }
+    }
+    for (const std::size_t m : {std::size_t{1}, std::size_t{1 + random.below(8)},
+                                std::max<std::size_t>(1, truth.solutions().size())}) {
+      const Answer answer = solve(catalog, problem, first_solutions(m), ranks);
+      const std::optional<Assignment> expected = truth.best(m);
+      ASSERT_EQ(answer.result.solutions, std::min(m, truth.solutions().size()));
+      if (!expected) {
+        ASSERT_EQ(answer.result.status, SearchStatus::infeasible);
+        continue;
+      }
+      ASSERT_EQ(answer.result.status,
+                truth.solutions().size() > m ? SearchStatus::feasible : SearchStatus::optimal);
+      ASSERT_EQ(test::show(catalog, answer.places, problem.group),
+                test::show(catalog, *expected, problem.group));
+    }
+    check_node_limits(catalog, problem, ranks, truth);
+    ++(best ? solved : infeasible);
+  }
+
+  int solved = 0;
+  int infeasible = 0;
+  int feasible = 0;
+  int unknown = 0;
+
+ private:
+  void check_node_limits(const CompiledCatalog& catalog, const Problem& problem,
+                         const std::vector<std::uint32_t>& ranks, const test::BruteForce& truth) {
+    for (const std::uint64_t limit : {std::uint64_t{1}, std::uint64_t{3}}) {
+      SearchOptions options;
+      options.max_nodes = limit;
+      const Answer answer = solve(catalog, problem, options, ranks);
+      ASSERT_LE(answer.result.nodes, limit);
+      if (has_solution(answer.result.status)) {
+        ASSERT_TRUE(truth.is_valid(answer.places));
+        ASSERT_TRUE(truth.is_in_domains(answer.places));
+      }
+      switch (answer.result.status) {
+        case SearchStatus::optimal:
+          ASSERT_EQ(answer.places, *truth.best());
+          break;
+        case SearchStatus::feasible:
+          ++feasible;
+          break;
+        case SearchStatus::infeasible:
+          ASSERT_TRUE(truth.solutions().empty());
+          break;
+        case SearchStatus::unknown:
+          ++unknown;
+          break;
+      }
+    }
+  }
+};
+
+TEST(Solver, AgreesWithBruteForceOnSmallProblems) {
+  test::Random random(8);
+  Agreement agreement;
+  for (int round = 0; round < 6'000; ++round) {
+    test::Shape shape;
+    shape.tasks = static_cast<std::uint32_t>(random.between(2, 6));
+    shape.exclusivity_lists = static_cast<std::uint32_t>(random.below(3));
+    shape.several_tasks = random.percent(30) ? 40 : 10;
+    shape.minimum = random.percent(50) ? 0 : 40;
+    shape.on_request = static_cast<std::uint32_t>(random.below(60));
+    shape.zero = random.percent(20) ? 15 : 0;
+    const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
+    const Problem problem = test::random_problem(random, catalog, test::largest_group(catalog));
+    agreement.check(catalog, problem, random);
+    if (HasFatalFailure()) FAIL() << "round " << round;
+  }
+  EXPECT_GT(agreement.solved, 3'000);
+  EXPECT_GT(agreement.infeasible, 300);
+  EXPECT_GT(agreement.feasible, 100);
+  EXPECT_GT(agreement.unknown, 10);
+}
+
+/// R requires B and C, which have a choice each, mostly apart; now and then something connects the
+/// two: an exclusivity list, a task that both require, a behavior of both, a minimum performance.
+Catalog two_branches(test::Random& random) {
+  enum : TaskIndex { r, b, c, d, e, f };
+  static const std::vector<Millionths> degrees{1'000'000, 900'000, 800'000, 720'000, 500'000};
+  Catalog catalog;
+  for (const char* const name : {"R", "B", "C", "D", "E", "F"}) {
+    catalog.tasks.emplace_back();
+    catalog.tasks.back().name = name;
+    catalog.tasks.back().start_on_request = false;
+  }
+  const auto add = [&](const std::vector<TaskIndex>& tasks, const std::vector<TaskIndex>& required,
+                       Millionths minimum = 0) {
+    Behavior& behavior = catalog.behaviors.emplace_back();
+    behavior.name = "b" + std::to_string(catalog.behaviors.size());
+    for (const TaskIndex task : tasks) {
+      Performance performance;
+      performance.task = task;
+      performance.suitability = random.pick(degrees);
+      behavior.performs.push_back(performance);
+    }
+    for (const TaskIndex task : required) {
+      Requirement requirement;
+      requirement.task = task;
+      requirement.minimum_performance = minimum;
+      behavior.requirements.push_back(requirement);
+    }
+  };
+  add({r}, {b, c});
+  add({f}, {r}, random.percent(50) ? 360'000 : 0);
+  for (const TaskIndex branch : {b, c}) {
+    const TaskIndex below = branch == b ? d : e;
+    add({branch}, {below});
+    add({branch}, {});
+    if (random.percent(50)) add({branch}, {random.percent(70) ? below : TaskIndex{d}});
+    add({below}, {});
+    if (random.percent(50)) add({below}, {});
+  }
+  if (random.percent(30)) add({b, c}, {});
+  if (random.percent(20)) add({d, e}, {});
+  if (random.percent(40)) catalog.exclusivity.emplace_back().tasks = {d, e};
+  random.shuffle(catalog.behaviors);
+  random.shuffle(catalog.exclusivity);
+  return catalog;
+}
+
+TEST(Solver, AgreesWithBruteForceWherePartsAreNearlyIndependent) {
+  test::Random random(12);
+  Agreement agreement;
+  for (int round = 0; round < 2'000; ++round) {
+    const CompiledCatalog catalog = compile(two_branches(random));
+    Problem problem = open_problem(catalog);
+    for (std::uint32_t task = 0; task < problem.present.size(); ++task) {
+      if (!random.percent(40)) continue;
+      const auto values = catalog.values[task];
+      problem.present[task] = static_cast<std::uint32_t>(random.below(values.size()));
+      problem.active.push_back(values[problem.present[task]].behavior);
+    }
+    std::sort(problem.active.begin(), problem.active.end());
+    problem.active.erase(std::unique(problem.active.begin(), problem.active.end()),
+                         problem.active.end());
+    const std::string_view top = random.percent(50) ? "R" : "F";
+    test::demand(problem, catalog, top);
+    test::request(problem, catalog, top);
+    agreement.check(catalog, problem, random);
+    if (HasFatalFailure()) FAIL() << "round " << round;
+  }
+  EXPECT_GT(agreement.solved, 1'000);
+}
+
+TEST(Solver, AgreesWithBruteForceOnMoreThanSixtyFourValues) {
+  test::Random random(9);
+  Agreement agreement;
+  for (int round = 0; round < 60; ++round) {
+    test::Shape shape;
+    shape.tasks = 2;
+    shape.most_behaviors = 140;
+    shape.most_requirements = 1;
+    shape.exclusivity_lists = 0;
+    shape.several_tasks = 3;
+    const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
+    const Problem problem = test::random_problem(random, catalog, test::largest_group(catalog));
+    agreement.check(catalog, problem, random);
+    if (HasFatalFailure()) FAIL() << "round " << round;
+  }
+  EXPECT_GT(agreement.solved, 30);
+}
+
+// Larger ones ----------------------------------------------------------------------------------
+
+/// Much is open: several tasks are requested, some of them have to run, and nearly every behavior
+/// is available.
+Problem random_open_problem(test::Random& random, const CompiledCatalog& catalog) {
+  Problem problem = open_problem(catalog, test::largest_group(catalog));
+  const TaskId first = catalog.group_tasks[problem.group];
+  const auto tasks = static_cast<std::uint32_t>(problem.may_stop.size());
+  for (std::uint32_t task = 0; task < tasks; ++task) {
+    const auto values = catalog.values[first + task];
+    if (values.empty() || !random.percent(40)) continue;
+    problem.present[task] = static_cast<std::uint32_t>(random.below(values.size()));
+    problem.active.push_back(values[problem.present[task]].behavior);
+  }
+  std::sort(problem.active.begin(), problem.active.end());
+  problem.active.erase(std::unique(problem.active.begin(), problem.active.end()),
+                       problem.active.end());
+  const std::size_t requests = 2 + random.below(6);
+  for (std::size_t i = 0; i < requests; ++i) {
+    const auto task = static_cast<std::uint32_t>(random.below(tasks));
+    if (std::count(problem.requests.begin(), problem.requests.end(), task) > 0) continue;
+    problem.requests.push_back(task);
+    if (random.percent(30) || i == 0) problem.may_stop[task] = 0;
+  }
+  return problem;
+}
+
+TEST(Solver, AnswersOfLargerProblemsDoNotDependOnWhenItLooksAhead) {
+  test::Random random(10);
+  int proven = 0;
+  int hard = 0;
+  int infeasible = 0;
+  for (int round = 0; round < 800; ++round) {
+    test::Shape shape;
+    shape.tasks = static_cast<std::uint32_t>(random.between(20, 40));
+    shape.most_behaviors = 4;
+    shape.most_requirements = 2;
+    shape.exclusivity_lists = static_cast<std::uint32_t>(random.below(5));
+    shape.most_exclusive = 4;
+    shape.several_tasks = random.percent(50) ? 0 : 5;
+    shape.minimum = random.percent(50) ? 3 : 0;
+    shape.on_request = 0;
+    shape.zero = random.percent(10) ? 1 : 0;
+    shape.any_percent = random.percent(70) ? 100 : 0;
+    shape.is_deep = true;
+    const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
+    const Problem problem = random_open_problem(random, catalog);
+    std::optional<Answer> first;
+    for (const std::uint64_t easy_nodes :
+         {std::uint64_t{0}, SearchOptions{}.easy_nodes, std::uint64_t{7}, never}) {
+      SearchOptions options = looking_ahead_after(easy_nodes);
+      options.max_nodes = 20'000;
+      const Answer answer = solve(catalog, problem, options);
+      const bool is_proven = answer.result.status == SearchStatus::optimal ||
+                             answer.result.status == SearchStatus::infeasible;
+      if (!is_proven) continue;
+      ++proven;
+      if (answer.result.nodes > 200) ++hard;
+      if (answer.result.status == SearchStatus::infeasible) ++infeasible;
+      if (!first) {
+        first = answer;
+        continue;
+      }
+      ASSERT_EQ(answer.result.status, first->result.status) << "round " << round;
+      if (has_solution(answer.result.status)) {
+        ASSERT_EQ(answer.places, first->places) << "round " << round;
+      }
+    }
+  }
+  EXPECT_GT(proven, 2'400);
+  EXPECT_GT(hard, 100);
+  EXPECT_LT(infeasible, 1'600);
+}
+
+// Limits ---------------------------------------------------------------------------------------
+
+/// Many tasks with many behaviors each, all demanded, so that the search takes decisions.
+CompiledCatalog catalog_with_choices() {
+  std::string text = "behaviors:\n";
+  for (int task = 0; task < 12; ++task) {
+    const std::string name = std::to_string(task);
+    for (int i = 0; i < 4; ++i) {
+      text += "- {behavior: b" + name + "_" + std::to_string(i) + ", task: T" + name +
+              ", suitability: " + std::to_string(90 - i) + ", requires: [{task: S" +
+              std::to_string((task + i) % 12) + "}]}\n";
+    }
+    text += "- {behavior: s" + name + ", task: S" + name +
+            ", suitability: " + std::to_string(95 - task % 5) + "}\n";
+  }
+  return compile_text("default_values: {tasks: {start_on_request: false}}\n" + text);
+}
+
+Problem demand_all(const CompiledCatalog& catalog) {
+  Problem problem = open_problem(catalog);
+  for (int task = 0; task < 12; ++task) {
+    test::demand(problem, catalog, "T" + std::to_string(task));
+  }
+  return problem;
+}
+
+TEST(Solver, ALimitOfNodesLeavesTheBestSoFar) {
+  const CompiledCatalog catalog = catalog_with_choices();
+  const Problem problem = demand_all(catalog);
+  SearchOptions options;
+  options.max_nodes = 1;
+  EXPECT_EQ(text_of(catalog, problem, options), "unknown");
+  options.max_nodes = 60;
+  const Answer answer = solve(catalog, problem, options);
+  EXPECT_EQ(answer.result.status, SearchStatus::feasible);
+  EXPECT_EQ(answer.result.nodes, 60U);
+  EXPECT_EQ(solve(catalog, problem).result.status, SearchStatus::optimal);
+}
+
+TEST(Solver, ALimitOfTimeEndsTheSearch) {
+  const CompiledCatalog catalog = catalog_with_choices();
+  const Problem problem = demand_all(catalog);
+  SearchOptions options;
+  options.easy_nodes = never;
+  options.time_limit = std::chrono::microseconds(1);
+  const Answer answer = solve(catalog, problem, options);
+  EXPECT_TRUE(answer.result.status == SearchStatus::feasible ||
+              answer.result.status == SearchStatus::unknown);
+  options.easy_nodes = 100;
+  options.time_limit = std::chrono::hours(1);
+  EXPECT_EQ(solve(catalog, problem, options).result.status, SearchStatus::optimal);
+}
+
+TEST(Solver, TheFirstSolutionsCountImprovingOrNot) {
+  const CompiledCatalog catalog = compile_text(R"(
+behaviors:
+- {behavior: a1, task: A}
+- {behavior: a2, task: A, suitability: 50}
+- {behavior: b1, task: B, suitability: 90, requires: [{task: A}]}
+- {behavior: b2, task: B, suitability: 60}
+)");
+  Problem problem = open_problem(catalog);
+  test::demand(problem, catalog, "B");
+  // In order: "B=b2" (A does not run), then A=a1 with b1, b2, then A=a2 with b1, b2.
+  EXPECT_EQ(text_of(catalog, problem, first_solutions(1)), "feasible B=b2");
+  EXPECT_EQ(text_of(catalog, problem, first_solutions(2)), "feasible A=a1 B=b1");
+  EXPECT_EQ(text_of(catalog, problem, first_solutions(4)), "feasible A=a1 B=b1");
+  EXPECT_EQ(text_of(catalog, problem, first_solutions(5)), "A=a1 B=b1")
+      << "there are no more than five";
+  EXPECT_EQ(solve(catalog, problem, first_solutions(3)).result.solutions, 3U);
+  EXPECT_EQ(solve(catalog, problem, first_solutions(9)).result.solutions, 5U);
+}
+
+}  // namespace
+}  // namespace cbc
