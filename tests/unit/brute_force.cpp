@@ -126,8 +126,8 @@ std::uint32_t BruteForce::count_changes(const Assignment& answer) const {
     if (answer[task] != none) after.insert(behavior(answer, task));
   }
   std::uint32_t changes = 0;
-  for (const BehaviorId one : after) changes += before.count(one) == 0 ? 1U : 0U;
-  for (const BehaviorId one : before) changes += after.count(one) == 0 ? 1U : 0U;
+  for (const BehaviorId one : after) changes += before.contains(one) ? 0U : 1U;
+  for (const BehaviorId one : before) changes += after.contains(one) ? 0U : 1U;
   return changes;
 }
 

@@ -556,6 +556,20 @@ TEST(ActivationFailure, OfSeveralTakingsBackIsFollowedByFinishesInCatalogOrder) 
   EXPECT_EQ(stage.active(), "");
 }
 
+TEST(ActivationFailure, FinishesComeInCatalogOrderWhateverTheLevels) {
+  Stage stage(fragile);
+  stage.start("Y", 1);
+  stage.fault("x");
+  stage.fault("y");
+  stage.fault("n");
+  EXPECT_EQ(stage.start("N", 1), "rejected; accepted; unchanged");
+  EXPECT_EQ(stage.events(),
+            "start N 1 rejected; fault finish y process_failure accepted; "
+            "fault finish x process_failure unchanged")
+      << "x was taken back first, as y requires it";
+  EXPECT_EQ(stage.stopped(), "; Y process_failure, X interrupted; ");
+}
+
 TEST(ActivationFailure, AFinishThatAnEarlierOneAnticipatedChangesNothing) {
   // In catalog order x would come last; here it comes first, and takes y down.
   Stage stage(R"(
@@ -621,6 +635,15 @@ TEST(ActivationFailure, OfAFinishedBehaviorAlwaysHasASolution) {
   EXPECT_EQ(stage.changes(), "+a2 requested 5 failed");
   EXPECT_EQ(stage.stopped(), "A process_failure");
   EXPECT_EQ(stage.active(), "");
+}
+
+TEST(ActivationFailure, ExcludesNothingButWhatFailed) {
+  Stage stage(rivals, {}, {{"a1", false}});
+  stage.start("A", 1);
+  stage.set({{"a1", true}});
+  stage.fault("a1");
+  EXPECT_EQ(stage.finish("a2", FinishCause::situation_change), "accepted");
+  EXPECT_EQ(stage.changes(), "+a1 requested 1 failed, +a2 requested 1");
 }
 
 TEST(ActivationFailure, OfAFinishMayRaiseTheProtectionLevel) {
@@ -1014,6 +1037,29 @@ TEST(SearchLimits, ThatLeaveNoSolutionRejectTheEvent) {
   EXPECT_EQ(stage.start("B", 1), "rejected");
   EXPECT_EQ(stage.searches().substr(0, 7), "unknown");
   EXPECT_EQ(stage.running(), "");
+}
+
+TEST(SearchLimits, ThatLeaveAFinishWithoutSolutionLeaveTheBehaviorActive) {
+  CoordinatorOptions options;
+  options.search.max_nodes = 1;
+  Stage stage(R"(
+default_values: {tasks: {start_on_request: false}}
+behaviors:
+- {behavior: a1, task: A}
+- {behavior: a2, task: A, suitability: 50, requires: [{task: S}, {task: T}]}
+- {behavior: s1, task: S}
+- {behavior: s2, task: S}
+- {behavior: t1, task: T}
+- {behavior: t2, task: T}
+)",
+              options);
+  EXPECT_EQ(stage.start("A"), "accepted");
+  EXPECT_EQ(stage.running(), "A=a1");
+  EXPECT_EQ(stage.finish("a1", FinishCause::wrong_progress), "rejected");
+  EXPECT_EQ(stage.searches().substr(0, 7), "unknown");
+  EXPECT_EQ(stage.running(), "A=a1");
+  EXPECT_EQ(stage.active(), "a1");
+  EXPECT_EQ(stage.changes(), "");
 }
 
 TEST(SearchLimits, ThePapersOrderTakesTheFirstSolution) {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "solver/propagator.h"
@@ -176,13 +177,13 @@ TEST(Parts, NestNoDeeperThanTheirLimit) {
   // A chain in which every task Ti has a choice, next to a task Si with a choice.
   const int length = 12;
   for (int i = 0; i < length; ++i) {
-    const std::string number = std::to_string(i);
-    const std::string next = std::to_string(i + 1);
-    text += "- {behavior: t" + number + ", task: T" + number + ", requires: [{task: T" + next +
-            "}, {task: S" + next + "}]}\n";
-    text += "- {behavior: u" + number + ", task: T" + number + ", suitability: 10}\n";
-    text += "- {behavior: s" + next + ", task: S" + next + "}\n";
-    text += "- {behavior: v" + next + ", task: S" + next + ", suitability: 90}\n";
+    text += fmt::format(R"(
+- {{behavior: t{0}, task: T{0}, requires: [{{task: T{1}}}, {{task: S{1}}}]}}
+- {{behavior: u{0}, task: T{0}, suitability: 10}}
+- {{behavior: s{1}, task: S{1}}}
+- {{behavior: v{1}, task: S{1}, suitability: 90}}
+)",
+                        i, i + 1);
   }
   text += "- {behavior: end, task: T" + std::to_string(length) + "}\n";
   Situation situation(text, {"T0"});

@@ -45,7 +45,7 @@ class Closures {
   void descend(std::vector<TaskId> open, double suitability) {
     // Suitability only falls on the way down; the margin is far over any rounding.
     if (suitability < best_ * (1 - 1e-12)) return;
-    while (!open.empty() && chosen_.count(open.back()) > 0) open.pop_back();
+    while (!open.empty() && chosen_.contains(open.back())) open.pop_back();
     if (open.empty()) {
       if (suitability > best_ && is_valid()) best_ = suitability;
       return;
@@ -71,7 +71,7 @@ class Closures {
     for (std::size_t clique = 0; clique < catalog_.cliques.size(); ++clique) {
       int running = 0;
       for (const TaskId task : catalog_.cliques[clique]) {
-        if (chosen_.count(task) > 0) ++running;
+        if (chosen_.contains(task)) ++running;
       }
       if (running > 1) return false;
     }

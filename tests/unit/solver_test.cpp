@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "catalog/catalog.h"
@@ -423,14 +424,13 @@ TEST(Solver, AnswersOfLargerProblemsDoNotDependOnWhenItLooksAhead) {
 CompiledCatalog catalog_with_choices() {
   std::string text = "behaviors:\n";
   for (int task = 0; task < 12; ++task) {
-    const std::string name = std::to_string(task);
     for (int i = 0; i < 4; ++i) {
-      text += "- {behavior: b" + name + "_" + std::to_string(i) + ", task: T" + name +
-              ", suitability: " + std::to_string(90 - i) + ", requires: [{task: S" +
-              std::to_string((task + i) % 12) + "}]}\n";
+      text += fmt::format(
+          "- {{behavior: b{0}_{1}, task: T{0}, suitability: {2}, requires: [{{task: S{3}}}]}}\n",
+          task, i, 90 - i, (task + i) % 12);
     }
-    text += "- {behavior: s" + name + ", task: S" + name +
-            ", suitability: " + std::to_string(95 - task % 5) + "}\n";
+    text +=
+        fmt::format("- {{behavior: s{0}, task: S{0}, suitability: {1}}}\n", task, 95 - task % 5);
   }
   return compile_text("default_values: {tasks: {start_on_request: false}}\n" + text);
 }
