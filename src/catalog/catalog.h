@@ -59,7 +59,7 @@ struct Behavior {
   Range range;
   std::string package;
   std::optional<Microseconds> timeout;
-  std::vector<Performance> performs;   ///< at least one; tasks differ
+  std::vector<Performance> performs;      ///< at least one; tasks differ
   std::vector<Requirement> requirements;  ///< in the order of the file; a task may stand twice
 };
 
