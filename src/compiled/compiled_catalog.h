@@ -129,6 +129,10 @@ struct CompiledCatalog {
   }
   /// The task that a value is of.
   [[nodiscard]] TaskId task_of(ValueId value) const { return value_tasks[value]; }
+  /// The group of a behavior, which is that of all its tasks.
+  [[nodiscard]] std::uint32_t group_of(BehaviorId behavior) const {
+    return tasks[task_of(performs[behavior].front())].group;
+  }
 };
 
 /// Size of the largest group, by the first items of the groups and the end (group_tasks or

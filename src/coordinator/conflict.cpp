@@ -39,8 +39,7 @@ class Candidates {
   [[nodiscard]] bool is_full() const { return reasons_.size() > most_candidates; }
 
   [[nodiscard]] bool is_protected(TaskId task) const {
-    return task != trigger_.task && state_.has_request(task) &&
-           (trigger_.is_reactive || state_.request(task).priority > trigger_.priority);
+    return task != trigger_.task && cbc::is_protected(state_, trigger_, task, trigger_.priority);
   }
 
   void find_relevant_tasks() {

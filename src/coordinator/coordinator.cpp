@@ -199,7 +199,7 @@ Coordinator::Status Coordinator::finish(BehaviorId behavior, FinishCause cause) 
   if (!state_.is_active(behavior)) return report();
   Trigger trigger;
   trigger.kind = Trigger::Kind::finish;
-  trigger.group = catalog_.tasks[catalog_.task_of(catalog_.performs[behavior].front())].group;
+  trigger.group = catalog_.group_of(behavior);
   trigger.behavior = behavior;
   trigger.cause = cause;
   return coordinate(trigger);
@@ -211,7 +211,7 @@ void Coordinator::change_situation(std::span<const Availability> situation) {
     const bool becomes_available = entry.available && !state_.is_available(behavior);
     state_.set_available(behavior, entry.available);
     if (becomes_available) {
-      enqueue_group(catalog_.tasks[catalog_.task_of(catalog_.performs[behavior].front())].group);
+      enqueue_group(catalog_.group_of(behavior));
     }
   }
 }
@@ -220,7 +220,7 @@ void Coordinator::repair(BehaviorId behavior) {
   record_.behavior = behavior;
   if (!state_.is_faulty(behavior)) return;
   state_.set_faulty(behavior, false);
-  enqueue_group(catalog_.tasks[catalog_.task_of(catalog_.performs[behavior].front())].group);
+  enqueue_group(catalog_.group_of(behavior));
 }
 
 // Coordination.
@@ -389,17 +389,19 @@ void Coordinator::update_timeouts(std::uint32_t group) {
 void Coordinator::update_queue() {
   for (const TaskId task : stopped_) enqueue_rivals(task);
   for (const TaskId task : stopped_by_others_) {
-    if (catalog_.tasks[task].reactive_start) state_.enqueue(task, now_ + options_.reactive_delay);
+    enqueue_if_reactive(task);
   }
   for (const TaskId task : started_) dequeue_with_rivals(task);
+}
+
+void Coordinator::enqueue_if_reactive(TaskId task) {
+  if (catalog_.tasks[task].reactive_start) state_.enqueue(task, now_ + options_.reactive_delay);
 }
 
 void Coordinator::enqueue_rivals(TaskId task) {
   for (const std::uint32_t clique : catalog_.task_cliques[task]) {
     for (const TaskId rival : catalog_.cliques[clique]) {
-      if (rival != task && catalog_.tasks[rival].reactive_start) {
-        state_.enqueue(rival, now_ + options_.reactive_delay);
-      }
+      if (rival != task) enqueue_if_reactive(rival);
     }
   }
 }
@@ -413,7 +415,7 @@ void Coordinator::dequeue_with_rivals(TaskId task) {
 
 void Coordinator::enqueue_group(std::uint32_t group) {
   for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
-    if (catalog_.tasks[task].reactive_start) state_.enqueue(task, now_ + options_.reactive_delay);
+    enqueue_if_reactive(task);
   }
 }
 

@@ -92,6 +92,7 @@ class Coordinator {
   void assign(const Trigger& trigger);
   void update_timeouts(std::uint32_t group);
   void update_queue();
+  void enqueue_if_reactive(TaskId task);
   void enqueue_rivals(TaskId task);
   void dequeue_with_rivals(TaskId task);
   void enqueue_group(std::uint32_t group);

@@ -4,6 +4,12 @@
 
 namespace cbc {
 
+bool is_protected(const State& state, const Trigger& trigger, TaskId task,
+                  std::int32_t protection) {
+  if (!state.has_request(task)) return false;
+  return trigger.is_reactive || state.request(task).priority > protection;
+}
+
 Question::Question(const CompiledCatalog& catalog, const State& state)
     : catalog_(catalog), state_(state) {}
 
@@ -122,14 +128,9 @@ void Question::limit_domain(TaskId task, std::int32_t protection) {
     if (trigger_.cause == FinishCause::goal_achieved) empty_domain(task);
   } else if (!state_.is_running(task)) {
     if (catalog_.tasks[task].start_on_request) empty_domain(task);
-  } else if (is_protected(task, protection)) {
+  } else if (is_protected(state_, trigger_, task, protection)) {
     may_stop = 0;
   }
-}
-
-bool Question::is_protected(TaskId task, std::int32_t protection) const {
-  if (!state_.has_request(task)) return false;
-  return trigger_.is_reactive || state_.request(task).priority > protection;
 }
 
 void Question::clear_excluded() {

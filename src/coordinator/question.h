@@ -25,6 +25,11 @@ struct Trigger {
   std::string_view parameters;  ///< that the task will have
 };
 
+/// Whether a task may not stop: its request is stronger than the protection level, or, where the
+/// trigger is a reactive start, there is one at all.
+[[nodiscard]] bool is_protected(const State& state, const Trigger& trigger, TaskId task,
+                                std::int32_t protection);
+
 /// Turns a trigger and the state into the constraint problem of its group (semantics: section 4).
 class Question {
  public:
@@ -60,7 +65,6 @@ class Question {
 
   [[nodiscard]] std::uint64_t& word_of(TaskId task, std::uint32_t place);
   void empty_domain(TaskId task);
-  [[nodiscard]] bool is_protected(TaskId task, std::int32_t protection) const;
 
   const CompiledCatalog& catalog_;
   const State& state_;

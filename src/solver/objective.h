@@ -49,7 +49,6 @@ class Objective {
   /// Order of a value (or none) of a task in rule 5: lower is better.
   [[nodiscard]] std::uint32_t key(std::uint32_t task, std::uint32_t place) const;
 
-  [[nodiscard]] bool is_request(std::uint32_t task) const { return is_request_[task] != 0; }
   [[nodiscard]] bool was_active(BehaviorId behavior) const {
     return active_[behavior - domains_.first_behavior()] != 0;
   }
