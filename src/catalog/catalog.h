@@ -22,7 +22,8 @@ struct Parameter {
   std::string name;
   std::vector<std::string> allowed_values;  ///< texts of the list, or of the single type name
   bool allowed_is_list = false;             ///< a list ([0, 30], [LEFT, RIGHT]), not a type name
-  Range range;
+  Range allowed_range;                      ///< of the first of them
+  Range range;                              ///< of the name
 };
 
 /// A variable of the constraint problem: what can be done.
@@ -34,7 +35,8 @@ struct Task {
   bool start_on_request = true;
   bool reactive_start = false;
   std::optional<Microseconds> timeout;
-  Millionths minimum_performance = 0;  ///< 0: none
+  std::optional<Range> own_timeout_range;  ///< of a timeout that is not a default
+  Millionths minimum_performance = 0;      ///< 0: none
   Range minimum_performance_range;
   std::vector<Parameter> parameters;
 };
@@ -43,14 +45,16 @@ struct Task {
 struct Performance {
   TaskIndex task = 0;
   Millionths suitability = one_million;
-  Range range;
+  std::optional<Range> suitability_range;  ///< where the file says so
+  Range range;                             ///< of the task name
 };
 
 /// (b, t, k): where behavior b is assigned, t runs with at least performance k.
 struct Requirement {
   TaskIndex task = 0;
   Millionths minimum_performance = 0;  ///< 0: none
-  Range range;                         ///< of the task name
+  Range minimum_performance_range;
+  Range range;  ///< of the task name
 };
 
 /// A value of the constraint problem: how something is done.
@@ -59,6 +63,7 @@ struct Behavior {
   Range range;
   std::string package;
   std::optional<Microseconds> timeout;
+  Range timeout_range;
   std::vector<Performance> performs;      ///< at least one; tasks differ
   std::vector<Requirement> requirements;  ///< in the order of the file; a task may stand twice
 };
@@ -73,6 +78,7 @@ struct ExclusivityList {
 /// A catalog as it was written, understood and checked: names resolved, defaults filled in.
 struct Catalog {
   std::string file;
+  bool has_task_section = false;
   std::vector<Task> tasks;
   std::vector<Behavior> behaviors;
   std::vector<ExclusivityList> exclusivity;

@@ -87,8 +87,8 @@ void check_requirement_cycles(const Catalog& catalog, Reporter& reporter) {
     if (cycle.size() > longest_chain) chain += "... -> ";
     chain += quote(catalog.tasks[cycle.front().task].name);
     const Range place = notes.front().range;
-    reporter.error(rule::requirement_cycle, place, "tasks require one another: " + chain,
-                   std::move(notes));
+    reporter.report(rule::requirement_cycle, place, "tasks require one another: " + chain,
+                    std::move(notes));
   }
 }
 
@@ -105,9 +105,7 @@ void check_exclusive_requirements(const Catalog& catalog, Reporter& reporter) {
           behavior.performs.size() == 1
               ? quote(catalog.tasks[behavior.performs.front().task].name) + ", the task it performs"
               : std::string("every task it performs");
-      // The meaning is clear: the behavior is never active. Catalogs in use have such behaviors,
-      // and the others of their tasks work, so this does not keep a catalog from being solved.
-      reporter.warning(
+      reporter.report(
           rule::exclusive_requirement, requirement.range,
           "behavior " + quote(behavior.name) + " requires " +
               quote(catalog.tasks[requirement.task].name) + ", which excludes " + own,

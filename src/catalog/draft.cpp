@@ -25,10 +25,10 @@ class Reader {
 
   Catalog read(const Node& root) {
     if (root.kind == Kind::null) {
-      reporter_.error(rule::missing_key, root.range,
-                      "missing key 'behaviors': the catalog is empty");
+      reporter_.report(rule::missing_key, root.range,
+                       "missing key 'behaviors': the catalog is empty");
     } else if (root.kind != Kind::mapping) {
-      reporter_.error(
+      reporter_.report(
           rule::wrong_type, root.range,
           "a catalog must be a mapping with the key 'behaviors', found " + yaml::describe(root));
     } else {
@@ -42,6 +42,7 @@ class Reader {
     Fields fields(root, shape::catalog, reporter_);
     if (const Node* node = fields.find("default_values")) read_default_values(*node);
     if (const Node* node = fields.find("tasks")) {
+      catalog_.has_task_section = true;
       catalog_.lacks_a_section |=
           !read_entries(*node, "tasks", "a list of tasks", &Reader::read_task);
     }
@@ -79,7 +80,7 @@ class Reader {
         if (item->kind == Kind::mapping) {
           mappings.push_back(item);
         } else {
-          reporter_.error(
+          reporter_.report(
               rule::wrong_type, item->range,
               "an entry of " + quote(key) + " must be a mapping, found " + yaml::describe(*item));
         }
@@ -140,17 +141,25 @@ class Reader {
     return Flag{*value, fields.range_of(key)};
   }
 
-  std::optional<Microseconds> read_timeout(const Fields& fields) {
+  std::optional<Timeout> read_timeout(const Fields& fields) {
     const Node* node = fields.find("timeout");
     if (node == nullptr) return std::nullopt;
-    return yaml::read_seconds(*node, "timeout", true, reporter_);
+    const auto seconds = yaml::read_seconds(*node, "timeout", true, reporter_);
+    if (!seconds) return std::nullopt;
+    return Timeout{*seconds, node->range};
+  }
+
+  Percent read_minimum(const Fields& fields) {
+    const Node* node = fields.find("minimum_performance");
+    if (node == nullptr) return {};
+    return {yaml::read_percent(*node, "minimum_performance", reporter_).value_or(0), node->range};
   }
 
   void read_task(const Node& node) {
     if (!expect_entry(node, "a task", "task: NAME")) {
       // A bare name is understood, so that it is not reported as undefined elsewhere.
       if (node.kind == Kind::scalar && !node.text.empty()) {
-        catalog_.tasks.push_back({{node.text, node.range}, {}, 0, {}, {}});
+        catalog_.tasks.push_back({{node.text, node.range}, {}, {}, {}});
       } else {
         ++catalog_.nameless_tasks;
       }
@@ -164,11 +173,7 @@ class Reader {
       fields.call("task " + quote(name->text));
     }
     task.attributes = read_attributes(fields);
-    if (const Node* minimum = fields.find("minimum_performance")) {
-      task.minimum_performance =
-          yaml::read_percent(*minimum, "minimum_performance", reporter_).value_or(0);
-      task.minimum_performance_range = minimum->range;
-    }
+    task.minimum_performance = read_minimum(fields);
     if (const Node* parameters = fields.find("parameters")) {
       task.parameters = read_parameters(*parameters);
     }
@@ -204,6 +209,7 @@ class Reader {
   }
 
   void read_allowed_values(const Node& node, Parameter& parameter) {
+    parameter.allowed_range = node.range;
     constexpr std::string_view expected = "a list of values, or the name of a type";
     if (node.kind != Kind::sequence) {
       if (const auto text = yaml::read_text(node, "allowed_values", expected, reporter_)) {
@@ -212,6 +218,7 @@ class Reader {
       return;
     }
     parameter.allowed_is_list = true;
+    if (!node.items.empty()) parameter.allowed_range = node.items.front()->range;
     for (const Node* item : node.items) {
       if (const auto text =
               yaml::read_text(*item, "allowed_values", "a list of plain values", reporter_)) {
@@ -222,9 +229,13 @@ class Reader {
 
   // Behaviors --------------------------------------------------------------------------------
 
-  std::optional<Millionths> read_suitability(const Fields& fields) {
+  std::optional<Percent> read_suitability(const Fields& fields) {
     for (const std::string_view key : {"suitability", "efficacy"}) {
-      if (const Node* node = fields.find(key)) return yaml::read_percent(*node, key, reporter_);
+      const Node* node = fields.find(key);
+      if (node == nullptr) continue;
+      const auto percent = yaml::read_percent(*node, key, reporter_);
+      if (!percent) return std::nullopt;
+      return Percent{*percent, node->range};
     }
     return std::nullopt;
   }
@@ -262,7 +273,7 @@ class Reader {
     const Node* list = fields.find("tasks");
     if (fields.find("task") != nullptr && list != nullptr) {
       const bool task_first = fields.range_of("task").begin < fields.range_of("tasks").begin;
-      reporter_.error(
+      reporter_.report(
           rule::duplicate_key, fields.range_of(task_first ? "tasks" : "task"),
           "'task' and 'tasks' are both given in a behavior",
           {reporter_.note(fields.range_of(task_first ? "task" : "tasks"), "first given here")});
@@ -284,7 +295,7 @@ class Reader {
       return;
     }
     if (list->items.empty()) {
-      reporter_.error(rule::invalid_value, key, "a behavior must have at least one task");
+      reporter_.report(rule::invalid_value, key, "a behavior must have at least one task");
     }
     std::unordered_map<std::string_view, Range> known;
     for (const Node* item : list->items) {
@@ -294,16 +305,16 @@ class Reader {
       }
       Fields fields(*item, shape::performance, reporter_);
       const auto name = require_name(fields, "task", task_name, item->range);
-      const std::optional<Millionths> suitability = read_suitability(fields);
+      const std::optional<Percent> suitability = read_suitability(fields);
       fields.report_unknown(Severity::warning);
       if (!name) continue;
       const auto [first, is_new] = known.try_emplace(name->text, name->range);
       if (is_new) {
         behavior.performs.push_back({*name, suitability});
       } else {
-        reporter_.error(rule::invalid_value, name->range,
-                        "task " + quote(name->text) + " stands twice in one behavior",
-                        {reporter_.note(first->second, "first given here")});
+        reporter_.report(rule::invalid_value, name->range,
+                         "task " + quote(name->text) + " stands twice in one behavior",
+                         {reporter_.note(first->second, "first given here")});
       }
     }
   }
@@ -315,10 +326,7 @@ class Reader {
       if (!expect_entry(*item, "a requirement", "task: NAME")) continue;
       Fields fields(*item, shape::requirement, reporter_);
       const auto name = require_name(fields, "task", task_name, item->range);
-      Millionths minimum = 0;
-      if (const Node* value = fields.find("minimum_performance")) {
-        minimum = yaml::read_percent(*value, "minimum_performance", reporter_).value_or(0);
-      }
+      const Percent minimum = read_minimum(fields);
       fields.report_unknown(Severity::warning);
       if (name) requirements.push_back({*name, minimum});
     }
@@ -351,9 +359,9 @@ class Reader {
 
   bool expect_entry(const Node& node, std::string_view what, std::string_view example) {
     if (node.kind == Kind::mapping) return true;
-    reporter_.error(rule::wrong_type, node.range,
-                    std::string(what) + " must be a mapping (" + quote(example) + "), found " +
-                        yaml::describe(node));
+    reporter_.report(rule::wrong_type, node.range,
+                     std::string(what) + " must be a mapping (" + quote(example) + "), found " +
+                         yaml::describe(node));
     return false;
   }
 

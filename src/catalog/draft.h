@@ -19,41 +19,45 @@ struct Name {
   Range range;
 };
 
-struct Flag {
-  bool value = false;
+/// A value and where it stands.
+template <typename T>
+struct Placed {
+  T value{};
   Range range;
 };
+using Flag = Placed<bool>;
+using Percent = Placed<Millionths>;
+using Timeout = Placed<Microseconds>;
 
 struct TaskAttributes {
   std::optional<ExecutionGoal> execution_goal;
   std::optional<Flag> start_on_request;
   std::optional<Flag> reactive_start;
-  std::optional<Microseconds> timeout;
+  std::optional<Timeout> timeout;
 };
 
 struct Task {
   Name name;
   TaskAttributes attributes;
-  Millionths minimum_performance = 0;
-  Range minimum_performance_range;
+  Percent minimum_performance;  ///< 0: none
   std::vector<Parameter> parameters;
 };
 
 struct Performance {
   Name task;
-  std::optional<Millionths> suitability;
+  std::optional<Percent> suitability;
 };
 
 struct Requirement {
   Name task;
-  Millionths minimum_performance = 0;
+  Percent minimum_performance;  ///< 0: none
 };
 
 struct Behavior {
   Name name;  ///< empty if it is missing
   std::optional<std::string_view> package;
-  std::optional<Microseconds> timeout;
-  std::optional<Millionths> suitability;
+  std::optional<Timeout> timeout;
+  std::optional<Percent> suitability;
   std::vector<Performance> performs;
   std::vector<Requirement> requirements;
 };
@@ -66,7 +70,8 @@ struct ExclusivityList {
 struct Catalog {
   TaskAttributes task_defaults;
   std::optional<std::string_view> default_package;
-  std::optional<Millionths> default_suitability;
+  std::optional<Percent> default_suitability;
+  bool has_task_section = false;
   std::vector<Task> tasks;
   std::vector<Behavior> behaviors;
   std::vector<ExclusivityList> exclusivity;

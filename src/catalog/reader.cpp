@@ -26,6 +26,7 @@ class Resolver {
       : draft_(draft), reporter_(reporter), attributes_(draft.task_defaults, reporter) {}
 
   Catalog resolve() {
+    catalog_.has_task_section = draft_.has_task_section;
     define_listed_tasks();
     define_implicit_tasks();
     for (const draft::Behavior& behavior : draft_.behaviors) add_behavior(behavior);
@@ -59,8 +60,8 @@ class Resolver {
     for (std::size_t index = 0; index < last.size(); ++index) {
       Task& task = catalog_.tasks[index];
       attributes_.apply(last[index]->name.range, last[index]->attributes, task);
-      task.minimum_performance = last[index]->minimum_performance;
-      task.minimum_performance_range = last[index]->minimum_performance_range;
+      task.minimum_performance = last[index]->minimum_performance.value;
+      task.minimum_performance_range = last[index]->minimum_performance.range;
       task.parameters = last[index]->parameters;
     }
   }
@@ -73,8 +74,8 @@ class Resolver {
     } else {
       message += "; the last entry counts: " + changes;
     }
-    reporter_.warning(rule::duplicate_task, now.name.range, std::move(message),
-                      {reporter_.note(first.range, "first listed here")});
+    reporter_.report(rule::duplicate_task, now.name.range, std::move(message),
+                     {reporter_.note(first.range, "first listed here")});
   }
 
   void define_implicit_tasks() {
@@ -96,31 +97,45 @@ class Resolver {
     if (!entry.name.text.empty()) {
       const auto [known, is_new] = behaviors_.try_emplace(entry.name.text, entry.name.range);
       if (!is_new) {
-        reporter_.error(rule::duplicate_behavior, entry.name.range,
-                        "behavior " + quote(entry.name.text) + " is defined twice",
-                        {reporter_.note(known->second, "first defined here")});
+        reporter_.report(rule::duplicate_behavior, entry.name.range,
+                         "behavior " + quote(entry.name.text) + " is defined twice",
+                         {reporter_.note(known->second, "first defined here")});
       }
     }
     Behavior behavior;
     behavior.name = entry.name.text;
     behavior.range = entry.name.range;
     behavior.package = entry.package.value_or(draft_.default_package.value_or(""));
-    behavior.timeout = entry.timeout;
-    const Millionths suitability =
-        entry.suitability.value_or(draft_.default_suitability.value_or(one_million));
+    if (entry.timeout) {
+      behavior.timeout = entry.timeout->value;
+      behavior.timeout_range = entry.timeout->range;
+    }
     for (const draft::Performance& performance : entry.performs) {
-      behavior.performs.push_back({tasks_.at(performance.task.text),
-                                   performance.suitability.value_or(suitability),
-                                   performance.task.range});
+      behavior.performs.push_back(resolve(performance, entry));
     }
     for (const draft::Requirement& requirement : entry.requirements) {
       const auto task = find_task(requirement.task, "required by behavior ", entry.name.text);
       if (task) {
-        behavior.requirements.push_back(
-            {*task, requirement.minimum_performance, requirement.task.range});
+        behavior.requirements.push_back({*task, requirement.minimum_performance.value,
+                                         requirement.minimum_performance.range,
+                                         requirement.task.range});
       }
     }
     catalog_.behaviors.push_back(std::move(behavior));
+  }
+
+  Performance resolve(const draft::Performance& performance, const draft::Behavior& behavior) {
+    Performance resolved;
+    resolved.task = tasks_.at(performance.task.text);
+    resolved.range = performance.task.range;
+    for (const auto* suitability :
+         {&performance.suitability, &behavior.suitability, &draft_.default_suitability}) {
+      if (!*suitability) continue;
+      resolved.suitability = (*suitability)->value;
+      resolved.suitability_range = (*suitability)->range;
+      break;
+    }
+    return resolved;
   }
 
   void add_exclusivity_list(const draft::ExclusivityList& entry) {
@@ -172,7 +187,7 @@ class Resolver {
       } else if (behaviors_.contains(undefined.name.text)) {
         message += ": there is a behavior of this name, but no task";
       }
-      reporter_.error(rule::undefined_task, undefined.name.range, std::move(message));
+      reporter_.report(rule::undefined_task, undefined.name.range, std::move(message));
     }
   }
 
@@ -187,15 +202,24 @@ class Resolver {
 
 }  // namespace
 
-std::optional<Catalog> read_catalog(const yaml::Document& document, Diagnostics& diagnostics) {
+CatalogReading understand_catalog(const yaml::Document& document, Diagnostics& diagnostics) {
   Reporter reporter(document.file(), diagnostics);
+  CatalogReading reading;
   const draft::Catalog draft = draft::read(document.root(), reporter);
-  Catalog catalog = Resolver(draft, reporter).resolve();
-  check_requirement_cycles(catalog, reporter);
-  check_exclusive_requirements(catalog, reporter);
-  if (reporter.errors() > 0) return std::nullopt;
-  catalog.file = document.file();
-  return catalog;
+  reading.catalog = Resolver(draft, reporter).resolve();
+  reading.catalog.file = document.file();
+  reading.is_complete = reporter.errors() == reporter.errors(rule::on_request_and_reactive);
+  check_requirement_cycles(reading.catalog, reporter);
+  reading.is_acyclic = reporter.errors(rule::requirement_cycle) == 0;
+  check_exclusive_requirements(reading.catalog, reporter);
+  return reading;
+}
+
+std::optional<Catalog> read_catalog(const yaml::Document& document, Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.count(Severity::error);
+  CatalogReading reading = understand_catalog(document, diagnostics);
+  if (diagnostics.count(Severity::error) > errors) return std::nullopt;
+  return std::move(reading.catalog);
 }
 
 std::optional<Catalog> read_catalog(std::string_view text, std::string file,

@@ -10,6 +10,21 @@
 
 namespace cbc {
 
+/// What could be made of a catalog.
+struct CatalogReading {
+  /// As far as it was understood.
+  Catalog catalog;
+  /// Whether it was understood as a whole, though it may break assumptions of the semantics.
+  bool is_complete = false;
+  /// Whether its requirements have no cycle.
+  bool is_acyclic = false;
+};
+
+/// Understands as much of a catalog as there is. All problems of the text are reported into
+/// `diagnostics` at once.
+[[nodiscard]] CatalogReading understand_catalog(const yaml::Document& document,
+                                                Diagnostics& diagnostics);
+
 /// Understands a catalog. All problems of the text are reported into `diagnostics` at once; the
 /// result is empty if one of them is an error.
 [[nodiscard]] std::optional<Catalog> read_catalog(const yaml::Document& document,

@@ -40,12 +40,12 @@ std::string name_of(ExecutionGoal goal) {
 
 std::string name_of(bool flag) { return flag ? "TRUE" : "FALSE"; }
 
-std::string name_of(const std::optional<Microseconds>& timeout) {
-  return timeout ? format_decimal(*timeout, 6) + " s" : "none";
+std::string name_of(const std::optional<draft::Timeout>& timeout) {
+  return timeout ? format_decimal(timeout->value, 6) + " s" : "none";
 }
 
-std::string name_of_minimum(Millionths minimum) {
-  return minimum == 0 ? "none" : format_decimal(minimum, 4) + " %";
+std::string name_of_minimum(const draft::Percent& minimum) {
+  return minimum.value == 0 ? "none" : format_decimal(minimum.value, 4) + " %";
 }
 
 bool same_parameters(const std::vector<Parameter>& a, const std::vector<Parameter>& b) {
@@ -81,7 +81,10 @@ void TaskAttributes::apply(const Range& range, const draft::TaskAttributes& own,
   task.reactive_start = flags.reactive_start;
   task.execution_goal =
       own.execution_goal.value_or(defaults_.execution_goal.value_or(ExecutionGoal::achieve_goal));
-  task.timeout = own.timeout ? own.timeout : defaults_.timeout;
+  if (own.timeout) task.own_timeout_range = own.timeout->range;
+  if (const auto& timeout = own.timeout ? own.timeout : defaults_.timeout) {
+    task.timeout = timeout->value;
+  }
   if (flags.start_on_request && flags.reactive_start) report_both_flags(range, own, task);
 }
 
@@ -90,10 +93,10 @@ void TaskAttributes::apply(const Range& range, const draft::TaskAttributes& own,
 void TaskAttributes::report_both_flags(const Range& range, const draft::TaskAttributes& own,
                                        const Task& task) {
   if (!own.start_on_request && !own.reactive_start) {
-    reporter_.error(rule::on_request_and_reactive, defaults_.reactive_start->range,
-                    "by default tasks have both reactive_start and start_on_request; one of them "
-                    "must be FALSE",
-                    {reporter_.note(range, "task " + quote(task.name) + " has both of them")});
+    reporter_.report(rule::on_request_and_reactive, defaults_.reactive_start->range,
+                     "by default tasks have both reactive_start and start_on_request; one of them "
+                     "must be FALSE",
+                     {reporter_.note(range, "task " + quote(task.name) + " has both of them")});
     return;
   }
   const std::string message = "task " + quote(task.name) +
@@ -110,7 +113,7 @@ void TaskAttributes::report_both_flags(const Range& range, const draft::TaskAttr
     notes.push_back(reporter_.note(defaults_.reactive_start->range,
                                    "reactive_start is given here for all tasks"));
   }
-  reporter_.error(rule::on_request_and_reactive, place, message, std::move(notes));
+  reporter_.report(rule::on_request_and_reactive, place, message, std::move(notes));
 }
 
 std::string TaskAttributes::describe_changes(const draft::Task& before,

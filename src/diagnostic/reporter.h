@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -17,16 +18,13 @@ class Reporter {
   Reporter(std::string file, Diagnostics& diagnostics)
       : file_(std::move(file)), diagnostics_(diagnostics) {}
 
-  void error(std::string_view rule, const Range& range, std::string message,
-             std::vector<Note> notes = {}) {
-    report(Severity::error, rule, range, std::move(message), std::move(notes));
-  }
-  void warning(std::string_view rule, const Range& range, std::string message,
-               std::vector<Note> notes = {}) {
-    report(Severity::warning, rule, range, std::move(message), std::move(notes));
-  }
-  void report(Severity severity, std::string_view rule, const Range& range, std::string message,
-              std::vector<Note> notes = {});
+  /// Reports with the severity of the rule.
+  void report(std::string_view rule, const Range& range, std::string message,
+              std::vector<Note> notes = {}, std::vector<Edit> edits = {});
+
+  /// Reports with another severity.
+  void report_as(Severity severity, std::string_view rule, const Range& range, std::string message,
+                 std::vector<Note> notes = {}, std::vector<Edit> edits = {});
 
   /// A note about another place of this file.
   [[nodiscard]] Note note(const Range& range, std::string message) const {
@@ -34,11 +32,17 @@ class Reporter {
   }
 
   [[nodiscard]] std::size_t errors() const { return errors_; }
+  /// Errors of one rule.
+  [[nodiscard]] std::size_t errors(std::string_view rule) const {
+    const auto found = errors_of_.find(rule);
+    return found == errors_of_.end() ? 0 : found->second;
+  }
 
  private:
   std::string file_;
   Diagnostics& diagnostics_;
   std::size_t errors_ = 0;
+  std::unordered_map<std::string_view, std::size_t> errors_of_;
   std::unordered_set<std::string> reported_;
 };
 

@@ -73,18 +73,6 @@ std::string_view style_of(Severity severity) {
   return "1;36";
 }
 
-std::string_view name_of(Severity severity) {
-  switch (severity) {
-    case Severity::error:
-      return "error";
-    case Severity::warning:
-      return "warning";
-    case Severity::note:
-      break;
-  }
-  return "note";
-}
-
 // The line of a place and a caret below it, with a tail to the end of the range.
 std::string render_line(const Range& range, const PositionMap::Excerpt& line,
                         const Painter& painter) {

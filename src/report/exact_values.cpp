@@ -32,14 +32,6 @@ double idle_share(const ObjectiveValues& objective) {
          static_cast<double>(objective.idle_total);
 }
 
-std::string search_space(const std::vector<std::uint32_t>& domain_sizes) {
-  cpp_int product = 1;
-  for (const std::uint32_t size : domain_sizes) {
-    if (size != 1) product *= size;
-  }
-  return product.str();
-}
-
 double to_seconds(Microseconds time) {
   return static_cast<double>(time) / static_cast<double>(second);
 }

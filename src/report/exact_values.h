@@ -15,9 +15,6 @@ namespace cbc {
 /// f3: the share of the tasks that are not start_on_request which do not run.
 [[nodiscard]] double idle_share(const ObjectiveValues& objective);
 
-/// The product of domain sizes, in decimal digits.
-[[nodiscard]] std::string search_space(const std::vector<std::uint32_t>& domain_sizes);
-
 [[nodiscard]] double to_seconds(Microseconds time);
 
 }  // namespace cbc

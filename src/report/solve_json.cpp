@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "compiled/search_space.h"
 #include "report/exact_values.h"
 #include "report/reasons.h"
 

@@ -39,9 +39,9 @@ std::optional<std::uint32_t> NameIndex::find_task(const yaml::Node& node, std::s
   if (!name) return std::nullopt;
   const auto found = tasks_.places.find(*name);
   if (found != tasks_.places.end()) return found->second;
-  reporter.error(rule::undefined_task, node.range,
-                 describe_unknown(*name, "task", behaviors_.places.contains(*name), "behavior",
-                                  tasks_.suggestions));
+  reporter.report(rule::undefined_task, node.range,
+                  describe_unknown(*name, "task", behaviors_.places.contains(*name), "behavior",
+                                   tasks_.suggestions));
   return std::nullopt;
 }
 
@@ -51,9 +51,9 @@ std::optional<std::uint32_t> NameIndex::find_behavior(const yaml::Node& node, st
   if (!name) return std::nullopt;
   const auto found = behaviors_.places.find(*name);
   if (found != behaviors_.places.end()) return found->second;
-  reporter.error(rule::undefined_behavior, node.range,
-                 describe_unknown(*name, "behavior", tasks_.places.contains(*name), "task",
-                                  behaviors_.suggestions));
+  reporter.report(rule::undefined_behavior, node.range,
+                  describe_unknown(*name, "behavior", tasks_.places.contains(*name), "task",
+                                   behaviors_.suggestions));
   return std::nullopt;
 }
 

@@ -66,13 +66,13 @@ std::optional<Script> read_script(const yaml::Document& document, const ScriptNa
   const Node& root = document.root();
   switch (root.kind) {
     case Kind::null:
-      reporter.error(rule::missing_key, root.range, "missing key 'events': the script is empty");
+      reporter.report(rule::missing_key, root.range, "missing key 'events': the script is empty");
       break;
     case Kind::scalar:
-      reporter.error(rule::wrong_type, root.range,
-                     "a script must be a list of events, or a mapping with the key 'events', "
-                     "found " +
-                         yaml::describe(root));
+      reporter.report(rule::wrong_type, root.range,
+                      "a script must be a list of events, or a mapping with the key 'events', "
+                      "found " +
+                          yaml::describe(root));
       break;
     case Kind::sequence:
       read_steps(root, reader, script, reporter);

@@ -49,9 +49,9 @@ constexpr Detail details[] = {
 void report_misplaced(const Fields& fields, std::string_view verb, Reporter& reporter) {
   for (const Detail& detail : details) {
     if (fields.find(detail.key) == nullptr || detail.belongs_to(verb)) continue;
-    reporter.error(rule::unknown_key, fields.range_of(detail.key),
-                   quote(detail.key) + " does not belong to " + quote(verb) + ", only to " +
-                       std::string(detail.verbs));
+    reporter.report_as(Severity::error, rule::unknown_key, fields.range_of(detail.key),
+                       quote(detail.key) + " does not belong to " + quote(verb) + ", only to " +
+                           std::string(detail.verbs));
   }
 }
 
@@ -71,20 +71,20 @@ std::string_view find_verb(const Fields& fields, const Range& range, Reporter& r
     std::sort(found.begin(), found.end(), [&fields](std::string_view a, std::string_view b) {
       return fields.range_of(a) < fields.range_of(b);
     });
-    reporter.error(rule::invalid_value, fields.range_of(found[1]),
-                   "an event has one verb, found " + quote(found[0]) + " and " + quote(found[1]),
-                   {reporter.note(fields.range_of(found[0]), "the first one is here")});
+    reporter.report(rule::invalid_value, fields.range_of(found[1]),
+                    "an event has one verb, found " + quote(found[0]) + " and " + quote(found[1]),
+                    {reporter.note(fields.range_of(found[0]), "the first one is here")});
   } else if (!without_value.empty()) {
-    reporter.error(rule::missing_key, fields.range_of(without_value),
-                   quote(without_value) + " has no value");
+    reporter.report(rule::missing_key, fields.range_of(without_value),
+                    quote(without_value) + " has no value");
   } else if (fields.has_unknown()) {
     // Probably a misspelt verb; it is reported as such.
   } else if (fields.find("at") != nullptr || fields.find("wait") != nullptr) {
     return "wait";
   } else {
-    reporter.error(rule::missing_key, range,
-                   "an event needs one of 'start', 'stop', 'finish', 'situation', 'fault', "
-                   "'repair', 'expect', 'at' and 'wait'");
+    reporter.report(rule::missing_key, range,
+                    "an event needs one of 'start', 'stop', 'finish', 'situation', 'fault', "
+                    "'repair', 'expect', 'at' and 'wait'");
   }
   return {};
 }
@@ -95,8 +95,8 @@ Step StepReader::read(const Node& node, Reporter& reporter) {
   Step step;
   step.range = node.range;
   if (node.kind != Kind::mapping) {
-    reporter.error(rule::wrong_type, node.range,
-                   "an event must be a mapping ('start: TASK'), found " + yaml::describe(node));
+    reporter.report(rule::wrong_type, node.range,
+                    "an event must be a mapping ('start: TASK'), found " + yaml::describe(node));
     return step;
   }
   Fields fields(node, step_shape, reporter);
@@ -115,18 +115,18 @@ void StepReader::read_time(const Fields& fields, Step& step, Reporter& reporter)
   const Node* wait = fields.find("wait");
   if (at != nullptr && wait != nullptr) {
     const bool at_first = fields.range_of("at") < fields.range_of("wait");
-    reporter.error(rule::invalid_value, fields.range_of(at_first ? "wait" : "at"),
-                   "'at' and 'wait' are both given in an event",
-                   {reporter.note(fields.range_of(at_first ? "at" : "wait"), "first given here")});
+    reporter.report(rule::invalid_value, fields.range_of(at_first ? "wait" : "at"),
+                    "'at' and 'wait' are both given in an event",
+                    {reporter.note(fields.range_of(at_first ? "at" : "wait"), "first given here")});
     return;
   }
   if (at != nullptr) {
     const auto time = yaml::read_seconds(*at, "at", false, reporter);
     if (!time) return;
     if (*time < clock_) {
-      reporter.error(rule::time_order, at->range,
-                     "time goes back to " + format_decimal(*time, 6) +
-                         " s: the event before is at " + format_decimal(clock_, 6) + " s");
+      reporter.report(rule::time_order, at->range,
+                      "time goes back to " + format_decimal(*time, 6) +
+                          " s: the event before is at " + format_decimal(clock_, 6) + " s");
       return;
     }
     clock_ = *time;
@@ -134,9 +134,9 @@ void StepReader::read_time(const Fields& fields, Step& step, Reporter& reporter)
     const auto duration = yaml::read_seconds(*wait, "wait", false, reporter);
     if (!duration) return;
     if (*duration > longest_time - clock_) {
-      reporter.error(rule::invalid_value, wait->range,
-                     "after this wait it is later than " + format_decimal(longest_time, 6) +
-                         " s, the end of time");
+      reporter.report(rule::invalid_value, wait->range,
+                      "after this wait it is later than " + format_decimal(longest_time, 6) +
+                          " s, the end of time");
       return;
     }
     clock_ += *duration;

@@ -14,8 +14,8 @@ void report_duplicate_keys(const Node& mapping, Reporter& reporter) {
     const Node& key = *entry.first;
     const auto [first, is_new] = known.try_emplace(key.text, &key);
     if (is_new) continue;
-    reporter.error(rule::duplicate_key, key.range, quote(key.text) + " is given twice",
-                   {reporter.note(first->second->range, "first given here")});
+    reporter.report(rule::duplicate_key, key.range, quote(key.text) + " is given twice",
+                    {reporter.note(first->second->range, "first given here")});
   }
 }
 

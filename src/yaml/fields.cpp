@@ -45,8 +45,8 @@ void Fields::add(const Node& key, const Node& value) {
   if (field.key == nullptr) {
     field = {&key, &value};
   } else {
-    reporter_.error(rule::duplicate_key, key.range, quote(key.text) + " is given twice",
-                    {reporter_.note(field.key->range, "first given here")});
+    reporter_.report(rule::duplicate_key, key.range, quote(key.text) + " is given twice",
+                     {reporter_.note(field.key->range, "first given here")});
   }
 }
 
@@ -60,14 +60,14 @@ void Fields::report_older_names() {
     const bool both = older.value->kind != Kind::null && present.value != nullptr &&
                       present.value->kind != Kind::null;
     if (!both) {
-      reporter_.warning(rule::deprecated_key, older.key->range,
-                        quote(key.name) + " is an older name: write " + quote(key.replaced_by));
+      reporter_.report(rule::deprecated_key, older.key->range,
+                       quote(key.name) + " is an older name: write " + quote(key.replaced_by));
       continue;
     }
     const bool older_first = older.key->range.begin < present.key->range.begin;
     const Range& first = older_first ? older.key->range : present.key->range;
     const Range& second = older_first ? present.key->range : older.key->range;
-    reporter_.error(
+    reporter_.report(
         rule::duplicate_key, second,
         quote(key.name) + ", an older name, and " + quote(key.replaced_by) + " are both given",
         {reporter_.note(first, "first given here")});
@@ -91,9 +91,9 @@ const Node* Fields::require(std::string_view key, const Range& range) {
   if (const Node* value = adopt(key)) return value;
   const Field& field = fields_[place_of(key)];
   if (field.key != nullptr) {
-    reporter_.error(rule::missing_key, field.key->range, quote(key) + " has no value");
+    reporter_.report(rule::missing_key, field.key->range, quote(key) + " has no value");
   } else {
-    reporter_.error(rule::missing_key, range, "missing key " + quote(key) + " in " + what_);
+    reporter_.report(rule::missing_key, range, "missing key " + quote(key) + " in " + what_);
   }
   return nullptr;
 }
@@ -101,9 +101,9 @@ const Node* Fields::require(std::string_view key, const Range& range) {
 const Node* Fields::adopt(std::string_view key) {
   for (auto field = unknown_.begin(); field != unknown_.end(); ++field) {
     if (field->value->kind == Kind::null || suggestion_for(field->key->text) != key) continue;
-    reporter_.error(rule::missing_key, field->key->range,
-                    "missing key " + quote(key) + " in " + what_ + ": " + quote(field->key->text) +
-                        " is unknown; did you mean " + quote(key) + "?");
+    reporter_.report(rule::missing_key, field->key->range,
+                     "missing key " + quote(key) + " in " + what_ + ": " + quote(field->key->text) +
+                         " is unknown; did you mean " + quote(key) + "?");
     fields_[place_of(key)] = *field;
     unknown_.erase(field);
     return find(key);
@@ -136,7 +136,7 @@ void Fields::report_unknown(Severity severity) {
     } else if (field.value->kind == Kind::null && key.find(':') != std::string::npos) {
       message += ": is a space missing after ':'?";
     }
-    reporter_.report(severity, rule::unknown_key, field.key->range, std::move(message));
+    reporter_.report_as(severity, rule::unknown_key, field.key->range, std::move(message));
   }
 }
 

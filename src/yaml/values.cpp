@@ -27,12 +27,12 @@ void report_number(const Node& node, std::string_view what, std::string_view exp
       report_wrong_type(node, what, expected, reporter);
       break;
     case DecimalError::out_of_range:
-      reporter.error(rule::invalid_value, node.range,
-                     must_be(what, expected) + ", found " + describe(node));
+      reporter.report(rule::invalid_value, node.range,
+                      must_be(what, expected) + ", found " + describe(node));
       break;
     case DecimalError::too_precise:
-      reporter.error(rule::invalid_value, node.range,
-                     quote(what) + " has " + std::string(precision) + ", found " + describe(node));
+      reporter.report(rule::invalid_value, node.range,
+                      quote(what) + " has " + std::string(precision) + ", found " + describe(node));
       break;
   }
 }
@@ -56,8 +56,8 @@ std::string describe(const Node& node) {
 
 void report_wrong_type(const Node& node, std::string_view what, std::string_view expected,
                        Reporter& reporter) {
-  reporter.error(rule::wrong_type, node.range,
-                 must_be(what, expected) + ", found " + describe(node));
+  reporter.report(rule::wrong_type, node.range,
+                  must_be(what, expected) + ", found " + describe(node));
 }
 
 const Node* read_list(const Node& node, std::string_view what, std::string_view expected,
@@ -85,8 +85,8 @@ std::optional<std::string_view> read_name(const Node& node, std::string_view wha
                                           std::string_view expected, Reporter& reporter) {
   const std::optional<std::string_view> text = read_text(node, what, expected, reporter);
   if (text && text->empty()) {
-    reporter.error(rule::invalid_value, node.range,
-                   must_be(what, expected) + ", found " + describe(node));
+    reporter.report(rule::invalid_value, node.range,
+                    must_be(what, expected) + ", found " + describe(node));
     return std::nullopt;
   }
   return text;
@@ -175,7 +175,7 @@ std::optional<std::size_t> read_choice(const Node& node, std::string_view what,
   if (const auto suggestion = nearest(*text, names)) {
     message += "; did you mean " + quote(*suggestion) + "?";
   }
-  reporter.error(rule::invalid_value, node.range, std::move(message));
+  reporter.report(rule::invalid_value, node.range, std::move(message));
   return std::nullopt;
 }
 

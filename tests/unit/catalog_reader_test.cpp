@@ -742,10 +742,10 @@ exclusivity_constraints:
 - mutually_exclusive: [Y, Z, X2, X]
 )"
                      "tasks: [{task: X2}]\n"),
-            "2:44-45 warning exclusive-requirement: behavior 'A' requires 'Y', which excludes 'X', "
+            "2:44-45 error exclusive-requirement: behavior 'A' requires 'Y', which excludes 'X', "
             "the task it performs\n"
             "  7:3-21 mutually exclusive by this list\n"
-            "2:66-67 warning exclusive-requirement: behavior 'A' requires 'Z', which excludes 'X', "
+            "2:66-67 error exclusive-requirement: behavior 'A' requires 'Z', which excludes 'X', "
             "the task it performs\n"
             "  7:3-21 mutually exclusive by this list\n");
 }
@@ -755,11 +755,10 @@ TEST(CatalogReader, ARequirementMustExcludeAllTasksOfABehavior) {
       "behaviors:\n- {behavior: A, tasks: [{task: X}, {task: Y}], requires: [{task: Z}]}\n"
       "- {behavior: B, task: Z}\nexclusivity_constraints:\n- mutually_exclusive: [X, Z]\n";
   EXPECT_EQ(findings(behaviors), "");
-  EXPECT_EQ(
-      findings(behaviors + "- mutually_exclusive: [Z, Y]\n"),
-      "2:66-67 warning exclusive-requirement: behavior 'A' requires 'Z', which excludes every "
-      "task it performs\n"
-      "  5:3-21 mutually exclusive by this list\n");
+  EXPECT_EQ(findings(behaviors + "- mutually_exclusive: [Z, Y]\n"),
+            "2:66-67 error exclusive-requirement: behavior 'A' requires 'Z', which excludes every "
+            "task it performs\n"
+            "  5:3-21 mutually exclusive by this list\n");
 }
 
 // All at once ----------------------------------------------------------------------------------

@@ -455,23 +455,6 @@ TEST(ActivationFailure, TakesAllBackWhereThereIsNoSolutionLeft) {
   EXPECT_EQ(stage.searches(), "infeasible protection 1 sizes 3 0");
 }
 
-TEST(ActivationFailure, IsSolvedAgainFromTheStateBeforeTheEvent) {
-  // c excludes A; when c fails, the second solution has A go on.
-  Stage stage(R"(
-tasks: [{task: A}, {task: T, start_on_request: false}, {task: B}]
-behaviors:
-- {behavior: a, task: A}
-- {behavior: t, task: T}
-- {behavior: b1, task: B, requires: [{task: T}]}
-- {behavior: b2, task: B, suitability: 50}
-exclusivity_constraints:
-- mutually_exclusive: [A, B, T]
-)");
-  stage.start("A");
-  EXPECT_EQ(stage.start("B"), "accepted");
-  EXPECT_EQ(stage.running(), "B=b2");
-}
-
 TEST(ActivationFailure, KeepsRequestsAndChangesOfTheStateBefore) {
   Stage stage(R"(
 tasks: [{task: A}, {task: B}, {task: T, start_on_request: false}]

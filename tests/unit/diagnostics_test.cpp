@@ -48,12 +48,12 @@ TEST(Reporter, ReportsTheSameFindingOnce) {
   Diagnostics diagnostics;
   Reporter reporter("a.yaml", diagnostics);
   const Range here{{1, 2}, {1, 3}};
-  reporter.error(rule::wrong_type, here, "bad");
-  reporter.error(rule::wrong_type, here, "bad");
+  reporter.report(rule::wrong_type, here, "bad");
+  reporter.report(rule::wrong_type, here, "bad");
   EXPECT_EQ(diagnostics.all().size(), 1U);
-  reporter.error(rule::wrong_type, {{1, 3}, {1, 4}}, "bad");
-  reporter.error(rule::wrong_type, here, "worse");
-  reporter.error(rule::invalid_value, here, "bad");
+  reporter.report(rule::wrong_type, {{1, 3}, {1, 4}}, "bad");
+  reporter.report(rule::wrong_type, here, "worse");
+  reporter.report(rule::invalid_value, here, "bad");
   EXPECT_EQ(diagnostics.all().size(), 4U);
   EXPECT_EQ(reporter.errors(), 4U);
 }
@@ -62,7 +62,7 @@ TEST(Reporter, CountsOnlyItsOwnErrors) {
   Diagnostics diagnostics;
   diagnostics.add(finding("b", {1, 1}, rule::wrong_type, Severity::error, ""));
   Reporter reporter("a.yaml", diagnostics);
-  reporter.warning(rule::unknown_key, {}, "strange", {reporter.note({{2, 1}, {2, 2}}, "there")});
+  reporter.report(rule::unknown_key, {}, "strange", {reporter.note({{2, 1}, {2, 2}}, "there")});
   EXPECT_EQ(reporter.errors(), 0U);
   const Diagnostic& last = diagnostics.all().back();
   EXPECT_EQ(last.file, "a.yaml");

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "compiled/search_space.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc {
