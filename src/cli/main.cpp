@@ -14,6 +14,7 @@
 
 #include "cbc/version.h"
 #include "cli/exit_status.h"
+#include "cli/lint_command.h"
 #include "cli/solve_command.h"
 #include "text/nearest.h"
 #include "text/quote.h"
@@ -65,6 +66,7 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(footer);
   int status = exit_ok;
+  add_lint_command(program, status);
   add_solve_command(program, status);
 
   program.failure_message([](const CLI::App* app, const CLI::Error& error) {

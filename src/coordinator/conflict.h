@@ -5,7 +5,7 @@
 
 #include "compiled/compiled_catalog.h"
 #include "coordinator/question.h"
-#include "coordinator/reason.h"
+#include "explain/reason.h"
 #include "coordinator/state.h"
 
 namespace cbc {

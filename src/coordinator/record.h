@@ -9,7 +9,7 @@
 #include "cbc/event.h"
 #include "cbc/units.h"
 #include "compiled/compiled_catalog.h"
-#include "coordinator/reason.h"
+#include "explain/reason.h"
 #include "solver/problem.h"
 
 namespace cbc {

@@ -6,6 +6,7 @@
 #include "diagnostic/reporter.h"
 #include "lint/behavior_checks.h"
 #include "lint/exclusivity_checks.h"
+#include "lint/semantic_checks.h"
 #include "lint/task_checks.h"
 
 namespace cbc {
@@ -23,7 +24,7 @@ LintResult lint_catalog(const yaml::Document& document, const LintOptions& optio
 
   const CompiledCatalog compiled = compile(catalog);
   result.summary = summarize(compiled);
-  (void)options;
+  check_semantics(catalog, compiled, options, reporter);
   return result;
 }
 

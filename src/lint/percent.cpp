@@ -1,5 +1,7 @@
 #include "lint/percent.h"
 
+#include <boost/multiprecision/cpp_int.hpp>
+
 #include "cbc/rules.h"
 #include "text/decimal.h"
 
@@ -11,6 +13,17 @@ bool looks_like_fraction(Millionths degree) {
 }
 
 std::string show_percent(Millionths degree) { return format_decimal(degree, 4) + " %"; }
+
+std::string show_product(const std::vector<Millionths>& factors) {
+  using boost::multiprecision::cpp_int;
+  cpp_int product = 1;
+  cpp_int divisor = 1;
+  for (const Millionths factor : factors) {
+    product *= factor;
+    divisor *= one_million;
+  }
+  return show_percent(static_cast<Millionths>(product * one_million / divisor));
+}
 
 void check_suspicious_minimum(Millionths minimum, const Range& range, Reporter& reporter) {
   if (!looks_like_fraction(minimum)) return;

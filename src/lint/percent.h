@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cbc/diagnostic.h"
 #include "cbc/units.h"
@@ -13,6 +14,9 @@ namespace cbc {
 
 /// A degree as people write it: "72.5 %".
 [[nodiscard]] std::string show_percent(Millionths degree);
+
+/// A product of degrees, rounded down to four places.
+[[nodiscard]] std::string show_product(const std::vector<Millionths>& factors);
 
 /// Reports a minimum performance that looks like a fraction.
 void check_suspicious_minimum(Millionths minimum, const Range& range, Reporter& reporter);

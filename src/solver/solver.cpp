@@ -123,7 +123,7 @@ bool Solver::accept() {
   if (parts_.depth() == 0) ++result_.solutions;
   Incumbent& best = scope().best;
   if (!best.exists || objective_.may_beat(best, parts_.depth())) objective_.record(best);
-  return true;
+  return !options_.any_solution || parts_.depth() > 0;
 }
 
 bool Solver::is_out_of_budget() const {

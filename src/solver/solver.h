@@ -23,6 +23,8 @@ struct SearchOptions {
   /// The paper's m: depth first, tasks in catalog order, values by rank, take the best of the first
   /// m solutions. 0: branch and bound to the proven optimum.
   std::uint64_t max_solutions = 0;
+  /// Take the first solution instead of the best.
+  bool any_solution = false;
   /// A search that takes more decisions than this is hard: it begins anew, with what costs too much
   /// on the many easy ones, looking ahead and splitting into parts. No answer depends on it.
   std::uint64_t easy_nodes = 100;

@@ -1,4 +1,4 @@
-#include "coordinator/relaxed_problem.h"
+#include "explain/relaxed_problem.h"
 
 #include <algorithm>
 #include <utility>
@@ -6,12 +6,11 @@
 namespace cbc {
 
 RelaxedProblem::RelaxedProblem(const CompiledCatalog& catalog, std::uint32_t group,
-                               const std::vector<std::uint32_t>& present, TaskId task,
-                               bool is_start)
+                               const std::vector<std::uint32_t>& present, TaskId task, Goal goal)
     : catalog_(catalog),
       present_(present),
       task_(task),
-      is_start_(is_start),
+      goal_(goal),
       first_task_(catalog.group_tasks[group]),
       end_task_(catalog.group_tasks[group + 1]),
       first_value_(catalog.values.begin[first_task_]),
@@ -19,17 +18,23 @@ RelaxedProblem::RelaxedProblem(const CompiledCatalog& catalog, std::uint32_t gro
 
 /// Depth first over what is left. As in Domains, a task that nothing needs can be left out, so a
 /// subtree is solved when each needed task has one value.
-bool RelaxedProblem::has_solution(std::span<const Reason> reasons) {
+Feasibility RelaxedProblem::solve(std::span<const Reason> reasons) {
   constexpr std::size_t most_nodes = 10'000;
+  constexpr std::uint64_t most_effort = 50'000'000;
+  const std::uint64_t effort_before = effort_;
   std::vector<Domains> open(1);
-  if (!begin(open.back(), reasons)) return false;
+  if (!begin(open.back(), reasons)) return Feasibility::no;
   for (std::size_t nodes = 0; !open.empty(); ++nodes) {
-    if (nodes == most_nodes) return true;
+    if (nodes == most_nodes || effort_ - effort_before > most_effort) return Feasibility::unknown;
     Domains now = std::move(open.back());
     open.pop_back();
     if (!propagate(now, reasons)) continue;
     const TaskId task = choose(now);
-    if (task == none) return true;
+    if (task == none) {
+      // All that runs is decided, so the performance is exact.
+      if (low_task_ == none || !may_reach(now, low_task_, low_minimum_)) return Feasibility::yes;
+      continue;
+    }
     const std::uint32_t chosen = best(now, task);
     Domains without = now;
     if (remove(without, task, chosen)) open.push_back(std::move(without));
@@ -39,7 +44,7 @@ bool RelaxedProblem::has_solution(std::span<const Reason> reasons) {
     }
     open.push_back(std::move(now));
   }
-  return false;
+  return Feasibility::no;
 }
 
 bool RelaxedProblem::begin(Domains& domains, std::span<const Reason> reasons) {
@@ -48,7 +53,14 @@ bool RelaxedProblem::begin(Domains& domains, std::span<const Reason> reasons) {
   for (TaskId task = first_task_; task < end_task_; ++task) {
     domains.counts.push_back(static_cast<std::uint32_t>(catalog_.values[task].size()));
   }
-  if (is_start_ ? !need(domains, task_) : !close(domains, task_)) return false;
+  if (goal_ == Goal::run ? !need(domains, task_) : !close(domains, task_)) return false;
+  if (goal_place_ != none) {
+    for (std::uint32_t place = 0; place < catalog_.values[task_].size(); ++place) {
+      // One value is left, so no removal fails.
+      if (place != goal_place_) (void)remove(domains, task_, place);
+    }
+  }
+  if (low_task_ != none && !need(domains, low_task_)) return false;
   for (const Reason& reason : reasons) {
     switch (reason.kind) {
       case Reason::Kind::is_protected:
@@ -98,6 +110,7 @@ bool RelaxedProblem::need(Domains& domains, TaskId task) {
 bool RelaxedProblem::propagate(Domains& domains, std::span<const Reason> reasons) {
   do {
     has_changed_ = false;
+    effort_ += reasons.size();
     for (const Reason& reason : reasons) {
       switch (reason.kind) {
         case Reason::Kind::exclusive:
@@ -142,10 +155,14 @@ bool RelaxedProblem::may_perform(const Domains& domains, const Reason& reason) {
                   catalog_.performs[reason.behavior].end(), [&](ValueId id) {
                     return fixed_behavior(domains, catalog_.task_of(id)) == reason.behavior;
                   });
-  if (!applies) return true;
-  closure_.assign(1, reason.task);
+  return !applies || may_reach(domains, reason.task, reason.minimum_performance);
+}
+
+/// Whether the performance of a needed task may be `minimum` at least.
+bool RelaxedProblem::may_reach(const Domains& domains, TaskId reached, Millionths minimum) {
+  closure_.assign(1, reached);
   std::fill(in_closure_.begin(), in_closure_.end(), 0);
-  in_closure_[reason.task - first_task_] = 1;
+  in_closure_[reached - first_task_] = 1;
   product_.clear();
   for (std::size_t next = 0; next < closure_.size(); ++next) {
     const TaskId task = closure_[next];
@@ -160,7 +177,7 @@ bool RelaxedProblem::may_perform(const Domains& domains, const Reason& reason) {
     }
   }
   minimum_.clear();
-  minimum_.multiply(reason.minimum_performance);
+  minimum_.multiply(minimum);
   return ExactProduct::compare(product_, minimum_) >= 0;
 }
 

@@ -5,23 +5,38 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
-#include "coordinator/reason.h"
+#include "explain/reason.h"
 #include "solver/exact_product.h"
 
 namespace cbc {
 
-/// The problem of an event with only some of the reasons in force: the event itself (the task runs,
-/// or stops), every other task free to have any of its behaviors or none, and no constraint but
-/// those of the reasons.
+/// Whether a problem has a solution; unknown at a limit of effort.
+enum class Feasibility : std::uint8_t { no, yes, unknown };
+
+/// A problem with only some of the reasons in force: one task runs, or stops; every other task of
+/// the group is free to have any of its behaviors or none; and there is no constraint but those of
+/// the reasons.
 class RelaxedProblem {
  public:
-  /// `present`: by task of the group, place of its behavior, or none. `is_start`: the task of the
-  /// event starts, else it stops.
-  RelaxedProblem(const CompiledCatalog& catalog, std::uint32_t group,
-                 const std::vector<std::uint32_t>& present, TaskId task, bool is_start);
+  enum class Goal : std::uint8_t { run, stop };
 
-  /// Whether there is a solution. At a limit of effort it is taken that there is one.
-  [[nodiscard]] bool has_solution(std::span<const Reason> reasons);
+  /// `present`: by task of the group, place of its behavior, or none.
+  RelaxedProblem(const CompiledCatalog& catalog, std::uint32_t group,
+                 const std::vector<std::uint32_t>& present, TaskId task, Goal goal);
+
+  /// The task that runs does so with this value.
+  void run_with(std::uint32_t place) { goal_place_ = place; }
+
+  /// Only solutions count in which `task` runs, and performs less well than `minimum`.
+  void keep_below(TaskId task, Millionths minimum) {
+    low_task_ = task;
+    low_minimum_ = minimum;
+  }
+
+  [[nodiscard]] Feasibility solve(std::span<const Reason> reasons);
+
+  /// Reasons looked at so far, a measure of the effort.
+  [[nodiscard]] std::uint64_t effort() const { return effort_; }
 
  private:
   /// What is left of the domains in a subtree.
@@ -38,6 +53,7 @@ class RelaxedProblem {
   [[nodiscard]] bool propagate(Domains& domains, std::span<const Reason> reasons);
   [[nodiscard]] bool apply_requirement(Domains& domains, const Reason& reason);
   [[nodiscard]] bool may_perform(const Domains& domains, const Reason& reason);
+  [[nodiscard]] bool may_reach(const Domains& domains, TaskId task, Millionths minimum);
   [[nodiscard]] TaskId choose(const Domains& domains) const;
 
   [[nodiscard]] std::size_t value(TaskId task, std::uint32_t place) const {
@@ -55,11 +71,15 @@ class RelaxedProblem {
   const CompiledCatalog& catalog_;
   const std::vector<std::uint32_t>& present_;
   const TaskId task_;
-  const bool is_start_;
+  const Goal goal_;
+  std::uint32_t goal_place_ = none;
+  TaskId low_task_ = none;
+  Millionths low_minimum_ = 0;
   const TaskId first_task_;
   const TaskId end_task_;
   const std::uint32_t first_value_;
   bool has_changed_ = false;
+  std::uint64_t effort_ = 0;
   ExactProduct product_;
   ExactProduct minimum_;
   std::vector<TaskId> closure_;

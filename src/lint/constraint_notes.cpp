@@ -1,0 +1,83 @@
+#include "lint/constraint_notes.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "lint/percent.h"
+#include "text/quote.h"
+
+namespace cbc {
+namespace {
+
+/// The first list that has both tasks.
+Range range_of_list(const Catalog& catalog, TaskIndex a, TaskIndex b) {
+  for (const ExclusivityList& list : catalog.exclusivity) {
+    const auto has = [&list](TaskIndex task) {
+      return std::find(list.tasks.begin(), list.tasks.end(), task) != list.tasks.end();
+    };
+    if (has(a) && has(b)) return list.range;
+  }
+  return {};
+}
+
+/// Of several requirements of one task the strongest counts.
+const Requirement& find_requirement(const Behavior& behavior, TaskIndex task) {
+  const Requirement* found = nullptr;
+  for (const Requirement& requirement : behavior.requirements) {
+    if (requirement.task != task) continue;
+    if (found == nullptr || requirement.minimum_performance > found->minimum_performance) {
+      found = &requirement;
+    }
+  }
+  return *found;
+}
+
+Note to_note(const Reason& reason, const Catalog& catalog, const CompiledCatalog& compiled,
+             const Reporter& reporter) {
+  const TaskIndex task_index = compiled.tasks[reason.task].catalog_index;
+  const Task& task = catalog.tasks[task_index];
+  if (reason.kind == Reason::Kind::exclusive) {
+    const TaskIndex other = compiled.tasks[reason.other_task].catalog_index;
+    return reporter.note(range_of_list(catalog, task_index, other),
+                         quote(task.name) + " excludes " + quote(catalog.tasks[other].name));
+  }
+  if (reason.behavior == none) {
+    return reporter.note(
+        task.minimum_performance_range,
+        quote(task.name) + " runs with at least " + show_percent(reason.minimum_performance));
+  }
+  const Behavior& behavior = catalog.behaviors[compiled.behaviors[reason.behavior].catalog_index];
+  const Requirement& requirement = find_requirement(behavior, task_index);
+  if (reason.kind == Reason::Kind::performance) {
+    return reporter.note(requirement.minimum_performance_range,
+                         "behavior " + quote(behavior.name) + " requires " + quote(task.name) +
+                             " with at least " + show_percent(reason.minimum_performance));
+  }
+  return reporter.note(requirement.range,
+                       "behavior " + quote(behavior.name) + " requires " + quote(task.name));
+}
+
+}  // namespace
+
+std::vector<Note> constraint_notes(std::span<const Reason> constraints, const Catalog& catalog,
+                                   const CompiledCatalog& compiled, const Reporter& reporter) {
+  // Requirements from the top down, then what they lead to.
+  std::vector<Reason> ordered(constraints.begin(), constraints.end());
+  const auto level = [&compiled](const Reason& reason) {
+    return reason.behavior == none ? 0 : compiled.behaviors[reason.behavior].level;
+  };
+  std::stable_sort(ordered.begin(), ordered.end(), [&level](const Reason& a, const Reason& b) {
+    const bool a_requires = a.kind == Reason::Kind::requires_task;
+    const bool b_requires = b.kind == Reason::Kind::requires_task;
+    return a_requires != b_requires ? a_requires : level(a) > level(b);
+  });
+  std::vector<Note> notes;
+  for (const Reason& reason : ordered) {
+    notes.push_back(to_note(reason, catalog, compiled, reporter));
+  }
+  return notes;
+}
+
+}  // namespace cbc

@@ -1,0 +1,91 @@
+#include "lint/on_request_requirements.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "cbc/rules.h"
+#include "explain/constraints.h"
+#include "text/quote.h"
+
+namespace cbc {
+namespace {
+
+class OnRequestCheck {
+ public:
+  explicit OnRequestCheck(Semantics& semantics)
+      : semantics_(semantics), catalog_(semantics.compiled()) {}
+
+  void check(BehaviorId id) {
+    if (semantics_.liveness().of_behavior(id) == Liveness::State::dead) return;
+    const Behavior& behavior = semantics_.behavior(id);
+    for (const Requirement& requirement : behavior.requirements) {
+      const Task& task = semantics_.catalog().tasks[requirement.task];
+      if (!task.start_on_request) continue;
+      semantics_.reporter().report(
+          rule::requires_on_request, requirement.range,
+          "behavior " + quote(behavior.name) + " requires " + quote(task.name) +
+              ", which starts on request only: request " +
+              join(tasks_to_request(id, catalog_.task_ids[requirement.task])) + " first",
+          {semantics_.reporter().note(task.range, quote(task.name) + " is defined here")});
+    }
+  }
+
+ private:
+  /// A set of tasks that start on request, none of which can be left out if the behavior is to be
+  /// active: `task`, and what that requires. In the order in which they can be requested.
+  std::vector<TaskId> tasks_to_request(BehaviorId behavior, TaskId task) {
+    constexpr std::size_t most_candidates = 100;  // enough for a sentence
+    RelevantTasks relevant(catalog_, catalog_.tasks[task].group);
+    relevant.add(task);
+    relevant.close();
+    std::vector<TaskId> candidates;
+    for (const TaskId other : relevant.tasks()) {
+      if (other != task && catalog_.tasks[other].start_on_request) candidates.push_back(other);
+    }
+    std::vector<TaskId> needed;
+    if (candidates.size() <= most_candidates) {
+      std::vector<TaskId> closed;
+      for (const TaskId candidate : candidates) {
+        closed.push_back(candidate);
+        if (is_possible(behavior, closed)) continue;
+        closed.pop_back();
+        needed.push_back(candidate);
+      }
+    }
+    needed.push_back(task);
+    std::stable_sort(needed.begin(), needed.end(), [this](TaskId a, TaskId b) {
+      return catalog_.tasks[a].level < catalog_.tasks[b].level;
+    });
+    return needed;
+  }
+
+  bool is_possible(BehaviorId behavior, const std::vector<TaskId>& closed) {
+    const auto values = catalog_.performs[behavior];
+    return std::any_of(values.begin(), values.end(), [&](ValueId value) {
+      return semantics_.search().find(value, closed, solution_) == Feasibility::yes;
+    });
+  }
+
+  [[nodiscard]] std::string join(const std::vector<TaskId>& tasks) const {
+    std::string text;
+    for (const TaskId task : tasks) {
+      if (!text.empty()) text += ", then ";
+      text += quote(semantics_.task(task).name);
+    }
+    return text;
+  }
+
+  Semantics& semantics_;
+  const CompiledCatalog& catalog_;
+  Assignment solution_;
+};
+
+}  // namespace
+
+void check_on_request_requirements(Semantics& semantics) {
+  OnRequestCheck check(semantics);
+  for (BehaviorId id = 0; id < semantics.compiled().behaviors.size(); ++id) check.check(id);
+}
+
+}  // namespace cbc

@@ -1,0 +1,145 @@
+#include "lint/redundant_requirements.h"
+
+#include <algorithm>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "cbc/rules.h"
+#include "explain/constraints.h"
+#include "explain/minimal_set.h"
+#include "lint/constraint_notes.h"
+#include "text/quote.h"
+
+namespace cbc {
+namespace {
+
+class RedundancyCheck {
+ public:
+  explicit RedundancyCheck(Semantics& semantics)
+      : semantics_(semantics), catalog_(semantics.compiled()) {}
+
+  void check(BehaviorId id) {
+    if (semantics_.liveness().of_behavior(id) != Liveness::State::live) return;
+    check_repetitions(semantics_.behavior(id));
+    for (const CompiledRequirement& requirement : catalog_.requirements[id]) {
+      check_requirement(id, requirement);
+    }
+  }
+
+ private:
+  /// Of the requirements of one task all but the strongest are redundant; of equal ones all but the
+  /// first.
+  void check_repetitions(const Behavior& behavior) {
+    std::unordered_map<TaskIndex, const Requirement*> strongest;
+    for (const Requirement& requirement : behavior.requirements) {
+      const Requirement*& so_far =
+          strongest.try_emplace(requirement.task, &requirement).first->second;
+      if (requirement.minimum_performance > so_far->minimum_performance) so_far = &requirement;
+    }
+    for (const Requirement& requirement : behavior.requirements) {
+      const Requirement& kept = *strongest.at(requirement.task);
+      if (&kept == &requirement) continue;
+      report(behavior, requirement,
+             {semantics_.reporter().note(kept.range, "it is required here already")},
+             {{Edit::Kind::remove_entry, requirement.range, {}}});
+    }
+  }
+
+  void check_requirement(BehaviorId id, const CompiledRequirement& requirement) {
+    RelevantTasks relevant = others_of(id, requirement.task);
+    if (!relevant.contains(requirement.task)) return;
+    std::vector<Reason> others;
+    for (const ValueId value : catalog_.performs[id]) relevant.add(catalog_.task_of(value));
+    relevant.close();
+    for (const TaskId task : relevant.tasks()) {
+      add_exclusions(catalog_, task, relevant, most_constraints, others);
+      add_minimum(catalog_, task, others);
+    }
+    for (const BehaviorId behavior : relevant.behaviors()) {
+      add_requirements(catalog_, behavior, others);
+    }
+    if (others.size() >= most_constraints) return;
+    others.erase(std::remove_if(others.begin(), others.end(),
+                                [&](const Reason& reason) {
+                                  return reason.behavior == id && reason.task == requirement.task;
+                                }),
+                 others.end());
+    if (can_be_broken(id, requirement, others) != Feasibility::no) return;
+
+    const std::vector<Reason> reason = minimal_set(others, [&](std::span<const Reason> some) {
+      return can_be_broken(id, requirement, some) != Feasibility::no;
+    });
+    const Behavior& behavior = semantics_.behavior(id);
+    const TaskIndex task = catalog_.tasks[requirement.task].catalog_index;
+    for (const Requirement& entry : behavior.requirements) {
+      if (entry.task != task || entry.minimum_performance != requirement.minimum_performance) {
+        continue;
+      }
+      report(behavior, entry,
+             constraint_notes(reason, semantics_.catalog(), catalog_, semantics_.reporter()), {});
+      break;
+    }
+  }
+
+  /// What the behavior requires apart from a task, with all that leads to. Only if the task is
+  /// among it can its requirement be redundant.
+  [[nodiscard]] RelevantTasks others_of(BehaviorId id, TaskId task) const {
+    RelevantTasks relevant(catalog_, catalog_.group_of(id));
+    for (const CompiledRequirement& requirement : catalog_.requirements[id]) {
+      if (requirement.task != task) relevant.add(requirement.task);
+    }
+    relevant.close();
+    return relevant;
+  }
+
+  /// Whether the behavior can be active with the requirement not satisfied.
+  Feasibility can_be_broken(BehaviorId id, const CompiledRequirement& requirement,
+                            std::span<const Reason> others) {
+    Feasibility answer = Feasibility::no;
+    const auto add = [&answer](Feasibility one) {
+      if (one == Feasibility::yes || answer == Feasibility::no) answer = one;
+    };
+    Reason closed;
+    closed.kind = Reason::Kind::on_request;
+    closed.task = requirement.task;
+    std::vector<Reason> without(others.begin(), others.end());
+    without.push_back(closed);
+    for (const ValueId value : catalog_.performs[id]) {
+      const TaskId task = catalog_.task_of(value);
+      RelaxedProblem problem = semantics_.relaxed({task, value - catalog_.values.begin[task]});
+      add(semantics_.solve(problem, without));
+      if (answer == Feasibility::yes) return answer;
+      if (requirement.minimum_performance == 0) continue;
+      problem.keep_below(requirement.task, requirement.minimum_performance);
+      add(semantics_.solve(problem, others));
+      if (answer == Feasibility::yes) return answer;
+    }
+    return answer;
+  }
+
+  void report(const Behavior& behavior, const Requirement& requirement, std::vector<Note> notes,
+              std::vector<Edit> edits) {
+    semantics_.reporter().report(rule::redundant_requirement, requirement.range,
+                                 "behavior " + quote(behavior.name) + " need not require " +
+                                     quote(semantics_.catalog().tasks[requirement.task].name) +
+                                     ": this is so anyway wherever it is active",
+                                 std::move(notes), std::move(edits));
+  }
+
+  /// With more constraints than this a group is too large for the question.
+  static constexpr std::size_t most_constraints = 20'000;
+
+  Semantics& semantics_;
+  const CompiledCatalog& catalog_;
+};
+
+}  // namespace
+
+void check_redundant_requirements(Semantics& semantics) {
+  RedundancyCheck check(semantics);
+  for (BehaviorId id = 0; id < semantics.compiled().behaviors.size(); ++id) check.check(id);
+}
+
+}  // namespace cbc

@@ -1,0 +1,60 @@
+#include "lint/semantics.h"
+
+#include <algorithm>
+
+#include "cbc/rules.h"
+
+namespace cbc {
+namespace {
+
+/// Reasons that may be looked at in all; past them questions stay open.
+constexpr std::uint64_t most_effort = 500'000'000;
+
+}  // namespace
+
+Semantics::Semantics(const Catalog& catalog, AssignmentSearch& search, const Liveness& liveness,
+                     Exclusions& exclusions, std::uint64_t max_nodes, Reporter& reporter)
+    : catalog_(catalog),
+      search_(search),
+      liveness_(liveness),
+      exclusions_(exclusions),
+      max_nodes_(max_nodes),
+      reporter_(reporter),
+      behaviors_(compiled().behaviors.size()),
+      tasks_(compiled().tasks.size()),
+      nothing_present_(most_in_a_group(compiled().group_tasks), none),
+      effort_left_(most_effort) {}
+
+RelaxedProblem Semantics::relaxed(const Goal& goal) const {
+  RelaxedProblem problem(compiled(), compiled().tasks[goal.task].group, nothing_present_, goal.task,
+                         RelaxedProblem::Goal::run);
+  problem.run_with(goal.place);
+  return problem;
+}
+
+Feasibility Semantics::solve(RelaxedProblem& problem, std::span<const Reason> reasons) {
+  if (effort_left_ == 0) return Feasibility::unknown;
+  const std::uint64_t before = problem.effort();
+  const Feasibility answer = problem.solve(reasons);
+  effort_left_ -= std::min(problem.effort() - before, effort_left_);
+  return answer;
+}
+
+Feasibility Semantics::solve(std::span<const Goal> goals, std::span<const Reason> reasons) {
+  Feasibility answer = Feasibility::no;
+  for (const Goal& goal : goals) {
+    RelaxedProblem problem = relaxed(goal);
+    const Feasibility one = solve(problem, reasons);
+    if (one == Feasibility::yes) return one;
+    if (one == Feasibility::unknown) answer = one;
+  }
+  return answer;
+}
+
+void Semantics::report_undecided(const Range& range, const std::string& question) {
+  reporter_.report(rule::undecided, range,
+                   question + " could not be decided within " + std::to_string(max_nodes_) +
+                       " decisions (--max-nodes)");
+}
+
+}  // namespace cbc
