@@ -121,11 +121,13 @@ class RedundancyCheck {
 
   void report(const Behavior& behavior, const Requirement& requirement, std::vector<Note> notes,
               std::vector<Edit> edits) {
-    semantics_.reporter().report(rule::redundant_requirement, requirement.range,
-                                 "behavior " + quote(behavior.name) + " need not require " +
-                                     quote(semantics_.catalog().tasks[requirement.task].name) +
-                                     ": this is so anyway wherever it is active",
-                                 std::move(notes), std::move(edits));
+    const std::string task = quote(semantics_.catalog().tasks[requirement.task].name);
+    semantics_.reporter().report(
+        rule::redundant_requirement, requirement.range,
+        "the requirement of " + task + " is redundant: wherever behavior " + quote(behavior.name) +
+            " is active, " + task +
+            (requirement.minimum_performance > 0 ? " performs so well anyway" : " runs anyway"),
+        std::move(notes), std::move(edits));
   }
 
   /// With more constraints than this a group is too large for the question.
