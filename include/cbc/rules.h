@@ -13,7 +13,8 @@ struct Rule {
   Severity severity = Severity::error;  ///< unless the settings say otherwise
   /// Where the rule is broken the file has no meaning, so that its severity cannot be lowered.
   bool is_fixed = false;
-  bool is_of_scripts = false;         ///< the examples are event scripts, for the catalog below
+  bool is_of_scripts = false;  ///< the examples are event scripts, for the catalog below
+  // The texts are ASCII. A paragraph is one line.
   std::string_view summary = {};      ///< one sentence: what is wrong
   std::string_view explanation = {};  ///< why it matters: paragraphs, separated by empty lines
   std::string_view example = {};      ///< a whole file that breaks this rule, and no other
@@ -44,6 +45,7 @@ inline constexpr std::string_view duplicate_task = "duplicate-task";
 inline constexpr std::string_view empty_range = "empty-range";
 inline constexpr std::string_view exclusive_requirement = "exclusive-requirement";
 inline constexpr std::string_view implicit_task = "implicit-task";
+inline constexpr std::string_view impossible_expectation = "impossible-expectation";
 inline constexpr std::string_view invalid_value = "invalid-value";
 inline constexpr std::string_view missing_key = "missing-key";
 inline constexpr std::string_view no_timeout_effect = "no-timeout-effect";
