@@ -97,6 +97,23 @@ class Builder : public YAML::EventHandler {
 
   void finish_empty() { document_.root_ = create(Kind::null, {}); }
 
+  // Marks what stands in several places of the tree, and all parts of mappings that merge others.
+  void mark_shared() {
+    std::unordered_set<const Node*> found;
+    while (!shared_.empty()) {
+      const Node* node = shared_.back();
+      shared_.pop_back();
+      if (!found.insert(node).second) continue;
+      shared_.insert(shared_.end(), node->items.begin(), node->items.end());
+      for (const auto& [key, value] : node->entries) {
+        shared_.push_back(key);
+        shared_.push_back(value);
+      }
+    }
+    if (found.empty()) return;
+    for (const auto& node : document_.nodes_) node->shared = found.contains(node.get());
+  }
+
   [[nodiscard]] Range range_at(std::size_t begin, std::size_t end) const {
     return {positions_.at(begin), positions_.at(std::max(begin, end))};
   }
@@ -161,6 +178,7 @@ class Builder : public YAML::EventHandler {
       throw Refusal(range_at(begin, end), too_deep());
     }
     alias_range_ = range_at(begin, end);
+    shared_.push_back(anchored.node);
     add(anchored.node, 0, anchored.size);
     alias_range_.reset();
   }
@@ -257,7 +275,10 @@ class Builder : public YAML::EventHandler {
     progress();
     Frame frame = std::move(frames_.back());
     frames_.pop_back();
-    if (!frame.merges.empty()) merge(frame);
+    if (!frame.merges.empty()) {
+      merge(frame);
+      shared_.push_back(frame.node);
+    }
     add(frame.node, frame.anchor, frame.size);
   }
 
@@ -374,6 +395,7 @@ class Builder : public YAML::EventHandler {
   Document& document_;
   std::vector<Frame> frames_;
   std::vector<Anchored> anchors_;
+  std::vector<const Node*> shared_;  // that aliases stand for, or that merge others
   std::size_t alias_nodes_ = 0;
   std::optional<Range> alias_range_;  // while an alias is being added
   std::size_t last_end_ = 0;          // where the last thing that was read ended, as far as known
@@ -452,6 +474,7 @@ void parse_document(std::string_view text, const PositionMap& positions, const s
   }
   if (const auto at = input.refused_at()) throw Refusal(builder.range_at(*at, *at + 1), too_deep());
   if (builder.empty()) builder.finish_empty();
+  builder.mark_shared();
 }
 
 }  // namespace

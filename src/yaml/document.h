@@ -17,6 +17,7 @@ enum class Kind : std::uint8_t { null, scalar, sequence, mapping };
 struct Node {
   Kind kind = Kind::null;
   bool plain = false;              ///< a scalar without quotes, which may be a number or a boolean
+  bool shared = false;             ///< an alias or a merge key '<<' gives it more than one meaning
   Range range;                     ///< for collections: the first character only
   std::string text;                ///< of a scalar
   std::vector<const Node*> items;  ///< of a sequence
@@ -32,6 +33,8 @@ class Document {
  public:
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const Node& root() const { return *root_; }
+  /// All nodes, also those that the root no longer reaches; scalars in the order of the text.
+  [[nodiscard]] const std::vector<std::unique_ptr<Node>>& nodes() const { return nodes_; }
 
  private:
   friend class Builder;

@@ -1,6 +1,8 @@
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -57,6 +59,39 @@ std::string repeat(std::string_view part, std::size_t times) {
   std::string text;
   for (std::size_t i = 0; i < times; ++i) text += part;
   return text;
+}
+
+// The texts of the nodes that are shared, each once, in the order of the file.
+std::string shared(std::string_view text) {
+  Diagnostics diagnostics;
+  const auto document = parse(text, "a.yaml", diagnostics);
+  if (document == nullptr) return cbc::show(diagnostics);
+  std::map<Range, std::string> found;
+  std::vector<const Node*> open{&document->root()};
+  while (!open.empty()) {
+    const Node* node = open.back();
+    open.pop_back();
+    if (node->shared) found[node->range] += show(*node, false) + "; ";
+    open.insert(open.end(), node->items.begin(), node->items.end());
+    for (const auto& [key, value] : node->entries) {
+      open.push_back(key);
+      open.push_back(value);
+    }
+  }
+  std::string result;
+  for (const auto& [range, texts] : found) result += texts;
+  return result;
+}
+
+TEST(YamlDocument, MarksWhatAliasesAndMergesShare) {
+  EXPECT_EQ(shared("a: &x 1\nb: 2\n"), "");
+  EXPECT_EQ(shared("a: &x 1\nb: *x\n"), "1; 1; ");
+  EXPECT_EQ(shared("[&x [a, {b: c}], d, *x]"),
+            "[a, {b: c}]; [a, {b: c}]; a; a; {b: c}; {b: c}; b; b; c; c; ");
+  EXPECT_EQ(shared("&k a: 1\nb: *k\n"), "a; a; ");
+  // Also what hides a merged key, and what is merged.
+  EXPECT_EQ(shared("- &m {a: 1}\n- {b: 2, <<: *m}\n- c\n"),
+            "{a: 1}; a; a; 1; 1; {b: 2, a: 1}; b; 2; ");
 }
 
 // Shape ---------------------------------------------------------------------------------------

@@ -1,0 +1,101 @@
+#include "lint/severity_settings.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace cbc {
+namespace {
+
+std::string severity(const SeveritySettings& settings, std::string_view rule,
+                     Severity found = Severity::note) {
+  const std::optional<Severity> result = settings.severity_of({rule, found, "a", {}, "", {}});
+  return result ? std::string(name_of(*result)) : "none";
+}
+
+/// The messages about options, one on a line.
+std::string errors_of(const SeverityOptions& options) {
+  std::vector<std::string> errors;
+  static_cast<void>(settings_of_options(options, errors));
+  std::string text;
+  for (const std::string& error : errors) text += error + "\n";
+  return text;
+}
+
+SeveritySettings read(const SeverityOptions& options) {
+  std::vector<std::string> errors;
+  SeveritySettings settings = settings_of_options(options, errors);
+  EXPECT_EQ(errors, std::vector<std::string>{});
+  return settings;
+}
+
+TEST(SeveritySettings, LeaveFindingsAsTheyAre) {
+  const SeveritySettings settings;
+  for (const Severity found : {Severity::note, Severity::warning, Severity::error}) {
+    EXPECT_EQ(severity(settings, rule::dead_task, found), name_of(found));
+  }
+  EXPECT_FALSE(settings.is_strict());
+}
+
+TEST(SeveritySettings, ReadOptions) {
+  const SeveritySettings settings = read({.error = {"dead-task", "missing-key"},
+                                          .warn = {"implicit-task", "exclusive-requirement"},
+                                          .allow = {"unknown-key", "unknown-key"},
+                                          .strict = true});
+  EXPECT_EQ(severity(settings, rule::dead_task, Severity::warning), "error");
+  EXPECT_EQ(severity(settings, rule::missing_key, Severity::error), "error");
+  EXPECT_EQ(severity(settings, rule::implicit_task, Severity::note), "warning");
+  EXPECT_EQ(severity(settings, rule::exclusive_requirement, Severity::error), "warning");
+  EXPECT_EQ(severity(settings, rule::unknown_key, Severity::warning), "none");
+  // In a script, where it is an error, it stays one.
+  EXPECT_EQ(severity(settings, rule::unknown_key, Severity::error), "error");
+  EXPECT_EQ(severity(settings, rule::dead_behavior), "note");
+  EXPECT_TRUE(settings.is_strict());
+  EXPECT_FALSE(read({.error = {"dead-task"}, .warn = {}, .allow = {}}).is_strict());
+}
+
+TEST(SeveritySettings, ReportAllBadOptions) {
+  EXPECT_EQ(
+      errors_of({.error = {"ded-task", "dead-behavior"},
+                 .warn = {"missing-key", "", "Dead_Task"},
+                 .allow = {"dead-behavior", "no-such-thing"}}),
+      "--error: there is no rule 'ded-task'; did you mean 'dead-task'?\n"
+      "--warn: 'missing-key' is always an error: a file that breaks this rule has no meaning\n"
+      "--warn: there is no rule ''\n"
+      "--warn: there is no rule 'Dead_Task'; did you mean 'dead-task'?\n"
+      "--allow: rule 'dead-behavior' is given to --error, too\n"
+      "--allow: there is no rule 'no-such-thing'\n");
+}
+
+TEST(SeveritySettings, OnlyFixedRulesCannotBeLowered) {
+  for (const Rule& rule : all_rules()) {
+    const std::string name(rule.name);
+    EXPECT_EQ(errors_of({.error = {name}, .warn = {}, .allow = {}}), "");
+    EXPECT_EQ(errors_of({.error = {}, .warn = {name}, .allow = {}}).empty(), !rule.is_fixed);
+    EXPECT_EQ(errors_of({.error = {}, .warn = {}, .allow = {name}}).empty(), !rule.is_fixed);
+  }
+}
+
+TEST(SeveritySettings, TheStrongerOnesWin) {
+  SeveritySettings settings =
+      read({.error = {"dead-task"}, .warn = {"unknown-key"}, .allow = {"implicit-task"}});
+  settings.override_with(read({.error = {}, .warn = {"dead-task"}, .allow = {"unknown-key"}}));
+  EXPECT_EQ(severity(settings, rule::dead_task), "warning");
+  EXPECT_EQ(severity(settings, rule::unknown_key), "none");
+  EXPECT_EQ(severity(settings, rule::implicit_task), "none");
+  EXPECT_FALSE(settings.is_strict());
+
+  SeveritySettings strict;
+  strict.make_strict();
+  settings.override_with(strict);
+  EXPECT_TRUE(settings.is_strict());
+  settings.override_with(SeveritySettings{});
+  EXPECT_TRUE(settings.is_strict());
+  EXPECT_EQ(severity(settings, rule::dead_task), "warning");
+}
+
+}  // namespace
+}  // namespace cbc
