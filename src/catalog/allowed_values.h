@@ -1,12 +1,22 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <unordered_set>
 
 #include "catalog/catalog.h"
+#include "text/decimal.h"
+#include "text/nearest.h"
+#include "yaml/document.h"
 
 /// What a task parameter may be set to: a range of numbers ([0, 30]), a list of words ([LEFT,
 /// RIGHT]), or the name of a type (string, point_list).
+///
+/// A type is string, boolean, integer, number or point (a list of 2 or 3 numbers, or a mapping of
+/// x, y and perhaps z), or a list of these: point_list, list_of_points. Other usual names are known
+/// as well: bool, int, float, text.
 namespace cbc {
 
 /// Whether the allowed values are a range that goes down, so that it contains nothing.
@@ -17,5 +27,37 @@ namespace cbc {
 
 /// The known type whose name is most like `name`.
 [[nodiscard]] std::optional<std::string_view> nearest_type(std::string_view name);
+
+/// Why a value is not allowed.
+struct ValueFault {
+  const yaml::Node* node = nullptr;  ///< the value, or what in it is wrong
+  std::string message;               ///< "expected a number from 0 to 30, found '31'"
+};
+
+/// The allowed values of a parameter, to check values against.
+class AllowedValues {
+ public:
+  /// `parameter` must outlive this object.
+  explicit AllowedValues(const Parameter& parameter);
+
+  /// The first thing that is wrong with a value. A null one is as if it were not given; without
+  /// allowed values, and where their type is not known, anything goes.
+  [[nodiscard]] std::optional<ValueFault> find_fault(const yaml::Node& value);
+
+ private:
+  enum class Form : std::uint8_t { anything, range, choice, type };
+
+  [[nodiscard]] std::optional<ValueFault> check_range(const yaml::Node& value) const;
+  [[nodiscard]] std::optional<ValueFault> check_choice(const yaml::Node& value);
+
+  const Parameter& parameter_;
+  Form form_ = Form::anything;
+  Number lowest_;
+  Number highest_;
+  std::unordered_set<std::string_view> texts_;  ///< of a choice
+  std::unordered_set<std::string> numbers_;     ///< of a choice: those that are, by value
+  Suggestions suggestions_;
+  std::string expected_;
+};
 
 }  // namespace cbc

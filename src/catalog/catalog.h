@@ -24,6 +24,7 @@ struct Parameter {
   bool allowed_is_list = false;             ///< a list ([0, 30], [LEFT, RIGHT]), not a type name
   Range allowed_range;                      ///< of the first of them
   Range range;                              ///< of the name
+  std::optional<Range> entry;  ///< where its entry begins, if it says no more than this
 };
 
 /// A variable of the constraint problem: what can be done.
@@ -73,6 +74,7 @@ struct ExclusivityList {
   std::vector<TaskIndex> tasks;  ///< in the order of the file; a task may stand twice
   std::vector<Range> ranges;     ///< of each name
   Range range;
+  std::optional<Range> entry;  ///< where its entry begins, if it says no more than this
 };
 
 /// A catalog as it was written, understood and checked: names resolved, defaults filled in.

@@ -159,12 +159,13 @@ class Reader {
     if (!expect_entry(node, "a task", "task: NAME")) {
       // A bare name is understood, so that it is not reported as undefined elsewhere.
       if (node.kind == Kind::scalar && !node.text.empty()) {
-        catalog_.tasks.push_back({{node.text, node.range}, {}, {}, {}});
+        catalog_.tasks.push_back({{node.text, node.range}, {}, {}, {}, {}});
       } else {
         ++catalog_.nameless_tasks;
       }
       return;
     }
+    const std::size_t errors = reporter_.errors();
     Fields fields(node, shape::task, reporter_);
     Task task;
     const auto name = require_name(fields, "task", task_name, node.range);
@@ -177,6 +178,7 @@ class Reader {
     if (const Node* parameters = fields.find("parameters")) {
       task.parameters = read_parameters(*parameters);
     }
+    task.entry = entry_of(node, fields, errors);
     fields.report_unknown(Severity::warning);
     if (name) {
       catalog_.tasks.push_back(std::move(task));
@@ -191,6 +193,7 @@ class Reader {
     if (list == nullptr) return parameters;
     for (const Node* item : list->items) {
       if (!expect_entry(*item, "a parameter", "parameter: NAME")) continue;
+      const std::size_t errors = reporter_.errors();
       Fields fields(*item, shape::parameter, reporter_);
       Parameter parameter;
       if (const auto name =
@@ -202,6 +205,7 @@ class Reader {
       if (const Node* allowed = fields.find("allowed_values")) {
         read_allowed_values(*allowed, parameter);
       }
+      parameter.entry = entry_of(*item, fields, errors);
       fields.report_unknown(Severity::warning);
       parameters.push_back(std::move(parameter));
     }
@@ -336,6 +340,7 @@ class Reader {
 
   void read_exclusivity_list(const Node& node) {
     if (!expect_entry(node, "an exclusivity constraint", "mutually_exclusive: [A, B]")) return;
+    const std::size_t errors = reporter_.errors();
     Fields fields(node, shape::exclusivity_list, reporter_);
     const Node* value = fields.require("mutually_exclusive", node.range);
     const Range range = value == nullptr ? node.range : fields.range_of("mutually_exclusive");
@@ -352,6 +357,7 @@ class Reader {
         result.tasks.push_back({*name, item->range});
       }
     }
+    result.entry = entry_of(node, fields, errors);
     catalog_.exclusivity.push_back(std::move(result));
   }
 
@@ -363,6 +369,13 @@ class Reader {
                      std::string(what) + " must be a mapping (" + quote(example) + "), found " +
                          yaml::describe(node));
     return false;
+  }
+
+  // Where an entry begins, if all that it says was understood; `errors` are those before it.
+  [[nodiscard]] std::optional<Range> entry_of(const Node& node, const Fields& fields,
+                                              std::size_t errors) const {
+    if (!fields.is_understood() || reporter_.errors() > errors) return std::nullopt;
+    return node.range;
   }
 
   std::optional<Name> require_name(Fields& fields, std::string_view key, std::string_view expected,

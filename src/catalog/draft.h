@@ -41,6 +41,7 @@ struct Task {
   TaskAttributes attributes;
   Percent minimum_performance;  ///< 0: none
   std::vector<Parameter> parameters;
+  std::optional<Range> entry;  ///< where it begins, if it says no more than this
 };
 
 struct Performance {
@@ -65,6 +66,7 @@ struct Behavior {
 struct ExclusivityList {
   std::vector<Name> tasks;
   Range range;
+  std::optional<Range> entry;  ///< where it begins, if it says no more than this
 };
 
 struct Catalog {

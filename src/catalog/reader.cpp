@@ -69,13 +69,15 @@ class Resolver {
   void report_duplicate_task(const draft::Task& before, const draft::Task& now, const Task& first) {
     std::string message = "task " + quote(now.name.text) + " is listed twice";
     const std::string changes = attributes_.describe_changes(before, now);
+    std::vector<Edit> edits;
     if (changes.empty()) {
       message += ", with the same attributes";
+      if (now.entry) edits.push_back({Edit::Kind::remove_entry, *now.entry, {}});
     } else {
       message += "; the last entry counts: " + changes;
     }
     reporter_.report(rule::duplicate_task, now.name.range, std::move(message),
-                     {reporter_.note(first.range, "first listed here")});
+                     {reporter_.note(first.range, "first listed here")}, std::move(edits));
   }
 
   void define_implicit_tasks() {
@@ -141,10 +143,13 @@ class Resolver {
   void add_exclusivity_list(const draft::ExclusivityList& entry) {
     ExclusivityList list;
     list.range = entry.range;
+    list.entry = entry.entry;
     for (const draft::Name& name : entry.tasks) {
       if (const auto task = find_task(name, "named in an exclusivity list", {})) {
         list.tasks.push_back(*task);
         list.ranges.push_back(name.range);
+      } else {
+        list.entry.reset();
       }
     }
     catalog_.exclusivity.push_back(std::move(list));

@@ -1,10 +1,21 @@
 #include "catalog/shapes.h"
 
+#include <optional>
+#include <string_view>
+
+#include "yaml/values.h"
+
 namespace cbc::shape {
 namespace {
 
 using yaml::Key;
 using yaml::Shape;
+
+std::optional<std::string_view> present_goal(const yaml::Node& category) {
+  if (category.text == "goal_based") return "achieve_goal";
+  if (category.text == "recurrent") return "keep_running";
+  return std::nullopt;
+}
 
 constexpr Key catalog_keys[] = {
     {"default_values"}, {"behaviors"}, {"tasks"}, {"exclusivity_constraints"}};
@@ -13,8 +24,8 @@ constexpr Key task_defaults_keys[] = {{"execution_goal"},
                                       {"start_on_request"},
                                       {"reactive_start"},
                                       {"timeout"},
-                                      {"category", "execution_goal"},
-                                      {"automatic_activation", "start_on_request"},
+                                      {"category", "execution_goal", present_goal},
+                                      {"automatic_activation", "start_on_request", yaml::opposite},
                                       {"default", "reactive_start"}};
 constexpr Key behavior_defaults_keys[] = {
     {"suitability"}, {"package"}, {"efficacy", "suitability"}};
@@ -30,8 +41,8 @@ constexpr Key task_keys[] = {{"task"},
                              {"timeout"},
                              {"minimum_performance"},
                              {"parameters"},
-                             {"category", "execution_goal"},
-                             {"automatic_activation", "start_on_request"},
+                             {"category", "execution_goal", present_goal},
+                             {"automatic_activation", "start_on_request", yaml::opposite},
                              {"default", "reactive_start"}};
 constexpr Key parameter_keys[] = {{"parameter"}, {"allowed_values"}};
 constexpr Key exclusivity_list_keys[] = {{"mutually_exclusive"}};

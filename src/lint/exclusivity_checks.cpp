@@ -26,14 +26,18 @@ std::vector<TaskIndex> distinct_tasks(const ExclusivityList& list) {
 void check_own_tasks(const Catalog& catalog, const ExclusivityList& list, Reporter& reporter) {
   std::unordered_map<TaskIndex, Range> known;
   bool has_repetition = false;
+  // A list of one task, given twice, must have been meant to have another one.
+  const bool is_mendable = distinct_tasks(list).size() > 1;
   for (std::size_t place = 0; place < list.tasks.size(); ++place) {
     const auto [first, is_new] = known.try_emplace(list.tasks[place], list.ranges[place]);
     if (is_new) continue;
     has_repetition = true;
+    std::vector<Edit> edits;
+    if (is_mendable) edits.push_back({Edit::Kind::remove_entry, list.ranges[place], {}});
     reporter.report(rule::self_exclusion, list.ranges[place],
                     "task " + quote(catalog.tasks[list.tasks[place]].name) +
                         " stands twice in one list; a task does not exclude itself",
-                    {reporter.note(first->second, "first given here")});
+                    {reporter.note(first->second, "first given here")}, std::move(edits));
   }
   if (known.size() < 2 && !has_repetition) {
     reporter.report(rule::trivial_exclusion, list.range,
@@ -59,11 +63,16 @@ class Containment {
       if (tasks_[list].size() < 2) continue;
       const std::size_t other = find_container(list);
       if (other == tasks_.size()) continue;
+      std::vector<Edit> edits;
+      if (const auto& entry = catalog_.exclusivity[list].entry) {
+        edits.push_back({Edit::Kind::remove_entry, *entry, {}});
+      }
       reporter.report(rule::duplicate_exclusion, catalog_.exclusivity[list].range,
                       tasks_[list].size() == tasks_[other].size()
                           ? "another list has the same tasks, so this one excludes nothing new"
                           : "another list has all of these tasks, so this one excludes nothing new",
-                      {reporter.note(catalog_.exclusivity[other].range, "it is here")});
+                      {reporter.note(catalog_.exclusivity[other].range, "it is here")},
+                      std::move(edits));
     }
   }
 

@@ -69,7 +69,7 @@ void check_timeout(const Task& task, const Use& use, Reporter& reporter) {
         task.timeout ? "after " + format_decimal(*task.timeout, 6) + " s" : "by its behavior";
     reporter.report(rule::reactive_timeout, task.range,
                     "task " + quote(task.name) + " starts reactively and is ended " + after +
-                        ": it ends and starts again for ever");
+                        ", so it can end and start again for ever");
   }
 }
 
@@ -90,17 +90,31 @@ void check_allowed_values(const Task& task, const Parameter& parameter, Reporter
   }
 }
 
+bool allow_the_same(const Parameter& a, const Parameter& b) {
+  return a.allowed_values == b.allowed_values && a.allowed_is_list == b.allowed_is_list;
+}
+
 void check_parameters(const Task& task, Reporter& reporter) {
-  std::unordered_map<std::string_view, Range> known;
+  struct Known {
+    const Parameter* first = nullptr;
+    const Parameter* last = nullptr;
+  };
+  std::unordered_map<std::string_view, Known> known;
   for (const Parameter& parameter : task.parameters) {
     check_allowed_values(task, parameter, reporter);
     if (parameter.name.empty()) continue;
-    const auto [first, is_new] = known.try_emplace(parameter.name, parameter.range);
+    const auto [entry, is_new] = known.try_emplace(parameter.name, Known{&parameter, &parameter});
     if (is_new) continue;
+    Known& same_name = entry->second;
+    std::vector<Edit> edits;
+    if (parameter.entry && allow_the_same(*same_name.last, parameter)) {
+      edits.push_back({Edit::Kind::remove_entry, *parameter.entry, {}});
+    }
+    same_name.last = &parameter;
     reporter.report(
         rule::duplicate_parameter, parameter.range,
         "parameter " + quote(parameter.name) + " of task " + quote(task.name) + " is listed twice",
-        {reporter.note(first->second, "first listed here")});
+        {reporter.note(same_name.first->range, "first listed here")}, std::move(edits));
   }
 }
 

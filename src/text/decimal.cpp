@@ -10,14 +10,6 @@ constexpr Decimal failure(DecimalError error) { return {0, error}; }
 
 bool is_digit(char character) { return character >= '0' && character <= '9'; }
 
-// The parts of a number: 0.digits * 10^exponent, digits without zeros at either end.
-struct Parts {
-  bool valid = false;
-  bool negative = false;
-  std::string digits;
-  std::int64_t exponent = 0;
-};
-
 // Far beyond any exponent that matters, far below overflow: the digits of a text are fewer.
 constexpr std::int64_t exponent_limit = 1'000'000'000'000;
 
@@ -25,32 +17,32 @@ class Scanner {
  public:
   explicit Scanner(std::string_view text) : text_(text) {}
 
-  Parts scan() {
-    Parts parts;
-    parts.negative = take_sign();
+  std::optional<Number> scan() {
+    Number number;
+    number.negative = take_sign();
     std::string digits = take_digits();
     const std::size_t before_point = digits.size();
     if (take('.')) digits += take_digits();
-    if (digits.empty()) return parts;
+    if (digits.empty()) return std::nullopt;
     std::int64_t exponent = 0;
     if (take('e') || take('E')) {
       const bool negative = take_sign();
       const std::string exponent_digits = take_digits();
-      if (exponent_digits.empty()) return parts;
+      if (exponent_digits.empty()) return std::nullopt;
       for (const char digit : exponent_digits) {
         exponent = std::min(exponent * 10 + (digit - '0'), exponent_limit);
       }
       if (negative) exponent = -exponent;
     }
-    if (!text_.empty()) return parts;
+    if (!text_.empty()) return std::nullopt;
 
-    const std::size_t first = std::min(digits.find_first_not_of('0'), digits.size());
+    const std::size_t first = digits.find_first_not_of('0');
+    if (first == std::string::npos) return Number{};
     digits.erase(digits.find_last_not_of('0') + 1);
-    parts.exponent =
+    number.exponent =
         exponent + static_cast<std::int64_t>(before_point) - static_cast<std::int64_t>(first);
-    parts.digits = digits.substr(std::min(first, digits.size()));
-    parts.valid = true;
-    return parts;
+    number.digits = digits.substr(first);
+    return number;
   }
 
  private:
@@ -79,29 +71,43 @@ class Scanner {
 
 }  // namespace
 
+std::optional<Number> parse_number(std::string_view text) { return Scanner(text).scan(); }
+
+std::strong_ordering operator<=>(const Number& a, const Number& b) {
+  if (a == b) return std::strong_ordering::equal;
+  const auto sign = [](const Number& number) {
+    return number.digits.empty() ? 0 : number.negative ? -1 : 1;
+  };
+  if (sign(a) != sign(b)) return sign(a) <=> sign(b);
+  const Number& low = a.negative ? b : a;
+  const Number& high = a.negative ? a : b;
+  if (low.exponent != high.exponent) return low.exponent <=> high.exponent;
+  return low.digits.compare(high.digits) <=> 0;
+}
+
 Decimal parse_decimal(std::string_view text, int decimals, std::int64_t lowest,
                       std::int64_t highest) {
-  const Parts parts = Scanner(text).scan();
-  if (!parts.valid) return failure(DecimalError::not_a_number);
+  const std::optional<Number> number = parse_number(text);
+  if (!number) return failure(DecimalError::not_a_number);
 
   // The scaled number has `places` digits before its point.
-  const std::int64_t places = parts.exponent + decimals;
-  const bool whole = static_cast<std::int64_t>(parts.digits.size()) <= places;
+  const std::int64_t places = number->exponent + decimals;
+  const bool whole = static_cast<std::int64_t>(number->digits.size()) <= places;
   std::int64_t value = 0;
-  if (!parts.digits.empty() && places > 0) {
+  if (!number->digits.empty() && places > 0) {
     if (places > 18) return failure(DecimalError::out_of_range);
     for (std::int64_t i = 0; i < places; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      value = value * 10 + (at < parts.digits.size() ? parts.digits[at] - '0' : 0);
+      value = value * 10 + (at < number->digits.size() ? number->digits[at] - '0' : 0);
     }
   }
-  if (parts.negative) value = -value;
+  if (number->negative) value = -value;
   // A range comes first: "100.00001 is over 100" is the more useful of the two.
   const bool beyond =
-      !whole && !parts.digits.empty() &&
-      ((!parts.negative && value >= highest) || (parts.negative && value <= lowest));
+      !whole && !number->digits.empty() &&
+      ((!number->negative && value >= highest) || (number->negative && value <= lowest));
   if (value < lowest || value > highest || beyond) return failure(DecimalError::out_of_range);
-  if (!whole && !parts.digits.empty()) return failure(DecimalError::too_precise);
+  if (!whole && !number->digits.empty()) return failure(DecimalError::too_precise);
   return {value, DecimalError::no_error};
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -32,6 +34,21 @@ struct Decimal {
 /// An integer without fraction or exponent.
 [[nodiscard]] Decimal parse_integer(std::string_view text, std::int64_t lowest,
                                     std::int64_t highest);
+
+/// A decimal number of any size: 0.DIGITS * 10^exponent, negated if `negative`; zero has no digits.
+/// Exponents beyond a trillion, either way, count as a trillion.
+struct Number {
+  bool negative = false;
+  std::string digits;  ///< without zeros at either end
+  std::int64_t exponent = 0;
+
+  friend bool operator==(const Number&, const Number&) = default;
+  /// By value, exactly.
+  friend std::strong_ordering operator<=>(const Number& a, const Number& b);
+};
+
+/// A number in any spelling that parse_decimal allows.
+[[nodiscard]] std::optional<Number> parse_number(std::string_view text);
 
 /// The shortest text of value * 10^-decimals: "1.5".
 [[nodiscard]] std::string format_decimal(std::int64_t value, int decimals);

@@ -65,12 +65,22 @@ std::size_t PositionMap::offset_of(std::size_t begin, std::size_t end,
   const auto next = std::upper_bound(checkpoints_.begin(), checkpoints_.end(), wanted);
   const auto block = static_cast<std::size_t>(next - checkpoints_.begin()) - 1;
   std::size_t offset = std::max(begin, block * stride);
+  // A block may begin within a character, which counts as one before it.
+  while (offset < end && is_continuation(text_[offset])) ++offset;
   for (std::size_t seen = characters_before(offset); seen < wanted && offset < end; ++seen) {
     do {
       ++offset;
     } while (offset < end && is_continuation(text_[offset]));
   }
   return std::min(offset, end);
+}
+
+std::size_t PositionMap::offset(const Position& place) const {
+  if (place.line > line_starts_.size()) return text_.size();
+  const std::size_t begin = line_starts_[place.line - 1];
+  const std::size_t end =
+      place.line < line_starts_.size() ? line_starts_[place.line] - 1 : text_.size();
+  return offset_of(begin, end, place.column - 1);
 }
 
 PositionMap::Excerpt PositionMap::excerpt(const Position& place, std::size_t radius) const {

@@ -18,6 +18,10 @@ class PositionMap {
   /// The place of the character that begins at `offset`; offsets past the end count as the end.
   [[nodiscard]] Position at(std::size_t offset) const;
 
+  /// The byte at which the character of a place begins. A place past the end of its line counts as
+  /// the line break, one past the last line as the end of the text.
+  [[nodiscard]] std::size_t offset(const Position& place) const;
+
   /// The text of a line, which counts from 1, without its line break; empty if there is none.
   [[nodiscard]] std::string_view line(std::uint32_t number) const;
 

@@ -6,8 +6,39 @@
 #include "cbc/rules.h"
 #include "text/nearest.h"
 #include "text/quote.h"
+#include "text/utf8.h"
 
 namespace cbc::yaml {
+namespace {
+
+// The place of a text without its quotes, if another one may be written there: it stands in one
+// place of the tree only, and as it is, without escapes and on one line.
+std::optional<Range> replaceable(const Node& node) {
+  if (node.kind != Kind::scalar || node.shared) return std::nullopt;
+  Range range = node.range;
+  if (!node.plain) {
+    ++range.begin.column;
+    --range.end.column;
+  }
+  const bool as_it_is = range.begin.line == range.end.line &&
+                        range.begin.column + utf8::count_characters(node.text) == range.end.column;
+  return as_it_is ? std::optional(range) : std::nullopt;
+}
+
+// Writes an older key and its value in the present way; no edit where that is not possible.
+std::vector<Edit> modernize(const Key& key, const Node& name, const Node& value) {
+  const std::optional<Range> name_range = replaceable(name);
+  if (!name_range) return {};
+  std::vector<Edit> edits{{Edit::Kind::replace, *name_range, std::string(key.replaced_by)}};
+  if (key.translate == nullptr || value.kind == Kind::null) return edits;
+  const std::optional<std::string_view> translated = key.translate(value);
+  const std::optional<Range> value_range = replaceable(value);
+  if (!translated || !value_range) return {};
+  edits.push_back({Edit::Kind::replace, *value_range, std::string(*translated)});
+  return edits;
+}
+
+}  // namespace
 
 bool Shape::has(std::string_view key) const {
   return std::any_of(keys.begin(), keys.end(),
@@ -35,16 +66,20 @@ std::size_t Fields::place_of(std::string_view key) const {
 }
 
 void Fields::add(const Node& key, const Node& value) {
-  if (key.text.starts_with("x-")) return;
+  if (key.text.starts_with("x-")) {
+    has_own_ = true;
+    return;
+  }
   const std::size_t place = place_of(key.text);
   if (place == fields_.size()) {
-    unknown_.push_back({&key, &value});
+    unknown_.push_back({&key, &value, false});
     return;
   }
   Field& field = fields_[place];
   if (field.key == nullptr) {
-    field = {&key, &value};
+    field = {&key, &value, false};
   } else {
+    field.is_repeated = true;
     reporter_.report(rule::duplicate_key, key.range, quote(key.text) + " is given twice",
                      {reporter_.note(field.key->range, "first given here")});
   }
@@ -60,8 +95,13 @@ void Fields::report_older_names() {
     const bool both = older.value->kind != Kind::null && present.value != nullptr &&
                       present.value->kind != Kind::null;
     if (!both) {
+      // Beside the present name, even one without a value, or itself again, it cannot be renamed.
+      std::vector<Edit> edits;
+      if (present.key == nullptr && !older.is_repeated)
+        edits = modernize(key, *older.key, *older.value);
       reporter_.report(rule::deprecated_key, older.key->range,
-                       quote(key.name) + " is an older name: write " + quote(key.replaced_by));
+                       quote(key.name) + " is an older name: write " + quote(key.replaced_by), {},
+                       std::move(edits));
       continue;
     }
     const bool older_first = older.key->range.begin < present.key->range.begin;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,9 @@ namespace cbc::yaml {
 struct Key {
   std::string_view name;
   std::string_view replaced_by = {};  ///< of an older name: the present one
+  /// Of an older name: how its value is written under the present one, or nothing if the value is
+  /// not valid. Values stay as they are without it.
+  std::optional<std::string_view> (*translate)(const Node& value) = nullptr;
 };
 
 /// What a kind of mapping may contain.
@@ -42,6 +46,8 @@ class Fields {
   /// Whether a key is there, with or without a value.
   [[nodiscard]] bool has(std::string_view key) const;
   [[nodiscard]] bool has_unknown() const { return !unknown_.empty(); }
+  /// Whether it says nothing but what is understood here: no unknown key, none of the user's own.
+  [[nodiscard]] bool is_understood() const { return unknown_.empty() && !has_own_; }
   /// The place of a key that is there.
   [[nodiscard]] const Range& range_of(std::string_view key) const;
 
@@ -62,6 +68,7 @@ class Fields {
   struct Field {
     const Node* key = nullptr;
     const Node* value = nullptr;
+    bool is_repeated = false;
   };
 
   void add(const Node& key, const Node& value);
@@ -74,6 +81,7 @@ class Fields {
   std::string what_;
   std::vector<Field> fields_;  // one for each key of the shape
   std::vector<Field> unknown_;
+  bool has_own_ = false;  // a key that begins with "x-"
 };
 
 }  // namespace cbc::yaml

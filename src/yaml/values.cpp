@@ -1,6 +1,7 @@
 #include "yaml/values.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -37,6 +38,27 @@ void report_number(const Node& node, std::string_view what, std::string_view exp
   }
 }
 
+// The two booleans in one spelling.
+struct Boolean {
+  std::string_view yes;
+  std::string_view no;
+};
+constexpr Boolean booleans[] = {
+    {"true", "false"}, {"True", "False"}, {"TRUE", "FALSE"}, {"yes", "no"},
+    {"Yes", "No"},     {"YES", "NO"},     {"on", "off"},     {"On", "Off"},
+    {"ON", "OFF"},     {"y", "n"},        {"Y", "N"},
+};
+
+// The spelling of a node that is a boolean, or nullptr.
+const Boolean* find_boolean(const Node& node) {
+  if (node.kind != Kind::scalar || !node.plain) return nullptr;
+  const auto* const found =
+      std::find_if(std::begin(booleans), std::end(booleans), [&node](const Boolean& boolean) {
+        return node.text == boolean.yes || node.text == boolean.no;
+      });
+  return found == std::end(booleans) ? nullptr : found;
+}
+
 }  // namespace
 
 std::string describe(const Node& node) {
@@ -52,6 +74,18 @@ std::string describe(const Node& node) {
   }
   if (node.text.empty()) return "an empty text";
   return node.plain ? quote(node.text) : quote(node.text) + " in quotes";
+}
+
+std::optional<bool> to_boolean(const Node& node) {
+  const Boolean* boolean = find_boolean(node);
+  if (boolean == nullptr) return std::nullopt;
+  return node.text == boolean->yes;
+}
+
+std::optional<std::string_view> opposite(const Node& node) {
+  const Boolean* boolean = find_boolean(node);
+  if (boolean == nullptr) return std::nullopt;
+  return node.text == boolean->yes ? boolean->no : boolean->yes;
 }
 
 void report_wrong_type(const Node& node, std::string_view what, std::string_view expected,
@@ -93,20 +127,9 @@ std::optional<std::string_view> read_name(const Node& node, std::string_view wha
 }
 
 std::optional<bool> read_boolean(const Node& node, std::string_view what, Reporter& reporter) {
-  constexpr std::pair<std::string_view, bool> words[] = {
-      {"true", true}, {"True", true},   {"TRUE", true},   {"yes", true},    {"Yes", true},
-      {"YES", true},  {"on", true},     {"On", true},     {"ON", true},     {"y", true},
-      {"Y", true},    {"false", false}, {"False", false}, {"FALSE", false}, {"no", false},
-      {"No", false},  {"NO", false},    {"off", false},   {"Off", false},   {"OFF", false},
-      {"n", false},   {"N", false},
-  };
-  if (node.kind == Kind::scalar && node.plain) {
-    for (const auto& [word, value] : words) {
-      if (node.text == word) return value;
-    }
-  }
-  report_wrong_type(node, what, "true or false", reporter);
-  return std::nullopt;
+  const std::optional<bool> value = to_boolean(node);
+  if (!value) report_wrong_type(node, what, "true or false", reporter);
+  return value;
 }
 
 std::optional<Millionths> read_percent(const Node& node, std::string_view what,

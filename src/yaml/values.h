@@ -17,6 +17,9 @@ namespace cbc::yaml {
 /// What a node is, for messages: "a list", "'80' in quotes".
 [[nodiscard]] std::string describe(const Node& node);
 
+/// What one of YAML 1.1's booleans says; empty if the node is none of them.
+[[nodiscard]] std::optional<bool> to_boolean(const Node& node);
+
 /// Reports a node that is not what was `expected` ("a list of tasks").
 void report_wrong_type(const Node& node, std::string_view what, std::string_view expected,
                        Reporter& reporter);
@@ -40,6 +43,9 @@ void report_wrong_type(const Node& node, std::string_view what, std::string_view
 /// One of YAML 1.1's booleans.
 [[nodiscard]] std::optional<bool> read_boolean(const Node& node, std::string_view what,
                                                Reporter& reporter);
+
+/// The other boolean, spelled in the same way ("No" of "Yes"); nothing if the node is none.
+[[nodiscard]] std::optional<std::string_view> opposite(const Node& node);
 
 [[nodiscard]] std::optional<Millionths> read_percent(const Node& node, std::string_view what,
                                                      Reporter& reporter);

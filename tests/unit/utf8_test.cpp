@@ -61,6 +61,32 @@ TEST(PositionMap, AgreesWithCountingOnLongLines) {
   }
 }
 
+TEST(PositionMap, OffsetsOfPlaces) {
+  const PositionMap map("aé\nb\r\n\nc");
+  EXPECT_EQ(map.offset({1, 1}), 0U);
+  EXPECT_EQ(map.offset({1, 2}), 1U);
+  EXPECT_EQ(map.offset({1, 3}), 3U);  // the line break
+  EXPECT_EQ(map.offset({1, 9}), 3U);
+  EXPECT_EQ(map.offset({2, 2}), 5U);
+  EXPECT_EQ(map.offset({2, 9}), 6U);
+  EXPECT_EQ(map.offset({4, 2}), 9U);
+  EXPECT_EQ(map.offset({5, 1}), 9U);
+}
+
+TEST(PositionMap, OffsetsAreTheInverseOfPlaces) {
+  std::string text;
+  for (int line = 0; line < 40; ++line) {
+    for (int i = 0; i < 10 * line; ++i) text += i % 3 == 0 ? "日😀" : "é";
+    text += line % 2 == 0 ? "\n" : "\r\n";
+  }
+  const PositionMap map(text);
+  for (std::size_t offset = 0; offset < text.size();) {
+    ASSERT_EQ(map.offset(map.at(offset)), offset);
+    offset += utf8::decode(text, offset).bytes;
+  }
+  EXPECT_EQ(map.offset(map.at(text.size())), text.size());
+}
+
 TEST(Quote, ShowsWhatIsNotPrintable) {
   EXPECT_EQ(quote("a b"), "'a b'");
   EXPECT_EQ(quote(""), "''");

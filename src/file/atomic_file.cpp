@@ -1,0 +1,139 @@
+#include "file/atomic_file.h"
+
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
+#include <cstdio>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace cbc {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a system call says about its failure, to be asked right after it.
+std::string reason(int code = errno) { return std::generic_category().message(code); }
+
+/// Holds back the signals that would end the program and leave a temporary file behind.
+class SignalsHeld {
+ public:
+  SignalsHeld() {
+    sigset_t held;
+    sigemptyset(&held);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXFSZ}) {
+      sigaddset(&held, signal);
+    }
+    pthread_sigmask(SIG_BLOCK, &held, &before_);
+  }
+  ~SignalsHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+/// A new file in a folder, removed again unless it was given its name.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& folder) {
+    constexpr int attempts = 100;
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+      path_ =
+          (folder / (".cbc-" + std::to_string(getpid()) + "-" + std::to_string(attempt))).string();
+      descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor_ >= 0 || errno != EEXIST) return;
+    }
+  }
+  ~TemporaryFile() {
+    if (descriptor_ < 0) return;
+    ::close(descriptor_);
+    if (!is_named_) unlink(path_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  [[nodiscard]] bool exists() const { return descriptor_ >= 0; }
+
+  /// Gives it the permissions and, if possible, the owner of another file.
+  [[nodiscard]] bool resemble(const struct stat& other) const {
+    // Only the system's administrator can give files away.
+    const bool ignored = fchown(descriptor_, other.st_uid, other.st_gid) != 0;
+    (void)ignored;
+    return fchmod(descriptor_, other.st_mode & 07777) == 0;
+  }
+
+  [[nodiscard]] bool write(std::string_view content) const {
+    while (!content.empty()) {
+      const ssize_t written = ::write(descriptor_, content.data(), content.size());
+      if (written < 0 && errno != EINTR) return false;
+      if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return fsync(descriptor_) == 0;
+  }
+
+  [[nodiscard]] bool rename_to(const fs::path& path) {
+    is_named_ = std::rename(path_.c_str(), path.c_str()) == 0;
+    return is_named_;
+  }
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+  bool is_named_ = false;
+};
+
+/// Where symbolic links lead to in the end, whether or not there is a file.
+fs::path follow_links(fs::path path, std::error_code& error) {
+  constexpr int most_links = 40;
+  for (int links = 0; links <= most_links; ++links) {
+    std::error_code no_link;
+    const fs::path target = fs::read_symlink(path, no_link);
+    if (no_link) return path;
+    path = path.parent_path() / target;
+  }
+  error = std::make_error_code(std::errc::too_many_symbolic_link_levels);
+  return path;
+}
+
+/// Makes the new name last. The content is complete either way, so failures do not matter.
+void sync_folder(const fs::path& folder) {
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+std::optional<std::string> write_atomically(const std::string& path, std::string_view content) {
+  std::error_code error;
+  const fs::path target = follow_links(path, error);
+  if (error) return error.message();
+  if (!target.has_filename()) return reason(EISDIR);
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+
+  struct stat existing {};
+  const bool exists = stat(target.c_str(), &existing) == 0;
+  if (!exists && errno != ENOENT) return reason();
+  if (exists && S_ISDIR(existing.st_mode)) return reason(EISDIR);
+  if (exists && !S_ISREG(existing.st_mode)) return "it is not a regular file";
+  // The folder would allow to replace a file that may not be changed.
+  if (exists && faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) return reason();
+
+  const SignalsHeld signals_held;
+  TemporaryFile file(folder);
+  if (!file.exists()) return reason();
+  if (exists && !file.resemble(existing)) return reason();
+  if (!file.write(content)) return reason();
+  if (!file.rename_to(target)) return reason();
+  sync_folder(folder);
+  return std::nullopt;
+}
+
+}  // namespace cbc

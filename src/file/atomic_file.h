@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace cbc {
+
+/// Puts a content in the place of a file, or makes a new one: whoever reads the file sees the old
+/// content or the new one, never a part, even if the machine stops meanwhile. A symbolic link is
+/// followed. Permissions stay as they are, the owner where the system allows it; other hard links
+/// keep the old content. Signals that end the program wait until it is done.
+///
+/// Returns what went wrong, for people ("No space left on device"), or nothing. After an error the
+/// file is as before, and nothing else is left behind.
+[[nodiscard]] std::optional<std::string> write_atomically(const std::string& path,
+                                                          std::string_view content);
+
+}  // namespace cbc
