@@ -23,7 +23,7 @@ struct CloseFile {
 };
 
 std::optional<std::string> fail(const std::string& path, const std::string& reason) {
-  fmt::print(stderr, "cbc: cannot read {}: {}\n", quote(display_name(path)), reason);
+  complain(fmt::format("cannot read {}: {}", quote(display_name(path)), reason));
   return std::nullopt;
 }
 
@@ -43,11 +43,6 @@ std::optional<std::string> read_stream(std::FILE* stream, const std::string& pat
   return text;
 }
 
-bool has_script_suffix(const fs::path& path) {
-  const std::string suffix = path.extension().string();
-  return suffix == ".yaml" || suffix == ".yml" || suffix == ".json";
-}
-
 }  // namespace
 
 std::optional<std::string> read_input(const std::string& path) {
@@ -59,13 +54,18 @@ std::optional<std::string> read_input(const std::string& path) {
 
 std::string display_name(const std::string& path) { return path == "-" ? "<stdin>" : path; }
 
-std::optional<std::vector<std::string>> list_folder(const std::string& path) {
+std::optional<std::vector<std::string>> list_folder(
+    const std::string& path, std::initializer_list<std::string_view> suffixes) {
   std::vector<std::string> files;
   std::error_code error;
   fs::recursive_directory_iterator entry(path, error);
   for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
     std::error_code ignored;
-    if (has_script_suffix(entry->path()) && entry->is_regular_file(ignored)) {
+    if (entry->path().filename().string().starts_with('.')) {
+      entry.disable_recursion_pending();
+    } else if (std::find(suffixes.begin(), suffixes.end(), entry->path().extension()) !=
+                   suffixes.end() &&
+               entry->is_regular_file(ignored)) {
       files.push_back(entry->path().string());
     }
   }
@@ -76,5 +76,12 @@ std::optional<std::vector<std::string>> list_folder(const std::string& path) {
   std::sort(files.begin(), files.end());
   return files;
 }
+
+bool is_folder(const std::string& path) {
+  std::error_code ignored;
+  return path != "-" && fs::is_directory(path, ignored);
+}
+
+void complain(const std::string& message) { fmt::print(stderr, "cbc: {}\n", message); }
 
 }  // namespace cbc::cli

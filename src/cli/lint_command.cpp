@@ -1,40 +1,261 @@
 #include "cli/lint_command.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "cbc/rules.h"
 #include "cli/exit_status.h"
 #include "cli/input.h"
+#include "cli/linter.h"
+#include "cli/progress.h"
 #include "cli/terminal.h"
-#include "diagnostic/text.h"
-#include "lint/lint.h"
+#include "cli/validators.h"
+#include "report/lint_gcc.h"
+#include "report/lint_github.h"
+#include "report/lint_json.h"
+#include "report/lint_sarif.h"
+#include "report/lint_summary.h"
+#include "report/lint_text.h"
+#include "report/rule_text.h"
+#include "text/nearest.h"
+#include "text/quote.h"
+#include "text/style.h"
 
 namespace cbc::cli {
+namespace {
+
+constexpr const char* footer =
+    "Examples:\n"
+    "  cbc lint quadrotor.yaml                        every mistake, with its place and reason\n"
+    "  cbc lint --strict catalogs/                    all catalogs of a folder; warnings fail, "
+    "too\n"
+    "  cbc lint --format sarif catalogs/ > lint.sarif\n"
+    "                                                 for code scanning\n"
+    "  cbc lint --script mission.yaml quadrotor.yaml  an event script as well\n"
+    "  cbc lint --diff quadrotor.yaml                 what --fix would change\n"
+    "  cbc lint --explain dead-behavior               what a rule is about, and how to mend it\n"
+    "\n"
+    "A comment '# cbc: allow RULE' at the end of a line, or above an entry, allows a finding "
+    "there.\n"
+    "A file .cbc.yaml in the folder of a catalog, or above it, has settings for all of them:\n"
+    "  error: [RULE, ...]   warn: [RULE, ...]   allow: [RULE, ...]   strict: true\n"
+    "\n"
+    "Exit status: 0 nothing is wrong, 1 there is an error (under --strict: or a warning), 2 a "
+    "file\n"
+    "could not be read or written, or the usage is wrong.";
+
+struct LintCommand {
+  std::vector<std::string> paths;
+  std::vector<std::string> scripts;
+  std::string format = "text";
+  SeverityOptions severities;
+  std::string stdin_filename;
+  std::uint64_t max_nodes = LintOptions{}.max_nodes;
+  std::string explain;
+  bool list_rules = false;
+  bool summary = false;
+  bool fix = false;
+  bool diff = false;
+};
+
+int usage_error(const std::string& message) {
+  complain(message + "\nSee 'cbc lint --help'.");
+  return exit_unusable;
+}
+
+int explain_rule(const std::string& name) {
+  const Rule* rule = find_rule(name);
+  if (rule == nullptr) {
+    std::vector<std::string_view> names;
+    for (const Rule& known : all_rules()) names.push_back(known.name);
+    const auto meant = nearest(name, names);
+    return usage_error(fmt::format(
+        "there is no rule {}{}", quote(name),
+        meant ? fmt::format("; did you mean {}?", quote(*meant)) : " (--list-rules lists them)"));
+  }
+  fmt::print("{}", rule_text(*rule, style_for(stdout)));
+  return exit_ok;
+}
+
+/// What is wrong with the combination of options; empty if nothing is.
+std::string find_misuse(const LintCommand& command) {
+  if (command.paths.empty() && command.scripts.empty()) {
+    return "no catalog given to lint";
+  }
+  if (!command.scripts.empty() &&
+      (command.paths.size() > 1 || (command.paths.size() == 1 && is_folder(command.paths[0])))) {
+    return "--script checks against one catalog, but several are given";
+  }
+  const auto stdin_count = std::count(command.paths.begin(), command.paths.end(), "-") +
+                           std::count(command.scripts.begin(), command.scripts.end(), "-");
+  if (stdin_count > 1) return "standard input can be read only once, but is given several times";
+  if (!command.stdin_filename.empty() && stdin_count == 0) {
+    return "--stdin-filename is of use with '-' only";
+  }
+  if (command.fix && !command.diff && stdin_count > 0) {
+    return "standard input cannot be fixed in place; --diff shows what would change";
+  }
+  if (command.summary && command.format != "text" && command.format != "json") {
+    return fmt::format("--summary goes with --format text or json, not {}", command.format);
+  }
+  if (command.diff && command.format != "text") {
+    return "--diff writes a diff, so --format does not go with it";
+  }
+  return {};
+}
+
+/// A file to lint.
+struct Target {
+  std::string path;
+  bool is_of_folder = false;
+};
+
+/// The files of all paths, each once. False if a folder could not be read.
+bool find_targets(const std::vector<std::string>& paths, std::vector<Target>& targets) {
+  bool is_ok = true;
+  std::unordered_set<std::string> known;
+  const auto add = [&](const std::string& path, bool is_of_folder) {
+    if (known.insert(path).second) targets.push_back({path, is_of_folder});
+  };
+  for (const std::string& path : paths) {
+    if (!is_folder(path)) {
+      add(path, false);
+    } else if (const auto files = list_folder(path, {".yaml", ".yml"})) {
+      for (const std::string& file : *files) add(file, true);
+    } else {
+      is_ok = false;
+    }
+  }
+  return is_ok;
+}
+
+void print_report(const LintCommand& command, const Linter& linter) {
+  const std::vector<LintedFile>& files = linter.files();
+  if (command.diff) {
+    fmt::print("{}", linter.diff());
+  } else if (command.format == "json") {
+    fmt::print("{}", lint_json(files));
+  } else if (command.format == "sarif") {
+    fmt::print("{}", lint_sarif(files, std::filesystem::current_path().string()));
+  } else if (command.format == "github") {
+    fmt::print("{}", lint_github(files));
+  } else if (command.format == "gcc") {
+    fmt::print("{}", lint_gcc(files));
+  } else {
+    const Style style = style_for(stdout);
+    if (command.summary) {
+      for (const LintedFile& file : files) fmt::print("{}", lint_summary(file, style));
+    }
+    fmt::print("{}", lint_text(files, style));
+  }
+}
+
+int lint(const LintCommand& command) {
+  if (command.list_rules) {
+    fmt::print("{}", rule_list(style_for(stdout)));
+    return exit_ok;
+  }
+  if (!command.explain.empty()) return explain_rule(command.explain);
+  if (const std::string misuse = find_misuse(command); !misuse.empty()) return usage_error(misuse);
+
+  Linter::Options options;
+  options.lint.max_nodes = command.max_nodes;
+  options.stdin_filename = command.stdin_filename;
+  options.is_to_fix = command.fix || command.diff;
+  options.is_to_show_fixes = command.diff;
+  std::vector<std::string> errors;
+  options.settings = settings_of_options(command.severities, errors);
+  for (const std::string& error : errors) complain(error);
+  if (!errors.empty()) return exit_unusable;
+
+  std::vector<Target> targets;
+  const bool has_all = find_targets(command.paths, targets);
+  Linter linter(std::move(options));
+  Progress progress("linting", targets.size() + command.scripts.size());
+  for (const Target& target : targets) {
+    progress.begin(target.path);
+    if (target.is_of_folder) {
+      linter.lint_if_catalog(target.path);
+    } else {
+      linter.lint_catalog(target.path);
+    }
+  }
+  for (const std::string& script : command.scripts) {
+    progress.begin(script);
+    linter.lint_script(script, command.paths.empty() ? "" : command.paths[0]);
+  }
+  progress.clear();
+  const bool has_failed = !has_all || linter.has_failed();
+  if (linter.files().empty()) {
+    if (!has_failed) complain(fmt::format("found no catalog in {}", quote(command.paths.back())));
+    return exit_unusable;
+  }
+  print_report(command, linter);
+  if (has_failed) return exit_unusable;
+  return linter.has_found() ? exit_no : exit_ok;
+}
+
+}  // namespace
 
 void add_lint_command(CLI::App& program, int& status) {
-  const auto paths = std::make_shared<std::vector<std::string>>();
-  CLI::App* const command = program.add_subcommand("lint", "Finds every mistake in catalogs.");
-  command->add_option("CATALOG", *paths)->required();
-  command->callback([paths, &status] {
-    status = exit_ok;
-    for (const std::string& path : *paths) {
-      const auto text = read_input(path);
-      if (!text) continue;
-      Diagnostics diagnostics;
-      const auto document = yaml::parse(*text, path, diagnostics);
-      if (document) (void)lint_catalog(*document, {}, diagnostics);
-      diagnostics.sort();
-      SourceTexts sources;
-      sources.add(path, *text);
-      for (const Diagnostic& finding : diagnostics.all()) {
-        if (finding.rule == "deprecated-key") continue;
-        fmt::print("{}", render(finding, sources, wants_color(stdout)));
-      }
-    }
-  });
+  const auto options = std::make_shared<LintCommand>();
+  CLI::App* const command = program.add_subcommand(
+      "lint", "Finds every mistake in catalogs, with its place and its reason.");
+  command->footer(footer);
+  command
+      ->add_option("CATALOG", options->paths,
+                   "Catalogs: files, folders (all *.yaml and *.yml in them\n"
+                   "that look like catalogs), or - for standard input")
+      ->option_text("...");
+  command
+      ->add_option("--script", options->scripts,
+                   "Check an event script, too, against the catalog, or\n"
+                   "against the one that it names (may be repeated)")
+      ->option_text("FILE")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--format", options->format, "text (the default), json, sarif, github, or gcc")
+      ->option_text("FORMAT")
+      ->check(CLI::IsMember({"text", "json", "sarif", "github", "gcc"}));
+  command->add_flag("--summary", options->summary,
+                    "Show the catalogs in numbers: tasks, behaviors,\n"
+                    "constraints, groups, search space");
+  command->add_flag("--fix", options->fix,
+                    "Mend in place what can be mended without changing what\n"
+                    "a catalog means");
+  command->add_flag("--diff", options->diff, "Show what --fix would change, as a diff");
+  const auto add_rules = [command](const char* name, std::vector<std::string>& rules,
+                                   const char* text) {
+    command->add_option(name, rules, text)
+        ->option_text("RULE")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+  };
+  add_rules("--error", options->severities.error, "Report findings of a rule as errors");
+  add_rules("--warn", options->severities.warn, "Report findings of a rule as warnings");
+  add_rules("--allow", options->severities.allow, "Do not report findings of a rule");
+  command->add_flag("--strict", options->severities.strict, "Let warnings fail, too");
+  command
+      ->add_option("--stdin-filename", options->stdin_filename,
+                   "Name of standard input in messages and for .cbc.yaml")
+      ->option_text("NAME");
+  command
+      ->add_option("--max-nodes", options->max_nodes,
+                   "Decisions that the proof of one finding may take\n"
+                   "(default: 100000)")
+      ->option_text("N")
+      ->check(whole_number(1));
+  command->add_option("--explain", options->explain, "Explain a rule")->option_text("RULE");
+  command->add_flag("--list-rules", options->list_rules, "List all rules");
+  command->callback([options, &status] { status = lint(*options); });
 }
 
 }  // namespace cbc::cli

@@ -1,19 +1,18 @@
 #include "cli/mission.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <initializer_list>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "catalog/reader.h"
+#include "cli/file_kind.h"
+#include "cli/findings.h"
 #include "cli/input.h"
-#include "cli/terminal.h"
 #include "compiled/compile.h"
-#include "diagnostic/text.h"
+#include "lint/controls.h"
 #include "script/reader.h"
 #include "text/quote.h"
 
@@ -21,30 +20,6 @@ namespace cbc::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-// What a file is, is told by its content.
-
-bool has_any(const yaml::Document& document, std::initializer_list<std::string_view> keys) {
-  return std::any_of(keys.begin(), keys.end(),
-                     [&](std::string_view key) { return document.root().find(key) != nullptr; });
-}
-
-bool is_catalog(const yaml::Document& document) {
-  return has_any(document, {"behaviors", "tasks", "exclusivity_constraints", "default_values"});
-}
-
-bool is_script(const yaml::Document& document) {
-  return document.root().kind == yaml::Kind::sequence ||
-         (!is_catalog(document) &&
-          has_any(document, {"events", "catalog", "reactive_delay", "situation"}));
-}
-
-bool is_folder(const std::string& path) {
-  std::error_code ignored;
-  return path != "-" && fs::is_directory(path, ignored);
-}
-
-void complain(const std::string& message) { fmt::print(stderr, "cbc: {}\n", message); }
 
 }  // namespace
 
@@ -60,12 +35,14 @@ std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::s
     if (first != nullptr && is_script(*first)) {
       add_script(paths.front(), *first);
     } else if (first != nullptr) {
-      given_catalog_ = compile(*first);
+      given_catalog_ = compile(paths.front(), *first);
     }
     first_script = 1;
   }
   for (std::size_t place = first_script; place < paths.size(); ++place) add_path(paths[place]);
-  report();
+  std::stable_sort(findings_.begin(), findings_.end(),
+                   [](const Diagnostic& a, const Diagnostic& b) { return a.file < b.file; });
+  print_findings(findings_, texts_);
   if (has_failed_) return std::nullopt;
   if (missions_.empty()) {
     complain(given_catalog_ != nullptr && paths.size() == 1
@@ -83,19 +60,39 @@ MissionLoader::DocumentPointer MissionLoader::read(const std::string& path) {
   if (text) {
     const std::string name = display_name(path);
     const auto entry = texts_.insert_or_assign(name, std::move(*text)).first;
-    document = yaml::parse(entry->second, name, diagnostics_);
+    Diagnostics diagnostics;
+    document = yaml::parse(entry->second, name, diagnostics);
+    for (Diagnostic& finding : diagnostics.release()) findings_.push_back(std::move(finding));
   }
   if (document == nullptr) has_failed_ = true;
   return document;
 }
 
-std::shared_ptr<const CompiledCatalog> MissionLoader::compile(const yaml::Document& document) {
-  const std::optional<Catalog> catalog = read_catalog(document, diagnostics_);
-  if (!catalog) {
+/// Takes over the findings about a file, but for those that its comments and settings allow. False
+/// if there are errors.
+bool MissionLoader::take_findings(const std::string& path, const yaml::Document& document,
+                                  Diagnostics diagnostics) {
+  const std::optional<SeveritySettings> settings = settings_.find(path);
+  if (!settings) return false;
+  // Not all rules are looked at here, so that none of the comments can be called unused.
+  const CommentedFile file{document.file(), texts_.at(document.file()), &document, false};
+  bool has_errors = false;
+  for (Diagnostic& finding : control_findings(diagnostics.release(), file, *settings)) {
+    has_errors |= finding.severity == Severity::error;
+    findings_.push_back(std::move(finding));
+  }
+  return !has_errors;
+}
+
+std::shared_ptr<const CompiledCatalog> MissionLoader::compile(const std::string& path,
+                                                              const yaml::Document& document) {
+  Diagnostics diagnostics;
+  const CatalogReading reading = understand_catalog(document, diagnostics);
+  if (!take_findings(path, document, std::move(diagnostics))) {
     has_failed_ = true;
     return nullptr;
   }
-  return std::make_shared<const CompiledCatalog>(cbc::compile(*catalog));
+  return std::make_shared<const CompiledCatalog>(cbc::compile(reading.catalog));
 }
 
 void MissionLoader::add_path(const std::string& path) {
@@ -108,7 +105,7 @@ void MissionLoader::add_path(const std::string& path) {
 
 /// The scripts of a folder; catalogs may lie among them.
 void MissionLoader::add_folder(const std::string& path) {
-  const auto files = list_folder(path);
+  const auto files = list_folder(path, {".yaml", ".yml", ".json"});
   if (!files) {
     has_failed_ = true;
     return;
@@ -131,10 +128,10 @@ void MissionLoader::add_script(const std::string& path, const yaml::Document& do
     has_failed_ = true;
     return;
   }
-  const ScriptNames names{{catalog->task_names.begin(), catalog->task_names.end()},
-                          {catalog->behavior_names.begin(), catalog->behavior_names.end()}};
-  std::optional<Script> script = read_script(document, names, diagnostics_);
-  if (script) {
+  Diagnostics diagnostics;
+  std::optional<Script> script =
+      read_script(document, names_of(*catalog), Severity::warning, diagnostics);
+  if (take_findings(path, document, std::move(diagnostics)) && script) {
     missions_.push_back({std::move(catalog), std::move(*script)});
   } else {
     has_failed_ = true;
@@ -159,30 +156,9 @@ std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_of(const std::stri
 std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_at(const std::string& path) {
   const auto [entry, is_new] = catalogs_.try_emplace(path, nullptr);
   if (is_new) {
-    if (const DocumentPointer document = read(path)) entry->second = compile(*document);
+    if (const DocumentPointer document = read(path)) entry->second = compile(path, *document);
   }
   return entry->second;
-}
-
-/// All errors; of warnings, the first few of each rule and file.
-void MissionLoader::report() {
-  constexpr std::size_t most_warnings = 3;
-  SourceTexts sources;
-  for (const auto& [file, text] : texts_) sources.add(file, text);
-  const bool use_color = wants_color(stderr);
-  diagnostics_.sort();
-  std::map<std::pair<std::string_view, std::string_view>, std::size_t> warnings;
-  for (const Diagnostic& diagnostic : diagnostics_.all()) {
-    if (diagnostic.severity == Severity::error ||
-        ++warnings[{diagnostic.file, diagnostic.rule}] <= most_warnings) {
-      fmt::print(stderr, "{}", render(diagnostic, sources, use_color));
-    }
-  }
-  for (const auto& [kind, count] : warnings) {
-    if (count <= most_warnings) continue;
-    fmt::print(stderr, "{}: {} more like these [{}]\n", printable(kind.first),
-               count - most_warnings, kind.second);
-  }
 }
 
 }  // namespace cbc::cli

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cbc/diagnostic.h"
+#include "cli/settings_finder.h"
 #include "compiled/compiled_catalog.h"
 #include "script/script.h"
 #include "yaml/document.h"
@@ -31,17 +32,20 @@ class MissionLoader {
   using DocumentPointer = std::unique_ptr<const yaml::Document>;
 
   [[nodiscard]] DocumentPointer read(const std::string& path);
-  [[nodiscard]] std::shared_ptr<const CompiledCatalog> compile(const yaml::Document& document);
+  [[nodiscard]] std::shared_ptr<const CompiledCatalog> compile(const std::string& path,
+                                                               const yaml::Document& document);
   [[nodiscard]] std::shared_ptr<const CompiledCatalog> catalog_of(const std::string& script_path,
                                                                   const yaml::Document& script);
   [[nodiscard]] std::shared_ptr<const CompiledCatalog> catalog_at(const std::string& path);
   void add_script(const std::string& path, const yaml::Document& document);
   void add_folder(const std::string& path);
   void add_path(const std::string& path);
-  void report();
+  [[nodiscard]] bool take_findings(const std::string& path, const yaml::Document& document,
+                                   Diagnostics diagnostics);
 
   std::map<std::string, std::string> texts_;  ///< by name in messages
-  Diagnostics diagnostics_;
+  std::vector<Diagnostic> findings_;
+  SettingsFinder settings_;
   std::map<std::string, std::shared_ptr<const CompiledCatalog>> catalogs_;  ///< by path
   std::shared_ptr<const CompiledCatalog> given_catalog_;
   std::vector<Mission> missions_;

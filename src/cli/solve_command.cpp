@@ -1,14 +1,11 @@
 #include "cli/solve_command.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,6 +13,7 @@
 #include "cli/exit_status.h"
 #include "cli/mission.h"
 #include "cli/terminal.h"
+#include "cli/validators.h"
 #include "coordinator/coordinator.h"
 #include "report/solve_json.h"
 #include "report/solve_text.h"
@@ -113,25 +111,6 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
   return status;
 }
 
-/// Accepts a whole number from `least` to 2^63 - 1.
-CLI::Validator whole_number(std::int64_t least) {
-  const auto check = [least](const std::string& text) -> std::string {
-    std::int64_t number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, number);
-    if (error == std::errc() && stop == end && number >= least) return {};
-    return fmt::format("expected a whole number from {} to {}, found {}", least,
-                       std::numeric_limits<std::int64_t>::max(), quote(text));
-  };
-  return {check, ""};
-}
-
-std::string check_seconds(const std::string& text) {
-  const Decimal seconds = parse_seconds(text);
-  if (seconds.error == DecimalError::no_error && seconds.value > 0) return {};
-  return fmt::format("expected seconds, from 0.000001 to 1000000000, found {}", quote(text));
-}
-
 int solve(const SolveOptions& options) {
   const std::optional<std::vector<Mission>> missions = MissionLoader().load(options.paths);
   if (!missions) return exit_unusable;
@@ -170,7 +149,7 @@ void add_solve_command(CLI::App& program, int& status) {
       ->add_option("--time-limit", options->time_limit,
                    "Stop each search after this time, take the best so far")
       ->option_text("SECONDS")
-      ->check(CLI::Validator(check_seconds, ""));
+      ->check(seconds());
   command
       ->add_option("--max-nodes", options->max_nodes,
                    "Stop each search after N decisions, take the best so far")

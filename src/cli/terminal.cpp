@@ -6,12 +6,17 @@
 
 namespace cbc::cli {
 
-bool wants_color(std::FILE* stream) {
-  const char* const no_color = std::getenv("NO_COLOR");
-  if (no_color != nullptr && *no_color != '\0') return false;
+bool is_terminal(std::FILE* stream) {
   const char* const terminal = std::getenv("TERM");
   if (terminal == nullptr || std::string_view(terminal) == "dumb") return false;
   return isatty(fileno(stream)) != 0;
 }
+
+bool wants_color(std::FILE* stream) {
+  const char* const no_color = std::getenv("NO_COLOR");
+  return (no_color == nullptr || *no_color == '\0') && is_terminal(stream);
+}
+
+Style style_for(std::FILE* stream) { return wants_color(stream) ? color_style() : plain_style(); }
 
 }  // namespace cbc::cli

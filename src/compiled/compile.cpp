@@ -73,7 +73,10 @@ class Compiler {
 
   void add_names() {
     out_.file = catalog_.file;
-    for (const Task& task : catalog_.tasks) out_.task_names.push_back(task.name);
+    for (const Task& task : catalog_.tasks) {
+      out_.task_names.push_back(task.name);
+      out_.task_parameters.push_back(task.parameters);
+    }
     for (const Behavior& one : catalog_.behaviors) out_.behavior_names.push_back(one.name);
   }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "catalog/catalog.h"
 #include "cbc/units.h"
 
 namespace cbc {
@@ -96,6 +97,7 @@ struct CompiledCatalog {
   std::vector<std::string> behavior_names;
   std::vector<TaskId> task_ids;
   std::vector<BehaviorId> behavior_ids;
+  std::vector<std::vector<Parameter>> task_parameters;  ///< declared ones, as scripts may give them
 
   // By group, in the order of their first task.
   std::vector<std::uint32_t> group_tasks;      ///< first TaskId of each group, and the end

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "text/quote.h"
 #include "text/utf8.h"
 
 namespace cbc {
@@ -45,37 +46,8 @@ std::vector<Cell> split(std::string_view line) {
   return cells;
 }
 
-class Painter {
- public:
-  explicit Painter(bool color) : color_(color) {}
-
-  [[nodiscard]] std::string paint(std::string_view style, std::string_view text) const {
-    if (!color_) return std::string(text);
-    return "\x1b[" + std::string(style) + "m" + std::string(text) + "\x1b[0m";
-  }
-
- private:
-  bool color_;
-};
-
-constexpr std::string_view bold = "1";
-constexpr std::string_view caret_style = "1;32";
-
-std::string_view style_of(Severity severity) {
-  switch (severity) {
-    case Severity::error:
-      return "1;31";
-    case Severity::warning:
-      return "1;35";
-    case Severity::note:
-      break;
-  }
-  return "1;36";
-}
-
 // The line of a place and a caret below it, with a tail to the end of the range.
-std::string render_line(const Range& range, const PositionMap::Excerpt& line,
-                        const Painter& painter) {
+std::string render_line(const Range& range, const PositionMap::Excerpt& line, const Style& style) {
   const std::vector<Cell> cells = split(line.text);
   const auto cell_of = [&](std::uint32_t column) {
     return std::min<std::size_t>(column - 1 - line.characters_before, cells.size());
@@ -106,19 +78,19 @@ std::string render_line(const Range& range, const PositionMap::Excerpt& line,
     if (i == begin && cells[i].width > 1) tail += cells[i].width - 1;
   }
   if (last < cells.size() || line.is_cut_after) source += ellipsis;
-  return source + "\n" + blank + painter.paint(caret_style, "^" + std::string(tail, '~')) + "\n";
+  return source + "\n" + blank + style.paint(style.caret, "^" + std::string(tail, '~')) + "\n";
 }
 
 std::string render_place(const std::string& file, const Range& range, Severity severity,
                          const std::string& message, const SourceTexts& sources,
-                         const Painter& painter) {
-  const std::string place = file + ":" + std::to_string(range.begin.line) + ":" +
+                         const Style& style) {
+  const std::string place = printable(file) + ":" + std::to_string(range.begin.line) + ":" +
                             std::to_string(range.begin.column) + ":";
-  std::string text = painter.paint(bold, place) + " " +
-                     painter.paint(style_of(severity), std::string(name_of(severity)) + ":") + " " +
-                     message + "\n";
+  std::string text = style.paint(style.strong, place) + " " +
+                     style.paint(style.of(severity), std::string(name_of(severity)) + ":") + " " +
+                     printable(message) + "\n";
   const PositionMap::Excerpt line = sources.excerpt(file, range.begin, longest_line);
-  if (!line.text.empty()) text += render_line(range, line, painter);
+  if (!line.text.empty()) text += render_line(range, line, style);
   return text;
 }
 
@@ -137,13 +109,12 @@ PositionMap::Excerpt SourceTexts::excerpt(std::string_view file, const Position&
   return found == texts_.end() ? PositionMap::Excerpt{} : found->second.excerpt(place, radius);
 }
 
-std::string render(const Diagnostic& diagnostic, const SourceTexts& sources, bool color) {
-  const Painter painter(color);
-  std::string text = render_place(diagnostic.file, diagnostic.range, diagnostic.severity,
-                                  diagnostic.message + " [" + std::string(diagnostic.rule) + "]",
-                                  sources, painter);
+std::string render(const Diagnostic& diagnostic, const SourceTexts& sources, const Style& style) {
+  std::string text =
+      render_place(diagnostic.file, diagnostic.range, diagnostic.severity,
+                   diagnostic.message + " [" + std::string(diagnostic.rule) + "]", sources, style);
   for (const Note& note : diagnostic.notes) {
-    text += render_place(note.file, note.range, Severity::note, note.message, sources, painter);
+    text += render_place(note.file, note.range, Severity::note, note.message, sources, style);
   }
   return text;
 }

@@ -8,6 +8,7 @@
 
 #include "cbc/diagnostic.h"
 #include "text/position_map.h"
+#include "text/style.h"
 
 namespace cbc {
 
@@ -31,8 +32,9 @@ class SourceTexts {
 ///       task: HOVR
 ///             ^~~~
 ///
-/// and then its notes in the same way. Lines that are not known are left out.
+/// and then its notes in the same way. Lines that are not known are left out; control characters
+/// are made harmless.
 [[nodiscard]] std::string render(const Diagnostic& diagnostic, const SourceTexts& sources,
-                                 bool color);
+                                 const Style& style);
 
 }  // namespace cbc

@@ -6,17 +6,13 @@
 
 #include "compiled/search_space.h"
 #include "report/exact_values.h"
+#include "report/json_text.h"
 #include "report/reasons.h"
 
 namespace cbc {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Names may hold bytes that no JSON text can; they are replaced.
-std::string to_text(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 Json tasks_to_json(const CompiledCatalog& catalog, const std::vector<TaskId>& tasks) {
   Json names = Json::array();

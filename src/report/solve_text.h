@@ -7,9 +7,9 @@
 #include "compiled/compiled_catalog.h"
 #include "coordinator/record.h"
 #include "coordinator/state.h"
-#include "report/style.h"
 #include "script/runner.h"
 #include "script/script.h"
+#include "text/style.h"
 
 namespace cbc {
 

@@ -31,7 +31,8 @@ NameIndex::Names::Names(const std::vector<std::string_view>& names) : suggestion
   }
 }
 
-NameIndex::NameIndex(const ScriptNames& names) : tasks_(names.tasks), behaviors_(names.behaviors) {}
+NameIndex::NameIndex(const ScriptNames& names)
+    : all_(names), tasks_(names.tasks), behaviors_(names.behaviors) {}
 
 std::optional<std::uint32_t> NameIndex::find_task(const yaml::Node& node, std::string_view what,
                                                   Reporter& reporter) {

@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "diagnostic/reporter.h"
-#include "script/reader.h"
+#include "script/script_names.h"
 #include "text/nearest.h"
 #include "yaml/document.h"
 
@@ -25,6 +25,8 @@ class NameIndex {
                                                            std::string_view what,
                                                            Reporter& reporter);
 
+  [[nodiscard]] const ScriptNames& all() const { return all_; }
+
  private:
   struct Names {
     explicit Names(const std::vector<std::string_view>& names);
@@ -32,6 +34,7 @@ class NameIndex {
     Suggestions suggestions;
   };
 
+  const ScriptNames& all_;
   Names tasks_;
   Names behaviors_;
 };

@@ -4,6 +4,7 @@
 
 #include "cbc/rules.h"
 #include "diagnostic/reporter.h"
+#include "script/shapes.h"
 #include "script/step_reader.h"
 #include "text/quote.h"
 #include "yaml/fields.h"
@@ -16,15 +17,12 @@ using yaml::Fields;
 using yaml::Kind;
 using yaml::Node;
 
-constexpr yaml::Key script_keys[] = {{"catalog"}, {"reactive_delay"}, {"situation"}, {"events"}};
-constexpr yaml::Shape script_shape{"a script", script_keys};
-
 void read_steps(const Node& list, StepReader& reader, Script& script, Reporter& reporter) {
   for (const Node* item : list.items) script.steps.push_back(reader.read(*item, reporter));
 }
 
 void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter& reporter) {
-  Fields fields(root, script_shape, reporter);
+  Fields fields(root, shape::script, reporter);
   if (const Node* catalog = fields.find("catalog")) {
     // The name is used before the script is read; here it is only checked.
     static_cast<void>(yaml::read_name(*catalog, "catalog", "the path of a catalog", reporter));
@@ -36,6 +34,8 @@ void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter
   }
   if (const Node* situation = fields.find("situation")) {
     script.situation = reader.read_situation(*situation, reporter);
+  } else if (fields.has_unknown()) {
+    reader.doubt_situation();  // it may be misspelt
   }
   const Node* events = fields.require("events", root.range);
   if (events != nullptr &&
@@ -58,9 +58,9 @@ std::optional<std::string> catalog_of_script(const yaml::Document& document) {
 }
 
 std::optional<Script> read_script(const yaml::Document& document, const ScriptNames& names,
-                                  Diagnostics& diagnostics) {
+                                  Severity of_parameters, Diagnostics& diagnostics) {
   Reporter reporter(document.file(), diagnostics);
-  StepReader reader(names);
+  StepReader reader(names, of_parameters);
   Script script;
   script.file = document.file();
   const Node& root = document.root();

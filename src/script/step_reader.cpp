@@ -6,7 +6,9 @@
 
 #include "cbc/event.h"
 #include "cbc/rules.h"
+#include "script/expectation_reader.h"
 #include "script/parameters.h"
+#include "script/shapes.h"
 #include "text/decimal.h"
 #include "text/quote.h"
 #include "yaml/duplicates.h"
@@ -22,16 +24,6 @@ using yaml::Node;
 constexpr std::string_view expect = "expect";
 constexpr std::string_view verbs[] = {"start", "stop",   "finish", "situation",
                                       "fault", "repair", expect};
-
-constexpr yaml::Key step_keys[] = {{"start"}, {"stop"},     {"finish"},     {"situation"},
-                                   {"fault"}, {"repair"},   {expect},       {"at"},
-                                   {"wait"},  {"priority"}, {"parameters"}, {"cause"}};
-constexpr yaml::Key expectation_keys[] = {{"outcome"}, {"running"}, {"stopped"}, {"active"}};
-
-extern const yaml::Shape step_shape;
-const yaml::Shape expectation_shape{"an expect", expectation_keys, &step_shape};
-constexpr const yaml::Shape* in_step[] = {&expectation_shape};
-const yaml::Shape step_shape{"an event", step_keys, nullptr, in_step};
 
 // Keys that belong to some verbs only.
 struct Detail {
@@ -99,10 +91,12 @@ Step StepReader::read(const Node& node, Reporter& reporter) {
                     "an event must be a mapping ('start: TASK'), found " + yaml::describe(node));
     return step;
   }
-  Fields fields(node, step_shape, reporter);
+  Fields fields(node, shape::event, reporter);
   read_time(fields, step, reporter);
   const std::string_view verb = find_verb(fields, node.range, reporter);
-  if (!verb.empty()) {
+  if (verb.empty()) {
+    doubt_situation();
+  } else {
     report_misplaced(fields, verb, reporter);
     read_verb(verb, fields, step, reporter);
   }
@@ -154,13 +148,14 @@ void StepReader::read_verb(std::string_view verb, const Fields& fields, Step& st
   }
   const Node& value = *fields.find(verb);
   if (verb == expect) {
-    step.expect = read_expectation(value, reporter);
+    step.expect = read_expectation(value, names_, reporter);
   } else if (verb == "situation") {
     step.verb = Verb::situation;
     step.situation = read_situation(value, reporter);
   } else if (verb == "start" || verb == "stop") {
     step.verb = verb == "start" ? Verb::start : Verb::stop;
-    step.subject = names_.find_task(value, verb, reporter).value_or(0);
+    const auto task = names_.find_task(value, verb, reporter);
+    step.subject = task.value_or(0);
     if (const Node* priority = fields.find("priority")) {
       step.priority =
           yaml::read_integer(*priority, "priority", step.verb == Verb::start ? 1 : 0, reporter);
@@ -168,10 +163,12 @@ void StepReader::read_verb(std::string_view verb, const Fields& fields, Step& st
     const Node* parameters = fields.find("parameters");
     if (parameters != nullptr && step.verb == Verb::start) {
       step.parameters = read_parameters(*parameters, reporter);
+      if (task && step.parameters) parameter_checks_.check(*task, *parameters, reporter);
     }
   } else {
     step.verb = verb == "finish" ? Verb::finish : verb == "fault" ? Verb::fault : Verb::repair;
-    step.subject = names_.find_behavior(value, verb, reporter).value_or(0);
+    const auto behavior = names_.find_behavior(value, verb, reporter);
+    step.subject = behavior.value_or(0);
     const Node* cause = fields.find("cause");
     if (cause != nullptr && step.verb == Verb::finish) {
       const auto choice = yaml::read_choice(
@@ -181,68 +178,42 @@ void StepReader::read_verb(std::string_view verb, const Fields& fields, Step& st
            name_of(FinishCause::process_failure), name_of(FinishCause::interrupted)},
           reporter);
       if (choice) step.cause = static_cast<FinishCause>(*choice);
+      if (behavior && choice && step.cause == FinishCause::situation_change) {
+        check_finish(*behavior, value.range, reporter);
+      }
     }
   }
+}
+
+void StepReader::check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter) {
+  if (!knows_situation_ || !is_available_[behavior]) return;
+  const std::string name = quote(names_.all().behaviors[behavior]);
+  reporter.report(rule::still_available, range,
+                  "behavior " + name +
+                      " is still available here, so that it can be chosen again at "
+                      "once; say situation: {" +
+                      name + ": false} before");
 }
 
 std::vector<Availability> StepReader::read_situation(const Node& node, Reporter& reporter) {
   std::vector<Availability> situation;
   constexpr std::string_view expected = "a mapping of behaviors to true or false";
-  if (yaml::read_mapping(node, "situation", expected, reporter) == nullptr) return situation;
+  if (yaml::read_mapping(node, "situation", expected, reporter) == nullptr) {
+    doubt_situation();
+    return situation;
+  }
   yaml::report_duplicate_keys(node, reporter);
   for (const auto& [key, value] : node.entries) {
     const auto behavior = names_.find_behavior(*key, "situation", reporter);
     const auto available = yaml::read_boolean(*value, key->text, reporter);
-    if (behavior && available) situation.push_back({*behavior, *available});
+    if (!behavior || !available) {
+      doubt_situation();
+      continue;
+    }
+    situation.push_back({*behavior, *available});
+    is_available_[*behavior] = *available;
   }
   return situation;
-}
-
-Expectation StepReader::read_expectation(const Node& node, Reporter& reporter) {
-  Expectation expectation;
-  if (yaml::read_mapping(node, expect, "a mapping", reporter) == nullptr) return expectation;
-  Fields fields(node, expectation_shape, reporter);
-  if (const Node* outcome = fields.find("outcome")) {
-    const auto choice = yaml::read_choice(
-        *outcome, "outcome",
-        {name_of(Outcome::accepted), name_of(Outcome::rejected), name_of(Outcome::unchanged)},
-        reporter);
-    if (choice) expectation.outcome = static_cast<Outcome>(*choice);
-  }
-  const Node* running = fields.find("running");
-  if (running != nullptr &&
-      yaml::read_mapping(*running, "running", "a mapping of tasks to behaviors or 'any'",
-                         reporter) != nullptr) {
-    yaml::report_duplicate_keys(*running, reporter);
-    for (const auto& [key, value] : running->entries) {
-      Expectation::Running entry;
-      const auto task = names_.find_task(*key, "running", reporter);
-      if (value->kind != Kind::scalar) {
-        yaml::report_wrong_type(*value, key->text, "a behavior or 'any'", reporter);
-      } else if (value->text != "any") {
-        entry.behavior = names_.find_behavior(*value, key->text, reporter);
-      }
-      entry.task = task.value_or(0);
-      expectation.running.push_back(entry);
-    }
-  }
-  const Node* stopped = fields.find("stopped");
-  if (stopped != nullptr &&
-      yaml::read_list(*stopped, "stopped", "a list of tasks", reporter) != nullptr) {
-    for (const Node* item : stopped->items) {
-      expectation.stopped.push_back(names_.find_task(*item, "stopped", reporter).value_or(0));
-    }
-  }
-  const Node* active = fields.find("active");
-  if (active != nullptr &&
-      yaml::read_list(*active, "active", "a list of behaviors", reporter) != nullptr) {
-    auto& behaviors = expectation.active.emplace();
-    for (const Node* item : active->items) {
-      behaviors.push_back(names_.find_behavior(*item, "active", reporter).value_or(0));
-    }
-  }
-  fields.report_unknown(Severity::error);
-  return expectation;
 }
 
 }  // namespace cbc

@@ -7,16 +7,21 @@
 #include "cbc/units.h"
 #include "diagnostic/reporter.h"
 #include "script/names.h"
+#include "script/parameter_checks.h"
 #include "script/script.h"
 #include "yaml/document.h"
 #include "yaml/fields.h"
 
 namespace cbc {
 
-/// Reads the entries of a script one after the other, and keeps its clock.
+/// Reads the entries of a script one after the other, and keeps its clock and its situation.
 class StepReader {
  public:
-  explicit StepReader(const ScriptNames& names) : names_(names) {}
+  /// The names must outlive this object; see read_script.
+  StepReader(const ScriptNames& names, Severity of_parameters)
+      : names_(names),
+        parameter_checks_(names, of_parameters),
+        is_available_(names.behaviors.size(), true) {}
 
   /// The next entry. What is wrong with it is reported; the result may be used only if there were
   /// no errors.
@@ -26,13 +31,19 @@ class StepReader {
   [[nodiscard]] std::vector<Availability> read_situation(const yaml::Node& node,
                                                          Reporter& reporter);
 
+  /// Tells that something may be meant to change the situation, but is not understood.
+  void doubt_situation() { knows_situation_ = false; }
+
  private:
   void read_time(const yaml::Fields& fields, Step& step, Reporter& reporter);
   void read_verb(std::string_view verb, const yaml::Fields& fields, Step& step, Reporter& reporter);
-  [[nodiscard]] Expectation read_expectation(const yaml::Node& node, Reporter& reporter);
+  void check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter);
 
   NameIndex names_;
+  ParameterChecks parameter_checks_;
   Microseconds clock_ = 0;
+  std::vector<bool> is_available_;  ///< by behavior, at this place of the script
+  bool knows_situation_ = true;
 };
 
 }  // namespace cbc

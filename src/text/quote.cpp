@@ -9,9 +9,11 @@ namespace {
 
 constexpr std::size_t longest = 80;
 
+/// Control characters, and those that break lines or turn the direction of what follows.
 bool is_control(char32_t character) {
-  return character < 0x20 || (character >= 0x7F && character < 0xA0) || character == 0x2028 ||
-         character == 0x2029;
+  return character < 0x20 || (character >= 0x7F && character < 0xA0) ||
+         (character >= 0x2028 && character <= 0x202E) ||
+         (character >= 0x2066 && character <= 0x2069);
 }
 
 std::string escape(char32_t character) {

@@ -19,7 +19,7 @@ namespace {
 [[noreturn]] void refuse(const Diagnostics& diagnostics) {
   std::string message = "unusable input:\n";
   for (const Diagnostic& diagnostic : diagnostics.all()) {
-    message += render(diagnostic, SourceTexts(), false);
+    message += render(diagnostic, SourceTexts(), plain_style());
   }
   throw std::runtime_error(message);
 }
@@ -29,9 +29,8 @@ Script understand_script(const std::string& path, const CompiledCatalog& catalog
   const std::string text = read_file(path);
   const auto document = yaml::parse(text, path, diagnostics);
   if (document == nullptr) refuse(diagnostics);
-  const ScriptNames names{{catalog.task_names.begin(), catalog.task_names.end()},
-                          {catalog.behavior_names.begin(), catalog.behavior_names.end()}};
-  std::optional<Script> script = read_script(*document, names, diagnostics);
+  std::optional<Script> script =
+      read_script(*document, names_of(catalog), Severity::warning, diagnostics);
   if (!script) refuse(diagnostics);
   return std::move(*script);
 }

@@ -72,9 +72,7 @@ nlohmann::ordered_json run_subject(const std::string& catalog_yaml,
 
   const auto document = yaml::parse(script_yaml, "script.yaml", diagnostics);
   if (!document) refuse(diagnostics);
-  const ScriptNames names{{compiled.task_names.begin(), compiled.task_names.end()},
-                          {compiled.behavior_names.begin(), compiled.behavior_names.end()}};
-  const auto script = read_script(*document, names, diagnostics);
+  const auto script = read_script(*document, names_of(compiled), Severity::warning, diagnostics);
   if (!script) refuse(diagnostics);
 
   nlohmann::ordered_json easy = run(compiled, *script, SearchOptions{}.easy_nodes);

@@ -17,6 +17,31 @@ using test::behavior_id;
 using test::compile_text;
 using test::task_id;
 
+TEST(Compile, KeepsTheDeclaredParametersInCatalogOrder) {
+  // Groups, and so the numbers of the tasks, are in another order.
+  const CompiledCatalog catalog = compile_text(R"(
+tasks:
+- {task: A, parameters: [{parameter: p, allowed_values: [0, 30]}, {parameter: q}]}
+- {task: B}
+- {task: C, parameters: [{parameter: r, allowed_values: point_list}]}
+behaviors:
+- {behavior: a, task: A, requires: [{task: C}]}
+- {behavior: b, task: B}
+- {behavior: c, task: C}
+- {behavior: d, task: IMPLICIT}
+)");
+  std::string text;
+  for (std::size_t task = 0; task < catalog.task_parameters.size(); ++task) {
+    text += catalog.task_names[task] + ":";
+    for (const Parameter& parameter : catalog.task_parameters[task]) {
+      text += " " + parameter.name + (parameter.allowed_is_list ? "[" : "(");
+      for (const std::string& value : parameter.allowed_values) text += value + ",";
+    }
+    text += "\n";
+  }
+  EXPECT_EQ(text, "A: p[0,30, q(\nB:\nC: r(point_list,\nIMPLICIT:\n");
+}
+
 std::string tasks_of_groups(const CompiledCatalog& catalog) {
   std::string text;
   for (std::size_t group = 0; group < catalog.group_count(); ++group) {

@@ -1,5 +1,8 @@
 #include "text/decimal.h"
 
+#include <cstddef>
+#include <iterator>
+#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -35,6 +38,48 @@ TEST(Decimal, AllowsEveryPlainSpelling) {
   EXPECT_EQ(parse_percent(".5").value, 5'000);
   EXPECT_EQ(parse_percent("-0").error, no_error);
   EXPECT_EQ(parse_percent("0e999999999999999999999").error, no_error);
+}
+
+TEST(Number, IsReadInEverySpelling) {
+  for (const std::string text : {"10", "+10", "10.", "10.000", "010", "1e1", "100e-1", ".1E+2"}) {
+    EXPECT_EQ(parse_number(text), parse_number("10")) << text;
+  }
+  for (const std::string text : {"-0", "0.0", "+.0", "0e99", "-0e-999999999999999"}) {
+    EXPECT_EQ(parse_number(text), Number{}) << text;
+  }
+  for (const std::string text :
+       {"", ".", "-", "e1", "1e", "1e+", "0x1", "1 ", " 1", "inf", "--1", "1.2.3", "1e1e1"}) {
+    EXPECT_EQ(parse_number(text), std::nullopt) << text;
+  }
+}
+
+TEST(Number, IsComparedByValue) {
+  const std::string ascending[] = {"-1e999999999999999999",
+                                   "-1e999999999",
+                                   "-10.01",
+                                   "-10",
+                                   "-9.99",
+                                   "-1",
+                                   "-.5",
+                                   "-1e-99",
+                                   "0",
+                                   "1e-999999999",
+                                   "1e-99",
+                                   ".5",
+                                   ".51",
+                                   "1",
+                                   "1.00000000000000000000001",
+                                   "9.99",
+                                   "10",
+                                   "10.01",
+                                   "1e999",
+                                   "1.1e999"};
+  for (std::size_t a = 0; a < std::size(ascending); ++a) {
+    for (std::size_t b = 0; b < std::size(ascending); ++b) {
+      EXPECT_EQ(*parse_number(ascending[a]) <=> *parse_number(ascending[b]), a <=> b)
+          << ascending[a] << " " << ascending[b];
+    }
+  }
 }
 
 TEST(Decimal, TellsErrorsApart) {

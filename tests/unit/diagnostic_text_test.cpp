@@ -9,10 +9,11 @@
 namespace cbc {
 namespace {
 
-std::string render_at(std::string_view text, const Range& range, bool color = false) {
+std::string render_at(std::string_view text, const Range& range,
+                      const Style& style = plain_style()) {
   SourceTexts sources;
   sources.add("a.yaml", text);
-  return render({rule::wrong_type, Severity::error, "a.yaml", range, "bad", {}}, sources, color);
+  return render({rule::wrong_type, Severity::error, "a.yaml", range, "bad", {}}, sources, style);
 }
 
 TEST(DiagnosticText, ShowsTheLineAndACaret) {
@@ -33,7 +34,7 @@ TEST(DiagnosticText, ShowsNotesAfterTheFinding) {
       {{2, 1}, {2, 4}},
       "again",
       {{"b.yaml", {{1, 2}, {1, 4}}, "first here"}, {"c.yaml", {{7, 8}, {7, 9}}, "and there"}}};
-  EXPECT_EQ(render(diagnostic, sources, false),
+  EXPECT_EQ(render(diagnostic, sources, plain_style()),
             "a.yaml:2:1: warning: again [duplicate-task]\n"
             "  two\n"
             "  ^~~\n"
@@ -102,13 +103,22 @@ TEST(DiagnosticText, ShowsNoControlCharactersAndNoInvalidBytes) {
             "        ^\n");
 }
 
+TEST(DiagnosticText, MakesControlCharactersOfNamesAndMessagesHarmless) {
+  const Diagnostic diagnostic{rule::wrong_type, Severity::error,
+                              "a\n.yaml",       {{1, 1}, {1, 2}},
+                              "bad \x1b[2J",    {{"b\r.yaml", {{7, 8}, {7, 9}}, "see\athere\xff"}}};
+  EXPECT_EQ(render(diagnostic, {}, plain_style()),
+            "a\\n.yaml:1:1: error: bad \\x1b[2J [wrong-type]\n"
+            "b\\r.yaml:7:8: note: see\\x07there\\xff\n");
+}
+
 TEST(DiagnosticText, IgnoresByteOrderMarksAndCarriageReturns) {
   EXPECT_EQ(render_at("\xEF\xBB\xBFone\r\ntwo\r\n", {{1, 1}, {1, 4}}),
             "a.yaml:1:1: error: bad [wrong-type]\n  one\n  ^~~\n");
 }
 
 TEST(DiagnosticText, ColorsOnRequest) {
-  EXPECT_EQ(render_at("ab", {{1, 1}, {1, 3}}, true),
+  EXPECT_EQ(render_at("ab", {{1, 1}, {1, 3}}, color_style()),
             "\x1b[1ma.yaml:1:1:\x1b[0m \x1b[1;31merror:\x1b[0m bad [wrong-type]\n"
             "  ab\n"
             "  \x1b[1;32m^~\x1b[0m\n");

@@ -30,10 +30,9 @@ class Protocol final : public RunListener {
       : catalog_(test::compile_text(catalog_text)) {
     Diagnostics diagnostics;
     const auto document = yaml::parse(script, "s.yaml", diagnostics);
-    const ScriptNames names{{catalog_.task_names.begin(), catalog_.task_names.end()},
-                            {catalog_.behavior_names.begin(), catalog_.behavior_names.end()}};
-    const auto read =
-        document != nullptr ? read_script(*document, names, diagnostics) : std::optional<Script>{};
+    const auto read = document != nullptr ? read_script(*document, names_of(catalog_),
+                                                        Severity::warning, diagnostics)
+                                          : std::optional<Script>{};
     EXPECT_TRUE(read.has_value()) << show(diagnostics);
     result = run_script(catalog_, read.value_or(Script{}), options, *this);
     text += "end " + std::to_string(result.passed) + " " + std::to_string(result.failed);

@@ -1,10 +1,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "diagnostic/reporter.h"
+#include "script/parameters.h"
 #include "script/reader.h"
 #include "unit/findings.h"
 #include "yaml/document.h"
@@ -13,8 +17,23 @@ namespace cbc {
 namespace {
 
 const ScriptNames& names() {
-  static const ScriptNames names{{"TAKE_OFF", "LAND", "HOVER", "BOTH"},
-                                 {"TAKE_OFF_BASIC", "HOVER_PID", "HOVER_MPC", "BOTH", "any"}};
+  const auto parameter = [](std::string name, std::vector<std::string> allowed, bool is_list) {
+    Parameter result;
+    result.name = std::move(name);
+    result.allowed_values = std::move(allowed);
+    result.allowed_is_list = is_list;
+    return result;
+  };
+  static const ScriptNames names{
+      {"TAKE_OFF", "LAND", "HOVER", "BOTH"},
+      {"TAKE_OFF_BASIC", "HOVER_PID", "HOVER_MPC", "BOTH", "any"},
+      {{},
+       {parameter("a", {}, false), parameter("b", {}, false)},
+       {parameter("path", {"point_list"}, false), parameter("x", {}, false),
+        parameter("angle", {"-360", "360"}, true),
+        parameter("direction", {"LEFT", "RIGHT", "FORWARD"}, true)},
+       {}},
+      {{0}, {2}, {2}, {0, 1, 2, 3}, {1}}};
   return names;
 }
 
@@ -23,11 +42,12 @@ struct Result {
   std::string findings;
 };
 
-Result read_any(std::string_view text) {
+Result read_any(std::string_view text, Severity of_parameters = Severity::warning) {
   Diagnostics diagnostics;
   const auto document = yaml::parse(text, "s.yaml", diagnostics);
   Result result;
-  if (document != nullptr) result.script = read_script(*document, names(), diagnostics);
+  if (document != nullptr)
+    result.script = read_script(*document, names(), of_parameters, diagnostics);
   EXPECT_EQ(result.script.has_value(), !diagnostics.has_errors()) << text;
   result.findings = show(diagnostics);
   return result;
@@ -143,8 +163,9 @@ TEST(ScriptReader, AScriptMayBeABareListOrJson) {
 TEST(ScriptReader, AllCauses) {
   for (const std::string cause : {"goal_achieved", "time_out", "wrong_progress", "situation_change",
                                   "process_failure", "interrupted"}) {
-    EXPECT_EQ(describe(read("- {finish: HOVER_PID, cause: " + cause + "}")),
-              "finish 1 " + cause + "\n");
+    EXPECT_EQ(describe(read(
+                  "- situation: {HOVER_PID: false}\n- {finish: HOVER_PID, cause: " + cause + "}")),
+              "situation 0 1-\nfinish 1 " + cause + "\n");
   }
 }
 
@@ -331,6 +352,148 @@ TEST(ScriptReader, OtherValues) {
       "7:11-12 error wrong-type: 'expect' must be a mapping, found '3'\n");
 }
 
+// What a start gives -----------------------------------------------------------------------------
+
+TEST(ScriptReader, DeclaredParametersMayHaveTheirValues) {
+  EXPECT_EQ(findings("- {start: HOVER, parameters: {path: [[0, 0, 2], [5, 0, 2]], angle: -360, "
+                     "direction: LEFT, x: {y: [~, {}]}}}\n"
+                     "- {start: HOVER, parameters: {path: ~, angle:, direction: ~, x: ~}}\n"
+                     "- {start: HOVER, parameters: {}}\n- {start: TAKE_OFF, parameters: ~}\n"
+                     "- {start: TAKE_OFF, parameters: {}}\n"),
+            "");
+}
+
+TEST(ScriptReader, UndeclaredParameters) {
+  EXPECT_EQ(findings("- {start: HOVER, parameters: {angel: 3, yaw: {z: [1]}, x-mine: ~}}\n"
+                     "- {start: TAKE_OFF, parameters: {angle: [[3]]}}\n"
+                     "- start: LAND\n  parameters:\n    b: 1\n    c:\n"),
+            "1:31-36 warning undeclared-parameter: task 'HOVER' declares no parameter 'angel'; did "
+            "you mean 'angle'?\n"
+            "1:41-44 warning undeclared-parameter: task 'HOVER' declares no parameter 'yaw', only "
+            "'path', 'x', 'angle', 'direction'\n"
+            "1:56-62 warning undeclared-parameter: task 'HOVER' declares no parameter 'x-mine', "
+            "only 'path', 'x', 'angle', 'direction'\n"
+            "2:34-39 warning undeclared-parameter: task 'TAKE_OFF' declares no parameters, found "
+            "'angle'\n"
+            "6:5-6 warning undeclared-parameter: task 'LAND' declares no parameter 'c', only 'a', "
+            "'b'\n");
+}
+
+TEST(ScriptReader, ValuesThatAreNotAllowed) {
+  EXPECT_EQ(findings("- {start: HOVER, parameters: {angle: 400, direction: [LEFT]}}\n"
+                     "- start: HOVER\n  parameters:\n    direction: FORWRD\n"
+                     "    path: [[1, 2], [1], [a, b]]\n"),
+            "1:38-41 warning parameter-value: parameter 'angle' of task 'HOVER': expected a number "
+            "from -360 to 360, found '400'\n"
+            "1:54-55 warning parameter-value: parameter 'direction' of task 'HOVER': expected one "
+            "of LEFT, RIGHT, FORWARD, found a list\n"
+            "4:16-22 warning parameter-value: parameter 'direction' of task 'HOVER': expected one "
+            "of LEFT, RIGHT, FORWARD, found 'FORWRD'; did you mean 'FORWARD'?\n"
+            "5:20-21 warning parameter-value: parameter 'path' of task 'HOVER': expected a point "
+            "(2 or 3 numbers), found a list of 1\n");
+}
+
+TEST(ScriptReader, ParametersOfAnUnknownTaskAreNotChecked) {
+  EXPECT_EQ(findings("- {start: HOVR, parameters: {angle: 400, y: 3}}\n"
+                     "- {stop: TAKE_OFF, parameters: {y: 3}}\n"),
+            "1:11-15 error undefined-task: there is no task 'HOVR'; did you mean 'HOVER'?\n"
+            "2:20-30 error unknown-key: 'parameters' does not belong to 'stop', only to 'start'\n");
+}
+
+TEST(ScriptReader, AParameterGivenTwiceIsOneFinding) {
+  EXPECT_EQ(findings("- {start: HOVER, parameters: {angle: 1, angle: 400}}\n"),
+            "1:41-46 error duplicate-key: 'angle' is given twice\n  1:31-36 first given here\n");
+}
+
+TEST(ScriptReader, FindingsAboutParametersHaveTheSeverityThatIsAskedFor) {
+  const std::string text = "- {start: HOVER, parameters: {angle: 400, yaw: 3}}\n";
+  const Result mild = read_any(text, Severity::warning);
+  EXPECT_TRUE(mild.script.has_value());
+  EXPECT_EQ(mild.findings.find("error"), std::string::npos) << mild.findings;
+  const Result strict = read_any(text, Severity::error);
+  EXPECT_FALSE(strict.script.has_value());
+  EXPECT_EQ(strict.findings.find("warning"), std::string::npos) << strict.findings;
+  // Of other findings it says nothing.
+  EXPECT_TRUE(read_any("- {finish: HOVER_PID, cause: situation_change}\n", Severity::error)
+                  .script.has_value());
+}
+
+// What the situation says
+// --------------------------------------------------------------------------
+
+std::string still_available(const std::string& place, const std::string& behavior) {
+  return place + " warning still-available: behavior '" + behavior +
+         "' is still available here, so that it can be chosen again at once; say situation: {'" +
+         behavior + "': false} before\n";
+}
+
+TEST(ScriptReader, AFinishByTheSituationOfWhatStaysAvailable) {
+  EXPECT_EQ(findings("- {finish: HOVER_PID, cause: situation_change}\n"),
+            still_available("1:12-21", "HOVER_PID"));
+  EXPECT_EQ(findings("- situation: {HOVER_MPC: false}\n"
+                     "- {cause: situation_change, finish: HOVER_PID}\n"
+                     "- situation: {HOVER_PID: false}\n"),
+            still_available("2:37-46", "HOVER_PID"));
+  // Other causes are no news of the situation.
+  EXPECT_EQ(findings("- {finish: HOVER_PID, cause: time_out}\n- finish: HOVER_PID\n"), "");
+}
+
+TEST(ScriptReader, TheSituationIsThatOfThePlaceInTheScript) {
+  EXPECT_EQ(findings("events:\n"
+                     "- {finish: HOVER_PID, cause: situation_change}\n"
+                     "- situation: {HOVER_PID: true, HOVER_MPC: true}\n"
+                     "- {finish: HOVER_PID, cause: situation_change}\n"
+                     "- {finish: HOVER_MPC, cause: situation_change}\n"
+                     "- situation: {HOVER_PID: false}\n"
+                     "- {finish: HOVER_PID, cause: situation_change}\n"
+                     "- situation: {HOVER_MPC: false}\n"
+                     "- {finish: HOVER_PID, cause: situation_change}\n"
+                     "- situation: {HOVER_PID: yes}\n"
+                     "- {finish: HOVER_PID, cause: situation_change}\n"
+                     "- {finish: HOVER_MPC, cause: situation_change}\n"
+                     "situation: {HOVER_PID: no}\n"),
+            still_available("4:12-21", "HOVER_PID") + still_available("5:12-21", "HOVER_MPC") +
+                still_available("11:12-21", "HOVER_PID"));
+}
+
+TEST(ScriptReader, ASituationThatIsNotUnderstoodMayMakeItUnavailable) {
+  const std::string finish = "- {finish: HOVER_PID, cause: situation_change}\n";
+  for (const std::string before :
+       {"- situation: {HOVER_PIT: false}\n", "- situation: {HOVER_PID: nope}\n",
+        "- situation: HOVER_PID\n", "- situtaion: {HOVER_PID: false}\n", "- situation:\n"}) {
+    const Result result = read_any(before + finish);
+    EXPECT_EQ(result.findings.find("still-available"), std::string::npos) << result.findings;
+    EXPECT_NE(result.findings.find("error"), std::string::npos) << before;
+  }
+  EXPECT_EQ(findings("situatoin: {HOVER_PID: false}\nevents:\n" + finish),
+            "1:1-10 error unknown-key: unknown key 'situatoin' in a script; did you mean "
+            "'situation'?\n");
+}
+
+// What can never hold
+// ------------------------------------------------------------------------------
+
+TEST(ScriptReader, ABehaviorThatDoesNotPerformTheExpectedTask) {
+  EXPECT_EQ(findings("- expect: {running: {HOVER: HOVER_MPC, LAND: BOTH, BOTH: any}}\n"), "");
+  EXPECT_EQ(findings("- expect: {running: {TAKE_OFF: HOVER_PID, HOVER: HOVER_PID, LAND: "
+                     "TAKE_OFF_BASIC}}\n"),
+            "1:32-41 warning impossible-expectation: this can never hold: behavior 'HOVER_PID' "
+            "does not perform task 'TAKE_OFF', it performs 'HOVER'\n"
+            "1:67-81 warning impossible-expectation: this can never hold: behavior "
+            "'TAKE_OFF_BASIC' does not perform task 'LAND', it performs 'TAKE_OFF'\n");
+}
+
+TEST(ScriptReader, ATaskThatIsToRunAndNotToRun) {
+  EXPECT_EQ(findings("- expect: {stopped: [LAND, HOVER], running: {HOVER: any, TAKE_OFF: any}}\n"
+                     "- expect: {stopped: [TAKE_OFF]}\n"),
+            "1:28-33 warning impossible-expectation: this can never hold: task 'HOVER' is expected "
+            "to run, too\n  1:46-51 expected to run here\n");
+  // The misspelt name is the only fault.
+  EXPECT_EQ(findings("- expect: {running: {TAKE_OF: any}, stopped: [TAKE_OFF, LANDD]}\n"),
+            "1:22-29 error undefined-task: there is no task 'TAKE_OF'; did you mean 'TAKE_OFF'?\n"
+            "1:57-62 error undefined-task: there is no task 'LANDD'; did you mean 'LAND'?\n");
+}
+
 // Time -----------------------------------------------------------------------------------------
 
 TEST(ScriptReader, TimeNeverGoesBack) {
@@ -363,8 +526,13 @@ TEST(ScriptReader, Times) {
 // Parameters -----------------------------------------------------------------------------------
 
 Parameters parameters(const std::string& value) {
-  const Script script = read("- {start: LAND, parameters: " + value + "}\n");
-  return script.steps.empty() ? Parameters{} : script.steps[0].parameters.value_or(Parameters{});
+  Diagnostics diagnostics;
+  const auto document = yaml::parse(value, "s.yaml", diagnostics);
+  Reporter reporter("s.yaml", diagnostics);
+  std::optional<Parameters> result;
+  if (document != nullptr) result = read_parameters(document->root(), reporter);
+  EXPECT_EQ(show(diagnostics), "") << value;
+  return result.value_or(Parameters{});
 }
 
 bool same(const std::string& a, const std::string& b) {

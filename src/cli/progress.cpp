@@ -1,0 +1,36 @@
+#include "cli/progress.h"
+
+#include <cstdio>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/terminal.h"
+#include "text/quote.h"
+
+namespace cbc::cli {
+
+Progress::Progress(std::string what, std::size_t total)
+    : what_(std::move(what)),
+      total_(total),
+      is_wanted_(is_terminal(stderr)),
+      start_(std::chrono::steady_clock::now()) {}
+
+Progress::~Progress() { clear(); }
+
+void Progress::begin(const std::string& name) {
+  ++begun_;
+  if (!is_wanted_ || std::chrono::steady_clock::now() - start_ < std::chrono::seconds(1)) return;
+  // The line is written over: return, text, erase to the end.
+  fmt::print(stderr, "\r{} {} of {}: {}\x1b[K", what_, begun_, total_, printable(name));
+  std::fflush(stderr);
+  is_shown_ = true;
+}
+
+void Progress::clear() {
+  if (!is_shown_) return;
+  fmt::print(stderr, "\r\x1b[K");
+  is_shown_ = false;
+}
+
+}  // namespace cbc::cli

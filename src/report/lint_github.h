@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lint/linted_file.h"
+
+namespace cbc {
+
+/// What lint found, as workflow commands of GitHub Actions: each becomes an annotation of the line
+/// it is about. Places that belong to a finding are further lines of its message.
+[[nodiscard]] std::string lint_github(const std::vector<LintedFile>& files);
+
+}  // namespace cbc

@@ -1,0 +1,162 @@
+#include "report/lint_sarif.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cbc/rules.h"
+#include "cbc/version.h"
+#include "report/json_text.h"
+#include "report/rule_markdown.h"
+#include "report/rule_text.h"
+#include "text/fingerprint.h"
+#include "text/uri.h"
+
+namespace cbc {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view schema =
+    "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
+constexpr std::string_view root = "%SRCROOT%";
+constexpr std::string_view standard_input = "<stdin>";
+
+/// "dead-behavior" as "DeadBehavior".
+std::string to_camel_case(std::string_view name) {
+  std::string result;
+  bool begins_word = true;
+  for (const char letter : name) {
+    if (letter == '-') {
+      begins_word = true;
+      continue;
+    }
+    result += begins_word ? static_cast<char>(letter - 'a' + 'A') : letter;
+    begins_word = false;
+  }
+  return result;
+}
+
+Json message(std::string_view text) { return Json::object({{"text", text}}); }
+
+Json rule_to_json(const Rule& rule) {
+  const std::string_view tag = rule.is_of_scripts ? "event-script" : "catalog";
+  return {{"id", rule.name},
+          {"name", to_camel_case(rule.name)},
+          {"shortDescription", message(rule.summary)},
+          {"fullDescription", message(rule.explanation)},
+          {"help", {{"text", rule_text(rule, plain_style())}, {"markdown", rule_markdown(rule)}}},
+          {"defaultConfiguration", Json::object({{"level", name_of(rule.severity)}})},
+          {"properties", Json::object({{"tags", Json::array({tag})}})}};
+}
+
+/// The tool with its rules, one on a line.
+std::string tool() {
+  std::string rules = "[";
+  for (const Rule& rule : all_rules()) append_item(rules, to_text(rule_to_json(rule)));
+  return R"({"driver":{"name":"cbc","version":)" + to_text(version) + R"(,"semanticVersion":)" +
+         to_text(version) + R"(,"rules":)" + rules + "]}}";
+}
+
+Json to_region(const Range& range) {
+  return {{"startLine", range.begin.line},
+          {"startColumn", range.begin.column},
+          {"endLine", range.end.line},
+          {"endColumn", range.end.column}};
+}
+
+/// The parts of a run that depend on the files.
+class Run {
+ public:
+  explicit Run(std::string_view working_directory)
+      : directory_(fs::path(working_directory).lexically_normal()) {}
+
+  void add(const LintedFile& file) {
+    const Json artifact = {{"location", locate(file.file)},
+                           {"roles", Json::array({"analysisTarget"})}};
+    const std::string text = to_text(artifact);
+    if (known_artifacts_.insert(text).second) append_item(artifacts_, text);
+    for (const Diagnostic& finding : file.findings) {
+      append_item(results_, to_text(to_result(finding)));
+    }
+  }
+
+  [[nodiscard]] std::string text() const {
+    const Json invocation = Json::object({{"executionSuccessful", true}});
+    return R"({"tool":)" + tool() + R"(,"invocations":[)" + to_text(invocation) +
+           R"(],"artifacts":)" + artifacts_ +
+           R"(],"columnKind":"unicodeCodePoints","results":)" + results_ + "]}";
+  }
+
+ private:
+  static std::string to_file_uri(const fs::path& path) {
+    return "file://" + percent_encode(path.native());
+  }
+
+  /// An artifactLocation.
+  [[nodiscard]] Json locate(const std::string& file) const {
+    if (file == standard_input) {
+      return {{"uri", percent_encode(file)}, {"description", message("standard input")}};
+    }
+    const fs::path path = (directory_ / file).lexically_normal();
+    const fs::path relative = path.lexically_relative(directory_);
+    if (relative.empty() || *relative.begin() == "..") {
+      return Json::object({{"uri", to_file_uri(path)}});
+    }
+    return {{"uri", percent_encode(relative.native())}, {"uriBaseId", root}};
+  }
+
+  [[nodiscard]] Json to_physical_location(const std::string& file, const Range& range) const {
+    return {{"artifactLocation", locate(file)}, {"region", to_region(range)}};
+  }
+
+  Json to_result(const Diagnostic& finding) {
+    const Json place = to_physical_location(finding.file, finding.range);
+    Json result = {
+        {"ruleId", finding.rule},
+        {"ruleIndex", find_rule(finding.rule) - all_rules().data()},
+        {"level", name_of(finding.severity)},
+        {"message", message(finding.message)},
+        {"locations", Json::array({Json::object({{"physicalLocation", place}})})},
+        {"partialFingerprints",
+         Json::object({{"cbcFinding/v1",
+                        fingerprint_of(finding, to_text(place["artifactLocation"]["uri"]))}})}};
+    std::size_t id = 0;
+    for (const Note& note : finding.notes) {
+      result["relatedLocations"].push_back(
+          {{"id", ++id},
+           {"physicalLocation", to_physical_location(note.file, note.range)},
+           {"message", message(note.message)}});
+    }
+    return result;
+  }
+
+  /// Tells a finding from all others, wherever it moves to in its file.
+  std::string fingerprint_of(const Diagnostic& finding, const std::string& uri) {
+    const std::string identity = fmt::format("{}\n{}\n{}", finding.rule, uri, finding.message);
+    const std::size_t index = times_seen_[identity]++;
+    return fmt::format("{:016x}", fingerprint(fmt::format("{}\n{}", identity, index)));
+  }
+
+  const fs::path directory_;
+  std::set<std::string> known_artifacts_;
+  std::map<std::string, std::size_t> times_seen_;
+  std::string artifacts_ = "[";
+  std::string results_ = "[";
+};
+
+}  // namespace
+
+std::string lint_sarif(const std::vector<LintedFile>& files, std::string_view working_directory) {
+  Run run(working_directory);
+  for (const LintedFile& file : files) run.add(file);
+  return R"({"$schema":)" + to_text(schema) + R"(,"version":"2.1.0","runs":[)" + run.text() +
+         "]}\n";
+}
+
+}  // namespace cbc

@@ -1,0 +1,76 @@
+#include "report/lint_github.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "cbc/rules.h"
+
+namespace cbc {
+namespace {
+
+std::string lint_github_of(const Diagnostic& finding) {
+  return lint_github({{finding.file, "", {finding}, {}}});
+}
+
+TEST(LintGithub, WritesACommandForEachSeverity) {
+  const std::vector<LintedFile> files = {
+      {"a.yaml",
+       "",
+       {{rule::wrong_type, Severity::error, "a.yaml", {{1, 2}, {3, 4}}, "one", {}},
+        {rule::dead_task, Severity::warning, "a.yaml", {{5, 6}, {5, 8}}, "two", {}}},
+       {}},
+      {"b/c.yaml",
+       "",
+       {{rule::implicit_task, Severity::note, "b/c.yaml", {{7, 1}, {7, 2}}, "three", {}}},
+       {}}};
+  EXPECT_EQ(
+      lint_github(files),
+      "::error file=a.yaml,line=1,endLine=3,col=2,endColumn=4,title=cbc wrong-type::one\n"
+      "::warning file=a.yaml,line=5,endLine=5,col=6,endColumn=8,title=cbc dead-task::two\n"
+      "::notice file=b/c.yaml,line=7,endLine=7,col=1,endColumn=2,title=cbc implicit-task::three\n");
+}
+
+TEST(LintGithub, WritesNothingForNothing) {
+  EXPECT_EQ(lint_github({}), "");
+  EXPECT_EQ(lint_github({{"a.yaml", "tasks: []", {}, {}}}), "");
+}
+
+TEST(LintGithub, AppendsNotesToTheMessage) {
+  EXPECT_EQ(lint_github_of({rule::duplicate_task,
+                            Severity::warning,
+                            "a.yaml",
+                            {{9, 1}, {9, 2}},
+                            "again",
+                            {{"a.yaml", {{3, 4}, {3, 5}}, "first here"},
+                             {"b.yaml", {{5, 6}, {5, 7}}, "and there"}}}),
+            "::warning file=a.yaml,line=9,endLine=9,col=1,endColumn=2,title=cbc duplicate-task"
+            "::again%0Aa.yaml:3:4: first here%0Ab.yaml:5:6: and there\n");
+}
+
+TEST(LintGithub, EscapesWhatEndsAPropertyOrTheLine) {
+  // Commas and colons end a property, but not the message.
+  EXPECT_EQ(lint_github_of({rule::wrong_type,
+                            Severity::error,
+                            "a,b:c%d\r\n'é'.yaml",
+                            {{1, 1}, {1, 2}},
+                            "100 %, not: '\r\n::error::x'",
+                            {}}),
+            "::error file=a%2Cb%3Ac%25d%0D%0A'é'.yaml,line=1,endLine=1,col=1,endColumn=2,"
+            "title=cbc wrong-type::100 %25, not: '%0D%0A::error::x'\n");
+}
+
+TEST(LintGithub, MakesOtherControlCharactersHarmless) {
+  EXPECT_EQ(lint_github_of({rule::wrong_type,
+                            Severity::error,
+                            "a\x1b[2J.yaml",
+                            {{1, 1}, {1, 2}},
+                            "tab\t \xff",
+                            {{"b\a.yaml", {{1, 1}, {1, 2}}, "x"}}}),
+            "::error file=a\\x1b[2J.yaml,line=1,endLine=1,col=1,endColumn=2,title=cbc wrong-type"
+            "::tab\\t \\xff%0Ab\\x07.yaml:1:1: x\n");
+}
+
+}  // namespace
+}  // namespace cbc

@@ -1,0 +1,241 @@
+#include "cbc/rules.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "compiled/compiled_catalog.h"
+#include "lint/controls.h"
+#include "lint/lint.h"
+#include "script/reader.h"
+#include "unit/compiled_fixture.h"
+#include "yaml/document.h"
+
+namespace cbc {
+namespace {
+
+constexpr std::string_view names_of_the_header[] = {rule::conflicting_requirements,
+                                                    rule::dead_behavior,
+                                                    rule::dead_task,
+                                                    rule::deprecated_key,
+                                                    rule::duplicate_behavior,
+                                                    rule::duplicate_exclusion,
+                                                    rule::duplicate_key,
+                                                    rule::duplicate_parameter,
+                                                    rule::duplicate_task,
+                                                    rule::empty_range,
+                                                    rule::exclusive_requirement,
+                                                    rule::implicit_task,
+                                                    rule::impossible_expectation,
+                                                    rule::invalid_value,
+                                                    rule::missing_key,
+                                                    rule::no_timeout_effect,
+                                                    rule::on_request_and_reactive,
+                                                    rule::parameter_value,
+                                                    rule::reactive_timeout,
+                                                    rule::redundant_requirement,
+                                                    rule::required_goal,
+                                                    rule::requirement_cycle,
+                                                    rule::requires_on_request,
+                                                    rule::self_exclusion,
+                                                    rule::still_available,
+                                                    rule::suspicious_minimum,
+                                                    rule::suspicious_suitability,
+                                                    rule::task_without_behavior,
+                                                    rule::time_order,
+                                                    rule::trivial_exclusion,
+                                                    rule::undecided,
+                                                    rule::undeclared_parameter,
+                                                    rule::undefined_behavior,
+                                                    rule::undefined_task,
+                                                    rule::unknown_key,
+                                                    rule::unknown_rule,
+                                                    rule::unknown_type,
+                                                    rule::unreachable_performance,
+                                                    rule::unused_allow,
+                                                    rule::wrong_type,
+                                                    rule::yaml_syntax};
+
+using Names = std::set<std::string_view>;
+
+Names rules_of(Severity severity) {
+  Names names;
+  for (const Rule& rule : all_rules()) {
+    if (rule.severity == severity) names.insert(rule.name);
+  }
+  return names;
+}
+
+const CompiledCatalog& script_catalog() {
+  static const CompiledCatalog catalog = test::compile_text(example_catalog());
+  return catalog;
+}
+
+void lint_script(const yaml::Document& document, Diagnostics& diagnostics) {
+  static_cast<void>(
+      read_script(document, names_of(script_catalog()), Severity::error, diagnostics));
+}
+
+/// The rules that a text breaks, which is an example of `rule`.
+Names rules_found(const Rule& rule, std::string_view text, const LintOptions& options = {}) {
+  Diagnostics diagnostics;
+  const auto document = yaml::parse(text, "example.yaml", diagnostics);
+  bool is_complete = false;
+  if (document != nullptr) {
+    if (rule.is_of_scripts) {
+      lint_script(*document, diagnostics);
+    } else {
+      is_complete = lint_catalog(*document, options, diagnostics).summary.has_value();
+    }
+  }
+  const CommentedFile file{"example.yaml", text, document.get(), is_complete};
+  Names found;
+  for (const Diagnostic& finding :
+       control_findings(diagnostics.release(), file, SeveritySettings())) {
+    found.insert(finding.rule);
+  }
+  return found;
+}
+
+TEST(RuleTable, HasTheRulesOfTheHeaderInOrder) {
+  std::vector<std::string_view> names;
+  for (const Rule& rule : all_rules()) names.push_back(rule.name);
+  EXPECT_EQ(names, std::vector<std::string_view>(std::begin(names_of_the_header),
+                                                 std::end(names_of_the_header)));
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+}
+
+TEST(RuleTable, FindsRulesByName) {
+  for (const Rule& rule : all_rules()) EXPECT_EQ(find_rule(rule.name), &rule) << rule.name;
+  for (const std::string_view name : {"", "a", "dead", "dead-tas", "dead-tasks", "zzz"}) {
+    EXPECT_EQ(find_rule(name), nullptr) << name;
+  }
+}
+
+TEST(RuleTable, HasTheSeveritiesOfTheContract) {
+  EXPECT_EQ(rules_of(Severity::error),
+            (Names{"yaml-syntax", "missing-key", "wrong-type", "invalid-value", "duplicate-key",
+                   "duplicate-behavior", "undefined-task", "undefined-behavior",
+                   "requirement-cycle", "on-request-and-reactive", "exclusive-requirement",
+                   "time-order", "parameter-value", "undeclared-parameter"}));
+  EXPECT_EQ(rules_of(Severity::note),
+            (Names{"implicit-task", "redundant-requirement", "duplicate-exclusion",
+                   "trivial-exclusion", "no-timeout-effect", "undecided", "unknown-type"}));
+}
+
+TEST(RuleTable, FixesErrorsOnly) {
+  for (const Rule& rule : all_rules()) {
+    EXPECT_TRUE(!rule.is_fixed || rule.severity == Severity::error) << rule.name;
+  }
+}
+
+class EveryRule : public testing::TestWithParam<std::string_view> {
+ protected:
+  [[nodiscard]] static const Rule& rule() { return *find_rule(GetParam()); }
+};
+
+bool is_kebab_case(std::string_view name) {
+  const auto fits = [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; };
+  return !name.empty() && std::all_of(name.begin(), name.end(), fits) && name.front() != '-' &&
+         name.back() != '-' && name.find("--") == std::string_view::npos;
+}
+
+/// What is wrong with a text of any kind; empty if nothing is.
+std::string find_fault(std::string_view text) {
+  if (text.empty()) return "empty";
+  if (text.front() == ' ' || text.front() == '\n') return "begins with a blank";
+  if (text.back() == ' ') return "ends with a blank";
+  if (text.find(" \n") != std::string_view::npos) return "a line ends with a blank";
+  for (const char c : text) {
+    if (c != '\n' && (c < ' ' || c > '~')) return "a character that is not printable ASCII";
+  }
+  return {};
+}
+
+/// The same of sentences, in paragraphs that are separated by empty lines.
+std::string find_fault_of_prose(std::string_view text) {
+  constexpr std::string_view separator = "\n\n";
+  std::string fault = find_fault(text);
+  if (!fault.empty()) return fault;
+  if (text.find("  ") != std::string_view::npos) return "two blanks";
+  while (!text.empty()) {
+    const std::string_view paragraph = text.substr(0, text.find(separator));
+    if (paragraph.find('\n') != std::string_view::npos) return "a line break in a paragraph";
+    const char first = paragraph.empty() ? ' ' : paragraph.front();
+    if (first == ' ' || paragraph.back() != '.') return "a paragraph that is no sentence";
+    text.remove_prefix(std::min(paragraph.size() + separator.size(), text.size()));
+  }
+  return {};
+}
+
+/// The same of examples.
+std::string find_fault_of_example(std::string_view text) {
+  std::string fault = find_fault(text);
+  if (!fault.empty()) return fault;
+  if (text.back() != '\n') return "no line break at the end";
+  if (text.find("\n\n") != std::string_view::npos) return "an empty line";
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    if (end > 76) return "a line of more than 76 characters";
+    text.remove_prefix(end + 1);
+  }
+  return {};
+}
+
+TEST_P(EveryRule, HasTexts) {
+  EXPECT_TRUE(is_kebab_case(rule().name));
+  EXPECT_EQ(find_fault_of_prose(rule().summary), "");
+  EXPECT_TRUE(std::isupper(static_cast<unsigned char>(rule().summary.front())));
+  EXPECT_EQ(std::count(rule().summary.begin(), rule().summary.end(), '.'), 1);
+  EXPECT_EQ(find_fault_of_prose(rule().explanation), "");
+  EXPECT_EQ(find_fault_of_prose(rule().mending), "");
+  EXPECT_EQ(find_fault_of_example(rule().example), "");
+  EXPECT_EQ(find_fault_of_example(rule().mended), "");
+}
+
+TEST_P(EveryRule, SpeaksOfBehaviors) {
+  for (const std::string_view text :
+       {rule().summary, rule().explanation, rule().example, rule().mending, rule().mended}) {
+    EXPECT_EQ(text.find("behaviour"), std::string_view::npos);
+    EXPECT_EQ(text.find("Behaviour"), std::string_view::npos);
+  }
+}
+
+TEST_P(EveryRule, HasAnExampleThatBreaksItAlone) {
+  LintOptions options;
+  if (rule().name == rule::undecided) options.max_nodes = 1;
+  EXPECT_EQ(rules_found(rule(), rule().example, options), Names{rule().name});
+}
+
+TEST_P(EveryRule, HasAnExampleThatIsMended) {
+  EXPECT_EQ(rules_found(rule(), rule().mended), Names{});
+}
+
+std::string test_name(const testing::TestParamInfo<std::string_view>& info) {
+  std::string name(info.param);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules, EveryRule, testing::ValuesIn(names_of_the_header), test_name);
+
+TEST(RuleExamples, AreDecidedWithTheUsualLimit) {
+  const Rule& undecided = *find_rule(rule::undecided);
+  EXPECT_EQ(rules_found(undecided, undecided.example), Names{});
+  EXPECT_EQ(rules_found(undecided, undecided.mended, {.max_nodes = 1}), Names{});
+}
+
+TEST(RuleExamples, OfScriptsHaveAFaultlessCatalog) {
+  EXPECT_EQ(find_fault_of_example(example_catalog()), "");
+  EXPECT_EQ(rules_found(*find_rule(rule::dead_task), example_catalog()), Names{});
+}
+
+}  // namespace
+}  // namespace cbc
