@@ -213,12 +213,13 @@ void add_lint_command(CLI::App& program, int& status) {
   command
       ->add_option("CATALOG", options->paths,
                    "Catalogs: files, folders (all *.yaml and *.yml in them\n"
-                   "that look like catalogs), or - for standard input")
+                   "that look like catalogs), or - for standard input;\n"
+                   "event scripts, too, if they name their catalogs")
       ->option_text("...");
   command
       ->add_option("--script", options->scripts,
-                   "Check an event script, too, against the catalog, or\n"
-                   "against the one that it names (may be repeated)")
+                   "Check an event script, too, against the one catalog\n"
+                   "that is given (may be repeated)")
       ->option_text("FILE")
       ->allow_extra_args(false);
   command

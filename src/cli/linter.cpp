@@ -59,8 +59,7 @@ void Linter::lint_catalog_text(const std::string& path, std::string text) {
   }
   Linted linted = lint_text(name_of(path), std::move(text), *settings);
   if (linted.is_script) {
-    complain(fmt::format("{} is an event script; check it with --script", quote(linted.file.file)));
-    has_failed_ = true;
+    lint_script_text(path, std::move(linted.file.text), "");
     return;
   }
   if (options_.is_to_fix && !fix(path, linted, *settings)) has_failed_ = true;
@@ -125,41 +124,62 @@ bool Linter::fix(const std::string& path, Linted& linted, const SeveritySettings
 }
 
 void Linter::lint_script(const std::string& path, const std::string& catalog) {
-  const std::optional<SeveritySettings> settings =
-      settings_.find(path == "-" ? name_of(path) : path);
   std::optional<std::string> text = read_input(path);
-  if (!text || !settings) {
+  if (!text) {
     has_failed_ = true;
     return;
   }
+  lint_script_text(path, std::move(*text), catalog);
+}
+
+void Linter::lint_script_text(const std::string& path, std::string text,
+                              const std::string& catalog) {
   LintedFile file;
   file.file = name_of(path);
-  file.text = std::move(*text);
+  file.text = std::move(text);
+  const std::optional<SeveritySettings> settings = settings_.find(path == "-" ? file.file : path);
   Diagnostics diagnostics;
   const auto document = yaml::parse(file.text, file.file, diagnostics);
   CommentedFile commented{file.file, file.text, document.get(), false};
   if (document != nullptr) {
-    std::string catalog_path = catalog;
-    if (const auto named = catalog_of_script(*document); catalog_path.empty() && named) {
-      catalog_path = (fs::path(path).parent_path() / *named).lexically_normal().string();
-    }
-    if (catalog_path.empty()) {
-      complain(fmt::format("script {} names no catalog, and none is given", quote(file.file)));
-      has_failed_ = true;
-      return;
-    }
-    const CatalogPointer compiled = catalog_at(catalog_path);
-    if (compiled == nullptr) {
-      complain(fmt::format("script {} is not checked, as its catalog {} has errors",
-                           quote(file.file), quote(catalog_path)));
-      has_failed_ = true;
-      return;
-    }
+    const CatalogPointer compiled = catalog_of(path, *document, catalog);
+    if (compiled == nullptr) return;
     const auto script = read_script(*document, names_of(*compiled), Severity::error, diagnostics);
     commented.is_complete = script.has_value();
   }
+  if (!settings) {
+    has_failed_ = true;
+    return;
+  }
   file.findings = control_findings(diagnostics.release(), commented, *settings);
   add(std::move(file), *settings);
+}
+
+/// The catalog that a script runs on; nullptr if there is none that is good, which is complained
+/// of.
+Linter::CatalogPointer Linter::catalog_of(const std::string& path, const yaml::Document& script,
+                                          const std::string& given) {
+  std::string catalog = given;
+  if (const auto named = catalog_of_script(script); catalog.empty() && named) {
+    catalog = (fs::path(path).parent_path() / *named).lexically_normal().string();
+  }
+  if (catalog.empty()) {
+    complain(
+        fmt::format("{} is an event script that names no catalog; give one: "
+                    "cbc lint --script SCRIPT CATALOG",
+                    quote(script.file())));
+    has_failed_ = true;
+    return nullptr;
+  }
+  const bool is_linted = catalogs_.contains(catalog);
+  const CatalogPointer compiled = catalog_at(catalog);
+  if (compiled == nullptr) {
+    complain(fmt::format("script {} is not checked, as its catalog {} has errors",
+                         quote(script.file()), quote(catalog)));
+    // The errors of a catalog that was linted are findings.
+    if (!is_linted) has_failed_ = true;
+  }
+  return compiled;
 }
 
 /// The catalog of a script: one that was linted, or else it is read.

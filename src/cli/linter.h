@@ -13,6 +13,7 @@
 #include "lint/lint.h"
 #include "lint/linted_file.h"
 #include "lint/severity_settings.h"
+#include "yaml/document.h"
 
 namespace cbc::cli {
 
@@ -29,6 +30,7 @@ class Linter {
   };
   explicit Linter(Options options);
 
+  /// A catalog, or an event script that names its catalog.
   void lint_catalog(const std::string& path);
   /// A catalog of a folder, in which other files may lie.
   void lint_if_catalog(const std::string& path);
@@ -54,7 +56,10 @@ class Linter {
   [[nodiscard]] Linted lint_text(const std::string& name, std::string text,
                                  const SeveritySettings& settings) const;
   [[nodiscard]] bool fix(const std::string& path, Linted& linted, const SeveritySettings& settings);
+  [[nodiscard]] CatalogPointer catalog_of(const std::string& path, const yaml::Document& script,
+                                          const std::string& given);
   [[nodiscard]] CatalogPointer catalog_at(const std::string& path);
+  void lint_script_text(const std::string& path, std::string text, const std::string& catalog);
   void lint_catalog_text(const std::string& path, std::string text);
   void add(LintedFile file, const SeveritySettings& settings);
   [[nodiscard]] std::string name_of(const std::string& path) const;

@@ -48,8 +48,8 @@ class DeadChecks {
     if (!notes) return;
     semantics_.reporter().report(
         rule::dead_task, semantics_.task(task).range,
-        "task " + quote(semantics_.task(task).name) + " can never run: none of its behaviors can " +
-            "be active" + (notes->empty() ? "" : ", as these constraints exclude it together"),
+        "task " + quote(semantics_.task(task).name) + " can never run" +
+            (notes->empty() ? "" : ": together these constraints exclude all of its behaviors"),
         *notes);
     semantics_.explain_task(task);
     explain_behaviors(task);
@@ -83,7 +83,7 @@ class DeadChecks {
       semantics_.reporter().report(
           rule::dead_behavior, behavior.range,
           "behavior " + quote(behavior.name) + " can never be active" +
-              (notes->empty() ? "" : ": these constraints exclude it together"),
+              (notes->empty() ? "" : ": together these constraints exclude it"),
           *notes);
     }
     semantics_.explain_behavior(id);

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -96,6 +97,13 @@ TEST_F(Terminal, ShowsNoColorIfItIsDumb) {
   }
 }
 
+TEST(PublishedCatalogs, HaveNoFindings) {
+  const Result result = run({{"lint", "--strict", "catalogs"}, CBC_SOURCE_DIR});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.out, "no findings in 2 files\n");
+  EXPECT_EQ(result.err, "");
+}
+
 /// Whoever changes a published catalog or a mission finds out here whether the story still holds.
 TEST(PublishedMissions, MeetTheirExpectations) {
   const Result result = run({{"solve", "catalogs"}, CBC_SOURCE_DIR});
@@ -103,27 +111,47 @@ TEST(PublishedMissions, MeetTheirExpectations) {
   EXPECT_EQ(result.err, "");
 }
 
-/// The lines of the README's first console block, the command and the "..." left out.
-std::vector<std::string> lines_of_readme() {
-  std::ifstream readme(fs::path(CBC_SOURCE_DIR) / "README.md");
+/// A command that the README shows, and what it prints; "..." is left out.
+struct Excerpt {
+  std::vector<std::string> arguments;
   std::vector<std::string> lines;
+};
+
+/// The console blocks of the README, each with one command.
+std::vector<Excerpt> excerpts_of_readme() {
+  std::ifstream readme(fs::path(CBC_SOURCE_DIR) / "README.md");
+  std::vector<Excerpt> excerpts;
   std::string line;
-  while (std::getline(readme, line) && line != "```console") continue;
-  while (std::getline(readme, line) && line != "```") {
-    if (line != "..." && line.substr(0, 1) != "$") lines.push_back(line);
+  while (std::getline(readme, line)) {
+    if (line != "```console") continue;
+    Excerpt& excerpt = excerpts.emplace_back();
+    while (std::getline(readme, line) && line != "```") {
+      if (line.substr(0, 6) == "$ cbc ") {
+        std::istringstream words(line.substr(6));
+        for (std::string word; words >> word;) excerpt.arguments.push_back(word);
+      } else if (line != "...") {
+        excerpt.lines.push_back(line);
+      }
+    }
   }
-  return lines;
+  return excerpts;
 }
 
+/// The files of the README are in the repository, or in tests/golden/readme.
 TEST(Readme, ShowsWhatTheProgramPrints) {
-  const Result result = run(
-      {{"solve", "catalogs/quadrotor.yaml", "catalogs/quadrotor.mission.yaml"}, CBC_SOURCE_DIR});
-  const std::vector<std::string> lines = lines_of_readme();
-  ASSERT_GT(lines.size(), 10U);
-  std::size_t place = 0;
-  for (const std::string& line : lines) {
-    place = result.out.find(line + "\n", place);
-    ASSERT_NE(place, std::string::npos) << "not printed here: " << line;
+  const fs::path source = CBC_SOURCE_DIR;
+  const std::vector<Excerpt> excerpts = excerpts_of_readme();
+  ASSERT_EQ(excerpts.size(), 2U);
+  for (const Excerpt& excerpt : excerpts) {
+    ASSERT_GT(excerpt.lines.size(), 10U);
+    const bool is_here = fs::exists(source / excerpt.arguments.back());
+    const Result result =
+        run({excerpt.arguments, is_here ? source : source / "tests" / "golden" / "readme"});
+    std::size_t place = 0;
+    for (const std::string& line : excerpt.lines) {
+      place = result.out.find(line + "\n", place);
+      ASSERT_NE(place, std::string::npos) << "not printed here: " << line;
+    }
   }
 }
 
