@@ -172,7 +172,7 @@ Linter::CatalogPointer Linter::catalog_of(const std::string& path, const yaml::D
     return nullptr;
   }
   const bool is_linted = catalogs_.contains(catalog);
-  const CatalogPointer compiled = catalog_at(catalog);
+  CatalogPointer compiled = catalog_at(catalog);
   if (compiled == nullptr) {
     complain(fmt::format("script {} is not checked, as its catalog {} has errors",
                          quote(script.file()), quote(catalog)));

@@ -53,7 +53,7 @@ class RelaxedProblem {
   [[nodiscard]] bool propagate(Domains& domains, std::span<const Reason> reasons);
   [[nodiscard]] bool apply_requirement(Domains& domains, const Reason& reason);
   [[nodiscard]] bool may_perform(const Domains& domains, const Reason& reason);
-  [[nodiscard]] bool may_reach(const Domains& domains, TaskId task, Millionths minimum);
+  [[nodiscard]] bool may_reach(const Domains& domains, TaskId reached, Millionths minimum);
   [[nodiscard]] TaskId choose(const Domains& domains) const;
 
   [[nodiscard]] std::size_t value(TaskId task, std::uint32_t place) const {

@@ -74,6 +74,7 @@ std::vector<Note> constraint_notes(std::span<const Reason> constraints, const Ca
     return a_requires != b_requires ? a_requires : level(a) > level(b);
   });
   std::vector<Note> notes;
+  notes.reserve(ordered.size());
   for (const Reason& reason : ordered) {
     notes.push_back(to_note(reason, catalog, compiled, reporter));
   }
