@@ -17,7 +17,8 @@ RelaxedProblem::RelaxedProblem(const CompiledCatalog& catalog, std::uint32_t gro
       in_closure_(end_task_ - first_task_, 0) {}
 
 /// Depth first over what is left. As in Domains, a task that nothing needs can be left out, so a
-/// subtree is solved when each needed task has one value.
+/// subtree is solved when each needed task has one value; only to keep a performance low, something
+/// that nothing needs may have to run.
 Feasibility RelaxedProblem::solve(std::span<const Reason> reasons) {
   constexpr std::size_t most_nodes = 10'000;
   constexpr std::uint64_t most_effort = 50'000'000;
@@ -28,11 +29,20 @@ Feasibility RelaxedProblem::solve(std::span<const Reason> reasons) {
     if (nodes == most_nodes || effort_ - effort_before > most_effort) return Feasibility::unknown;
     Domains now = std::move(open.back());
     open.pop_back();
+    effort_ += now.values.size() / 8;  // they are copied, many at once
     if (!propagate(now, reasons)) continue;
     const TaskId task = choose(now);
     if (task == none) {
       // All that runs is decided, so the performance is exact.
       if (low_task_ == none || !may_reach(now, low_task_, low_minimum_)) return Feasibility::yes;
+      const TaskId optional = optional_factor(now);
+      if (optional == none) continue;
+      Domains without = now;
+      // One that is not needed can be closed, and one that is open can be needed.
+      (void)close(without, optional);
+      open.push_back(std::move(without));
+      (void)need(now, optional);
+      open.push_back(std::move(now));
       continue;
     }
     const std::uint32_t chosen = best(now, task);
@@ -50,6 +60,7 @@ Feasibility RelaxedProblem::solve(std::span<const Reason> reasons) {
 bool RelaxedProblem::begin(Domains& domains, std::span<const Reason> reasons) {
   domains.values.assign(catalog_.values.begin[end_task_] - first_value_, 1);
   domains.needed.assign(end_task_ - first_task_, 0);
+  effort_ += domains.values.size();
   for (TaskId task = first_task_; task < end_task_; ++task) {
     domains.counts.push_back(static_cast<std::uint32_t>(catalog_.values[task].size()));
   }
@@ -184,6 +195,18 @@ bool RelaxedProblem::may_reach(const Domains& domains, TaskId reached, Millionth
 TaskId RelaxedProblem::choose(const Domains& domains) const {
   for (TaskId task = first_task_; task < end_task_; ++task) {
     if (is_needed(domains, task) && domains.counts[task - first_task_] > 1) return task;
+  }
+  return none;
+}
+
+/// A task that could run, but need not, and would count in the performance that was looked at last.
+TaskId RelaxedProblem::optional_factor(const Domains& domains) const {
+  for (const TaskId task : closure_) {
+    for (const CompiledRequirement& requirement :
+         catalog_.requirements[fixed_behavior(domains, task)]) {
+      const TaskId target = requirement.task;
+      if (!is_needed(domains, target) && domains.counts[target - first_task_] > 0) return target;
+    }
   }
   return none;
 }

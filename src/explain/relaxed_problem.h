@@ -35,7 +35,7 @@ class RelaxedProblem {
 
   [[nodiscard]] Feasibility solve(std::span<const Reason> reasons);
 
-  /// Reasons looked at so far, a measure of the effort.
+  /// Reasons and values looked at so far, a measure of the effort.
   [[nodiscard]] std::uint64_t effort() const { return effort_; }
 
  private:
@@ -55,6 +55,7 @@ class RelaxedProblem {
   [[nodiscard]] bool may_perform(const Domains& domains, const Reason& reason);
   [[nodiscard]] bool may_reach(const Domains& domains, TaskId reached, Millionths minimum);
   [[nodiscard]] TaskId choose(const Domains& domains) const;
+  [[nodiscard]] TaskId optional_factor(const Domains& domains) const;
 
   [[nodiscard]] std::size_t value(TaskId task, std::uint32_t place) const {
     return catalog_.values.begin[task] + place - first_value_;

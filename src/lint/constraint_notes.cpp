@@ -71,7 +71,8 @@ std::vector<Note> constraint_notes(std::span<const Reason> constraints, const Ca
   std::stable_sort(ordered.begin(), ordered.end(), [&level](const Reason& a, const Reason& b) {
     const bool a_requires = a.kind == Reason::Kind::requires_task;
     const bool b_requires = b.kind == Reason::Kind::requires_task;
-    return a_requires != b_requires ? a_requires : level(a) > level(b);
+    if (a_requires != b_requires) return a_requires;
+    return level(a) != level(b) ? level(a) > level(b) : a.line < b.line;
   });
   std::vector<Note> notes;
   notes.reserve(ordered.size());

@@ -40,8 +40,7 @@ bool is_possible(const Rule& rule, RuleSetting setting) {
 
 bool is_fixed(const Diagnostic& finding) {
   const Rule& rule = *find_rule(finding.rule);
-  return rule.is_fixed ||
-         (finding.severity == Severity::error && rule.severity != Severity::error);
+  return rule.is_fixed || (finding.severity == Severity::error && rule.severity != Severity::error);
 }
 
 void SeveritySettings::set(const Rule& rule, RuleSetting setting) {

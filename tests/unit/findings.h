@@ -24,9 +24,8 @@ inline std::string show(const Diagnostics& diagnostics) {
   sorted.sort();
   std::string text;
   for (const Diagnostic& finding : sorted.all()) {
-    const bool error = finding.severity == Severity::error;
-    text += show(finding.range) + (error ? " error " : " warning ") + std::string(finding.rule) +
-            ": " + finding.message + "\n";
+    text += show(finding.range) + " " + std::string(name_of(finding.severity)) + " " +
+            std::string(finding.rule) + ": " + finding.message + "\n";
     for (const Note& note : finding.notes) {
       text += "  " + show(note.range) + " " + note.message + "\n";
     }
