@@ -30,8 +30,9 @@ struct Parameter {
 /// A variable of the constraint problem: what can be done.
 struct Task {
   std::string name;
-  Range range;            ///< of the name, where the task first appears
-  bool implicit = false;  ///< named by a behavior only, without an entry of its own
+  Range range;              ///< of the name, where the task first appears
+  bool implicit = false;    ///< named by a behavior only, without an entry of its own
+  bool is_unclear = false;  ///< what it is like could not be read, so it is not to be judged
   ExecutionGoal execution_goal = ExecutionGoal::achieve_goal;
   bool start_on_request = true;
   bool reactive_start = false;
@@ -75,6 +76,7 @@ struct ExclusivityList {
   std::vector<Range> ranges;     ///< of each name
   Range range;
   std::optional<Range> entry;  ///< where its entry begins, if it says no more than this
+  bool is_complete = true;     ///< false: names that could not be understood are left out
 };
 
 /// A catalog as it was written, understood and checked: names resolved, defaults filled in.

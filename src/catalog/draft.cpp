@@ -40,6 +40,8 @@ class Reader {
  private:
   void read_sections(const Node& root) {
     Fields fields(root, shape::catalog, reporter_);
+    // Of a section that is given twice only the first part is read.
+    catalog_.lacks_a_section = reporter_.errors(rule::duplicate_key) > 0;
     if (const Node* node = fields.find("default_values")) read_default_values(*node);
     if (const Node* node = fields.find("tasks")) {
       catalog_.has_task_section = true;
@@ -108,6 +110,7 @@ class Reader {
   // Tasks ------------------------------------------------------------------------------------
 
   TaskAttributes read_attributes(const Fields& fields) {
+    const std::size_t errors = reporter_.errors();
     TaskAttributes attributes;
     attributes.execution_goal = read_execution_goal(fields);
     attributes.start_on_request = read_flag(fields, "start_on_request");
@@ -118,6 +121,7 @@ class Reader {
     attributes.reactive_start = read_flag(fields, "reactive_start");
     if (const auto older = read_flag(fields, "default")) attributes.reactive_start = older;
     attributes.timeout = read_timeout(fields);
+    attributes.is_unclear = reporter_.errors() > errors;
     return attributes;
   }
 
@@ -288,7 +292,11 @@ class Reader {
     }
     if (list == nullptr || fields.find("task") != nullptr) {
       const auto task = require_name(fields, "task", task_name, behavior.name.range);
-      if (task) behavior.performs.push_back({*task, std::nullopt});
+      if (task) {
+        behavior.performs.push_back({*task, std::nullopt});
+      } else {
+        ++catalog_.nameless_tasks;
+      }
     }
   }
 
@@ -300,6 +308,7 @@ class Reader {
     }
     if (list->items.empty()) {
       reporter_.report(rule::invalid_value, key, "a behavior must have at least one task");
+      ++catalog_.nameless_tasks;
     }
     std::unordered_map<std::string_view, Range> known;
     for (const Node* item : list->items) {
@@ -311,7 +320,10 @@ class Reader {
       const auto name = require_name(fields, "task", task_name, item->range);
       const std::optional<Percent> suitability = read_suitability(fields);
       fields.report_unknown(Severity::warning);
-      if (!name) continue;
+      if (!name) {
+        ++catalog_.nameless_tasks;
+        continue;
+      }
       const auto [first, is_new] = known.try_emplace(name->text, name->range);
       if (is_new) {
         behavior.performs.push_back({*name, suitability});
@@ -355,6 +367,8 @@ class Reader {
       if (const auto name =
               yaml::read_name(*item, "mutually_exclusive", "a list of names of tasks", reporter_)) {
         result.tasks.push_back({*name, item->range});
+      } else {
+        result.is_complete = false;
       }
     }
     result.entry = entry_of(node, fields, errors);

@@ -34,6 +34,7 @@ struct TaskAttributes {
   std::optional<Flag> start_on_request;
   std::optional<Flag> reactive_start;
   std::optional<Timeout> timeout;
+  bool is_unclear = false;  ///< one of them could not be read
 };
 
 struct Task {
@@ -67,6 +68,7 @@ struct ExclusivityList {
   std::vector<Name> tasks;
   Range range;
   std::optional<Range> entry;  ///< where it begins, if it says no more than this
+  bool is_complete = true;     ///< false: names that could not be read are left out
 };
 
 struct Catalog {
@@ -77,7 +79,8 @@ struct Catalog {
   std::vector<Task> tasks;
   std::vector<Behavior> behaviors;
   std::vector<ExclusivityList> exclusivity;
-  /// A section that defines tasks could not be read at all, so unknown tasks say nothing.
+  /// A section that defines tasks could not be read, or not as a whole, so unknown tasks say
+  /// nothing.
   bool lacks_a_section = false;
   /// Entries that define tasks of which the names could not be read.
   std::size_t nameless_tasks = 0;

@@ -90,6 +90,8 @@ class Resolver {
         task.range = performance.task.range;
         task.implicit = true;
         attributes_.apply(task.range, {}, task);
+        // It may have an entry that could not be read.
+        task.is_unclear |= draft_.lacks_a_section || draft_.nameless_tasks > 0;
         catalog_.tasks.push_back(std::move(task));
       }
     }
@@ -144,12 +146,14 @@ class Resolver {
     ExclusivityList list;
     list.range = entry.range;
     list.entry = entry.entry;
+    list.is_complete = entry.is_complete;
     for (const draft::Name& name : entry.tasks) {
       if (const auto task = find_task(name, "named in an exclusivity list", {})) {
         list.tasks.push_back(*task);
         list.ranges.push_back(name.range);
       } else {
         list.entry.reset();
+        list.is_complete = false;
       }
     }
     catalog_.exclusivity.push_back(std::move(list));

@@ -76,6 +76,7 @@ class Changes {
 }  // namespace
 
 void TaskAttributes::apply(const Range& range, const draft::TaskAttributes& own, Task& task) {
+  task.is_unclear = own.is_unclear || defaults_.is_unclear;
   const Flags flags = flags_of(own, defaults_);
   task.start_on_request = flags.start_on_request;
   task.reactive_start = flags.reactive_start;
@@ -85,7 +86,10 @@ void TaskAttributes::apply(const Range& range, const draft::TaskAttributes& own,
   if (const auto& timeout = own.timeout ? own.timeout : defaults_.timeout) {
     task.timeout = timeout->value;
   }
-  if (flags.start_on_request && flags.reactive_start) report_both_flags(range, own, task);
+  const bool is_certain = !task.is_unclear || (own.start_on_request && own.reactive_start);
+  if (flags.start_on_request && flags.reactive_start && is_certain) {
+    report_both_flags(range, own, task);
+  }
 }
 
 // The finding stands at what the task itself says; where it says nothing, at the defaults, once for

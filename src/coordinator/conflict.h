@@ -5,8 +5,8 @@
 
 #include "compiled/compiled_catalog.h"
 #include "coordinator/question.h"
-#include "explain/reason.h"
 #include "coordinator/state.h"
+#include "explain/reason.h"
 
 namespace cbc {
 

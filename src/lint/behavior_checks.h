@@ -6,6 +6,6 @@
 namespace cbc {
 
 /// Reports what is odd about behaviors, each by itself.
-void check_behaviors(const Catalog& catalog, Reporter& reporter);
+void check_behaviors(const Catalog& catalog, bool is_complete, Reporter& reporter);
 
 }  // namespace cbc

@@ -39,7 +39,7 @@ void check_own_tasks(const Catalog& catalog, const ExclusivityList& list, Report
                         " stands twice in one list; a task does not exclude itself",
                     {reporter.note(first->second, "first given here")}, std::move(edits));
   }
-  if (known.size() < 2 && !has_repetition) {
+  if (known.size() < 2 && !has_repetition && list.is_complete) {
     reporter.report(rule::trivial_exclusion, list.range,
                     list.tasks.empty() ? "the list has no task, so it excludes nothing"
                                        : "the list has one task only, so it excludes nothing");
@@ -60,19 +60,20 @@ class Containment {
 
   void report(Reporter& reporter) {
     for (std::size_t list = 0; list < tasks_.size(); ++list) {
-      if (tasks_[list].size() < 2) continue;
+      if (tasks_[list].size() < 2 || !catalog_.exclusivity[list].is_complete) continue;
       const std::size_t other = find_container(list);
       if (other == tasks_.size()) continue;
       std::vector<Edit> edits;
       if (const auto& entry = catalog_.exclusivity[list].entry) {
         edits.push_back({Edit::Kind::remove_entry, *entry, {}});
       }
-      reporter.report(rule::duplicate_exclusion, catalog_.exclusivity[list].range,
-                      tasks_[list].size() == tasks_[other].size()
-                          ? "another list has the same tasks, so this one excludes nothing new"
-                          : "another list has all of these tasks, so this one excludes nothing new",
-                      {reporter.note(catalog_.exclusivity[other].range, "it is here")},
-                      std::move(edits));
+      const bool has_more =
+          tasks_[other].size() > tasks_[list].size() || !catalog_.exclusivity[other].is_complete;
+      reporter.report(
+          rule::duplicate_exclusion, catalog_.exclusivity[list].range,
+          std::string("another list has ") + (has_more ? "all of these tasks" : "the same tasks") +
+              ", so this one excludes nothing new",
+          {reporter.note(catalog_.exclusivity[other].range, "it is here")}, std::move(edits));
     }
   }
 

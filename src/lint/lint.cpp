@@ -18,7 +18,7 @@ LintResult lint_catalog(const yaml::Document& document, const LintOptions& optio
   const Catalog& catalog = result.reading.catalog;
   Reporter reporter(document.file(), diagnostics);
   check_tasks(catalog, result.reading.is_complete, reporter);
-  check_behaviors(catalog, reporter);
+  check_behaviors(catalog, result.reading.is_complete, reporter);
   check_exclusivity(catalog, reporter);
   if (!result.reading.is_complete || !result.reading.is_acyclic) return result;
 

@@ -142,8 +142,10 @@ void check_tasks(const Catalog& catalog, bool is_complete, Reporter& reporter) {
     const Task& task = catalog.tasks[index];
     const Use& use = uses[index];
     check_suspicious_minimum(task.minimum_performance, task.minimum_performance_range, reporter);
-    check_required_goal(task, use, reporter);
-    check_timeout(task, use, reporter);
+    if (!task.is_unclear) {
+      check_required_goal(task, use, reporter);
+      check_timeout(task, use, reporter);
+    }
     check_parameters(task, reporter);
     if (is_complete && use.behaviors == 0) {
       reporter.report(rule::task_without_behavior, task.range,

@@ -89,8 +89,8 @@ class Run {
   [[nodiscard]] std::string text() const {
     const Json invocation = Json::object({{"executionSuccessful", true}});
     return R"({"tool":)" + tool() + R"(,"invocations":[)" + to_text(invocation) +
-           R"(],"artifacts":)" + artifacts_ +
-           R"(],"columnKind":"unicodeCodePoints","results":)" + results_ + "]}";
+           R"(],"artifacts":)" + artifacts_ + R"(],"columnKind":"unicodeCodePoints","results":)" +
+           results_ + "]}";
   }
 
  private:

@@ -77,6 +77,12 @@ std::string explain(const std::string& message) {
   return message;
 }
 
+// Whether the parser may have said so because a line before was no key with a value.
+bool may_lack_colon(const std::string& message) {
+  return message == "illegal map value" || message == "end of map not found" ||
+         message == "end of sequence not found";
+}
+
 bool is_null_text(std::string_view text) {
   return text.empty() || text == "~" || text == "null" || text == "Null" || text == "NULL";
 }
@@ -450,6 +456,14 @@ void check_characters(std::string_view text, const PositionMap& positions) {
     // JSON writes such characters as two escapes; the parser does not know that.
     throw Refusal(builder.range_at(offset, offset + 1),
                   "this escape is no character; write the character itself, or \\U and 8 digits");
+  }
+  if (may_lack_colon(exception.msg)) {
+    const std::string_view line = find_line_without_key(text, offset);
+    if (!line.empty()) {
+      const auto begin = static_cast<std::size_t>(line.data() - text.data());
+      throw Refusal(builder.range_at(begin, begin + line.size()),
+                    "expected a key and a value: is ':' missing, or the space after it?");
+    }
   }
   std::vector<Note> notes;
   const std::optional<Range> bracket = builder.open_bracket();

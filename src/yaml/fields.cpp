@@ -171,10 +171,10 @@ void Fields::report_unknown(Severity severity) {
       message += ": it belongs to " + std::string((*inner)->what) + ", one level down";
     } else if (shape_.outer != nullptr && shape_.outer->has(key)) {
       message += ": it belongs to " + std::string(shape_.outer->what) + ", one level up";
-    } else if (!suggestion.empty()) {
-      message += "; did you mean " + quote(suggestion) + "?";
     } else if (field.value->kind == Kind::null && key.find(':') != std::string::npos) {
       message += ": is a space missing after ':'?";
+    } else if (!suggestion.empty()) {
+      message += "; did you mean " + quote(suggestion) + "?";
     }
     reporter_.report_as(severity, rule::unknown_key, field.key->range, std::move(message));
   }

@@ -21,6 +21,11 @@ std::size_t end_of_line(std::string_view text, std::size_t offset) {
   return std::min(text.find('\n', offset), text.size());
 }
 
+std::size_t begin_of_line(std::string_view text, std::size_t offset) {
+  while (offset > 0 && text[offset - 1] != '\n') --offset;
+  return offset;
+}
+
 // One past a word that ends at a blank, or in brackets at an indicator.
 std::size_t end_of_word(std::string_view text, std::size_t offset) {
   while (!is_blank_at(text, offset) && !is_flow_indicator(text[offset])) ++offset;
@@ -55,6 +60,22 @@ std::size_t find_content(std::string_view text, std::size_t offset) {
   }
   return std::min(offset, text.size());
 }
+
+namespace {
+
+// The line that begins at `begin`, without indentation and comment.
+std::string_view content_of_line(std::string_view text, std::size_t begin) {
+  std::string_view line = text.substr(begin, end_of_line(text, begin) - begin);
+  line.remove_prefix(find_content(line, 0));
+  line = line.substr(0, line.find(" #"));
+  return line.substr(0, line.find_last_not_of(" \t\r") + 1);
+}
+
+bool has_key(std::string_view line) {
+  return line.find(": ") != std::string_view::npos || line.ends_with(':');
+}
+
+}  // namespace
 
 std::size_t skip_properties(std::string_view text, std::size_t offset) {
   while (offset < text.size() && (text[offset] == '!' || text[offset] == '&')) {
@@ -117,12 +138,34 @@ bool is_closed(std::string_view text, std::size_t offset) {
 
 std::size_t find_indenting_tab(std::string_view text, std::size_t offset) {
   offset = std::min(offset, text.size());
-  std::size_t begin = offset;
-  while (begin > 0 && text[begin - 1] != '\n') --begin;
+  const std::size_t begin = begin_of_line(text, offset);
   const std::string_view indentation =
       text.substr(begin, std::min(text.find_first_not_of(" \t", begin), offset) - begin);
   const std::size_t tab = indentation.find('\t');
   return tab == std::string_view::npos ? offset : begin + tab;
+}
+
+std::string_view find_line_without_key(std::string_view text, std::size_t offset) {
+  std::size_t begin = begin_of_line(text, offset);
+  std::string_view line = content_of_line(text, begin);
+  if (has_key(line)) {
+    const std::size_t column = find_content(text, begin) - begin;
+    do {
+      if (begin == 0) return {};
+      begin = begin_of_line(text, begin - 1);
+      line = content_of_line(text, begin);
+    } while (line.empty());
+    // An entry of a list is a mapping only if its next key is right below.
+    const std::size_t next = begin + column;
+    const std::size_t dash = find_content(text, begin);
+    if (line.starts_with("- ") && find_content(text, dash + 1) == next)
+      line.remove_prefix(next - dash);
+  }
+  if (line.empty() || has_key(line) ||
+      std::string_view("-[{\"'").find(line[0]) != std::string_view::npos) {
+    return {};
+  }
+  return line;
 }
 
 ScalarExtent extent_of_scalar(std::string_view text, std::size_t offset, std::string_view value) {

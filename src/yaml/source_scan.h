@@ -32,6 +32,10 @@ namespace cbc::yaml {
 /// The first quote at or after `offset` that is not in a comment.
 [[nodiscard]] std::size_t find_quote(std::string_view text, std::size_t offset);
 
+/// The line of `offset`, or else the one with content above it, if it seems to lack the colon after
+/// its key, or the space after the colon; without indentation, dash and comment. Empty if neither.
+[[nodiscard]] std::string_view find_line_without_key(std::string_view text, std::size_t offset);
+
 struct ScalarExtent {
   std::size_t begin = 0;
   std::size_t end = 0;

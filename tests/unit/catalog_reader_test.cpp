@@ -349,8 +349,8 @@ TEST(CatalogReader, UnknownKeys) {
             "1:36-43 warning unknown-key: unknown key 'eficacy' in behavior 'B'; did you mean "
             "'suitability'?\n");
   EXPECT_EQ(findings("behaviors: [{behavior: B, task: X, package:p}]\n"),
-            "1:36-45 warning unknown-key: unknown key 'package:p' in behavior 'B'; did you mean "
-            "'package'?\n");
+            "1:36-45 warning unknown-key: unknown key 'package:p' in behavior 'B': is a space "
+            "missing after ':'?\n");
   EXPECT_EQ(findings("default_values: {tasks: {suitability: 3}, tsks: 3}\nbehaviors: []\n"),
             "1:26-37 warning unknown-key: unknown key 'suitability' in the defaults of tasks\n"
             "1:43-47 warning unknown-key: unknown key 'tsks' in default_values; did you mean "
@@ -650,11 +650,21 @@ TEST(CatalogReader, UndefinedTasksThatOtherFindingsExplain) {
                      "tasks: [{task: [MOON]}, SUN]\n"),
             "2:16-17 error wrong-type: 'task' must be the name of a task, found a list\n"
             "2:25-28 error wrong-type: a task must be a mapping ('task: NAME'), found 'SUN'\n");
-  // A behavior without a task hides nothing.
+  // The behavior that may define it has no task.
   EXPECT_EQ(
       findings("behaviors:\n- behavior: A\n- {behavior: B, task: X, requires: [{task: MOON}]}\n"),
-      "2:13-14 error missing-key: missing key 'task' in behavior 'A'\n"
-      "3:44-48 error undefined-task: task 'MOON', required by behavior 'B', is not defined\n");
+      "2:13-14 error missing-key: missing key 'task' in behavior 'A'\n");
+  EXPECT_EQ(findings("behaviors:\n- {behavior: A, tasks: []}\n"
+                     "- {behavior: B, task: X, requires: [{task: MOON}]}\n"),
+            "2:17-22 error invalid-value: a behavior must have at least one task\n");
+  EXPECT_EQ(findings("behaviors:\n- {behavior: A, tasks: [{suitability: 3}]}\n"
+                     "- {behavior: B, task: X, requires: [{task: MOON}]}\n"),
+            "2:25-26 error missing-key: missing key 'task' in a task of a behavior\n");
+  // One of two sections of tasks is not read.
+  EXPECT_EQ(findings("tasks: [{task: X}]\ntasks: [{task: MOON}]\n"
+                     "behaviors: [{behavior: B, task: X, requires: [{task: MOON}]}]\n"),
+            "2:1-6 error duplicate-key: 'tasks' is given twice\n"
+            "  1:1-6 first given here\n");
 }
 
 TEST(CatalogReader, AliasesGiveOneFinding) {
@@ -772,6 +782,7 @@ behaviors:
   suitability: 120
   requires:
   - task: MOON
+  - task: SUN
   - task: X
 - behavior: B
   task: Y
@@ -786,13 +797,14 @@ tasks:
             "6:16-19 error invalid-value: 'suitability' must be a number from 0 to 100 (percent), "
             "found '120'\n"
             "8:11-15 error undefined-task: task 'MOON', required by behavior 'B', is not defined\n"
-            "9:11-12 error requirement-cycle: tasks require one another: 'X' -> 'X'\n"
-            "  9:11-12 behavior 'B', which performs 'X', requires 'X'\n"
-            "10:13-14 error duplicate-behavior: behavior 'B' is defined twice\n"
+            "9:11-14 error undefined-task: task 'SUN', required by behavior 'B', is not defined\n"
+            "10:11-12 error requirement-cycle: tasks require one another: 'X' -> 'X'\n"
+            "  10:11-12 behavior 'B', which performs 'X', requires 'X'\n"
+            "11:13-14 error duplicate-behavior: behavior 'B' is defined twice\n"
             "  4:13-14 first defined here\n"
-            "14:19-24 error wrong-type: 'reactive_start' must be true or false, found 'maybe'\n"
-            "15:9-10 warning duplicate-task: task 'X' is listed twice, with the same attributes\n"
-            "  13:9-10 first listed here\n");
+            "15:19-24 error wrong-type: 'reactive_start' must be true or false, found 'maybe'\n"
+            "16:9-10 warning duplicate-task: task 'X' is listed twice, with the same attributes\n"
+            "  14:9-10 first listed here\n");
 }
 
 TEST(CatalogReader, SyntaxErrorsAreFindings) {

@@ -45,8 +45,8 @@ TEST(RuleMarkdown, ShowsTheCatalogOfScripts) {
   rule.is_of_scripts = true;
   const std::string catalog(example_catalog());
   EXPECT_EQ(rule_markdown(rule), rule_markdown(example_rule()) +
-                                          "\n## The catalog of these scripts\n\n```yaml\n" +
-                                          catalog + "```\n");
+                                     "\n## The catalog of these scripts\n\n```yaml\n" + catalog +
+                                     "```\n");
 }
 
 }  // namespace

@@ -208,6 +208,21 @@ TEST(YamlDocument, RefusesWhatIsNotYaml) {
             syntax_error("1:5-6",
                          "unexpected ':': is the indentation right? a value with ': ' in "
                          "it must be in quotes"));
+  // The parser notices only a line, or a comment, later.
+  for (const char* const text : {"- a: 1\n  b:2\n- c: 3\n", "- a: 1\n  b 2\n\n# c\n- d: 3\n",
+                                 "- a: 1\n  b:2  # d\n  c: 3\n"}) {
+    EXPECT_EQ(tree(text),
+              syntax_error("2:3-6",
+                           "expected a key and a value: is ':' missing, or the space after it?"));
+  }
+  EXPECT_EQ(
+      tree("- a 1 # x\n  b: 2\n"),
+      syntax_error("1:3-6", "expected a key and a value: is ':' missing, or the space after it?"));
+  // A name in a list is no key.
+  EXPECT_EQ(tree("- a:\n  - b c\n   d: 2\n"),
+            syntax_error("3:5-6",
+                         "unexpected ':': is the indentation right? a value with ': ' in "
+                         "it must be in quotes"));
   EXPECT_EQ(tree("- a: 1\n   b: 2\n- c\n"),
             syntax_error("2:5-6",
                          "unexpected ':': is the indentation right? a value with ': ' in "
