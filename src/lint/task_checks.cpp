@@ -11,6 +11,7 @@
 #include "cbc/rules.h"
 #include "lint/percent.h"
 #include "text/decimal.h"
+#include "text/nearest.h"
 #include "text/quote.h"
 
 namespace cbc {
@@ -120,6 +121,11 @@ void check_parameters(const Task& task, Reporter& reporter) {
 
 /// Without a section of tasks all of them are named by behaviors only, and one finding says so.
 void check_implicit_tasks(const Catalog& catalog, Reporter& reporter) {
+  std::vector<std::string_view> listed;
+  for (const Task& task : catalog.tasks) {
+    if (!task.implicit) listed.push_back(task.name);
+  }
+  Suggestions suggestions(std::move(listed));
   for (const Task& task : catalog.tasks) {
     if (!task.implicit) continue;
     if (!catalog.has_task_section) {
@@ -128,9 +134,12 @@ void check_implicit_tasks(const Catalog& catalog, Reporter& reporter) {
                       "have the default attributes");
       return;
     }
-    reporter.report(rule::implicit_task, task.range,
-                    "task " + quote(task.name) +
-                        " is named by a behavior only, and has the default attributes");
+    std::string message = "task " + quote(task.name) +
+                          " is named by a behavior only, and has the default attributes";
+    if (const auto meant = suggestions.nearest(task.name)) {
+      message += "; did you mean " + quote(*meant) + "?";
+    }
+    reporter.report(rule::implicit_task, task.range, std::move(message));
   }
 }
 
