@@ -56,7 +56,8 @@ struct Requirement {
   TaskIndex task = 0;
   Millionths minimum_performance = 0;  ///< 0: none
   Range minimum_performance_range;
-  Range range;  ///< of the task name
+  Range range;                 ///< of the task name
+  std::optional<Range> entry;  ///< where its entry begins, if it says no more than this
 };
 
 /// A value of the constraint problem: how something is done.

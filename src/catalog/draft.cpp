@@ -18,6 +18,7 @@ using yaml::Kind;
 using yaml::Node;
 
 constexpr std::string_view task_name = "the name of a task";
+constexpr std::size_t most_tasks = 100;  // of one behavior
 
 class Reader {
  public:
@@ -310,6 +311,12 @@ class Reader {
       reporter_.report(rule::invalid_value, key, "a behavior must have at least one task");
       ++catalog_.nameless_tasks;
     }
+    if (list->items.size() > most_tasks) {
+      // Each of them with each requirement of the behavior is a constraint.
+      reporter_.report(rule::invalid_value, key,
+                       "a behavior may have at most " + std::to_string(most_tasks) +
+                           " tasks, found " + std::to_string(list->items.size()));
+    }
     std::unordered_map<std::string_view, Range> known;
     for (const Node* item : list->items) {
       if (!expect_entry(*item, "a task of a behavior", "task: NAME")) {
@@ -340,11 +347,12 @@ class Reader {
     if (list == nullptr) return;
     for (const Node* item : list->items) {
       if (!expect_entry(*item, "a requirement", "task: NAME")) continue;
+      const std::size_t errors = reporter_.errors();
       Fields fields(*item, shape::requirement, reporter_);
       const auto name = require_name(fields, "task", task_name, item->range);
       const Percent minimum = read_minimum(fields);
       fields.report_unknown(Severity::warning);
-      if (name) requirements.push_back({*name, minimum});
+      if (name) requirements.push_back({*name, minimum, entry_of(*item, fields, errors)});
     }
   }
 

@@ -53,6 +53,7 @@ struct Performance {
 struct Requirement {
   Name task;
   Percent minimum_performance;  ///< 0: none
+  std::optional<Range> entry;   ///< where it begins, if it says no more than this
 };
 
 struct Behavior {

@@ -122,7 +122,7 @@ class Resolver {
       if (task) {
         behavior.requirements.push_back({*task, requirement.minimum_performance.value,
                                          requirement.minimum_performance.range,
-                                         requirement.task.range});
+                                         requirement.task.range, requirement.entry});
       }
     }
     catalog_.behaviors.push_back(std::move(behavior));

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
+
+#include "yaml/source_lines.h"
 
 namespace cbc::cli {
 namespace {
@@ -11,23 +12,14 @@ constexpr std::array<std::string_view, 4> catalog_keys = {
     "behaviors", "tasks", "exclusivity_constraints", "default_values"};
 
 template <typename Keys>
-bool has_any(const yaml::Document& document, const Keys& keys) {
+bool has_any(const yaml::Node& node, const Keys& keys) {
   return std::any_of(keys.begin(), keys.end(),
-                     [&](std::string_view key) { return document.root().find(key) != nullptr; });
+                     [&node](std::string_view key) { return node.find(key) != nullptr; });
 }
 
-}  // namespace
-
-bool is_catalog(const yaml::Document& document) { return has_any(document, catalog_keys); }
-
-bool is_script(const yaml::Document& document) {
-  constexpr std::array<std::string_view, 4> keys = {"events", "catalog", "reactive_delay",
-                                                    "situation"};
-  return document.root().kind == yaml::Kind::sequence ||
-         (!is_catalog(document) && has_any(document, keys));
-}
-
-bool looks_like_catalog(std::string_view text) {
+/// Whether a line begins with one of the keys.
+bool has_line_with_key(std::string_view text) {
+  text = yaml::without_byte_order_mark(text);
   for (std::size_t begin = 0; begin < text.size();) {
     const std::string_view line = text.substr(begin, text.find('\n', begin) - begin);
     for (const std::string_view key : catalog_keys) {
@@ -36,6 +28,34 @@ bool looks_like_catalog(std::string_view text) {
     begin += line.size() + 1;
   }
   return false;
+}
+
+}  // namespace
+
+bool is_catalog(const yaml::Document& document) { return has_any(document.root(), catalog_keys); }
+
+bool is_script(const yaml::Document& document) {
+  constexpr std::array<std::string_view, 4> keys = {"events", "catalog", "reactive_delay",
+                                                    "situation"};
+  constexpr std::array<std::string_view, 9> event_keys = {
+      "start", "stop", "finish", "situation", "fault", "repair", "expect", "at", "wait"};
+  const yaml::Node& root = document.root();
+  if (root.kind != yaml::Kind::sequence) return !is_catalog(document) && has_any(root, keys);
+  // A list of anything else is more likely a catalog that lacks a key.
+  return root.items.empty() ||
+         std::any_of(root.items.begin(), root.items.end(),
+                     [&event_keys](const yaml::Node* item) { return has_any(*item, event_keys); });
+}
+
+bool looks_like_catalog(std::string_view text) {
+  const auto has_word = [text](std::string_view key) {
+    return text.find(key) != std::string_view::npos;
+  };
+  if (std::none_of(catalog_keys.begin(), catalog_keys.end(), has_word)) return false;
+  if (has_line_with_key(text)) return true;
+  Diagnostics ignored;
+  const auto document = yaml::parse(text, {}, ignored);
+  return document != nullptr && is_catalog(*document);
 }
 
 }  // namespace cbc::cli

@@ -10,7 +10,7 @@ namespace cbc::cli {
 [[nodiscard]] bool is_catalog(const yaml::Document& document);
 [[nodiscard]] bool is_script(const yaml::Document& document);
 
-/// The same for a text that is no YAML, as well as can be told.
+/// The same of a text that may be no YAML, as well as can be told.
 [[nodiscard]] bool looks_like_catalog(std::string_view text);
 
 }  // namespace cbc::cli

@@ -54,24 +54,31 @@ std::optional<std::string> read_input(const std::string& path) {
 
 std::string display_name(const std::string& path) { return path == "-" ? "<stdin>" : path; }
 
-std::optional<std::vector<std::string>> list_folder(
-    const std::string& path, std::initializer_list<std::string_view> suffixes) {
+std::vector<std::string> list_folder(const std::string& path,
+                                     std::initializer_list<std::string_view> suffixes,
+                                     bool& has_failed) {
   std::vector<std::string> files;
-  std::error_code error;
-  fs::recursive_directory_iterator entry(path, error);
-  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+  std::vector<fs::path> folders{path};
+  while (!folders.empty()) {
+    const fs::path folder = std::move(folders.back());
+    folders.pop_back();
+    std::error_code error;
     std::error_code ignored;
-    if (entry->path().filename().string().starts_with('.')) {
-      entry.disable_recursion_pending();
-    } else if (std::find(suffixes.begin(), suffixes.end(), entry->path().extension()) !=
-                   suffixes.end() &&
-               entry->is_regular_file(ignored)) {
-      files.push_back(entry->path().string());
+    fs::directory_iterator entry(folder, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+      if (entry->path().filename().string().starts_with('.')) continue;
+      if (entry->is_directory(ignored) && !entry->is_symlink(ignored)) {
+        folders.push_back(entry->path());
+      } else if (std::find(suffixes.begin(), suffixes.end(), entry->path().extension()) !=
+                     suffixes.end() &&
+                 entry->is_regular_file(ignored)) {
+        files.push_back(entry->path().string());
+      }
     }
-  }
-  if (error) {
-    (void)fail(path, error.message());
-    return std::nullopt;
+    if (error) {
+      (void)fail(folder.string(), error.message());
+      has_failed = true;
+    }
   }
   std::sort(files.begin(), files.end());
   return files;

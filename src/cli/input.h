@@ -18,9 +18,11 @@ inline constexpr std::size_t largest_file = std::size_t{256} << 20;
 [[nodiscard]] std::string display_name(const std::string& path);
 
 /// The files with one of the suffixes (".yaml") of a folder and its folders, sorted by path; hidden
-/// ones are passed over. Prints why not to standard error.
-[[nodiscard]] std::optional<std::vector<std::string>> list_folder(
-    const std::string& path, std::initializer_list<std::string_view> suffixes);
+/// ones are passed over, and links to folders. Sets `has_failed`, and prints why to standard error,
+/// if a folder cannot be read.
+[[nodiscard]] std::vector<std::string> list_folder(const std::string& path,
+                                                   std::initializer_list<std::string_view> suffixes,
+                                                   bool& has_failed);
 
 [[nodiscard]] bool is_folder(const std::string& path);
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <unordered_set>
 #include <vector>
@@ -50,7 +51,7 @@ constexpr const char* footer =
     "\n"
     "Exit status: 0 nothing is wrong, 1 there is an error (under --strict: or a warning), 2 a "
     "file\n"
-    "could not be read or written, or the usage is wrong.";
+    "could not be read or written, or the usage is wrong, 3 an internal error.";
 
 struct LintCommand {
   std::vector<std::string> paths;
@@ -103,6 +104,9 @@ std::string find_misuse(const LintCommand& command) {
   if (command.fix && !command.diff && stdin_count > 0) {
     return "standard input cannot be fixed in place; --diff shows what would change";
   }
+  if (command.diff && command.summary) {
+    return "--diff writes a diff, so --summary does not go with it";
+  }
   if (command.summary && command.format != "text" && command.format != "json") {
     return fmt::format("--summary goes with --format text or json, not {}", command.format);
   }
@@ -115,26 +119,53 @@ std::string find_misuse(const LintCommand& command) {
 /// A file to lint.
 struct Target {
   std::string path;
-  bool is_of_folder = false;
+  std::string folder;  ///< that was given, if the file itself was not
 };
 
-/// The files of all paths, each once. False if a folder could not be read.
-bool find_targets(const std::vector<std::string>& paths, std::vector<Target>& targets) {
-  bool is_ok = true;
+/// The files of all paths, each once. A folder that cannot be read is complained of.
+std::vector<Target> find_targets(const std::vector<std::string>& paths, bool& has_failed) {
+  std::vector<Target> targets;
   std::unordered_set<std::string> known;
-  const auto add = [&](const std::string& path, bool is_of_folder) {
-    if (known.insert(path).second) targets.push_back({path, is_of_folder});
+  const auto add = [&](const std::string& path, const std::string& folder) {
+    if (known.insert(path).second) targets.push_back({path, folder});
   };
   for (const std::string& path : paths) {
     if (!is_folder(path)) {
-      add(path, false);
-    } else if (const auto files = list_folder(path, {".yaml", ".yml"})) {
-      for (const std::string& file : *files) add(file, true);
+      add(path, {});
     } else {
-      is_ok = false;
+      for (const std::string& file : list_folder(path, {".yaml", ".yml"}, has_failed)) {
+        add(file, path);
+      }
     }
   }
-  return is_ok;
+  return targets;
+}
+
+/// Lints all that is given. Whether there was anything to lint everywhere.
+bool lint_all(const LintCommand& command, Linter& linter) {
+  bool has_failed = false;
+  const std::vector<Target> targets = find_targets(command.paths, has_failed);
+  std::set<std::string> folders_with_catalogs;
+  Progress progress("linting", targets.size() + command.scripts.size());
+  for (const Target& target : targets) {
+    progress.begin(target.path);
+    if (target.folder.empty()) {
+      linter.lint_catalog(target.path);
+    } else if (linter.lint_if_catalog(target.path)) {
+      folders_with_catalogs.insert(target.folder);
+    }
+  }
+  for (const std::string& script : command.scripts) {
+    progress.begin(script);
+    linter.lint_script(script, command.paths.empty() ? "" : command.paths[0]);
+  }
+  progress.clear();
+  for (const std::string& path : command.paths) {
+    if (!is_folder(path) || folders_with_catalogs.contains(path)) continue;
+    complain(fmt::format("found no catalog in {}", quote(path)));
+    has_failed = true;
+  }
+  return !has_failed;
 }
 
 void print_report(const LintCommand& command, const Linter& linter) {
@@ -152,7 +183,9 @@ void print_report(const LintCommand& command, const Linter& linter) {
   } else {
     const Style style = style_for(stdout);
     if (command.summary) {
-      for (const LintedFile& file : files) fmt::print("{}", lint_summary(file, style));
+      for (const LintedFile& file : files) {
+        if (!file.is_script) fmt::print("{}", lint_summary(file, style));
+      }
     }
     fmt::print("{}", lint_text(files, style));
   }
@@ -176,30 +209,11 @@ int lint(const LintCommand& command) {
   for (const std::string& error : errors) complain(error);
   if (!errors.empty()) return exit_unusable;
 
-  std::vector<Target> targets;
-  const bool has_all = find_targets(command.paths, targets);
   Linter linter(std::move(options));
-  Progress progress("linting", targets.size() + command.scripts.size());
-  for (const Target& target : targets) {
-    progress.begin(target.path);
-    if (target.is_of_folder) {
-      linter.lint_if_catalog(target.path);
-    } else {
-      linter.lint_catalog(target.path);
-    }
-  }
-  for (const std::string& script : command.scripts) {
-    progress.begin(script);
-    linter.lint_script(script, command.paths.empty() ? "" : command.paths[0]);
-  }
-  progress.clear();
-  const bool has_failed = !has_all || linter.has_failed();
-  if (linter.files().empty()) {
-    if (!has_failed) complain(fmt::format("found no catalog in {}", quote(command.paths.back())));
-    return exit_unusable;
-  }
-  print_report(command, linter);
-  if (has_failed) return exit_unusable;
+  const bool has_all = lint_all(command, linter);
+  if (!linter.files().empty()) print_report(command, linter);
+  if (linter.has_internal_error()) return exit_internal;
+  if (!has_all || linter.has_failed()) return exit_unusable;
   return linter.has_found() ? exit_no : exit_ok;
 }
 
@@ -236,7 +250,7 @@ void add_lint_command(CLI::App& program, int& status) {
   const auto add_rules = [command](const char* name, std::vector<std::string>& rules,
                                    const char* text) {
     command->add_option(name, rules, text)
-        ->option_text("RULE")
+        ->option_text("RULE,...")
         ->delimiter(',')
         ->allow_extra_args(false);
   };

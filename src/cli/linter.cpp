@@ -36,18 +36,21 @@ void Linter::lint_catalog(const std::string& path) {
   std::optional<std::string> text = read_input(path);
   if (!text) {
     has_failed_ = true;
+    catalogs_.insert_or_assign(path, nullptr);
     return;
   }
   lint_catalog_text(path, std::move(*text));
 }
 
-void Linter::lint_if_catalog(const std::string& path) {
+bool Linter::lint_if_catalog(const std::string& path) {
   std::optional<std::string> text = read_input(path);
   if (!text) {
     has_failed_ = true;
-  } else if (looks_like_catalog(*text)) {
-    lint_catalog_text(path, std::move(*text));
+    return false;
   }
+  if (!looks_like_catalog(*text)) return false;
+  lint_catalog_text(path, std::move(*text));
+  return true;
 }
 
 void Linter::lint_catalog_text(const std::string& path, std::string text) {
@@ -62,7 +65,7 @@ void Linter::lint_catalog_text(const std::string& path, std::string text) {
     lint_script_text(path, std::move(linted.file.text), "");
     return;
   }
-  if (options_.is_to_fix && !fix(path, linted, *settings)) has_failed_ = true;
+  if (options_.is_to_fix) fix(path, linted, *settings);
   catalogs_.insert_or_assign(path, linted.compiled);
   add(std::move(linted.file), *settings);
 }
@@ -86,40 +89,58 @@ Linter::Linted Linter::lint_text(const std::string& name, std::string text,
     linted.file.summary = std::move(result.summary);
     linted.catalog = std::move(result.reading.catalog);
   }
+  linted.errors = diagnostics.count(Severity::error);
   linted.file.findings = control_findings(diagnostics.release(), commented, settings);
   return linted;
 }
 
-/// Mends what can be mended. False if the result could not be written.
-bool Linter::fix(const std::string& path, Linted& linted, const SeveritySettings& settings) {
-  const std::string before = linted.file.text;
+/// Mends what can be mended. If the result cannot be written, all stays as it was.
+void Linter::fix(const std::string& path, Linted& linted, const SeveritySettings& settings) {
+  Linted fixed;
+  fixed.file = linted.file;
+  fixed.catalog = linted.catalog;
   std::size_t mended = 0;
   // What is mended may uncover more; each round makes the text say less twice, so it comes to an
   // end.
   for (;;) {
-    FixedText fixed = apply_fixes(linted.file.text, linted.file.findings);
-    if (fixed.mended.empty()) break;
-    Linted next = lint_text(linted.file.file, std::move(fixed.text), settings);
-    if (!same_meaning(linted.catalog, next.catalog) ||
-        count(linted.file, Severity::error) != count(next.file, Severity::error)) {
-      complain(fmt::format("{}: internal error: a fix would change the meaning; nothing is written",
-                           quote(linted.file.file)));
-      return false;
-    }
-    mended += fixed.mended.size();
-    linted = std::move(next);
+    FixedText text = apply_fixes(fixed.file.text, fixed.file.findings);
+    if (text.mended.empty()) break;
+    mended += text.mended.size();
+    fixed = lint_text(linted.file.file, std::move(text.text), settings);
   }
-  if (mended == 0) return true;
+  if (mended == 0) return;
+  if (!same_meaning(linted.catalog, fixed.catalog) || fixed.errors > linted.errors) {
+    complain(
+        fmt::format("internal error: mending {} would change its meaning, so nothing is "
+                    "written; please report it with the file",
+                    quote(linted.file.file)));
+    has_internal_error_ = true;
+    return;
+  }
   if (options_.is_to_show_fixes) {
-    diff_ += unified_diff(before, linted.file.text, linted.file.file);
-    return true;
+    diff_ += unified_diff(linted.file.text, fixed.file.text, linted.file.file);
+  } else if (!write_fixed(path, linted.file.text, fixed.file.text)) {
+    has_failed_ = true;
+    return;
+  } else {
+    complain(fmt::format("{}: {} {} mended", printable(linted.file.file), mended,
+                         mended == 1 ? "finding" : "findings"));
   }
-  if (const auto error = write_atomically(path, linted.file.text)) {
+  linted = std::move(fixed);
+}
+
+bool Linter::write_fixed(const std::string& path, const std::string& before,
+                         const std::string& after) {
+  const std::optional<std::string> now = read_input(path);
+  if (!now) return false;
+  if (*now != before) {
+    complain(fmt::format("{} has changed meanwhile; it is left as it is", quote(path)));
+    return false;
+  }
+  if (const auto error = write_atomically(path, after)) {
     complain(fmt::format("cannot write {}: {}", quote(path), *error));
     return false;
   }
-  complain(fmt::format("{}: {} {} mended", printable(linted.file.file), mended,
-                       mended == 1 ? "finding" : "findings"));
   return true;
 }
 
@@ -135,17 +156,25 @@ void Linter::lint_script(const std::string& path, const std::string& catalog) {
 void Linter::lint_script_text(const std::string& path, std::string text,
                               const std::string& catalog) {
   LintedFile file;
+  file.is_script = true;
   file.file = name_of(path);
   file.text = std::move(text);
   const std::optional<SeveritySettings> settings = settings_.find(path == "-" ? file.file : path);
   Diagnostics diagnostics;
   const auto document = yaml::parse(file.text, file.file, diagnostics);
   CommentedFile commented{file.file, file.text, document.get(), false};
+  if (document != nullptr && is_catalog(*document)) {
+    complain(fmt::format("{} is a catalog; expected an event script", quote(file.file)));
+    has_failed_ = true;
+    return;
+  }
   if (document != nullptr) {
-    const CatalogPointer compiled = catalog_of(path, *document, catalog);
+    const CatalogPointer compiled = catalog_of(*document, catalog);
     if (compiled == nullptr) return;
     const auto script = read_script(*document, names_of(*compiled), Severity::error, diagnostics);
-    commented.is_complete = script.has_value();
+    // Findings that may be allowed do not keep a script from being understood.
+    commented.is_complete =
+        script || std::none_of(diagnostics.all().begin(), diagnostics.all().end(), is_fixed);
   }
   if (!settings) {
     has_failed_ = true;
@@ -157,11 +186,10 @@ void Linter::lint_script_text(const std::string& path, std::string text,
 
 /// The catalog that a script runs on; nullptr if there is none that is good, which is complained
 /// of.
-Linter::CatalogPointer Linter::catalog_of(const std::string& path, const yaml::Document& script,
-                                          const std::string& given) {
+Linter::CatalogPointer Linter::catalog_of(const yaml::Document& script, const std::string& given) {
   std::string catalog = given;
   if (const auto named = catalog_of_script(script); catalog.empty() && named) {
-    catalog = (fs::path(path).parent_path() / *named).lexically_normal().string();
+    catalog = (fs::path(script.file()).parent_path() / *named).lexically_normal().string();
   }
   if (catalog.empty()) {
     complain(
@@ -174,8 +202,10 @@ Linter::CatalogPointer Linter::catalog_of(const std::string& path, const yaml::D
   const bool is_linted = catalogs_.contains(catalog);
   CatalogPointer compiled = catalog_at(catalog);
   if (compiled == nullptr) {
-    complain(fmt::format("script {} is not checked, as its catalog {} has errors",
-                         quote(script.file()), quote(catalog)));
+    complain(
+        fmt::format("script {} is not checked, as its catalog {} cannot be used; "
+                    "'cbc lint' says why",
+                    quote(script.file()), quote(catalog)));
     // The errors of a catalog that was linted are findings.
     if (!is_linted) has_failed_ = true;
   }

@@ -32,14 +32,16 @@ class Linter {
 
   /// A catalog, or an event script that names its catalog.
   void lint_catalog(const std::string& path);
-  /// A catalog of a folder, in which other files may lie.
-  void lint_if_catalog(const std::string& path);
+  /// A file of a folder, in which there may be others than catalogs. Whether it is a catalog.
+  bool lint_if_catalog(const std::string& path);
   /// `catalog`: path of the catalog that it runs on; if empty, the one that the script names.
   void lint_script(const std::string& path, const std::string& catalog);
 
   [[nodiscard]] const std::vector<LintedFile>& files() const { return files_; }
   /// Whether a file could not be read, or not be written.
   [[nodiscard]] bool has_failed() const { return has_failed_; }
+  /// Whether a fault of cbc showed.
+  [[nodiscard]] bool has_internal_error() const { return has_internal_error_; }
   /// Whether there is an error, or a warning in a file for which it counts as one.
   [[nodiscard]] bool has_found() const { return has_found_; }
   [[nodiscard]] const std::string& diff() const { return diff_; }
@@ -49,15 +51,17 @@ class Linter {
   struct Linted {
     LintedFile file;
     Catalog catalog;
+    std::size_t errors = 0;  ///< whatever the settings say
     bool is_script = false;
     CatalogPointer compiled;  ///< if scripts can be checked against it
   };
 
   [[nodiscard]] Linted lint_text(const std::string& name, std::string text,
                                  const SeveritySettings& settings) const;
-  [[nodiscard]] bool fix(const std::string& path, Linted& linted, const SeveritySettings& settings);
-  [[nodiscard]] CatalogPointer catalog_of(const std::string& path, const yaml::Document& script,
-                                          const std::string& given);
+  void fix(const std::string& path, Linted& linted, const SeveritySettings& settings);
+  [[nodiscard]] static bool write_fixed(const std::string& path, const std::string& before,
+                                        const std::string& after);
+  [[nodiscard]] CatalogPointer catalog_of(const yaml::Document& script, const std::string& given);
   [[nodiscard]] CatalogPointer catalog_at(const std::string& path);
   void lint_script_text(const std::string& path, std::string text, const std::string& catalog);
   void lint_catalog_text(const std::string& path, std::string text);
@@ -70,6 +74,7 @@ class Linter {
   SettingsFinder settings_;
   std::string diff_;
   bool has_failed_ = false;
+  bool has_internal_error_ = false;
   bool has_found_ = false;
 };
 

@@ -22,16 +22,17 @@
 namespace {
 
 constexpr const char* description =
-    "Solves behavior catalogs offline: which behaviors of a robot should be active, proven best,\n"
-    "on every event.";
+    "Checks behavior catalogs, and solves them offline: which behaviors of a robot should be\n"
+    "active, proven best, on every event.";
 
 constexpr const char* footer =
     "Examples:\n"
+    "  cbc lint quadrotor.yaml\n"
     "  cbc solve quadrotor.yaml mission.yaml\n"
     "  cbc solve quadrotor.yaml mission.yaml --format json | jq .\n"
     "\n"
-    "Exit status: 0 all is well, 1 an expectation failed, 2 the input or the usage is wrong,\n"
-    "3 an internal error.";
+    "Exit status: 0 all is well, 1 a catalog has an error or an expectation failed, 2 the input\n"
+    "or the usage is wrong, 3 an internal error.";
 
 std::string full_name(const CLI::App& app) {
   const CLI::App* const used = app.get_subcommands().empty() ? &app : app.get_subcommands().front();

@@ -105,12 +105,7 @@ void MissionLoader::add_path(const std::string& path) {
 
 /// The scripts of a folder; catalogs may lie among them.
 void MissionLoader::add_folder(const std::string& path) {
-  const auto files = list_folder(path, {".yaml", ".yml", ".json"});
-  if (!files) {
-    has_failed_ = true;
-    return;
-  }
-  for (const std::string& file : *files) {
+  for (const std::string& file : list_folder(path, {".yaml", ".yml", ".json"}, has_failed_)) {
     const DocumentPointer document = read(file);
     if (document != nullptr && is_script(*document)) add_script(file, *document);
   }

@@ -35,7 +35,7 @@ std::vector<Cell> split(std::string_view line) {
     const char32_t character = decoded.character;
     if (character == '\t') {
       cells.push_back({"\t", "\t", 1});
-    } else if (!decoded.valid || character < 0x20 || (character >= 0x7F && character < 0xA0)) {
+    } else if (!decoded.valid || is_control(character)) {
       cells.push_back({replacement_character, " ", 1});
     } else {
       const std::size_t width = utf8::display_width(character);

@@ -15,12 +15,13 @@ void RelevantTasks::add(TaskId task) {
   tasks_.push_back(task);
 }
 
-void RelevantTasks::close() {
-  // NOLINTNEXTLINE(modernize-loop-convert): the list grows
+bool RelevantTasks::close(std::size_t most) {
   for (std::size_t next = 0; next < tasks_.size(); ++next) {
+    if (tasks_.size() > most) return false;
     for (const Arc& arc : catalog_.arcs[tasks_[next]]) add(arc.target);
   }
   std::sort(tasks_.begin(), tasks_.end());
+  return true;
 }
 
 std::vector<BehaviorId> RelevantTasks::behaviors() const {

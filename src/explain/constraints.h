@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -15,8 +16,9 @@ class RelevantTasks {
   RelevantTasks(const CompiledCatalog& catalog, std::uint32_t group);
 
   void add(TaskId task);
-  /// Adds all that the tasks so far may require; in TaskId order from then on.
-  void close();
+  /// Adds all that the tasks so far may require; in TaskId order from then on. False if that are
+  /// more than `most` tasks, and not all of them were added.
+  bool close(std::size_t most = SIZE_MAX);
 
   [[nodiscard]] bool contains(TaskId task) const { return is_relevant_[task - first_task_] != 0; }
   [[nodiscard]] const std::vector<TaskId>& tasks() const { return tasks_; }

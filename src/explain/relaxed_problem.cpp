@@ -143,6 +143,7 @@ bool RelaxedProblem::propagate(Domains& domains, std::span<const Reason> reasons
 }
 
 bool RelaxedProblem::apply_requirement(Domains& domains, const Reason& reason) {
+  effort_ += catalog_.performs[reason.behavior].size();
   for (const ValueId id : catalog_.performs[reason.behavior]) {
     const TaskId task = catalog_.task_of(id);
     const std::uint32_t place = id - catalog_.values.begin[task];
@@ -180,6 +181,7 @@ bool RelaxedProblem::may_reach(const Domains& domains, TaskId reached, Millionth
     product_.multiply(catalog_.values[task][best(domains, task)].suitability);
     const BehaviorId behavior = fixed_behavior(domains, task);
     if (behavior == none) continue;
+    effort_ += catalog_.requirements[behavior].size();
     for (const CompiledRequirement& requirement : catalog_.requirements[behavior]) {
       const TaskId target = requirement.task;
       if (!is_needed(domains, target) || in_closure_[target - first_task_] != 0) continue;
@@ -187,6 +189,8 @@ bool RelaxedProblem::may_reach(const Domains& domains, TaskId reached, Millionth
       closure_.push_back(target);
     }
   }
+  // A product grows with each factor.
+  effort_ += in_closure_.size() / 8 + closure_.size() * closure_.size();
   minimum_.clear();
   minimum_.multiply(minimum);
   return ExactProduct::compare(product_, minimum_) >= 0;

@@ -25,6 +25,9 @@ class AssignmentSearch {
 
   [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
 
+  /// Whether the effort is used up.
+  [[nodiscard]] bool is_exhausted() const { return effort_left_ == 0; }
+
   /// A value that no assignment has, which need not be tried again.
   void rule_out(ValueId value);
 

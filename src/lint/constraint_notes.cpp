@@ -1,6 +1,7 @@
 #include "lint/constraint_notes.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -63,22 +64,25 @@ Note to_note(const Reason& reason, const Catalog& catalog, const CompiledCatalog
 
 std::vector<Note> constraint_notes(std::span<const Reason> constraints, const Catalog& catalog,
                                    const CompiledCatalog& compiled, const Reporter& reporter) {
-  // Requirements from the top down, then what they lead to.
-  std::vector<Reason> ordered(constraints.begin(), constraints.end());
-  const auto level = [&compiled](const Reason& reason) {
-    return reason.behavior == none ? 0 : compiled.behaviors[reason.behavior].level;
+  struct Entry {
+    bool requires_task = false;
+    std::uint32_t level = 0;
+    Note note;
   };
-  std::stable_sort(ordered.begin(), ordered.end(), [&level](const Reason& a, const Reason& b) {
-    const bool a_requires = a.kind == Reason::Kind::requires_task;
-    const bool b_requires = b.kind == Reason::Kind::requires_task;
-    if (a_requires != b_requires) return a_requires;
-    return level(a) != level(b) ? level(a) > level(b) : a.line < b.line;
+  std::vector<Entry> entries;
+  for (const Reason& reason : constraints) {
+    const std::uint32_t level =
+        reason.behavior == none ? 0 : compiled.behaviors[reason.behavior].level;
+    entries.push_back({reason.kind == Reason::Kind::requires_task, level,
+                       to_note(reason, catalog, compiled, reporter)});
+  }
+  // Requirements from the top down, then what they lead to; otherwise as in the file.
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    if (a.requires_task != b.requires_task) return a.requires_task;
+    return a.level != b.level ? a.level > b.level : a.note.range < b.note.range;
   });
   std::vector<Note> notes;
-  notes.reserve(ordered.size());
-  for (const Reason& reason : ordered) {
-    notes.push_back(to_note(reason, catalog, compiled, reporter));
-  }
+  for (Entry& entry : entries) notes.push_back(std::move(entry.note));
   return notes;
 }
 

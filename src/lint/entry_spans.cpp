@@ -14,6 +14,22 @@ constexpr std::string_view blanks = " \t\r\n";
 
 bool is_blank(char byte) { return blanks.find(byte) != std::string_view::npos; }
 
+/// Whether a comment for this program stands alone above a line: it would be about what follows.
+bool has_control_above(std::string_view text, std::size_t line_begin) {
+  std::string_view above = text.substr(0, line_begin);
+  while (!above.empty()) {
+    above.remove_suffix(1);                           // the line break
+    const std::size_t begin = above.rfind('\n') + 1;  // 0 if there is none
+    const std::string_view line = above.substr(begin);
+    above = above.substr(0, begin);
+    const std::size_t content = line.find_first_not_of(" \t\r");
+    if (content == std::string_view::npos) continue;
+    if (line[content] != '#') return false;
+    if (line.find("cbc:", content) != std::string_view::npos) return true;
+  }
+  return false;
+}
+
 /// Whether a comment may stand in a piece of a text: any '#', as what begins one is a matter of
 /// taste among parsers.
 bool may_have_comment(std::string_view text, const Span& span) {
@@ -144,6 +160,7 @@ std::optional<Span> EntrySpans::lines_of(const Entry& entry) const {
   const Line first = line_at(text_, positions_.offset(line_begin));
   const std::size_t dash = first.content;
   if (dash >= begin || !is_dash(text_, dash)) return std::nullopt;
+  if (has_control_above(text_, first.begin)) return std::nullopt;
   if (text_.find_first_not_of(blanks, dash + 1) != begin) return std::nullopt;
 
   const std::size_t indentation = dash - first.begin;

@@ -16,6 +16,7 @@ struct LintedFile {
   std::string text;                  ///< as it was read
   std::vector<Diagnostic> findings;  ///< in the order of Diagnostics::sort
   std::optional<Summary> summary;    ///< of a catalog that was understood
+  bool is_script = false;            ///< an event script, which has no summary
 };
 
 /// Number of findings of a severity in all files.

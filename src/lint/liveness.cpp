@@ -36,23 +36,33 @@ std::vector<TaskId> tasks_by_level(const CompiledCatalog& catalog) {
 }  // namespace
 
 Liveness::Liveness(AssignmentSearch& search)
-    : catalog_(search.catalog()), values_(catalog_.values.items.size(), State::undecided) {
-  Assignment solution;
+    : catalog_(search.catalog()),
+      is_live_(catalog_.values.items.size(), false),
+      is_dead_(catalog_.values.items.size(), false),
+      direct_(catalog_) {
   for (const TaskId task : tasks_by_level(catalog_)) {
-    for (std::uint32_t place = 0; place < catalog_.values[task].size(); ++place) {
-      const ValueId value = catalog_.values.begin[task] + place;
-      if (values_[value] == State::live) continue;
-      const Feasibility answer = search.find(value, {}, solution);
-      if (answer == Feasibility::no) {
-        values_[value] = State::dead;
-        search.rule_out(value);
-      } else if (answer == Feasibility::yes) {
-        // What is in a solution beside the value is live, too.
-        const TaskId first = catalog_.group_tasks[catalog_.tasks[task].group];
-        for (std::uint32_t other = 0; other < solution.size(); ++other) {
-          if (solution[other] == none) continue;
-          values_[catalog_.values.begin[first + other] + solution[other]] = State::live;
-        }
+    for (ValueId value = catalog_.values.begin[task]; value < catalog_.values.begin[task + 1];
+         ++value) {
+      if (!is_live_[value]) decide(value, search);
+    }
+  }
+}
+
+/// What is in an assignment beside the value is live, too.
+void Liveness::decide(ValueId value, AssignmentSearch& search) {
+  const std::vector<ValueId>& values = direct_.find(value, is_dead_, is_live_);
+  for (const ValueId other : values) is_live_[other] = true;
+  if (!values.empty()) return;
+
+  const Feasibility answer = search.find(value, {}, solution_);
+  if (answer == Feasibility::no) {
+    is_dead_[value] = true;
+    search.rule_out(value);
+  } else if (answer == Feasibility::yes) {
+    const TaskId first = catalog_.group_tasks[catalog_.tasks[catalog_.task_of(value)].group];
+    for (std::uint32_t task = 0; task < solution_.size(); ++task) {
+      if (solution_[task] != none) {
+        is_live_[catalog_.values.begin[first + task] + solution_[task]] = true;
       }
     }
   }
@@ -60,7 +70,7 @@ Liveness::Liveness(AssignmentSearch& search)
 
 Liveness::State Liveness::of_behavior(BehaviorId behavior) const {
   Sum sum;
-  for (const ValueId value : catalog_.performs[behavior]) sum.add(values_[value]);
+  for (const ValueId value : catalog_.performs[behavior]) sum.add(of_value(value));
   return sum.state();
 }
 
@@ -68,7 +78,7 @@ Liveness::State Liveness::of_task(TaskId task) const {
   Sum sum;
   for (ValueId value = catalog_.values.begin[task]; value < catalog_.values.begin[task + 1];
        ++value) {
-    sum.add(values_[value]);
+    sum.add(of_value(value));
   }
   return sum.state();
 }

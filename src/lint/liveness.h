@@ -5,6 +5,7 @@
 
 #include "compiled/compiled_catalog.h"
 #include "lint/assignment_search.h"
+#include "lint/direct_assignment.h"
 
 namespace cbc {
 
@@ -16,15 +17,23 @@ class Liveness {
   /// Searches. Dead values are ruled out in `search` from then on.
   explicit Liveness(AssignmentSearch& search);
 
-  [[nodiscard]] State of_value(ValueId value) const { return values_[value]; }
+  [[nodiscard]] State of_value(ValueId value) const {
+    if (is_live_[value]) return State::live;
+    return is_dead_[value] ? State::dead : State::undecided;
+  }
   /// Dead if it is dead as a value of all its tasks.
   [[nodiscard]] State of_behavior(BehaviorId behavior) const;
   /// Dead if all its behaviors are dead as its values; a task without behaviors is dead.
   [[nodiscard]] State of_task(TaskId task) const;
 
  private:
+  void decide(ValueId value, AssignmentSearch& search);
+
   const CompiledCatalog& catalog_;
-  std::vector<State> values_;
+  std::vector<bool> is_live_;  ///< by value
+  std::vector<bool> is_dead_;
+  DirectAssignment direct_;
+  Assignment solution_;
 };
 
 }  // namespace cbc

@@ -38,13 +38,12 @@ class OnRequestCheck {
     constexpr std::size_t most_candidates = 100;  // enough for a sentence
     RelevantTasks relevant(catalog_, catalog_.tasks[task].group);
     relevant.add(task);
-    relevant.close();
-    std::vector<TaskId> candidates;
-    for (const TaskId other : relevant.tasks()) {
-      if (other != task && catalog_.tasks[other].start_on_request) candidates.push_back(other);
-    }
     std::vector<TaskId> needed;
-    if (candidates.size() <= most_candidates) {
+    if (relevant.close(most_candidates)) {
+      std::vector<TaskId> candidates;
+      for (const TaskId other : relevant.tasks()) {
+        if (other != task && catalog_.tasks[other].start_on_request) candidates.push_back(other);
+      }
       std::vector<TaskId> closed;
       for (const TaskId candidate : candidates) {
         closed.push_back(candidate);
@@ -68,10 +67,16 @@ class OnRequestCheck {
   }
 
   [[nodiscard]] std::string join(const std::vector<TaskId>& tasks) const {
+    constexpr std::size_t most_names = 10;
     std::string text;
-    for (const TaskId task : tasks) {
+    for (std::size_t place = 0; place < tasks.size(); ++place) {
+      // Of a long list the beginning, and what is required in the end.
+      if (tasks.size() > most_names && place == most_names - 1) {
+        text += ", then " + std::to_string(tasks.size() - most_names) + " more";
+        place = tasks.size() - 1;
+      }
       if (!text.empty()) text += ", then ";
-      text += quote(semantics_.task(task).name);
+      text += quote(semantics_.task(tasks[place]).name);
     }
     return text;
   }

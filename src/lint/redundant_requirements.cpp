@@ -10,6 +10,7 @@
 #include "explain/constraints.h"
 #include "explain/minimal_set.h"
 #include "lint/constraint_notes.h"
+#include "lint/percent.h"
 #include "text/quote.h"
 
 namespace cbc {
@@ -23,8 +24,25 @@ class RedundancyCheck {
   void check(BehaviorId id) {
     if (semantics_.liveness().of_behavior(id) != Liveness::State::live) return;
     check_repetitions(semantics_.behavior(id));
+    if (catalog_.requirements[id].size() < 2) return;
     for (const CompiledRequirement& requirement : catalog_.requirements[id]) {
       check_requirement(id, requirement);
+    }
+  }
+
+  /// One note for all, at the first one: such catalogs are large.
+  void report_undecided() {
+    if (undecided_ == 0) return;
+    const Behavior& behavior = semantics_.behavior(undecided_behavior_);
+    const TaskIndex task = catalog_.tasks[undecided_task_].catalog_index;
+    for (const Requirement& requirement : behavior.requirements) {
+      if (requirement.task != task) continue;
+      semantics_.reporter().report(
+          rule::undecided, requirement.range,
+          "whether the requirement of " + quote(semantics_.catalog().tasks[task].name) +
+              (undecided_ > 1 ? ", and " + std::to_string(undecided_ - 1) + " others," : "") +
+              " is redundant could not be decided: there is too much to search");
+      return;
     }
   }
 
@@ -41,9 +59,11 @@ class RedundancyCheck {
     for (const Requirement& requirement : behavior.requirements) {
       const Requirement& kept = *strongest.at(requirement.task);
       if (&kept == &requirement) continue;
+      std::vector<Edit> edits;
+      if (requirement.entry) edits.push_back({Edit::Kind::remove_entry, *requirement.entry, {}});
       report(behavior, requirement,
              {semantics_.reporter().note(kept.range, "it is required here already")},
-             {{Edit::Kind::remove_entry, requirement.range, {}}});
+             std::move(edits));
     }
   }
 
@@ -60,13 +80,18 @@ class RedundancyCheck {
     for (const BehaviorId behavior : relevant.behaviors()) {
       add_requirements(catalog_, behavior, others);
     }
-    if (others.size() >= most_constraints) return;
+    if (others.size() >= most_constraints) {
+      note_undecided(id, requirement);
+      return;
+    }
     others.erase(std::remove_if(others.begin(), others.end(),
                                 [&](const Reason& reason) {
                                   return reason.behavior == id && reason.task == requirement.task;
                                 }),
                  others.end());
-    if (can_be_broken(id, requirement, others) != Feasibility::no) return;
+    const Feasibility answer = can_be_broken(id, requirement, others);
+    if (answer == Feasibility::unknown) note_undecided(id, requirement);
+    if (answer != Feasibility::no) return;
 
     const std::vector<Reason> reason = minimal_set(others, [&](std::span<const Reason> some) {
       return can_be_broken(id, requirement, some) != Feasibility::no;
@@ -126,8 +151,17 @@ class RedundancyCheck {
         rule::redundant_requirement, requirement.range,
         "the requirement of " + task + " is redundant: wherever behavior " + quote(behavior.name) +
             " is active, " + task +
-            (requirement.minimum_performance > 0 ? " performs so well anyway" : " runs anyway"),
+            (requirement.minimum_performance > 0
+                 ? " performs with at least " + show_percent(requirement.minimum_performance)
+                 : std::string(" runs")) +
+            " anyway",
         std::move(notes), std::move(edits));
+  }
+
+  void note_undecided(BehaviorId id, const CompiledRequirement& requirement) {
+    if (undecided_++ > 0) return;
+    undecided_behavior_ = id;
+    undecided_task_ = requirement.task;
   }
 
   /// With more constraints than this a group is too large for the question.
@@ -135,6 +169,9 @@ class RedundancyCheck {
 
   Semantics& semantics_;
   const CompiledCatalog& catalog_;
+  std::size_t undecided_ = 0;
+  BehaviorId undecided_behavior_ = none;  ///< of the first one
+  TaskId undecided_task_ = none;
 };
 
 }  // namespace
@@ -142,6 +179,7 @@ class RedundancyCheck {
 void check_redundant_requirements(Semantics& semantics) {
   RedundancyCheck check(semantics);
   for (BehaviorId id = 0; id < semantics.compiled().behaviors.size(); ++id) check.check(id);
+  check.report_undecided();
 }
 
 }  // namespace cbc

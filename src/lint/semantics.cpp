@@ -1,6 +1,7 @@
 #include "lint/semantics.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "cbc/rules.h"
 
@@ -8,7 +9,7 @@ namespace cbc {
 namespace {
 
 /// Reasons that may be looked at in all; past them questions stay open.
-constexpr std::uint64_t most_effort = 500'000'000;
+constexpr std::uint64_t most_effort = 400'000'000;
 
 }  // namespace
 
@@ -52,9 +53,17 @@ Feasibility Semantics::solve(std::span<const Goal> goals, std::span<const Reason
 }
 
 void Semantics::report_undecided(const Range& range, const std::string& question) {
-  reporter_.report(rule::undecided, range,
-                   question + " could not be decided within " + std::to_string(max_nodes_) +
-                       " decisions (--max-nodes)");
+  if (search_.is_exhausted()) {
+    if (!std::exchange(has_told_exhaustion_, true)) {
+      reporter_.report(
+          rule::undecided, range,
+          question + " and other questions could not be decided: there is too much to search");
+    }
+    return;
+  }
+  reporter_.report(
+      rule::undecided, range,
+      question + " could not be decided with --max-nodes " + std::to_string(max_nodes_));
 }
 
 }  // namespace cbc

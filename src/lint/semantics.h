@@ -70,6 +70,7 @@ class Semantics {
   std::vector<bool> tasks_;
   const std::vector<std::uint32_t> nothing_present_;
   std::uint64_t effort_left_;
+  bool has_told_exhaustion_ = false;
 };
 
 }  // namespace cbc

@@ -134,8 +134,8 @@ void check_implicit_tasks(const Catalog& catalog, Reporter& reporter) {
                       "have the default attributes");
       return;
     }
-    std::string message = "task " + quote(task.name) +
-                          " is named by a behavior only, and has the default attributes";
+    std::string message =
+        "task " + quote(task.name) + " is named by a behavior only, and has the default attributes";
     if (const auto meant = suggestions.nearest(task.name)) {
       message += "; did you mean " + quote(*meant) + "?";
     }

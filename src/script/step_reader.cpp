@@ -187,12 +187,11 @@ void StepReader::read_verb(std::string_view verb, const Fields& fields, Step& st
 
 void StepReader::check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter) {
   if (!knows_situation_ || !is_available_[behavior]) return;
-  const std::string name = quote(names_.all().behaviors[behavior]);
+  const std::string_view name = names_.all().behaviors[behavior];
   reporter.report(rule::still_available, range,
-                  "behavior " + name +
-                      " is still available here, so that it can be chosen again at "
-                      "once; say situation: {" +
-                      name + ": false} before");
+                  "behavior " + quote(name) +
+                      " is still available here, so that it can be chosen again at once; say " +
+                      quote("situation: {" + std::string(name) + ": false}") + " before");
 }
 
 std::vector<Availability> StepReader::read_situation(const Node& node, Reporter& reporter) {

@@ -9,13 +9,6 @@ namespace {
 
 constexpr std::size_t longest = 80;
 
-/// Control characters, and those that break lines or turn the direction of what follows.
-bool is_control(char32_t character) {
-  return character < 0x20 || (character >= 0x7F && character < 0xA0) ||
-         (character >= 0x2028 && character <= 0x202E) ||
-         (character >= 0x2066 && character <= 0x2069);
-}
-
 std::string escape(char32_t character) {
   constexpr std::string_view digits = "0123456789abcdef";
   switch (character) {
@@ -56,6 +49,12 @@ std::string escape_some(std::string_view text, std::size_t limit) {
 }
 
 }  // namespace
+
+bool is_control(char32_t character) {
+  return character < 0x20 || (character >= 0x7F && character < 0xA0) ||
+         (character >= 0x2028 && character <= 0x202E) ||
+         (character >= 0x2066 && character <= 0x2069);
+}
 
 std::string quote(std::string_view text) { return "'" + escape_some(text, longest) + "'"; }
 

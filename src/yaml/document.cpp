@@ -65,6 +65,8 @@ std::string explain(const std::string& message) {
       {"illegal map value",
        "unexpected ':': is the indentation right? a value with ': ' in it must be in quotes"},
       {"illegal block entry", "unexpected '- ': is the indentation right?"},
+      {"illegal map key", "unexpected '? ': is the indentation right?"},
+      {"illegal flow end", "this bracket does not close the one that was opened last"},
       {"illegal document indicator in scalar",
        "a text in quotes does not end before '---' or "
        "'...' at the start of a line"},

@@ -99,8 +99,13 @@ void Fields::report_older_names() {
       std::vector<Edit> edits;
       if (present.key == nullptr && !older.is_repeated)
         edits = modernize(key, *older.key, *older.value);
+      std::string written(key.replaced_by);
+      if (key.translate != nullptr) {
+        // Renamed only, it would say something else.
+        if (const auto value = key.translate(*older.value)) written += ": " + std::string(*value);
+      }
       reporter_.report(rule::deprecated_key, older.key->range,
-                       quote(key.name) + " is an older name: write " + quote(key.replaced_by), {},
+                       quote(key.name) + " is an older name: write " + quote(written), {},
                        std::move(edits));
       continue;
     }
@@ -167,7 +172,9 @@ void Fields::report_unknown(Severity severity) {
     const auto inner = std::find_if(shape_.inner.begin(), shape_.inner.end(),
                                     [&key](const Shape* shape) { return shape->has(key); });
     const std::string_view suggestion = suggestion_for(key);
-    if (inner != shape_.inner.end()) {
+    // A list under the name of what it lists ('task:' for 'tasks:') is at the right level.
+    const bool is_singular = field.value->kind == Kind::sequence && suggestion == key + "s";
+    if (inner != shape_.inner.end() && !is_singular) {
       message += ": it belongs to " + std::string((*inner)->what) + ", one level down";
     } else if (shape_.outer != nullptr && shape_.outer->has(key)) {
       message += ": it belongs to " + std::string(shape_.outer->what) + ", one level up";

@@ -27,7 +27,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include "golden/lint_json_shape.h"
 #include "golden/process.h"
 #include "golden/solve_json_shape.h"
 
@@ -129,6 +131,13 @@ bool asks_for_json(const Call& call) {
          *(format + 1) == "json";
 }
 
+/// What is wrong with the shape of a report in JSON, by the schema that it names.
+std::vector<std::string> find_json_faults(const std::string& text) {
+  const nlohmann::json report = nlohmann::json::parse(text, nullptr, false);
+  const bool is_of_lint = report.is_object() && report.value("schema", "") == "cbc.lint/1";
+  return is_of_lint ? find_lint_shape_faults(text) : find_shape_faults(text);
+}
+
 class Golden : public testing::TestWithParam<std::string> {};
 
 TEST_P(Golden, Matches) {
@@ -146,7 +155,7 @@ TEST_P(Golden, Matches) {
   expect_text_of(folder / "stderr", result.err);
   expect_text_of(folder / "status", status);
   if (asks_for_json(call) && !result.out.empty()) {
-    EXPECT_EQ(find_shape_faults(result.out), std::vector<std::string>());
+    EXPECT_EQ(find_json_faults(result.out), std::vector<std::string>());
   }
 }
 

@@ -45,6 +45,12 @@ Call error_call() {
   return {{"solve", "catalog.yaml", "script.yaml"}, folder_of("catalog_undefined_task")};
 }
 
+Call lint_call() {
+  return {{"lint", "--summary", "catalog.yaml", "good.yaml"}, folder_of("lint_summary")};
+}
+
+Call lint_findings_call() { return {{"lint", "catalog.yaml"}, folder_of("lint_format_text")}; }
+
 class Terminal : public testing::Test {
  protected:
   void SetUp() override {
@@ -69,6 +75,19 @@ bool shows_color(const Call& call) {
 TEST_F(Terminal, ShowsResultsAndFindingsInColor) {
   EXPECT_TRUE(shows_color(mission_call()));
   EXPECT_TRUE(shows_color(error_call()));
+  EXPECT_TRUE(shows_color(lint_call()));
+  EXPECT_TRUE(shows_color(lint_findings_call()));
+  EXPECT_TRUE(shows_color({{"lint", "--explain", "dead-task"}, "/"}));
+  EXPECT_TRUE(shows_color({{"lint", "--list-rules"}, "/"}));
+}
+
+TEST_F(Terminal, ShowsWhatOtherProgramsReadWithoutColor) {
+  for (const char* format : {"json", "sarif", "github", "gcc"}) {
+    Call call = lint_findings_call();
+    call.arguments.insert(call.arguments.end(), {"--format", format});
+    EXPECT_FALSE(shows_color(call)) << format;
+  }
+  EXPECT_FALSE(shows_color({{"lint", "--diff", "catalog.yaml"}, folder_of("lint_diff")}));
 }
 
 TEST_F(Terminal, ShowsJsonWithoutColor) {
@@ -78,7 +97,7 @@ TEST_F(Terminal, ShowsJsonWithoutColor) {
 }
 
 TEST_F(Terminal, ShowsNoColorWhereNoneIsWanted) {
-  for (Call call : {mission_call(), error_call()}) {
+  for (Call call : {mission_call(), error_call(), lint_call(), lint_findings_call()}) {
     call.environment = {{"TERM", "xterm"}, {"NO_COLOR", "1"}};
     EXPECT_FALSE(shows_color(call));
   }
@@ -91,7 +110,7 @@ TEST_F(Terminal, TakesAnEmptyNoColorAsUnset) {
 }
 
 TEST_F(Terminal, ShowsNoColorIfItIsDumb) {
-  for (Call call : {mission_call(), error_call()}) {
+  for (Call call : {mission_call(), error_call(), lint_call(), lint_findings_call()}) {
     call.environment = {{"TERM", "dumb"}};
     EXPECT_FALSE(shows_color(call));
   }

@@ -224,7 +224,7 @@ Result older_name(const CatalogOutline& catalog, Random& random) {
   lines.replace(field.line, field.column, field.key.size(), key);
   return Mutation{lines.text(),
                   {at(lines, "deprecated-key", field.line, field.column,
-                      quoted(key) + " is an older name: write " + quoted(field.key))}};
+                      quoted(key) + " is an older name: write '" + field.key)}};
 }
 
 Result both_names(const CatalogOutline& catalog, Random& random) {

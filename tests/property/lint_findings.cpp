@@ -217,11 +217,13 @@ class FindingReader {
 
   void read_redundant(const Diagnostic& finding) {
     const RequirementEntry entry = entry_at(finding.range);
-    expect(
-        after(finding.message,
-              "the requirement of " + task(entry) + " is redundant: wherever behavior " +
-                  behavior(entry) + " is active, " + task(entry) +
-                  (requirement(entry).minimum > 0 ? " performs so well anyway" : " runs anyway")));
+    expect(after(finding.message,
+                 "the requirement of " + task(entry) + " is redundant: wherever behavior " +
+                     behavior(entry) + " is active, " + task(entry) +
+                     (requirement(entry).minimum > 0
+                          ? " performs with at least " + percent_text(requirement(entry).minimum) +
+                                " % anyway"
+                          : std::string(" runs anyway"))));
     if (finding.notes.size() == 1 &&
         finding.notes.front().message == "it is required here already") {
       const RequirementEntry other = entry_at(finding.notes.front().range);

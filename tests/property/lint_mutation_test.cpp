@@ -72,11 +72,16 @@ bool fits(const Diagnostic& finding, const Expected& expected) {
          finding.message.find(expected.says) != std::string::npos;
 }
 
+/// Rule and message of a finding, but for what the message says about a value that may be mutated.
+std::pair<std::string, std::string> identity(const Diagnostic& finding) {
+  return {std::string(finding.rule), finding.message.substr(0, finding.message.find(": write "))};
+}
+
 /// A good catalog with what lint has to say about it all the same.
 struct Base {
   std::string name;
   std::unique_ptr<CatalogOutline> outline;
-  std::set<std::pair<std::string, std::string>> findings;  ///< rule and message
+  std::set<std::pair<std::string, std::string>> findings;  ///< their identities
   std::string errors;
 };
 
@@ -85,7 +90,7 @@ Base make_base(const std::string& name, const std::string& text) {
   base.name = name;
   base.outline = CatalogOutline::read(Lines(text));
   for (const Diagnostic& finding : lint(text)) {
-    base.findings.emplace(finding.rule, finding.message);
+    base.findings.insert(identity(finding));
     if (finding.severity == Severity::error) base.errors += show(finding);
   }
   return base;
@@ -154,7 +159,7 @@ std::string check(const Base& base, const Mutation& mutation,
         std::any_of(mutation.expected.begin(), mutation.expected.end(),
                     [&](const Expected& expected) { return fits(finding, expected); });
     if (!is_expected && !mutation.also.contains(finding.rule) &&
-        !base.findings.contains({std::string(finding.rule), finding.message})) {
+        !base.findings.contains(identity(finding))) {
       wrong += "follows from nothing: " + show(finding);
     }
   }

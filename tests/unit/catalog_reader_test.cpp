@@ -384,15 +384,16 @@ tasks:
 - task: X
   category: goal_based
 )"),
-            "3:5-13 warning deprecated-key: 'category' is an older name: write 'execution_goal'\n"
+            "3:5-13 warning deprecated-key: 'category' is an older name: write "
+            "'execution_goal: keep_running'\n"
             "4:5-25 warning deprecated-key: 'automatic_activation' is an older name: write "
-            "'start_on_request'\n"
+            "'start_on_request: FALSE'\n"
             "5:5-12 warning deprecated-key: 'default' is an older name: write 'reactive_start'\n"
             "7:5-13 warning deprecated-key: 'efficacy' is an older name: write 'suitability'\n"
             "10:3-11 warning deprecated-key: 'efficacy' is an older name: write 'suitability'\n"
             "11:21-29 warning deprecated-key: 'efficacy' is an older name: write 'suitability'\n"
             "14:3-11 warning deprecated-key: 'category' is an older name: write "
-            "'execution_goal'\n");
+            "'execution_goal: achieve_goal'\n");
   EXPECT_EQ(
       describe(read("default_values: {tasks: {category: recurrent}, behaviors: {efficacy: 50}}\n"
                     "behaviors: [{behavior: A, task: X}, {behavior: B, task: Y, efficacy: 40},"

@@ -423,8 +423,8 @@ TEST(ScriptReader, FindingsAboutParametersHaveTheSeverityThatIsAskedFor) {
 
 std::string still_available(const std::string& place, const std::string& behavior) {
   return place + " warning still-available: behavior '" + behavior +
-         "' is still available here, so that it can be chosen again at once; say situation: {'" +
-         behavior + "': false} before\n";
+         "' is still available here, so that it can be chosen again at once; say 'situation: {" +
+         behavior + ": false}' before\n";
 }
 
 TEST(ScriptReader, AFinishByTheSituationOfWhatStaysAvailable) {

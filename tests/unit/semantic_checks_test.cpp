@@ -146,8 +146,8 @@ exclusivity_constraints:
             "%, but the best that can be reached is 11.111 %\n"
             "4:14-16 warning dead-behavior: behavior 'b1' can never be active: together these "
             "constraints exclude it\n"
-            "  4:74-75 behavior 'b1' requires 'D'\n"
             "  4:63-64 behavior 'b1' requires 'C'\n"
+            "  4:74-75 behavior 'b1' requires 'D'\n"
             "  7:44-45 behavior 'd' requires 'E'\n"
             "  11:3-21 'C' excludes 'E'\n");
 }
@@ -203,8 +203,8 @@ exclusivity_constraints:
 )"),
             "3:14-16 warning dead-behavior: behavior 'a1' can never be active: together these "
             "constraints exclude it\n"
-            "  3:56-57 behavior 'a1' requires 'D'\n"
             "  3:45-46 behavior 'a1' requires 'B'\n"
+            "  3:56-57 behavior 'a1' requires 'D'\n"
             "  5:44-45 behavior 'b' requires 'C'\n"
             "  7:62-63 behavior 'c2' requires 'E'\n"
             "  5:68-70 behavior 'b' requires 'C' with at least 50 %\n"
@@ -294,8 +294,8 @@ exclusivity_constraints:
 )"),
             "3:13-15 warning dead-behavior: behavior 'ab' can never be active: together these "
             "constraints exclude it\n"
-            "  5:32-33 behavior 'ab' requires 'D'\n"
             "  5:21-22 behavior 'ab' requires 'C'\n"
+            "  5:32-33 behavior 'ab' requires 'D'\n"
             "  6:44-45 behavior 'c' requires 'E'\n"
             "  11:3-21 'D' excludes 'E'\n");
 }
@@ -442,7 +442,8 @@ TEST(SemanticChecks, RedundantMinimum) {
 tasks: [{task: A}, {task: B}, {task: C}]
 )"),
             "7:12-13 note redundant-requirement: the requirement of 'C' is redundant: wherever "
-            "behavior 'a' is active, 'C' performs so well anyway\n"
+            "behavior 'a' is active, 'C' performs with at least 80 % "
+            "anyway\n"
             "  6:12-13 behavior 'a' requires 'B'\n"
             "  8:44-45 behavior 'b' requires 'C'\n"
             "  8:68-70 behavior 'b' requires 'C' with at least 81 %\n");
@@ -459,7 +460,8 @@ TEST(SemanticChecks, ReasonOfARedundantMinimumIsWhatHoldsItUp) {
 tasks: [{task: A}, {task: B}, {task: C, minimum_performance: 60}, {task: D}]
 )"),
             "3:55-56 note redundant-requirement: the requirement of 'C' is redundant: wherever "
-            "behavior 'a' is active, 'C' performs so well anyway\n"
+            "behavior 'a' is active, 'C' performs with at least 60 % "
+            "anyway\n"
             "  3:44-45 behavior 'a' requires 'B'\n"
             "  4:44-45 behavior 'b' requires 'C'\n"
             "  8:62-64 'C' runs with at least 60 %\n");
@@ -479,13 +481,15 @@ TEST(SemanticChecks, RepeatedRequirement) {
 tasks: [{task: A}, {task: B}]
 )"),
             "6:12-13 note redundant-requirement: the requirement of 'B' is redundant: wherever "
-            "behavior 'a' is active, 'B' performs so well anyway\n"
+            "behavior 'a' is active, 'B' performs with at least 50 % "
+            "anyway\n"
             "  7:12-13 it is required here already\n"
             "8:12-13 note redundant-requirement: the requirement of 'B' is redundant: wherever "
             "behavior 'a' is active, 'B' runs anyway\n"
             "  7:12-13 it is required here already\n"
             "9:12-13 note redundant-requirement: the requirement of 'B' is redundant: wherever "
-            "behavior 'a' is active, 'B' performs so well anyway\n"
+            "behavior 'a' is active, 'B' performs with at least 60 % "
+            "anyway\n"
             "  7:12-13 it is required here already\n");
 }
 
@@ -520,7 +524,7 @@ TEST(SemanticChecks, WhatTakesTooLongIsUndecided) {
   const std::string hard = four_tasks_in_three_places();
   EXPECT_EQ(lint(hard, 1),
             "3:14-15 note undecided: whether behavior 'a' can be active could not be decided "
-            "within 1 decisions (--max-nodes)\n");
+            "with --max-nodes 1\n");
   const std::string decided = lint(hard);
   EXPECT_EQ(decided.substr(0, decided.find(':', 8)), "28:16-17 warning dead-task");
   // What is required, what each of the places is used for, and the pairs that exclude one another.
@@ -542,8 +546,8 @@ exclusivity_constraints:
 - mutually_exclusive: [E, F]
 )";
   EXPECT_EQ(lint(hard, 1),
-            "3:68-70 note undecided: whether 'B' can reach 90 % could not be decided within 1 "
-            "decisions (--max-nodes)\n"
+            "3:68-70 note undecided: whether 'B' can reach 90 % could not be decided with "
+            "--max-nodes 1\n"
             "11:16-17 warning dead-task: task 'A' can never run: together these constraints "
             "exclude all of its behaviors\n"
             "  3:44-45 behavior 'a' requires 'B'\n"
