@@ -142,6 +142,28 @@ TEST_F(LintFix, KeepsPermissionsAndLineEnds) {
   EXPECT_EQ(fs::status(folder / "gps.yaml").permissions(), permissions);
 }
 
+TEST_F(LintFix, MendsWhateverTheSeverityIs) {
+  folder.write("gps.yaml", small);
+  const Result result = fix({"--error", "deprecated-key", "gps.yaml"});
+  EXPECT_EQ(folder.read("gps.yaml"), small_mended);
+  EXPECT_EQ(result.status, 0);
+}
+
+/// Of two entries with one mistake each, one goes, and its error with it.
+TEST_F(LintFix, MayLeaveFewerErrors) {
+  folder.write("a.yaml", R"(default_values: {tasks: {reactive_start: on}}
+behaviors: [{behavior: b, task: t0}, {behavior: c, task: t1}]
+tasks:
+- task: t0
+- task: t0
+  start_on_request: true
+- task: t1
+)");
+  const Result result = fix({"a.yaml"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.err, "cbc: a.yaml: 1 finding mended\n");
+}
+
 TEST_F(LintFix, MendsAllFilesOfAFolder) {
   fs::create_directory(folder / "old");
   folder.write("a.yaml", small);

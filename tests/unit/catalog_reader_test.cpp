@@ -366,6 +366,23 @@ TEST(CatalogReader, KeysAtTheWrongLevel) {
                      "    package: p\ntasks: [{task: Y}]\n"),
             "6:5-12 warning unknown-key: unknown key 'package' in a requirement: it belongs to a "
             "behavior, one level up\n");
+  // A list of tasks is no task at the wrong level.
+  EXPECT_EQ(findings("behaviors: []\ntask:\n- task: X\n"),
+            "2:1-5 warning unknown-key: unknown key 'task' in a catalog; did you mean 'tasks'?\n");
+  EXPECT_EQ(findings("behaviors: []\ntask: X\n"),
+            "2:1-5 warning unknown-key: unknown key 'task' in a catalog: it belongs to a behavior, "
+            "one level down\n");
+}
+
+TEST(CatalogReader, ABehaviorHasAHundredTasksAtMost) {
+  const auto with_tasks = [](int count) {
+    std::string text = "behaviors:\n- behavior: B\n  tasks:\n";
+    for (int i = 0; i < count; ++i) text += "  - task: T" + std::to_string(i) + "\n";
+    return findings(text);
+  };
+  EXPECT_EQ(with_tasks(100), "");
+  EXPECT_EQ(with_tasks(101),
+            "3:3-8 error invalid-value: a behavior may have at most 100 tasks, found 101\n");
 }
 
 TEST(CatalogReader, OlderNames) {

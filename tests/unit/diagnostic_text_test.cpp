@@ -103,6 +103,14 @@ TEST(DiagnosticText, ShowsNoControlCharactersAndNoInvalidBytes) {
             "        ^\n");
 }
 
+TEST(DiagnosticText, ShowsNoCharactersThatTurnTheDirection) {
+  EXPECT_EQ(render_at("a\u202E\u2066b", {{1, 4}, {1, 5}}),
+            "a.yaml:1:4: error: bad [wrong-type]\n"
+            "  a\xEF\xBF\xBD\xEF\xBF\xBD"
+            "b\n"
+            "     ^\n");
+}
+
 TEST(DiagnosticText, MakesControlCharactersOfNamesAndMessagesHarmless) {
   const Diagnostic diagnostic{rule::wrong_type, Severity::error,
                               "a\n.yaml",       {{1, 1}, {1, 2}},

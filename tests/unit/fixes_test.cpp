@@ -264,6 +264,16 @@ TEST(FixDuplicateTask, NotWhereSomethingElseWouldGo) {
   }
 }
 
+TEST(FixDuplicateTask, NotWhereAControlCommentWouldMoveToTheNextEntry) {
+  const auto with_comment = [](const std::string& comment) {
+    return with_behaviors("tasks:\n- task: A\n" + comment + "- task: A\n- task: B\n");
+  };
+  expect_unchanged(with_comment("# cbc: allow required-goal\n"));
+  expect_unchanged(with_comment("# cbc: allow required-goal\n\n  # because\n"));
+  EXPECT_EQ(fix(with_comment("# because\n")),
+            with_behaviors("tasks:\n- task: A\n# because\n- task: B\n"));
+}
+
 TEST(FixDuplicateTask, NotWhereAliasesNameIt) {
   for (const std::string tasks : {
            "tasks:\n- &a {task: A}\n- *a\n",

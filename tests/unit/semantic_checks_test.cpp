@@ -520,6 +520,42 @@ std::string four_tasks_in_three_places() {
   return text;
 }
 
+TEST(SemanticChecks, OfManyTasksToRequestSomeAreNamed) {
+  std::string text = "behaviors:\n- {behavior: b0, task: T0}\n";
+  for (int i = 1; i <= 12; ++i) {
+    const std::string name = std::to_string(i);
+    text += "- {behavior: b" + name + ", task: T" + name + ", requires: [{task: T" +
+            std::to_string(i - 1) + "}]}\n";
+  }
+  text += "tasks:\n";
+  for (int i = 0; i <= 12; ++i) {
+    text += "- {task: T" + std::to_string(i) + ", start_on_request: TRUE}\n";
+  }
+  const std::string found = lint(text);
+  EXPECT_NE(found.find("requires 'T9', which starts on request only: request 'T0', then 'T1', then "
+                       "'T2', then 'T3', then 'T4', then 'T5', then 'T6', then 'T7', then 'T8', "
+                       "then 'T9' first\n"),
+            std::string::npos);
+  EXPECT_NE(found.find("requires 'T11', which starts on request only: request 'T0', then 'T1', "
+                       "then 'T2', then 'T3', then 'T4', then 'T5', then 'T6', then 'T7', then "
+                       "'T8', then 2 more, then 'T11' first\n"),
+            std::string::npos);
+}
+
+// Each behavior requires all later tasks, so that performances are products of many.
+TEST(SemanticChecks, DenseRequirementsComeToAnEnd) {
+  std::string text = "behaviors:\n";
+  for (int i = 0; i < 60; ++i) {
+    const std::string name = std::to_string(i);
+    text += "- {behavior: b" + name + ", task: T" + name + ", suitability: 99.9, requires: [";
+    for (int j = i + 1; j < 60; ++j) {
+      text += "{task: T" + std::to_string(j) + ", minimum_performance: 2}, ";
+    }
+    text += "]}\n";
+  }
+  EXPECT_EQ(lint(text).find("dead-"), std::string::npos);
+}
+
 TEST(SemanticChecks, WhatTakesTooLongIsUndecided) {
   const std::string hard = four_tasks_in_three_places();
   EXPECT_EQ(lint(hard, 1),
