@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "catalog/cycles.h"
+#include "catalog/describe.h"
 #include "catalog/exclusions.h"
 #include "cbc/rules.h"
 #include "text/quote.h"
@@ -29,8 +30,8 @@ void check_requirement_cycles(const Catalog& catalog, Reporter& reporter) {
       const std::string task = quote(catalog.tasks[step.task].name);
       if (notes.size() < longest_chain) chain += task + " -> ";
       notes.push_back(reporter.note(
-          requirement.range, "behavior " + quote(behavior.name) + ", which performs " + task +
-                                 ", requires " + quote(catalog.tasks[requirement.task].name)));
+          requirement.range, describe(behavior) + ", which performs " + task + ", requires " +
+                                 quote(catalog.tasks[requirement.task].name)));
     }
     if (cycle.size() > longest_chain) chain += "... -> ";
     chain += quote(catalog.tasks[cycle.front().task].name);
@@ -55,8 +56,8 @@ void check_exclusive_requirements(const Catalog& catalog, Reporter& reporter) {
               : std::string("every task it performs");
       reporter.report(
           rule::exclusive_requirement, requirement.range,
-          "behavior " + quote(behavior.name) + " requires " +
-              quote(catalog.tasks[requirement.task].name) + ", which excludes " + own,
+          describe(behavior) + " requires " + quote(catalog.tasks[requirement.task].name) +
+              ", which excludes " + own,
           {reporter.note(catalog.exclusivity[*list].range, "mutually exclusive by this list")});
     }
   }

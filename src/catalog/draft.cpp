@@ -39,6 +39,15 @@ class Reader {
   }
 
  private:
+  // Counts errors of `read` as such of values.
+  template <typename Read>
+  auto read_value(Read read) {
+    const std::size_t errors = reporter_.errors();
+    auto value = read();
+    catalog_.value_errors += reporter_.errors() - errors;
+    return value;
+  }
+
   void read_sections(const Node& root) {
     Fields fields(root, shape::catalog, reporter_);
     // Of a section that is given twice only the first part is read.
@@ -101,8 +110,8 @@ class Reader {
     }
     if (const Node* behaviors = fields.find("behaviors")) {
       Fields defaults(mappings_of(*behaviors, "behaviors"), shape::behavior_defaults, reporter_);
-      catalog_.default_suitability = read_suitability(defaults);
-      catalog_.default_package = read_package(defaults);
+      catalog_.default_suitability = read_value([&] { return read_suitability(defaults); });
+      catalog_.default_package = read_value([&] { return read_package(defaults); });
       defaults.report_unknown(Severity::warning);
     }
     fields.report_unknown(Severity::warning);
@@ -111,6 +120,10 @@ class Reader {
   // Tasks ------------------------------------------------------------------------------------
 
   TaskAttributes read_attributes(const Fields& fields) {
+    return read_value([&] { return read_flags_and_timeout(fields); });
+  }
+
+  TaskAttributes read_flags_and_timeout(const Fields& fields) {
     const std::size_t errors = reporter_.errors();
     TaskAttributes attributes;
     attributes.execution_goal = read_execution_goal(fields);
@@ -179,9 +192,9 @@ class Reader {
       fields.call("task " + quote(name->text));
     }
     task.attributes = read_attributes(fields);
-    task.minimum_performance = read_minimum(fields);
+    task.minimum_performance = read_value([&] { return read_minimum(fields); });
     if (const Node* parameters = fields.find("parameters")) {
-      task.parameters = read_parameters(*parameters);
+      task.parameters = read_value([&] { return read_parameters(*parameters); });
     }
     task.entry = entry_of(node, fields, errors);
     fields.report_unknown(Severity::warning);
@@ -242,9 +255,8 @@ class Reader {
     for (const std::string_view key : {"suitability", "efficacy"}) {
       const Node* node = fields.find(key);
       if (node == nullptr) continue;
-      const auto percent = yaml::read_percent(*node, key, reporter_);
-      if (!percent) return std::nullopt;
-      return Percent{*percent, node->range};
+      // What could not be read excludes nothing.
+      return Percent{yaml::read_percent(*node, key, reporter_).value_or(one_million), node->range};
     }
     return std::nullopt;
   }
@@ -267,9 +279,9 @@ class Reader {
       behavior.name = *name;
       fields.call("behavior " + quote(name->text));
     }
-    behavior.package = read_package(fields);
-    behavior.timeout = read_timeout(fields);
-    behavior.suitability = read_suitability(fields);
+    behavior.package = read_value([&] { return read_package(fields); });
+    behavior.timeout = read_value([&] { return read_timeout(fields); });
+    behavior.suitability = read_value([&] { return read_suitability(fields); });
     read_performed(fields, behavior);
     if (const Node* list = fields.find("requires")) {
       read_requirements(*list, behavior.requirements);
@@ -325,7 +337,7 @@ class Reader {
       }
       Fields fields(*item, shape::performance, reporter_);
       const auto name = require_name(fields, "task", task_name, item->range);
-      const std::optional<Percent> suitability = read_suitability(fields);
+      const auto suitability = read_value([&] { return read_suitability(fields); });
       fields.report_unknown(Severity::warning);
       if (!name) {
         ++catalog_.nameless_tasks;
@@ -350,7 +362,7 @@ class Reader {
       const std::size_t errors = reporter_.errors();
       Fields fields(*item, shape::requirement, reporter_);
       const auto name = require_name(fields, "task", task_name, item->range);
-      const Percent minimum = read_minimum(fields);
+      const Percent minimum = read_value([&] { return read_minimum(fields); });
       fields.report_unknown(Severity::warning);
       if (name) requirements.push_back({*name, minimum, entry_of(*item, fields, errors)});
     }

@@ -85,6 +85,8 @@ struct Catalog {
   bool lacks_a_section = false;
   /// Entries that define tasks of which the names could not be read.
   std::size_t nameless_tasks = 0;
+  /// Errors in values that no other entry depends on: flags, timeouts, percentages, parameters.
+  std::size_t value_errors = 0;
 };
 
 /// Reads what stands in the file and reports what is wrong with it, entry by entry.

@@ -1,5 +1,6 @@
 #include "catalog/reader.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -217,7 +218,16 @@ CatalogReading understand_catalog(const yaml::Document& document, Diagnostics& d
   const draft::Catalog draft = draft::read(document.root(), reporter);
   reading.catalog = Resolver(draft, reporter).resolve();
   reading.catalog.file = document.file();
-  reading.is_complete = reporter.errors() == reporter.errors(rule::on_request_and_reactive);
+  const std::size_t hiding = reporter.errors() - reporter.errors(rule::on_request_and_reactive);
+  reading.is_complete = hiding == 0;
+  reading.has_all_names = hiding == draft.value_errors;
+  const auto without_task = static_cast<std::size_t>(
+      std::count_if(reading.catalog.behaviors.begin(), reading.catalog.behaviors.end(),
+                    [](const Behavior& behavior) {
+                      return behavior.performs.empty() && !behavior.name.empty();
+                    }));
+  reading.has_all_behaviors = !draft.lacks_a_section && draft.nameless_tasks == without_task &&
+                              reporter.errors(rule::duplicate_key) == 0;
   check_requirement_cycles(reading.catalog, reporter);
   reading.is_acyclic = reporter.errors(rule::requirement_cycle) == 0;
   check_exclusive_requirements(reading.catalog, reporter);

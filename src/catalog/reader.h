@@ -16,6 +16,11 @@ struct CatalogReading {
   Catalog catalog;
   /// Whether it was understood as a whole, though it may break assumptions of the semantics.
   bool is_complete = false;
+  /// Whether all entries and names were understood. Values may be missing, and then exclude
+  /// nothing.
+  bool has_all_names = false;
+  /// Whether all behaviors were understood, but for what the named ones without a task perform.
+  bool has_all_behaviors = false;
   /// Whether its requirements have no cycle.
   bool is_acyclic = false;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "text/nearest.h"
 #include "yaml/source_lines.h"
 
 namespace cbc::cli {
@@ -48,14 +49,15 @@ bool is_script(const yaml::Document& document) {
 }
 
 bool looks_like_catalog(std::string_view text) {
-  const auto has_word = [text](std::string_view key) {
-    return text.find(key) != std::string_view::npos;
-  };
-  if (std::none_of(catalog_keys.begin(), catalog_keys.end(), has_word)) return false;
   if (has_line_with_key(text)) return true;
   Diagnostics ignored;
   const auto document = yaml::parse(text, {}, ignored);
-  return document != nullptr && is_catalog(*document);
+  if (document == nullptr || is_script(*document)) return false;
+  if (is_catalog(*document)) return true;
+  const auto& entries = document->root().entries;
+  return std::any_of(entries.begin(), entries.end(), [](const auto& entry) {
+    return nearest(entry.first->text, catalog_keys).has_value();
+  });
 }
 
 }  // namespace cbc::cli

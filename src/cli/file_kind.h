@@ -10,7 +10,7 @@ namespace cbc::cli {
 [[nodiscard]] bool is_catalog(const yaml::Document& document);
 [[nodiscard]] bool is_script(const yaml::Document& document);
 
-/// The same of a text that may be no YAML, as well as can be told.
+/// Whether a text that may be no YAML is meant as a catalog: misspelt keys count, too.
 [[nodiscard]] bool looks_like_catalog(std::string_view text);
 
 }  // namespace cbc::cli

@@ -168,14 +168,15 @@ bool lint_all(const LintCommand& command, Linter& linter) {
   return !has_failed;
 }
 
-void print_report(const LintCommand& command, const Linter& linter) {
+void print_report(const LintCommand& command, const Linter& linter, bool is_complete) {
   const std::vector<LintedFile>& files = linter.files();
   if (command.diff) {
     fmt::print("{}", linter.diff());
+    if (linter.has_found()) complain("there is more that only a person can mend: see 'cbc lint'");
   } else if (command.format == "json") {
     fmt::print("{}", lint_json(files));
   } else if (command.format == "sarif") {
-    fmt::print("{}", lint_sarif(files, std::filesystem::current_path().string()));
+    fmt::print("{}", lint_sarif(files, std::filesystem::current_path().string(), is_complete));
   } else if (command.format == "github") {
     fmt::print("{}", lint_github(files));
   } else if (command.format == "gcc") {
@@ -211,7 +212,7 @@ int lint(const LintCommand& command) {
 
   Linter linter(std::move(options));
   const bool has_all = lint_all(command, linter);
-  if (!linter.files().empty()) print_report(command, linter);
+  if (!linter.files().empty()) print_report(command, linter, has_all && !linter.has_failed());
   if (linter.has_internal_error()) return exit_internal;
   if (!has_all || linter.has_failed()) return exit_unusable;
   return linter.has_found() ? exit_no : exit_ok;

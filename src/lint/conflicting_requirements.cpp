@@ -1,10 +1,11 @@
 #include "lint/conflicting_requirements.h"
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <unordered_map>
 
+#include "catalog/describe.h"
+#include "catalog/exclusions.h"
 #include "cbc/rules.h"
 #include "text/quote.h"
 
@@ -13,21 +14,23 @@ namespace {
 
 class ConflictCheck {
  public:
-  explicit ConflictCheck(Semantics& semantics) : semantics_(semantics) {
-    const Catalog& catalog = semantics.catalog();
-    lists_of_.resize(catalog.tasks.size());
+  ConflictCheck(const Catalog& catalog, Reporter& reporter)
+      : catalog_(catalog),
+        reporter_(reporter),
+        exclusions_(catalog),
+        lists_of_(catalog.tasks.size()) {
     for (std::size_t list = 0; list < catalog.exclusivity.size(); ++list) {
       for (const TaskIndex task : catalog.exclusivity[list].tasks) lists_of_[task].push_back(list);
     }
   }
 
-  /// Reports each requirement that conflicts with one before it, once.
-  void check(BehaviorId id) {
-    const Behavior& behavior = semantics_.behavior(id);
+  /// Reports each requirement that conflicts with one before it, once. Whether there is one.
+  bool check(const Behavior& behavior) {
+    bool has_conflict = false;
     std::unordered_map<std::size_t, const Requirement*> first_in;  // by list
     for (const Requirement& requirement : behavior.requirements) {
-      if (semantics_.exclusions().find_for_all(behavior, requirement.task)) {
-        semantics_.explain_behavior(id);
+      if (exclusions_.find_for_all(behavior, requirement.task)) {
+        has_conflict = true;
         continue;
       }
       bool is_reported = false;
@@ -36,35 +39,38 @@ class ConflictCheck {
         if (first->task == requirement.task || is_reported) continue;
         report(behavior, requirement, *first, list);
         is_reported = true;
-        semantics_.explain_behavior(id);
       }
+      has_conflict |= is_reported;
     }
+    return has_conflict;
   }
 
  private:
   void report(const Behavior& behavior, const Requirement& requirement, const Requirement& other,
               std::size_t list) {
-    const Catalog& catalog = semantics_.catalog();
-    Reporter& reporter = semantics_.reporter();
-    const std::string name = quote(catalog.tasks[requirement.task].name);
-    const std::string other_name = quote(catalog.tasks[other.task].name);
-    reporter.report(
+    const std::string name = quote(catalog_.tasks[requirement.task].name);
+    const std::string other_name = quote(catalog_.tasks[other.task].name);
+    reporter_.report(
         rule::conflicting_requirements, requirement.range,
-        "behavior " + quote(behavior.name) + " requires both " + name + " and " + other_name +
+        describe(behavior) + " requires both " + other_name + " and " + name +
             ", which exclude one another, so it can never be active",
-        {reporter.note(other.range, other_name + " is required here"),
-         reporter.note(catalog.exclusivity[list].range, "mutually exclusive by this list")});
+        {reporter_.note(other.range, other_name + " is required here"),
+         reporter_.note(catalog_.exclusivity[list].range, "mutually exclusive by this list")});
   }
 
-  Semantics& semantics_;
-  std::vector<std::vector<std::size_t>> lists_of_;  ///< by task in catalog order
+  const Catalog& catalog_;
+  Reporter& reporter_;
+  Exclusions exclusions_;
+  std::vector<std::vector<std::size_t>> lists_of_;  ///< by task
 };
 
 }  // namespace
 
-void check_conflicting_requirements(Semantics& semantics) {
-  ConflictCheck check(semantics);
-  for (BehaviorId id = 0; id < semantics.compiled().behaviors.size(); ++id) check.check(id);
+std::vector<bool> check_conflicting_requirements(const Catalog& catalog, Reporter& reporter) {
+  ConflictCheck check(catalog, reporter);
+  std::vector<bool> conflicts;
+  for (const Behavior& behavior : catalog.behaviors) conflicts.push_back(check.check(behavior));
+  return conflicts;
 }
 
 }  // namespace cbc

@@ -1,11 +1,14 @@
 #include "lint/lint.h"
 
 #include <utility>
+#include <vector>
 
 #include "compiled/compile.h"
 #include "diagnostic/reporter.h"
 #include "lint/behavior_checks.h"
+#include "lint/conflicting_requirements.h"
 #include "lint/exclusivity_checks.h"
+#include "lint/on_request_requirements.h"
 #include "lint/semantic_checks.h"
 #include "lint/task_checks.h"
 
@@ -17,14 +20,19 @@ LintResult lint_catalog(const yaml::Document& document, const LintOptions& optio
   result.reading = understand_catalog(document, diagnostics);
   const Catalog& catalog = result.reading.catalog;
   Reporter reporter(document.file(), diagnostics);
-  check_tasks(catalog, result.reading.is_complete, reporter);
-  check_behaviors(catalog, result.reading.is_complete, reporter);
+  const CatalogReading& reading = result.reading;
+  check_tasks(reading, reporter);
+  check_behaviors(catalog, reading.is_complete, reporter);
   check_exclusivity(catalog, reporter);
-  if (!result.reading.is_complete || !result.reading.is_acyclic) return result;
-
+  const std::vector<bool> conflicts = check_conflicting_requirements(catalog, reporter);
+  if (!reading.has_all_names || !reading.is_acyclic) {
+    // What is missing may be the reason of anything else that could be found.
+    check_on_request_requirements(catalog, conflicts, reporter);
+    return result;
+  }
   const CompiledCatalog compiled = compile(catalog);
-  result.summary = summarize(compiled);
-  check_semantics(catalog, compiled, options, reporter);
+  check_semantics(reading, compiled, conflicts, options, reporter);
+  if (reading.is_complete) result.summary = summarize(compiled);
   return result;
 }
 

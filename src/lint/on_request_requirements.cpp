@@ -4,12 +4,23 @@
 #include <string>
 #include <vector>
 
+#include "catalog/describe.h"
 #include "cbc/rules.h"
 #include "explain/constraints.h"
 #include "text/quote.h"
 
 namespace cbc {
 namespace {
+
+bool is_on_request(const Task& task) { return task.start_on_request && !task.is_unclear; }
+
+void report(const Behavior& behavior, const Requirement& requirement, const Task& task,
+            const std::string& first, Reporter& reporter) {
+  reporter.report(rule::requires_on_request, requirement.range,
+                  describe(behavior) + " requires " + quote(task.name) +
+                      ", which starts on request only: request " + first + " first",
+                  {reporter.note(task.range, quote(task.name) + " is defined here")});
+}
 
 class OnRequestCheck {
  public:
@@ -21,13 +32,10 @@ class OnRequestCheck {
     const Behavior& behavior = semantics_.behavior(id);
     for (const Requirement& requirement : behavior.requirements) {
       const Task& task = semantics_.catalog().tasks[requirement.task];
-      if (!task.start_on_request) continue;
-      semantics_.reporter().report(
-          rule::requires_on_request, requirement.range,
-          "behavior " + quote(behavior.name) + " requires " + quote(task.name) +
-              ", which starts on request only: request " +
-              join(tasks_to_request(id, catalog_.task_ids[requirement.task])) + " first",
-          {semantics_.reporter().note(task.range, quote(task.name) + " is defined here")});
+      if (!is_on_request(task)) continue;
+      report(behavior, requirement, task,
+             join(tasks_to_request(id, catalog_.task_ids[requirement.task])),
+             semantics_.reporter());
     }
   }
 
@@ -91,6 +99,18 @@ class OnRequestCheck {
 void check_on_request_requirements(Semantics& semantics) {
   OnRequestCheck check(semantics);
   for (BehaviorId id = 0; id < semantics.compiled().behaviors.size(); ++id) check.check(id);
+}
+
+void check_on_request_requirements(const Catalog& catalog, const std::vector<bool>& conflicts,
+                                   Reporter& reporter) {
+  for (std::size_t index = 0; index < catalog.behaviors.size(); ++index) {
+    if (conflicts[index]) continue;
+    for (const Requirement& requirement : catalog.behaviors[index].requirements) {
+      const Task& task = catalog.tasks[requirement.task];
+      if (!is_on_request(task)) continue;
+      report(catalog.behaviors[index], requirement, task, quote(task.name), reporter);
+    }
+  }
 }
 
 }  // namespace cbc

@@ -1,6 +1,5 @@
 #include "lint/semantic_checks.h"
 
-#include "lint/conflicting_requirements.h"
 #include "lint/dead_checks.h"
 #include "lint/minimum_performances.h"
 #include "lint/on_request_requirements.h"
@@ -9,18 +8,21 @@
 
 namespace cbc {
 
-void check_semantics(const Catalog& catalog, const CompiledCatalog& compiled,
-                     const LintOptions& options, Reporter& reporter) {
+void check_semantics(const CatalogReading& reading, const CompiledCatalog& compiled,
+                     const std::vector<bool>& conflicts, const LintOptions& options,
+                     Reporter& reporter) {
   AssignmentSearch search(compiled, options.max_nodes);
   const Liveness liveness(search);
-  Exclusions exclusions(catalog);
-  Semantics semantics(catalog, search, liveness, exclusions, options.max_nodes, reporter);
+  Semantics semantics(reading.catalog, search, liveness, options.max_nodes, reporter);
   // The special cases first: what they explain is not explained again.
-  check_conflicting_requirements(semantics);
+  for (std::size_t behavior = 0; behavior < conflicts.size(); ++behavior) {
+    if (conflicts[behavior]) semantics.explain_behavior(compiled.behavior_ids[behavior]);
+  }
   check_minimum_performances(semantics);
   check_dead(semantics);
   check_on_request_requirements(semantics);
-  check_redundant_requirements(semantics);
+  // A value that could not be read excludes nothing, so that more may seem to hold anyway.
+  if (reading.is_complete) check_redundant_requirements(semantics);
 }
 
 }  // namespace cbc

@@ -14,11 +14,10 @@ constexpr std::uint64_t most_effort = 400'000'000;
 }  // namespace
 
 Semantics::Semantics(const Catalog& catalog, AssignmentSearch& search, const Liveness& liveness,
-                     Exclusions& exclusions, std::uint64_t max_nodes, Reporter& reporter)
+                     std::uint64_t max_nodes, Reporter& reporter)
     : catalog_(catalog),
       search_(search),
       liveness_(liveness),
-      exclusions_(exclusions),
       max_nodes_(max_nodes),
       reporter_(reporter),
       behaviors_(compiled().behaviors.size()),

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "catalog/catalog.h"
-#include "catalog/exclusions.h"
 #include "compiled/compiled_catalog.h"
 #include "diagnostic/reporter.h"
 #include "explain/reason.h"
@@ -22,7 +21,7 @@ class Semantics {
  public:
   /// All references must outlive this object.
   Semantics(const Catalog& catalog, AssignmentSearch& search, const Liveness& liveness,
-            Exclusions& exclusions, std::uint64_t max_nodes, Reporter& reporter);
+            std::uint64_t max_nodes, Reporter& reporter);
 
   [[nodiscard]] const Catalog& catalog() const { return catalog_; }
   [[nodiscard]] const CompiledCatalog& compiled() const { return search_.catalog(); }
@@ -34,7 +33,6 @@ class Semantics {
   }
   [[nodiscard]] AssignmentSearch& search() { return search_; }
   [[nodiscard]] const Liveness& liveness() const { return liveness_; }
-  [[nodiscard]] Exclusions& exclusions() { return exclusions_; }
   [[nodiscard]] Reporter& reporter() { return reporter_; }
 
   /// Whether a finding says why a behavior is never active, a task never runs.
@@ -63,7 +61,6 @@ class Semantics {
   const Catalog& catalog_;
   AssignmentSearch& search_;
   const Liveness& liveness_;
-  Exclusions& exclusions_;
   const std::uint64_t max_nodes_;
   Reporter& reporter_;
   std::vector<bool> behaviors_;

@@ -18,6 +18,13 @@ const std::vector<std::string>& names_for(RuleSetting setting, const SeverityOpt
   return options.allow;
 }
 
+/// "a, b" has a blank before the second name.
+std::string without_blanks(const std::string& name) {
+  const std::size_t begin = name.find_first_not_of(' ');
+  if (begin == std::string::npos) return {};
+  return name.substr(begin, name.find_last_not_of(' ') + 1 - begin);
+}
+
 std::string name_of_option(RuleSetting setting) { return "--" + std::string(name_of(setting)); }
 
 }  // namespace
@@ -73,7 +80,8 @@ SeveritySettings settings_of_options(const SeverityOptions& options,
   std::map<std::string_view, RuleSetting> given;
   for (const RuleSetting setting : rule_settings) {
     const std::string option = name_of_option(setting);
-    for (const std::string& name : names_for(setting, options)) {
+    for (const std::string& given_name : names_for(setting, options)) {
+      const std::string name = without_blanks(given_name);
       const Rule* rule = find_rule(name);
       if (rule == nullptr) {
         errors.push_back(option + ": " + names.describe_unknown(name));

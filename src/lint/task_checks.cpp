@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "catalog/allowed_values.h"
+#include "catalog/describe.h"
 #include "cbc/rules.h"
 #include "lint/percent.h"
 #include "text/decimal.h"
@@ -45,7 +46,7 @@ std::vector<Use> find_uses(const Catalog& catalog) {
 
 void check_required_goal(const Task& task, const Use& use, Reporter& reporter) {
   if (use.requirements == 0 || task.execution_goal == ExecutionGoal::keep_running) return;
-  std::string who = "behavior " + quote(use.required_by->name) + " requires it";
+  std::string who = describe(*use.required_by) + " requires it";
   if (use.requirements > 1) {
     who += ", and " + std::to_string(use.requirements - 1) + " more";
   }
@@ -66,8 +67,8 @@ void check_timeout(const Task& task, const Use& use, Reporter& reporter) {
     return;
   }
   if (task.reactive_start && (task.timeout || use.has_behavior_timeout)) {
-    const std::string after =
-        task.timeout ? "after " + format_decimal(*task.timeout, 6) + " s" : "by its behavior";
+    const std::string after = task.timeout ? "after " + format_decimal(*task.timeout, 6) + " s"
+                                           : "by the timeout of a behavior";
     reporter.report(rule::reactive_timeout, task.range,
                     "task " + quote(task.name) + " starts reactively and is ended " + after +
                         ", so it can end and start again for ever");
@@ -119,6 +120,34 @@ void check_parameters(const Task& task, Reporter& reporter) {
   }
 }
 
+/// Reports tasks that no behavior performs. Of those, behaviors whose task is missing in the file
+/// may have been meant to perform some: the task whose name begins theirs, or any one.
+void check_performed(const CatalogReading& reading, const std::vector<Use>& uses,
+                     Reporter& reporter) {
+  if (!reading.has_all_behaviors) return;
+  std::vector<const Task*> not_performed;
+  for (std::size_t index = 0; index < uses.size(); ++index) {
+    if (uses[index].behaviors == 0) not_performed.push_back(&reading.catalog.tasks[index]);
+  }
+  std::size_t without_task = 0;
+  for (const Behavior& behavior : reading.catalog.behaviors) {
+    if (!behavior.performs.empty()) continue;
+    const auto meant = std::find_if(
+        not_performed.begin(), not_performed.end(),
+        [&behavior](const Task* task) { return behavior.name.starts_with(task->name); });
+    if (meant == not_performed.end()) {
+      ++without_task;
+    } else {
+      not_performed.erase(meant);
+    }
+  }
+  if (not_performed.size() <= without_task) return;
+  for (const Task* task : not_performed) {
+    reporter.report(rule::task_without_behavior, task->range,
+                    "no behavior performs task " + quote(task->name));
+  }
+}
+
 /// Without a section of tasks all of them are named by behaviors only, and one finding says so.
 void check_implicit_tasks(const Catalog& catalog, Reporter& reporter) {
   std::vector<std::string_view> listed;
@@ -145,7 +174,8 @@ void check_implicit_tasks(const Catalog& catalog, Reporter& reporter) {
 
 }  // namespace
 
-void check_tasks(const Catalog& catalog, bool is_complete, Reporter& reporter) {
+void check_tasks(const CatalogReading& reading, Reporter& reporter) {
+  const Catalog& catalog = reading.catalog;
   const std::vector<Use> uses = find_uses(catalog);
   for (std::size_t index = 0; index < catalog.tasks.size(); ++index) {
     const Task& task = catalog.tasks[index];
@@ -156,12 +186,9 @@ void check_tasks(const Catalog& catalog, bool is_complete, Reporter& reporter) {
       check_timeout(task, use, reporter);
     }
     check_parameters(task, reporter);
-    if (is_complete && use.behaviors == 0) {
-      reporter.report(rule::task_without_behavior, task.range,
-                      "no behavior performs task " + quote(task.name));
-    }
   }
-  if (is_complete) check_implicit_tasks(catalog, reporter);
+  check_performed(reading, uses, reporter);
+  if (reading.has_all_names) check_implicit_tasks(catalog, reporter);
 }
 
 }  // namespace cbc

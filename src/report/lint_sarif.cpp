@@ -73,8 +73,8 @@ Json to_region(const Range& range) {
 /// The parts of a run that depend on the files.
 class Run {
  public:
-  explicit Run(std::string_view working_directory)
-      : directory_(fs::path(working_directory).lexically_normal()) {}
+  Run(std::string_view working_directory, bool is_complete)
+      : directory_(fs::path(working_directory).lexically_normal()), is_complete_(is_complete) {}
 
   void add(const LintedFile& file) {
     const Json artifact = {{"location", locate(file.file)},
@@ -87,7 +87,7 @@ class Run {
   }
 
   [[nodiscard]] std::string text() const {
-    const Json invocation = Json::object({{"executionSuccessful", true}});
+    const Json invocation = Json::object({{"executionSuccessful", is_complete_}});
     return R"({"tool":)" + tool() + R"(,"invocations":[)" + to_text(invocation) +
            R"(],"artifacts":)" + artifacts_ + R"(],"columnKind":"unicodeCodePoints","results":)" +
            results_ + "]}";
@@ -144,6 +144,7 @@ class Run {
   }
 
   const fs::path directory_;
+  const bool is_complete_;
   std::set<std::string> known_artifacts_;
   std::map<std::string, std::size_t> times_seen_;
   std::string artifacts_ = "[";
@@ -152,8 +153,9 @@ class Run {
 
 }  // namespace
 
-std::string lint_sarif(const std::vector<LintedFile>& files, std::string_view working_directory) {
-  Run run(working_directory);
+std::string lint_sarif(const std::vector<LintedFile>& files, std::string_view working_directory,
+                       bool is_complete) {
+  Run run(working_directory, is_complete);
   for (const LintedFile& file : files) run.add(file);
   return R"({"$schema":)" + to_text(schema) + R"(,"version":"2.1.0","runs":[)" + run.text() +
          "]}\n";

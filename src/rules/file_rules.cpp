@@ -43,7 +43,8 @@ tasks:
          "default one; with a misspelt 'requires' it requires nothing, and the coordinator runs it "
          "without what it needs. The message gives the key that is probably meant, or the level of "
          "the file at which the key belongs.\n\n"
-         "In a catalog this is a warning, in an event script an error. Keys that begin with 'x-' "
+         "In a catalog this is a warning, in an event script an error that settings cannot change. "
+         "Keys that begin with 'x-' "
          "are the user's own, and are ignored. Where a key that must be there is misspelt, the "
          "finding is missing-key.",
      .example = R"(behaviors:

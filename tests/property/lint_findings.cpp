@@ -191,8 +191,8 @@ class FindingReader {
     demand(finding.notes.size() == 2, "not two notes");
     const RequirementEntry other = entry_at(finding.notes[0].range);
     demand(other.behavior == entry.behavior, "not of the same behavior");
-    expect(after(finding.message, "behavior " + behavior(entry) + " requires both " + task(entry) +
-                                      " and " + task(other) + ", which exclude one another"));
+    expect(after(finding.message, "behavior " + behavior(entry) + " requires both " + task(other) +
+                                      " and " + task(entry) + ", which exclude one another"));
     demand_list(finding.notes[1].range, requirement(entry).task, requirement(other).task);
     add(findings_.conflicting, entry, other);
   }

@@ -73,5 +73,73 @@ TEST(LintCascade, ExclusivityListsWithUndefinedNames) {
             "found an empty list\n");
 }
 
+// What does not depend on the fault is found all the same.
+
+constexpr const char* several_faults = R"(
+- {behavior: B, task: B}
+- {behavior: C, task: C}
+- {behavior: D, task: D, requires: [{task: B}, {task: C}]}
+- {behavior: E, task: E, requires: [{task: F}]}
+- {behavior: F, task: F}
+tasks:
+- {task: A}
+- {task: B, execution_goal: keep_running, start_on_request: FALSE}
+- {task: C, execution_goal: keep_running, start_on_request: FALSE}
+- {task: D}
+- {task: E}
+- {task: F, execution_goal: keep_running}
+- {task: G}
+exclusivity_constraints:
+- mutually_exclusive: [B, C]
+)";
+constexpr const char* conflict_and_request =
+    "5:55-56 warning conflicting-requirements: behavior 'D' requires both 'B' and 'C', which "
+    "exclude one another, so it can never be active\n"
+    "  5:44-45 'B' is required here\n"
+    "  17:3-21 mutually exclusive by this list\n"
+    "6:44-45 warning requires-on-request: behavior 'E' requires 'F', which starts on request only: "
+    "request 'F' first\n"
+    "  14:10-11 'F' is defined here\n";
+
+TEST(LintCascade, OtherFaultsAreFoundBesideAWrongValue) {
+  EXPECT_EQ(findings(std::string("behaviors:\n- {behavior: A, task: A, suitability: 120}") +
+                     several_faults),
+            "2:39-42 error invalid-value: 'suitability' must be a number from 0 to 100 (percent), "
+            "found '120'\n" +
+                std::string(conflict_and_request) +
+                "15:10-11 warning task-without-behavior: no behavior performs task 'G'\n");
+}
+
+TEST(LintCascade, OtherFaultsAreFoundBesideABehaviorWithoutTask) {
+  // A_WITH_WINGS may have been meant to perform A, but hardly G.
+  EXPECT_EQ(findings(std::string("behaviors:\n- {behavior: A_WITH_WINGS}") + several_faults),
+            "2:14-26 error missing-key: missing key 'task' in behavior 'A_WITH_WINGS'\n" +
+                std::string(conflict_and_request) +
+                "15:10-11 warning task-without-behavior: no behavior performs task 'G'\n");
+}
+
+TEST(LintCascade, OtherFaultsAreFoundBesideAnUndefinedName) {
+  EXPECT_EQ(
+      findings(std::string("behaviors:\n- {behavior: A, task: A, requires: [{task: MOON}]}") +
+               several_faults),
+      "2:44-48 error undefined-task: task 'MOON', required by behavior 'A', is not defined\n" +
+          std::string(conflict_and_request) +
+          "15:10-11 warning task-without-behavior: no behavior performs task 'G'\n");
+}
+
+// A suitability that could not be read may be good enough.
+TEST(LintCascade, WrongValuesMakeNothingDead) {
+  EXPECT_EQ(findings(R"(default_values:
+  tasks: {execution_goal: keep_running, start_on_request: FALSE}
+  behaviors: {suitability: 50}
+behaviors:
+- {behavior: A, task: A, requires: [{task: B, minimum_performance: 90}]}
+- {behavior: B, task: B, suitability: 120}
+tasks: [{task: A}, {task: B}]
+)"),
+            "6:39-42 error invalid-value: 'suitability' must be a number from 0 to 100 (percent), "
+            "found '120'\n");
+}
+
 }  // namespace
 }  // namespace cbc

@@ -31,7 +31,7 @@ LintedFile linted(std::vector<Diagnostic> findings, std::string file = "a.yaml")
 }
 
 Json run_of(const std::vector<LintedFile>& files, std::string_view directory = "/home/robot") {
-  return Json::parse(lint_sarif(files, directory))["runs"][0];
+  return Json::parse(lint_sarif(files, directory, true))["runs"][0];
 }
 
 std::vector<std::string> fingerprints(const std::vector<LintedFile>& files) {
@@ -55,7 +55,7 @@ Json below_root(std::string_view uri) { return {{"uri", uri}, {"uriBaseId", "%SR
 Json absolute(std::string_view uri) { return Json::object({{"uri", uri}}); }
 
 TEST(LintSarif, DescribesTheLogAndTheTool) {
-  const Json log = Json::parse(lint_sarif({}, "/home/robot"));
+  const Json log = Json::parse(lint_sarif({}, "/home/robot", true));
   EXPECT_EQ(log["$schema"],
             "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/"
             "sarif-schema-2.1.0.json");

@@ -71,7 +71,7 @@ tasks: [{task: A}, {task: B}, {task: C}, {task: D}, {task: E}]
 exclusivity_constraints:
 - mutually_exclusive: [C, B]
 )"),
-            "3:55-56 warning conflicting-requirements: behavior 'a' requires both 'C' and 'B', "
+            "3:55-56 warning conflicting-requirements: behavior 'a' requires both 'B' and 'C', "
             "which exclude one another, so it can never be active\n"
             "  3:44-45 'B' is required here\n"
             "  10:3-21 mutually exclusive by this list\n");
@@ -269,7 +269,7 @@ exclusivity_constraints:
 - mutually_exclusive: [C, D]
 - mutually_exclusive: [E, G]
 )"),
-            "4:55-56 warning conflicting-requirements: behavior 'b' requires both 'D' and 'C', "
+            "4:55-56 warning conflicting-requirements: behavior 'b' requires both 'C' and 'D', "
             "which exclude one another, so it can never be active\n"
             "  4:44-45 'C' is required here\n"
             "  12:3-21 mutually exclusive by this list\n"
@@ -393,7 +393,7 @@ tasks: [{task: A}, {task: B, start_on_request: TRUE}, {task: C}]
 exclusivity_constraints:
 - mutually_exclusive: [B, C]
 )"),
-            "3:55-56 warning conflicting-requirements: behavior 'a' requires both 'C' and 'B', "
+            "3:55-56 warning conflicting-requirements: behavior 'a' requires both 'B' and 'C', "
             "which exclude one another, so it can never be active\n"
             "  3:44-45 'B' is required here\n"
             "  8:3-21 mutually exclusive by this list\n");
