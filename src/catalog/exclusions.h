@@ -16,6 +16,11 @@ class Exclusions {
  public:
   explicit Exclusions(const Catalog& catalog);
 
+  /// Places in Catalog::exclusivity of the lists that have a task, ascending.
+  [[nodiscard]] const std::vector<std::size_t>& lists_of(TaskIndex task) const {
+    return lists_[task];
+  }
+
   /// Place in Catalog::exclusivity of the first list that has both tasks.
   [[nodiscard]] std::optional<std::size_t> find(TaskIndex a, TaskIndex b);
 

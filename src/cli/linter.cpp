@@ -22,12 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::size_t count(const LintedFile& file, Severity severity) {
-  return static_cast<std::size_t>(std::count_if(
-      file.findings.begin(), file.findings.end(),
-      [severity](const Diagnostic& finding) { return finding.severity == severity; }));
-}
-
 }  // namespace
 
 Linter::Linter(Options options) : options_(std::move(options)), settings_(options_.settings) {}
@@ -80,13 +74,14 @@ Linter::Linted Linter::lint_text(const std::string& name, std::string text,
   const auto document = yaml::parse(linted.file.text, name, diagnostics);
   if (document != nullptr) {
     linted.is_script = is_script(*document);
+    if (linted.is_script) return linted;
     LintResult result = cbc::lint_catalog(*document, options_.lint, diagnostics);
     commented.document = document.get();
-    commented.is_complete = result.summary.has_value();
-    if (result.summary) {
-      linted.compiled = std::make_shared<const CompiledCatalog>(compile(result.reading.catalog));
+    commented.is_complete = result.compiled.has_value();
+    if (result.compiled) {
+      linted.file.summary = summarize(*result.compiled);
+      linted.compiled = std::make_shared<const CompiledCatalog>(std::move(*result.compiled));
     }
-    linted.file.summary = std::move(result.summary);
     linted.catalog = std::move(result.reading.catalog);
   }
   linted.errors = diagnostics.count(Severity::error);

@@ -15,14 +15,7 @@ namespace {
 class ConflictCheck {
  public:
   ConflictCheck(const Catalog& catalog, Reporter& reporter)
-      : catalog_(catalog),
-        reporter_(reporter),
-        exclusions_(catalog),
-        lists_of_(catalog.tasks.size()) {
-    for (std::size_t list = 0; list < catalog.exclusivity.size(); ++list) {
-      for (const TaskIndex task : catalog.exclusivity[list].tasks) lists_of_[task].push_back(list);
-    }
-  }
+      : catalog_(catalog), reporter_(reporter), exclusions_(catalog) {}
 
   /// Reports each requirement that conflicts with one before it, once. Whether there is one.
   bool check(const Behavior& behavior) {
@@ -34,7 +27,7 @@ class ConflictCheck {
         continue;
       }
       bool is_reported = false;
-      for (const std::size_t list : lists_of_[requirement.task]) {
+      for (const std::size_t list : exclusions_.lists_of(requirement.task)) {
         const Requirement*& first = first_in.try_emplace(list, &requirement).first->second;
         if (first->task == requirement.task || is_reported) continue;
         report(behavior, requirement, *first, list);
@@ -61,7 +54,6 @@ class ConflictCheck {
   const Catalog& catalog_;
   Reporter& reporter_;
   Exclusions exclusions_;
-  std::vector<std::vector<std::size_t>> lists_of_;  ///< by task
 };
 
 }  // namespace

@@ -23,18 +23,6 @@ Range range_of_list(const Catalog& catalog, TaskIndex a, TaskIndex b) {
   return {};
 }
 
-/// Of several requirements of one task the strongest counts.
-const Requirement& find_requirement(const Behavior& behavior, TaskIndex task) {
-  const Requirement* found = nullptr;
-  for (const Requirement& requirement : behavior.requirements) {
-    if (requirement.task != task) continue;
-    if (found == nullptr || requirement.minimum_performance > found->minimum_performance) {
-      found = &requirement;
-    }
-  }
-  return *found;
-}
-
 Note to_note(const Reason& reason, const Catalog& catalog, const CompiledCatalog& compiled,
              const Reporter& reporter) {
   const TaskIndex task_index = compiled.tasks[reason.task].catalog_index;
@@ -50,7 +38,7 @@ Note to_note(const Reason& reason, const Catalog& catalog, const CompiledCatalog
         quote(task.name) + " runs with at least " + show_percent(reason.minimum_performance));
   }
   const Behavior& behavior = catalog.behaviors[compiled.behaviors[reason.behavior].catalog_index];
-  const Requirement& requirement = find_requirement(behavior, task_index);
+  const Requirement& requirement = strongest_requirement(behavior, task_index);
   if (reason.kind == Reason::Kind::performance) {
     return reporter.note(requirement.minimum_performance_range,
                          "behavior " + quote(behavior.name) + " requires " + quote(task.name) +
@@ -61,6 +49,17 @@ Note to_note(const Reason& reason, const Catalog& catalog, const CompiledCatalog
 }
 
 }  // namespace
+
+const Requirement& strongest_requirement(const Behavior& behavior, TaskIndex task) {
+  const Requirement* found = nullptr;
+  for (const Requirement& requirement : behavior.requirements) {
+    if (requirement.task != task) continue;
+    if (found == nullptr || requirement.minimum_performance > found->minimum_performance) {
+      found = &requirement;
+    }
+  }
+  return *found;
+}
 
 std::vector<Note> constraint_notes(std::span<const Reason> constraints, const Catalog& catalog,
                                    const CompiledCatalog& compiled, const Reporter& reporter) {

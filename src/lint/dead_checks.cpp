@@ -1,7 +1,6 @@
 #include "lint/dead_checks.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,12 +32,7 @@ class DeadChecks {
 
   /// From the lowest level up: where something dead is required, the reason for that is known.
   void check() {
-    std::vector<TaskId> order(catalog_.tasks.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [this](TaskId a, TaskId b) {
-      return catalog_.tasks[a].level < catalog_.tasks[b].level;
-    });
-    for (const TaskId task : order) {
+    for (const TaskId task : tasks_by_level(catalog_)) {
       if (catalog_.values[task].empty()) continue;  // reported as task-without-behavior
       // A behavior of several tasks explains all of them at once.
       check_behaviors(task, true);

@@ -30,9 +30,9 @@ LintResult lint_catalog(const yaml::Document& document, const LintOptions& optio
     check_on_request_requirements(catalog, conflicts, reporter);
     return result;
   }
-  const CompiledCatalog compiled = compile(catalog);
+  CompiledCatalog compiled = compile(catalog);
   check_semantics(reading, compiled, conflicts, options, reporter);
-  if (reading.is_complete) result.summary = summarize(compiled);
+  if (reading.is_complete) result.compiled = std::move(compiled);
   return result;
 }
 

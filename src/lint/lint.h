@@ -5,7 +5,7 @@
 
 #include "catalog/reader.h"
 #include "cbc/diagnostic.h"
-#include "lint/summary.h"
+#include "compiled/compiled_catalog.h"
 #include "yaml/document.h"
 
 namespace cbc {
@@ -18,7 +18,7 @@ struct LintOptions {
 /// What lint found out about a catalog, beside its findings.
 struct LintResult {
   CatalogReading reading;
-  std::optional<Summary> summary;  ///< if it was understood as a whole
+  std::optional<CompiledCatalog> compiled;  ///< if it was understood as a whole
 };
 
 /// Reports everything that is wrong with a catalog, of all rules, into `diagnostics`.

@@ -19,7 +19,8 @@ struct LintedFile {
   bool is_script = false;            ///< an event script, which has no summary
 };
 
-/// Number of findings of a severity in all files.
+/// Number of findings of a severity in a file, in all files.
+[[nodiscard]] std::size_t count(const LintedFile& file, Severity severity);
 [[nodiscard]] std::size_t count(const std::vector<LintedFile>& files, Severity severity);
 
 }  // namespace cbc

@@ -23,7 +23,8 @@ class Sum {
   bool is_undecided_ = false;
 };
 
-/// Tasks that require little first, so that their dead values are known where they are required.
+}  // namespace
+
 std::vector<TaskId> tasks_by_level(const CompiledCatalog& catalog) {
   std::vector<TaskId> order(catalog.tasks.size());
   std::iota(order.begin(), order.end(), 0);
@@ -32,8 +33,6 @@ std::vector<TaskId> tasks_by_level(const CompiledCatalog& catalog) {
   });
   return order;
 }
-
-}  // namespace
 
 Liveness::Liveness(AssignmentSearch& search)
     : catalog_(search.catalog()),

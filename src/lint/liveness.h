@@ -9,6 +9,9 @@
 
 namespace cbc {
 
+/// All tasks, those that require little first, so that what is dead is known where it is required.
+[[nodiscard]] std::vector<TaskId> tasks_by_level(const CompiledCatalog& catalog);
+
 /// Which values, behaviors and tasks occur in no assignment that satisfies all constraints.
 class Liveness {
  public:

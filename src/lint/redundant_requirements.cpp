@@ -35,15 +35,11 @@ class RedundancyCheck {
     if (undecided_ == 0) return;
     const Behavior& behavior = semantics_.behavior(undecided_behavior_);
     const TaskIndex task = catalog_.tasks[undecided_task_].catalog_index;
-    for (const Requirement& requirement : behavior.requirements) {
-      if (requirement.task != task) continue;
-      semantics_.reporter().report(
-          rule::undecided, requirement.range,
-          "whether the requirement of " + quote(semantics_.catalog().tasks[task].name) +
-              (undecided_ > 1 ? ", and " + std::to_string(undecided_ - 1) + " others," : "") +
-              " is redundant could not be decided: there is too much to search");
-      return;
-    }
+    semantics_.reporter().report(
+        rule::undecided, strongest_requirement(behavior, task).range,
+        "whether the requirement of " + quote(semantics_.catalog().tasks[task].name) +
+            (undecided_ > 1 ? ", and " + std::to_string(undecided_ - 1) + " others," : "") +
+            " is redundant could not be decided: there is too much to search");
   }
 
  private:
@@ -98,14 +94,8 @@ class RedundancyCheck {
     });
     const Behavior& behavior = semantics_.behavior(id);
     const TaskIndex task = catalog_.tasks[requirement.task].catalog_index;
-    for (const Requirement& entry : behavior.requirements) {
-      if (entry.task != task || entry.minimum_performance != requirement.minimum_performance) {
-        continue;
-      }
-      report(behavior, entry,
-             constraint_notes(reason, semantics_.catalog(), catalog_, semantics_.reporter()), {});
-      break;
-    }
+    report(behavior, strongest_requirement(behavior, task),
+           constraint_notes(reason, semantics_.catalog(), catalog_, semantics_.reporter()), {});
   }
 
   /// What the behavior requires apart from a task, with all that leads to. Only if the task is

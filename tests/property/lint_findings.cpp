@@ -343,7 +343,7 @@ Findings lint_findings(const LintOracle& oracle, const std::string& yaml) {
   const auto document = yaml::parse(yaml, "catalog.yaml", diagnostics);
   demand(document != nullptr, "not YAML");
   const LintResult result = lint_catalog(*document, {}, diagnostics);
-  demand(result.summary.has_value(), "not understood");
+  demand(result.compiled.has_value(), "not understood");
   FindingReader reader(oracle, document->root());
   for (const Diagnostic& finding : diagnostics.all()) {
     try {

@@ -91,7 +91,7 @@ Names rules_found(const Rule& rule, std::string_view text, const LintOptions& op
     if (rule.is_of_scripts) {
       lint_script(*document, diagnostics);
     } else {
-      is_complete = lint_catalog(*document, options, diagnostics).summary.has_value();
+      is_complete = lint_catalog(*document, options, diagnostics).compiled.has_value();
     }
   }
   const CommentedFile file{"example.yaml", text, document.get(), is_complete};
