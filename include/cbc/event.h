@@ -28,10 +28,23 @@ enum class Origin : std::uint8_t { script, timeout, reactive, fault };
 
 enum class Outcome : std::uint8_t { accepted, rejected, unchanged };
 
+/// Why a behavior was activated or deactivated.
+enum class ChangeCause : std::uint8_t {
+  requested,  ///< its task has a request of priority >= 1, or is the one of a stop event
+  reactive,   ///< its task has a request of priority 0
+  required,   ///< its task has no request
+  replaced,   ///< its task goes on with another behavior
+  displaced,  ///< its task had a request
+  released,   ///< its task had none
+  restarted,  ///< to take over changed parameters
+  undone      ///< takes back an earlier change of the same event
+};
+
 [[nodiscard]] std::string_view name_of(Verb verb);
 [[nodiscard]] std::string_view name_of(FinishCause cause);
 [[nodiscard]] std::string_view name_of(Origin origin);
 [[nodiscard]] std::string_view name_of(Outcome outcome);
+[[nodiscard]] std::string_view name_of(ChangeCause cause);
 
 /// Whether behavior can be activated in the present situation: the answer of `check_situation`.
 struct Availability {

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "compiled/compiled_file.h"
 #include "text/quote.h"
 
 namespace cbc::cli {
@@ -34,8 +35,9 @@ std::optional<std::string> read_stream(std::FILE* stream, const std::string& pat
   for (;;) {
     const std::size_t count = std::fread(block.data(), 1, block.size(), stream);
     text.append(block.data(), count);
-    if (text.size() > largest_file) {
-      return fail(path, fmt::format("it is larger than {} MiB", largest_file >> 20));
+    const std::size_t largest = is_compiled(text) ? largest_compiled_file : largest_file;
+    if (text.size() > largest) {
+      return fail(path, fmt::format("it is larger than {} MiB", largest >> 20));
     }
     if (count == 0) break;
   }

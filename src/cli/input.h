@@ -8,7 +8,8 @@
 
 namespace cbc::cli {
 
-/// Files larger than this are refused, so that no input can eat the memory of the machine.
+/// Texts larger than this are refused (compiled catalogs have a limit of their own), so that no
+/// input can eat the memory of the machine.
 inline constexpr std::size_t largest_file = std::size_t{256} << 20;
 
 /// Contents of a file, or of standard input for "-". Prints why not to standard error.

@@ -205,6 +205,8 @@ int lint(const LintCommand& command) {
   options.stdin_filename = command.stdin_filename;
   options.is_to_fix = command.fix || command.diff;
   options.is_to_show_fixes = command.diff;
+  options.is_to_summarize = command.summary;
+  options.has_scripts = !command.scripts.empty();
   std::vector<std::string> errors;
   options.settings = settings_of_options(command.severities, errors);
   for (const std::string& error : errors) complain(error);
@@ -243,7 +245,7 @@ void add_lint_command(CLI::App& program, int& status) {
       ->check(CLI::IsMember({"text", "json", "sarif", "github", "gcc"}));
   command->add_flag("--summary", options->summary,
                     "Show the catalogs in numbers: tasks, behaviors,\n"
-                    "constraints, groups, search space");
+                    "constraints, groups, search space; compiled ones, too");
   command->add_flag("--fix", options->fix,
                     "Mend in place what can be mended without changing what\n"
                     "a catalog means");

@@ -22,29 +22,55 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void complain_of_catalog(const std::string& name) {
+  complain(fmt::format("{} is a catalog; expected an event script", quote(name)));
+}
+
 }  // namespace
 
 Linter::Linter(Options options) : options_(std::move(options)), settings_(options_.settings) {}
 
 void Linter::lint_catalog(const std::string& path) {
-  std::optional<std::string> text = read_input(path);
-  if (!text) {
+  std::optional<CatalogInput> input = read_catalog_input(path);
+  if (!input) {
     has_failed_ = true;
     catalogs_.insert_or_assign(path, nullptr);
-    return;
+  } else if (input->is_compiled) {
+    take_compiled(*input);
+  } else {
+    lint_catalog_text(path, std::move(input->content));
   }
-  lint_catalog_text(path, std::move(*text));
 }
 
 bool Linter::lint_if_catalog(const std::string& path) {
-  std::optional<std::string> text = read_input(path);
-  if (!text) {
+  std::optional<CatalogInput> input = read_catalog_input(path);
+  if (!input) {
     has_failed_ = true;
     return false;
   }
-  if (!looks_like_catalog(*text)) return false;
-  lint_catalog_text(path, std::move(*text));
+  if (input->is_compiled || !looks_like_catalog(input->content)) return false;
+  lint_catalog_text(path, std::move(input->content));
   return true;
+}
+
+/// A compiled catalog has no text to find mistakes in.
+void Linter::take_compiled(const CatalogInput& input) {
+  std::optional<CompiledFile> file;
+  if (options_.is_to_fix || !(options_.is_to_summarize || options_.has_scripts)) {
+    complain(fmt::format("{} is a compiled catalog; expected YAML (--summary takes either)",
+                         quote(name_of(input.path))));
+  } else {
+    file = load(input);
+  }
+  CatalogPointer& catalog = catalogs_[input.path];
+  if (!file) {
+    has_failed_ = true;
+    return;
+  }
+  catalog = std::make_shared<const CompiledCatalog>(std::move(file->catalog));
+  if (options_.is_to_summarize) {
+    files_.push_back({name_of(input.path), {}, {}, summarize(*catalog), false});
+  }
 }
 
 void Linter::lint_catalog_text(const std::string& path, std::string text) {
@@ -140,12 +166,15 @@ bool Linter::write_fixed(const std::string& path, const std::string& before,
 }
 
 void Linter::lint_script(const std::string& path, const std::string& catalog) {
-  std::optional<std::string> text = read_input(path);
-  if (!text) {
+  std::optional<CatalogInput> input = read_catalog_input(path);
+  if (!input) {
     has_failed_ = true;
-    return;
+  } else if (input->is_compiled) {
+    complain_of_catalog(name_of(path));
+    has_failed_ = true;
+  } else {
+    lint_script_text(path, std::move(input->content), catalog);
   }
-  lint_script_text(path, std::move(*text), catalog);
 }
 
 void Linter::lint_script_text(const std::string& path, std::string text,
@@ -159,14 +188,14 @@ void Linter::lint_script_text(const std::string& path, std::string text,
   const auto document = yaml::parse(file.text, file.file, diagnostics);
   CommentedFile commented{file.file, file.text, document.get(), false};
   if (document != nullptr && is_catalog(*document)) {
-    complain(fmt::format("{} is a catalog; expected an event script", quote(file.file)));
+    complain_of_catalog(file.file);
     has_failed_ = true;
     return;
   }
   if (document != nullptr) {
     const CatalogPointer compiled = catalog_of(*document, catalog);
     if (compiled == nullptr) return;
-    const auto script = read_script(*document, names_of(*compiled), Severity::error, diagnostics);
+    const auto script = read_script(*document, *compiled, Severity::error, diagnostics);
     // Findings that may be allowed do not keep a script from being understood.
     commented.is_complete =
         script || std::none_of(diagnostics.all().begin(), diagnostics.all().end(), is_fixed);
@@ -211,9 +240,16 @@ Linter::CatalogPointer Linter::catalog_of(const yaml::Document& script, const st
 Linter::CatalogPointer Linter::catalog_at(const std::string& path) {
   const auto [entry, is_new] = catalogs_.try_emplace(path, nullptr);
   if (!is_new) return entry->second;
+  const std::optional<CatalogInput> input = read_catalog_input(path);
+  if (!input) return nullptr;
+  if (input->is_compiled) {
+    if (std::optional<CompiledFile> file = load(*input)) {
+      entry->second = std::make_shared<const CompiledCatalog>(std::move(file->catalog));
+    }
+    return entry->second;
+  }
   Diagnostics diagnostics;  // of a file that nobody asked about
-  const std::optional<std::string> text = read_input(path);
-  const auto document = text ? yaml::parse(*text, path, diagnostics) : nullptr;
+  const auto document = yaml::parse(input->content, path, diagnostics);
   if (document == nullptr) return nullptr;
   const CatalogReading reading = understand_catalog(*document, diagnostics);
   if (reading.is_complete && reading.is_acyclic) {

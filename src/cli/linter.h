@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "catalog/catalog.h"
+#include "cli/catalog_input.h"
 #include "cli/settings_finder.h"
 #include "compiled/compiled_catalog.h"
 #include "lint/lint.h"
@@ -27,6 +28,8 @@ class Linter {
     std::string stdin_filename;  ///< for "-"
     bool is_to_fix = false;
     bool is_to_show_fixes = false;  ///< as a diff, instead of writing them
+    bool is_to_summarize = false;   ///< compiled catalogs, too
+    bool has_scripts = false;       ///< for which a compiled catalog will do
   };
   explicit Linter(Options options);
 
@@ -65,6 +68,7 @@ class Linter {
   [[nodiscard]] CatalogPointer catalog_at(const std::string& path);
   void lint_script_text(const std::string& path, std::string text, const std::string& catalog);
   void lint_catalog_text(const std::string& path, std::string text);
+  void take_compiled(const CatalogInput& input);
   void add(LintedFile file, const SeveritySettings& settings);
   [[nodiscard]] std::string name_of(const std::string& path) const;
 

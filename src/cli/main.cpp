@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "cbc/version.h"
+#include "cli/compile_command.h"
 #include "cli/exit_status.h"
 #include "cli/lint_command.h"
 #include "cli/solve_command.h"
@@ -22,17 +24,18 @@
 namespace {
 
 constexpr const char* description =
-    "Checks behavior catalogs, and solves them offline: which behaviors of a robot should be\n"
-    "active, proven best, on every event.";
+    "Checks and compiles behavior catalogs, and solves them offline: which behaviors of a robot\n"
+    "should be active, proven best, on every event.";
 
 constexpr const char* footer =
     "Examples:\n"
     "  cbc lint quadrotor.yaml\n"
+    "  cbc compile quadrotor.yaml -o quadrotor.cbc\n"
     "  cbc solve quadrotor.yaml mission.yaml\n"
     "  cbc solve quadrotor.yaml mission.yaml --format json | jq .\n"
     "\n"
-    "Exit status: 0 all is well, 1 a catalog has an error or an expectation failed, 2 the input\n"
-    "or the usage is wrong, 3 an internal error.";
+    "Exit status: 0 all is well, 1 lint found an error, a compiled catalog is stale, or an\n"
+    "expectation failed, 2 the input or the usage is wrong, 3 an internal error.";
 
 std::string full_name(const CLI::App& app) {
   const CLI::App* const used = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
@@ -68,6 +71,7 @@ int run(int argc, char** argv) {
   program.footer(footer);
   int status = exit_ok;
   add_lint_command(program, status);
+  add_compile_command(program, status);
   add_solve_command(program, status);
 
   program.failure_message([](const CLI::App* app, const CLI::Error& error) {
@@ -95,6 +99,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file that may not grow any more is an output that cannot be written, not the end.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run(argc, argv);
   } catch (const std::system_error& error) {

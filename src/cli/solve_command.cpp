@@ -131,9 +131,9 @@ void add_solve_command(CLI::App& program, int& status) {
   command->footer(footer);
   command
       ->add_option("CATALOG SCRIPT", options->paths,
-                   "The catalog, then event scripts: files, folders, or - for\n"
-                   "standard input. Without a catalog each script names its\n"
-                   "own (catalog: FILE).")
+                   "The catalog (YAML or compiled), then event scripts: files,\n"
+                   "folders, or - for standard input. Without a catalog each\n"
+                   "script names its own (catalog: FILE).")
       ->option_text("...")
       ->required();
   command->add_option("--format", options->format, "text (the default) or json")

@@ -2,27 +2,15 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string_view>
 #include <unordered_map>
 
-#include "compiled/count_constraints.h"
-#include "compiled/log_cost.h"
+#include "compiled/catalog_arrays.h"
+#include "compiled/known_costs.h"
 #include "graph/graph.h"
 
 namespace cbc {
 namespace {
-
-/// log_cost with a memory: catalogs have few different degrees.
-class Costs {
- public:
-  std::int64_t of(Millionths degree) {
-    const auto [entry, is_new] = known_.try_emplace(degree, 0);
-    if (is_new) entry->second = log_cost(degree);
-    return entry->second;
-  }
-
- private:
-  std::unordered_map<Millionths, std::int64_t> known_;
-};
 
 /// A stable order of `count` items by `key`, and where each key begins.
 struct Grouping {
@@ -60,8 +48,8 @@ class Compiler {
     add_arcs();
     add_cliques();
     add_levels();
-    out_.group_constraints = count_constraints(out_);
-    return std::move(out_);
+    add_topological_order();
+    return to_catalog(std::move(out_));
   }
 
  private:
@@ -72,12 +60,48 @@ class Compiler {
   }
 
   void add_names() {
-    out_.file = catalog_.file;
-    for (const Task& task : catalog_.tasks) {
-      out_.task_names.push_back(task.name);
-      out_.task_parameters.push_back(task.parameters);
+    out_.task_count = task_count();
+    out_.behavior_count = behavior_count();
+    for (const Task& task : catalog_.tasks) out_.texts.add_row(task.name);
+    for (const Behavior& one : catalog_.behaviors) out_.texts.add_row(one.name);
+    out_.tasks_by_name = sort_by_name(catalog_.tasks);
+    out_.behaviors_by_name = sort_by_name(catalog_.behaviors);
+    add_text(catalog_.file);
+    for (const Behavior& one : catalog_.behaviors) {
+      out_.behavior_packages.push_back(add_text(one.package));
     }
-    for (const Behavior& one : catalog_.behaviors) out_.behavior_names.push_back(one.name);
+    for (const Task& task : catalog_.tasks) add_parameters(task.parameters);
+  }
+
+  template <typename Entry>
+  static std::vector<std::uint32_t> sort_by_name(const std::vector<Entry>& entries) {
+    std::vector<std::uint32_t> places(entries.size());
+    std::iota(places.begin(), places.end(), 0U);
+    std::sort(places.begin(), places.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return entries[a].name < entries[b].name; });
+    return places;
+  }
+
+  TextId add_text(std::string_view text) {
+    const auto [entry, is_new] =
+        text_ids_.try_emplace(text, static_cast<TextId>(out_.texts.size()));
+    if (is_new) out_.texts.add_row(text);
+    return entry->second;
+  }
+
+  void add_parameters(const std::vector<Parameter>& parameters) {
+    for (const Parameter& from : parameters) {
+      CompiledParameter to;
+      to.name = add_text(from.name);
+      to.allowed_is_list = from.allowed_is_list ? 1 : 0;
+      to.first_allowed = static_cast<std::uint32_t>(out_.allowed_values.size());
+      to.allowed_count = static_cast<std::uint32_t>(from.allowed_values.size());
+      for (const std::string& text : from.allowed_values) {
+        out_.allowed_values.push_back(add_text(text));
+      }
+      out_.parameters.items.push_back(to);
+    }
+    out_.parameters.close_row();
   }
 
   void add_groups() {
@@ -121,10 +145,10 @@ class Compiler {
       task.minimum_cost = costs_.of(from.minimum_performance);
       task.minimum_line = from.minimum_performance_range.begin.line;
       task.timeout = from.timeout.value_or(0);
-      task.start_on_request = from.start_on_request;
-      task.reactive_start = from.reactive_start;
-      task.keep_running = from.execution_goal == ExecutionGoal::keep_running;
-      task.has_performance_rules = from.minimum_performance > 0;
+      task.start_on_request = from.start_on_request ? 1 : 0;
+      task.reactive_start = from.reactive_start ? 1 : 0;
+      task.keep_running = from.execution_goal == ExecutionGoal::keep_running ? 1 : 0;
+      task.has_performance_rules = from.minimum_performance > 0 ? 1 : 0;
       out_.tasks.push_back(task);
     }
   }
@@ -142,59 +166,73 @@ class Compiler {
 
   /// Sorted by task; of requirements of the same task the strongest is enough.
   void add_requirements(const Behavior& from) {
-    std::vector<CompiledRequirement> row;
-    for (const Requirement& requirement : from.requirements) {
-      CompiledRequirement to;
-      to.task = out_.task_ids[requirement.task];
-      to.minimum_performance = requirement.minimum_performance;
-      to.minimum_cost = costs_.of(requirement.minimum_performance);
-      to.line = requirement.range.begin.line;
-      row.push_back(to);
-    }
-    std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) {
-      return a.task != b.task ? a.task < b.task : a.minimum_performance > b.minimum_performance;
+    std::vector<const Requirement*>& row = requirement_row_;
+    row.clear();
+    for (const Requirement& requirement : from.requirements) row.push_back(&requirement);
+    const auto task_of = [&](const Requirement* requirement) {
+      return out_.task_ids[requirement->task];
+    };
+    std::sort(row.begin(), row.end(), [&](const Requirement* a, const Requirement* b) {
+      if (task_of(a) != task_of(b)) return task_of(a) < task_of(b);
+      if (a->minimum_performance != b->minimum_performance) {
+        return a->minimum_performance > b->minimum_performance;
+      }
+      return a < b;  // the earlier one
     });
     row.erase(std::unique(row.begin(), row.end(),
-                          [](const auto& a, const auto& b) { return a.task == b.task; }),
+                          [&](const Requirement* a, const Requirement* b) {
+                            return task_of(a) == task_of(b);
+                          }),
               row.end());
-    out_.requirements.items.insert(out_.requirements.items.end(), row.begin(), row.end());
+    for (const Requirement* requirement : row) {
+      CompiledRequirement to;
+      to.task = task_of(requirement);
+      to.minimum_performance = requirement->minimum_performance;
+      to.minimum_cost = costs_.of(requirement->minimum_performance);
+      out_.requirements.items.push_back(to);
+      out_.requirement_lines.push_back(requirement->range.begin.line);
+    }
     out_.requirements.close_row();
   }
 
   void add_values() {
-    std::vector<std::vector<Value>> values(task_count());
+    std::vector<Value> values;  // by behavior
+    std::vector<TaskId> tasks;  // of each of them
     for (BehaviorId id = 0; id < behavior_count(); ++id) {
       for (const Performance& performance : behavior(id).performs) {
         Value value;
         value.behavior = id;
         value.suitability = performance.suitability;
         value.cost = costs_.of(performance.suitability);
-        values[out_.task_ids[performance.task]].push_back(value);
+        values.push_back(value);
+        tasks.push_back(out_.task_ids[performance.task]);
       }
     }
-    std::vector<std::vector<ValueId>> performs(behavior_count());
+    const Grouping by_task = group_by(tasks, task_count());
+    out_.values.begin = by_task.begin;
+    for (const std::uint32_t place : by_task.order) {
+      out_.values.items.push_back(values[place]);
+      out_.value_tasks.push_back(tasks[place]);
+    }
     out_.words.push_back(0);
     for (TaskId task = 0; task < task_count(); ++task) {
-      std::stable_sort(values[task].begin(), values[task].end(),
-                       [](const auto& a, const auto& b) { return a.suitability > b.suitability; });
-      for (const Value& value : values[task]) {
-        performs[value.behavior].push_back(static_cast<ValueId>(out_.values.items.size()));
-        out_.values.items.push_back(value);
-        out_.value_tasks.push_back(task);
-      }
-      out_.values.close_row();
-      out_.words.push_back(out_.words.back() +
-                           static_cast<std::uint32_t>((values[task].size() + 63) / 64));
+      const std::uint32_t first = by_task.begin[task];
+      const std::uint32_t end = by_task.begin[task + 1];
+      std::sort(out_.values.items.begin() + first, out_.values.items.begin() + end,
+                [](const Value& a, const Value& b) {
+                  return a.suitability != b.suitability ? a.suitability > b.suitability
+                                                        : a.behavior < b.behavior;
+                });
+      out_.words.push_back(out_.words.back() + (end - first + 63) / 64);
     }
-    for (const std::vector<ValueId>& row : performs) {
-      out_.performs.items.insert(out_.performs.items.end(), row.begin(), row.end());
-      out_.performs.close_row();
-    }
+    std::vector<BehaviorId> behaviors;
+    for (const Value& value : out_.values.items) behaviors.push_back(value.behavior);
+    Grouping by_behavior = group_by(behaviors, behavior_count());
+    out_.performs = {std::move(by_behavior.begin), std::move(by_behavior.order)};
   }
 
   void add_arcs() {
     std::vector<std::uint32_t> arc_to(task_count(), none);
-    std::vector<std::vector<std::uint32_t>> incoming(task_count());
     for (TaskId task = 0; task < task_count(); ++task) {
       const std::uint32_t words = out_.words[task + 1] - out_.words[task];
       const auto values = out_.values[task];
@@ -207,18 +245,17 @@ class Compiler {
             const auto mask = static_cast<std::uint32_t>(out_.masks.size());
             out_.arcs.items.push_back(Arc{task, requirement.task, mask});
             out_.masks.resize(out_.masks.size() + words, 0);
-            incoming[requirement.task].push_back(number);
           }
           out_.masks[out_.arcs.items[number].mask + place / 64] |= std::uint64_t{1} << (place % 64);
-          if (requirement.minimum_performance > 0) out_.tasks[task].has_performance_rules = true;
+          if (requirement.minimum_performance > 0) out_.tasks[task].has_performance_rules = 1;
         }
       }
       out_.arcs.close_row();
     }
-    for (const std::vector<std::uint32_t>& row : incoming) {
-      out_.incoming.items.insert(out_.incoming.items.end(), row.begin(), row.end());
-      out_.incoming.close_row();
-    }
+    std::vector<TaskId> targets;
+    for (const Arc& arc : out_.arcs.items) targets.push_back(arc.target);
+    Grouping by_target = group_by(targets, task_count());
+    out_.incoming = {std::move(by_target.begin), std::move(by_target.order)};
   }
 
   void add_cliques() {
@@ -241,18 +278,17 @@ class Compiler {
                               [](const auto& a, const auto& b) { return a.tasks == b.tasks; }),
                   cliques.end());
 
-    std::vector<std::vector<std::uint32_t>> cliques_of(task_count());
+    std::vector<std::uint32_t> clique_of;  // by place in the cliques
     for (const Clique& clique : cliques) {
-      for (const TaskId task : clique.tasks) {
-        cliques_of[task].push_back(static_cast<std::uint32_t>(out_.cliques.size()));
-      }
-      out_.cliques.items.insert(out_.cliques.items.end(), clique.tasks.begin(), clique.tasks.end());
-      out_.cliques.close_row();
+      clique_of.insert(clique_of.end(), clique.tasks.size(),
+                       static_cast<std::uint32_t>(out_.cliques.size()));
+      out_.cliques.add_row(clique.tasks);
       out_.clique_lines.push_back(clique.line);
     }
-    for (const std::vector<std::uint32_t>& row : cliques_of) {
-      out_.task_cliques.items.insert(out_.task_cliques.items.end(), row.begin(), row.end());
-      out_.task_cliques.close_row();
+    Grouping by_task = group_by(out_.cliques.items, task_count());
+    out_.task_cliques.begin = std::move(by_task.begin);
+    for (const std::uint32_t place : by_task.order) {
+      out_.task_cliques.items.push_back(clique_of[place]);
     }
   }
 
@@ -270,12 +306,26 @@ class Compiler {
     }
   }
 
+  void add_topological_order() {
+    out_.topological_order.resize(task_count());
+    std::iota(out_.topological_order.begin(), out_.topological_order.end(), TaskId{0});
+    std::stable_sort(out_.topological_order.begin(), out_.topological_order.end(),
+                     [&](TaskId a, TaskId b) {
+                       const CompiledTask& first = out_.tasks[a];
+                       const CompiledTask& second = out_.tasks[b];
+                       return first.group != second.group ? first.group < second.group
+                                                          : first.level < second.level;
+                     });
+  }
+
   const Catalog& catalog_;
-  CompiledCatalog out_;
-  Costs costs_;
-  std::vector<std::uint32_t> group_of_task_;   ///< by TaskIndex
-  std::vector<TaskIndex> task_order_;          ///< by TaskId
-  std::vector<BehaviorIndex> behavior_order_;  ///< by BehaviorId
+  CatalogArrays out_;
+  std::unordered_map<std::string_view, TextId> text_ids_;  ///< but for names
+  KnownCosts costs_;
+  std::vector<const Requirement*> requirement_row_;  ///< of a behavior; kept for its memory
+  std::vector<std::uint32_t> group_of_task_;         ///< by TaskIndex
+  std::vector<TaskIndex> task_order_;                ///< by TaskId
+  std::vector<BehaviorIndex> behavior_order_;        ///< by BehaviorId
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ Coordinator::Coordinator(const CompiledCatalog& catalog, const CoordinatorOption
                               : std::vector<std::uint32_t>{}),
       state_(catalog),
       question_(catalog, state_),
-      transition_(catalog, state_, record_.changes),
+      transition_(catalog, state_, record_),
       solver_(catalog, options.search, ranks_),
       checker_(catalog) {}
 
@@ -34,6 +34,7 @@ void Coordinator::begin(std::span<const Availability> situation) {
 // The clock.
 
 Coordinator::Status Coordinator::advance_to(Microseconds time) {
+  if (const Status status = finish_lost(); status != Status::ok) return status;
   for (auto due = next_due(); due && *due < time; due = next_due()) {
     if (const Status status = process_next_due(); status != Status::ok) return status;
   }
@@ -42,6 +43,7 @@ Coordinator::Status Coordinator::advance_to(Microseconds time) {
 }
 
 Coordinator::Status Coordinator::settle() {
+  if (const Status status = finish_lost(); status != Status::ok) return status;
   for (auto due = next_due(); due && *due <= now_; due = next_due()) {
     if (const Status status = process_next_due(); status != Status::ok) return status;
   }
@@ -51,6 +53,7 @@ Coordinator::Status Coordinator::settle() {
 std::optional<Microseconds> Coordinator::next_due() const {
   const Timers& timeouts = state_.timeouts();
   const Timers& queue = state_.queue();
+  if (!lost_.empty()) return now_;
   if (timeouts.empty() && queue.empty()) return std::nullopt;
   if (timeouts.empty()) return queue.first_due();
   if (queue.empty()) return timeouts.first_due();
@@ -64,29 +67,53 @@ Coordinator::Status Coordinator::process_next_due() {
   now_ = *next_due();
   if (!timeouts.empty() && timeouts.first_due() == now_) {
     const TaskId task = catalog_.task_ids[timeouts.first()];
-    const BehaviorId behavior = state_.behavior(task);
+    if (clock_events_ == options_.max_clock_events) return Status::too_many_clock_events;
     state_.drop_timeout(task);
-    if (!open_clock_record(Origin::timeout, Verb::finish)) return Status::too_many_clock_events;
-    return finish(behavior, FinishCause::time_out);
+    open_clock_record(Origin::timeout, Verb::finish);
+    const Status status = finish(state_.behavior(task), FinishCause::time_out);
+    return status == Status::ok ? finish_lost() : status;
   }
   const TaskId task = catalog_.task_ids[queue.first()];
-  state_.dequeue(task);
-  return start_reactive(task);
-}
-
-Coordinator::Status Coordinator::start_reactive(TaskId task) {
-  if (state_.is_running(task) || state_.excludes_running_task(task) ||
-      !state_.has_available_behavior(task)) {
+  if (!may_start(task)) {
+    state_.dequeue(task);
     return Status::ok;
   }
-  if (!open_clock_record(Origin::reactive, Verb::start)) return Status::too_many_clock_events;
-  return start(task, 0, std::string_view{}, true);
+  if (clock_events_ == options_.max_clock_events) return Status::too_many_clock_events;
+  state_.dequeue(task);
+  open_clock_record(Origin::reactive, Verb::start);
+  const Status status = start(task, 0, std::string_view{}, true);
+  return status == Status::ok ? finish_lost() : status;
+}
+
+/// Whether a reactive task that is due starts, as far as can be told without search.
+bool Coordinator::may_start(TaskId task) const {
+  return !state_.is_running(task) && !state_.excludes_running_task(task) &&
+         state_.has_available_behavior(task);
+}
+
+/// Behaviors that a rejected event could not activate again finish right after it, before anything
+/// else does.
+Coordinator::Status Coordinator::finish_lost() {
+  while (!lost_.empty()) {
+    if (clock_events_ == options_.max_clock_events) return Status::too_many_clock_events;
+    const BehaviorId behavior = lost_.back();
+    lost_.pop_back();
+    open_clock_record(Origin::fault, Verb::finish);
+    const Status status = finish(behavior, FinishCause::process_failure);
+    if (status != Status::ok) return status;
+  }
+  return Status::ok;
 }
 
 // Events.
 
 Coordinator::Status Coordinator::handle(const Event& event) {
   open_record(Origin::script, event.verb);
+  const Status status = take(event);
+  return status == Status::ok ? finish_lost() : status;
+}
+
+Coordinator::Status Coordinator::take(const Event& event) {
   switch (event.verb) {
     case Verb::start:
       return start(catalog_.task_ids[event.subject], event.priority.value_or(1), event.parameters,
@@ -114,9 +141,10 @@ Coordinator::Status Coordinator::handle(const Event& event) {
 void Coordinator::open_record(Origin origin, Verb verb) {
   const std::uint64_t index = record_.index + 1;
   record_.changes.clear();
+  record_.tasks_of_changes.clear();
   record_.stopped_tasks.clear();
   record_.objective.reset();
-  record_.search.reset();
+  record_.search = nullptr;
   record_.conflict.clear();
   record_.index = index;
   record_.time = now_;
@@ -128,12 +156,10 @@ void Coordinator::open_record(Origin origin, Verb verb) {
   record_.outcome = Outcome::unchanged;
 }
 
-/// For an event that nobody asked for. False, and no record, if it is one too many.
-bool Coordinator::open_clock_record(Origin origin, Verb verb) {
-  if (clock_events_ == options_.max_clock_events) return false;
+/// For an event that nobody asked for, and that is not one too many.
+void Coordinator::open_clock_record(Origin origin, Verb verb) {
   ++clock_events_;
   open_record(origin, verb);
-  return true;
 }
 
 Coordinator::Status Coordinator::report() {
@@ -249,7 +275,7 @@ Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
 std::string Coordinator::describe_refusal(const std::string& violation) const {
   std::string text = fmt::format("event {} ({}): {}; the answer was", record_.index,
                                  name_of(record_.verb), violation);
-  const TaskId first = catalog_.group_tasks[record_.search->group];
+  const TaskId first = catalog_.group_tasks[search_.group];
   for (std::uint32_t task = 0; task < solution_.size(); ++task) {
     const std::uint32_t place = solution_[task];
     if (place == none) continue;
@@ -266,17 +292,18 @@ std::string Coordinator::describe_refusal(const std::string& violation) const {
 /// the level that protects nothing. Returns the problem that was solved, or null.
 const Problem* Coordinator::search(const Trigger& trigger) {
   std::int32_t protection = question_.first_protection();
-  SearchRecord& record = record_.search ? *record_.search : record_.search.emplace();
-  record.group = trigger.group;
+  if (record_.search == nullptr) search_.result = {};
+  record_.search = &search_;
+  search_.group = trigger.group;
   for (;;) {
     const Problem& problem = question_.ask(protection);
     const SearchResult result = solver_.solve(problem, solution_);
-    record.protection = protection;
-    record.result.status = result.status;
-    record.result.solutions += result.solutions;
-    record.result.nodes += result.nodes;
+    search_.protection = protection;
+    search_.result.status = result.status;
+    search_.result.solutions += result.solutions;
+    search_.result.nodes += result.nodes;
     if (has_solution(result.status)) {
-      note_domain_sizes(problem, record);
+      note_domain_sizes(problem);
       return &problem;
     }
     const auto next =
@@ -284,16 +311,16 @@ const Problem* Coordinator::search(const Trigger& trigger) {
             ? question_.next_protection(protection)
             : std::nullopt;
     if (!next) {
-      note_domain_sizes(problem, record);
+      note_domain_sizes(problem);
       return nullptr;
     }
     protection = *next;
   }
 }
 
-void Coordinator::note_domain_sizes(const Problem& problem, SearchRecord& record) const {
+void Coordinator::note_domain_sizes(const Problem& problem) {
   const TaskId first = catalog_.group_tasks[problem.group];
-  record.domain_sizes.clear();
+  search_.domain_sizes.clear();
   for (std::uint32_t task = 0; task < problem.may_stop.size(); ++task) {
     std::uint32_t size = problem.may_stop[task];
     for (std::uint32_t word = catalog_.words[first + task]; word < catalog_.words[first + task + 1];
@@ -301,7 +328,7 @@ void Coordinator::note_domain_sizes(const Problem& problem, SearchRecord& record
       size +=
           static_cast<std::uint32_t>(std::popcount(problem.domains[word - catalog_.words[first]]));
     }
-    record.domain_sizes.push_back(size);
+    search_.domain_sizes.push_back(size);
   }
 }
 
@@ -326,7 +353,7 @@ void Coordinator::accept(const Trigger& trigger, const Problem& problem) {
   }
   ObjectiveValues& objective = record_.objective.emplace();
   objective.requests = elsewhere + static_cast<std::uint32_t>(problem.requests.size());
-  objective.changes = transition_.count_changes(solution_);
+  objective.changes = transition_.count_changes();
   assign(trigger);
   objective.satisfied = state_.request_count();
   objective.idle_total = state_.idle_total();
@@ -335,21 +362,18 @@ void Coordinator::accept(const Trigger& trigger, const Problem& problem) {
   update_queue();
 }
 
-/// Nothing changes, but for behaviors that could not be activated again: they finish right after.
+/// Nothing changes, but for behaviors that could not be activated again, which are lost.
 Coordinator::Status Coordinator::reject(const Trigger& trigger) {
   record_.outcome = Outcome::rejected;
-  if (record_.search->result.status == SearchStatus::infeasible) {
+  if (options_.find_conflicts && search_.result.status == SearchStatus::infeasible) {
     record_.conflict = find_conflict(catalog_, state_, trigger, question_.excluded());
   }
-  const std::vector<BehaviorId> lost = transition_.take_back(now_);
+  // The first comes last, to finish next.
+  const std::vector<BehaviorId>& lost = transition_.take_back(now_);
+  lost_.insert(lost_.end(), lost.rbegin(), lost.rend());
   if (trigger.kind == Trigger::Kind::finish) state_.leave_active(trigger.behavior);
   update_timeouts(trigger.group);
-  Status status = report();
-  for (std::size_t next = 0; next < lost.size() && status == Status::ok; ++next) {
-    if (!open_clock_record(Origin::fault, Verb::finish)) return Status::too_many_clock_events;
-    status = finish(lost[next], FinishCause::process_failure);
-  }
-  return status;
+  return report();
 }
 
 /// Gives the tasks of the group the values of the solution.

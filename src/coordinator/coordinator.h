@@ -22,6 +22,7 @@ struct CoordinatorOptions {
   SearchOptions search;
   Microseconds reactive_delay = 80'000;        ///< delta of section 6; over 0
   std::uint64_t max_clock_events = 1'000'000;  ///< events that no script asked for
+  bool find_conflicts = true;                  ///< finds the reasons of rejections
   /// Orders behaviors of equal suitability at random instead of in catalog order.
   std::optional<std::uint64_t> tie_seed;
 };
@@ -35,8 +36,12 @@ class EventListener {
 
 /// Finds and applies the best consistent set of active behaviors on every event.
 ///
-/// Instants never go back. Once a call returned something else than `ok`, the coordinator must not
-/// be used any more.
+/// Instants never go back. After too_many_clock_events those that are due are still to come: a
+/// later call goes on with them, if restart_count() allows for more. After refused_answer the
+/// coordinator must not be used any more.
+///
+/// Nothing is allocated on an event, but for the reasons of a rejection, once the buffers have the
+/// sizes that the events need.
 class Coordinator {
  public:
   enum class [[nodiscard]] Status : std::uint8_t{
@@ -58,22 +63,28 @@ class Coordinator {
   Status advance_to(Microseconds time);
   /// Processes what is due at the present instant.
   Status settle();
-  /// Handles one event at the present instant. Subjects are places in the catalog.
+  /// Handles one event at the present instant. Subjects are places in the catalog. If it returns
+  /// too_many_clock_events, the event itself is done.
   Status handle(const Event& event);
+  /// Allows for max_clock_events from here on.
+  void restart_count() { clock_events_ = 0; }
 
   [[nodiscard]] Microseconds now() const { return now_; }
+  /// When something falls due next; nothing may come of it.
+  [[nodiscard]] std::optional<Microseconds> next_due() const;
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] const std::string& internal_error() const { return internal_error_; }
 
  private:
-  [[nodiscard]] std::optional<Microseconds> next_due() const;
   Status process_next_due();
-  Status start_reactive(TaskId task);
+  Status finish_lost();
+  [[nodiscard]] bool may_start(TaskId task) const;
 
   void open_record(Origin origin, Verb verb);
-  [[nodiscard]] bool open_clock_record(Origin origin, Verb verb);
+  void open_clock_record(Origin origin, Verb verb);
   Status report();
 
+  Status take(const Event& event);
   Status start(TaskId task, std::int32_t priority, std::optional<std::string_view> parameters,
                bool is_reactive);
   Status stop(TaskId task, std::optional<std::int32_t> priority);
@@ -85,7 +96,7 @@ class Coordinator {
   Status coordinate(const Trigger& trigger);
   [[nodiscard]] const Problem* search(const Trigger& trigger);
   [[nodiscard]] std::string describe_refusal(const std::string& violation) const;
-  void note_domain_sizes(const Problem& problem, SearchRecord& record) const;
+  void note_domain_sizes(const Problem& problem);
   [[nodiscard]] BehaviorId behavior_to_restart(const Trigger& trigger) const;
   void accept(const Trigger& trigger, const Problem& problem);
   Status reject(const Trigger& trigger);
@@ -103,6 +114,7 @@ class Coordinator {
   std::vector<std::uint32_t> ranks_;  ///< by value, if there is a tie seed
   State state_;
   EventRecord record_;
+  SearchRecord search_;
   Question question_;
   Transition transition_;
   Solver solver_;
@@ -111,6 +123,7 @@ class Coordinator {
   std::vector<TaskId> started_;
   std::vector<TaskId> stopped_;
   std::vector<TaskId> stopped_by_others_;  ///< of these, what did not end by itself
+  std::vector<BehaviorId> lost_;           ///< could not be activated again; the last finishes next
   Microseconds now_ = 0;
   std::uint64_t clock_events_ = 0;
   std::string internal_error_;

@@ -27,4 +27,11 @@ std::string_view name_of(Outcome outcome) {
   return names[static_cast<std::size_t>(outcome)];
 }
 
+std::string_view name_of(ChangeCause cause) {
+  static constexpr std::array<std::string_view, 8> names{"requested", "reactive",  "required",
+                                                         "replaced",  "displaced", "released",
+                                                         "restarted", "undone"};
+  return names[static_cast<std::size_t>(cause)];
+}
+
 }  // namespace cbc

@@ -4,13 +4,6 @@
 
 namespace cbc {
 
-std::string_view name_of(ChangeCause cause) {
-  static constexpr std::array<std::string_view, 8> names{"requested", "reactive",  "required",
-                                                         "replaced",  "displaced", "released",
-                                                         "restarted", "undone"};
-  return names[static_cast<std::size_t>(cause)];
-}
-
 std::string_view name_of(SearchStatus status) {
   static constexpr std::array<std::string_view, 4> names{"optimal", "feasible", "infeasible",
                                                          "unknown"};

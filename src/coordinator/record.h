@@ -14,26 +14,14 @@
 
 namespace cbc {
 
-/// Why a behavior was activated or deactivated.
-enum class ChangeCause : std::uint8_t {
-  requested,  ///< its task has a request of priority >= 1, or is the one of a stop event
-  reactive,   ///< its task has a request of priority 0
-  required,   ///< its task has no request
-  replaced,   ///< its task goes on with another behavior
-  displaced,  ///< its task had a request
-  released,   ///< its task had none
-  restarted,  ///< to take over changed parameters
-  undone      ///< takes back an earlier change of the same event
-};
-
-[[nodiscard]] std::string_view name_of(ChangeCause cause);
 [[nodiscard]] std::string_view name_of(SearchStatus status);
 
 /// One activation or deactivation, in the order applied.
 struct Change {
   bool is_activation = false;
   BehaviorId behavior = 0;
-  std::vector<TaskId> tasks;
+  std::uint32_t first_task = 0;  ///< of its tasks, in EventRecord::tasks_of_changes
+  std::uint32_t task_count = 0;
   ChangeCause cause = ChangeCause::requested;
   std::optional<std::int32_t> priority;
   bool success = true;
@@ -60,7 +48,8 @@ struct SearchRecord {
   std::vector<std::uint32_t> domain_sizes;  ///< their product is the search space
 };
 
-/// What one event did. Valid until the coordinator handles the next one.
+/// What one event did. Valid until the coordinator handles the next one, whose record takes over
+/// the memory.
 struct EventRecord {
   std::uint64_t index = 0;  ///< counts all events from 1
   Microseconds time = 0;
@@ -73,10 +62,16 @@ struct EventRecord {
 
   Outcome outcome = Outcome::unchanged;
   std::vector<Change> changes;
+  std::vector<TaskId> tasks_of_changes;
   std::vector<StoppedTask> stopped_tasks;
   std::optional<ObjectiveValues> objective;
-  std::optional<SearchRecord> search;
-  std::vector<Reason> conflict;  ///< of a rejected event: a minimal set of reasons
+  const SearchRecord* search = nullptr;  ///< null: there was none
+  std::vector<Reason> conflict;          ///< of a rejected event: a minimal set of reasons
+
+  /// The tasks that one of the changes is about.
+  [[nodiscard]] std::span<const TaskId> tasks_of(const Change& change) const {
+    return std::span(tasks_of_changes).subspan(change.first_task, change.task_count);
+  }
 };
 
 }  // namespace cbc

@@ -1,6 +1,7 @@
 #include "coordinator/state.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace cbc {
 
@@ -10,6 +11,7 @@ State::State(const CompiledCatalog& catalog)
       taken_at_(catalog.tasks.size(), 0),
       has_request_(catalog.tasks.size(), 0),
       requests_(catalog.tasks.size()),
+      running_((catalog.tasks.size() + 63) / 64, 0),
       available_(catalog.behaviors.size(), 1),
       available_words_(catalog.words.back(), 0),
       faulty_(catalog.behaviors.size(), 0),
@@ -17,7 +19,6 @@ State::State(const CompiledCatalog& catalog)
       activated_at_(catalog.behaviors.size(), 0),
       timeouts_(catalog.tasks.size()),
       queue_(catalog.tasks.size()) {
-  running_.reserve(catalog.tasks.size());
   for (const CompiledTask& task : catalog.tasks) {
     if (!task.start_on_request) ++idle_total_;
   }
@@ -34,16 +35,24 @@ void State::set_place(TaskId task, std::uint32_t place, Microseconds now) {
   if (was_running == is_running(task)) return;
 
   const CompiledTask& compiled = catalog_.tasks[task];
-  const auto position = std::lower_bound(running_.begin(), running_.end(), compiled.catalog_index);
+  running_[compiled.catalog_index / 64] ^= std::uint64_t{1} << (compiled.catalog_index % 64);
   if (was_running) {
-    running_.erase(position);
     if (!compiled.start_on_request) --idle_running_;
     if (has_request(task)) --request_count_;
     has_request_[task] = 0;
   } else {
-    running_.insert(position, compiled.catalog_index);
     if (!compiled.start_on_request) ++idle_running_;
   }
+}
+
+std::vector<std::uint32_t> State::running() const {
+  std::vector<std::uint32_t> tasks;
+  for (std::uint32_t word = 0; word < running_.size(); ++word) {
+    for (std::uint64_t bits = running_[word]; bits != 0; bits &= bits - 1) {
+      tasks.push_back(word * 64 + static_cast<std::uint32_t>(std::countr_zero(bits)));
+    }
+  }
+  return tasks;
 }
 
 void State::set_request(TaskId task, std::int32_t priority, std::uint64_t event,

@@ -32,8 +32,8 @@ class State {
   [[nodiscard]] BehaviorId behavior(TaskId task) const {
     return is_running(task) ? catalog_.values[task][places_[task]].behavior : none;
   }
-  /// Running tasks by their place in the catalog, ascending.
-  [[nodiscard]] const std::vector<std::uint32_t>& running() const { return running_; }
+  /// Running tasks by their place in the catalog, ascending. Looks through the whole catalog.
+  [[nodiscard]] std::vector<std::uint32_t> running() const;
   /// Running tasks that are not start_on_request: a of f3.
   [[nodiscard]] std::uint32_t idle_running() const { return idle_running_; }
   [[nodiscard]] std::uint32_t idle_total() const { return idle_total_; }
@@ -87,7 +87,7 @@ class State {
   std::vector<Microseconds> taken_at_;     ///< by task: when it took its behavior
   std::vector<std::uint8_t> has_request_;  ///< by task
   std::vector<Request> requests_;          ///< by task
-  std::vector<std::uint32_t> running_;
+  std::vector<std::uint64_t> running_;     ///< bit set of places in the catalog
   std::uint32_t idle_running_ = 0;
   std::uint32_t idle_total_ = 0;
   std::uint32_t request_count_ = 0;

@@ -4,8 +4,8 @@
 
 namespace cbc {
 
-Transition::Transition(const CompiledCatalog& catalog, State& state, std::vector<Change>& changes)
-    : catalog_(catalog), state_(state), changes_(changes) {}
+Transition::Transition(const CompiledCatalog& catalog, State& state, EventRecord& record)
+    : catalog_(catalog), state_(state), record_(record) {}
 
 void Transition::load(const Trigger& trigger, const std::vector<BehaviorId>& active_before) {
   trigger_ = trigger;
@@ -48,8 +48,7 @@ const std::vector<BehaviorId>& Transition::take_back(Microseconds now) {
   return lost_;
 }
 
-std::uint32_t Transition::count_changes(const Assignment& solution) {
-  find_wanted(solution);
+std::uint32_t Transition::count_changes() const {
   std::uint32_t changes = 0;
   for (std::size_t place = 0; place < wanted_.size(); ++place) {
     if (wanted_[place] != was_active_[place]) ++changes;
@@ -84,9 +83,7 @@ void Transition::plan() {
 }
 
 void Transition::deactivate(BehaviorId behavior, const Assignment* solution, bool is_restart) {
-  Change& change = changes_.emplace_back();
-  change.is_activation = false;
-  change.behavior = behavior;
+  Change& change = add_change(false, behavior);
   find_tasks_of_deactivation(change);
   if (is_restart) {
     change.cause = ChangeCause::restarted;
@@ -96,7 +93,7 @@ void Transition::deactivate(BehaviorId behavior, const Assignment* solution, boo
     explain_deactivation(change, *solution);
   }
   if (change.cause != ChangeCause::undone) {
-    for (const TaskId task : change.tasks) {
+    for (const TaskId task : record_.tasks_of(change)) {
       change.priority = std::max(change.priority, priority_before(task));
     }
   }
@@ -105,9 +102,7 @@ void Transition::deactivate(BehaviorId behavior, const Assignment* solution, boo
 
 bool Transition::activate(BehaviorId behavior, const Assignment* solution, bool is_restart,
                           Microseconds now) {
-  Change& change = changes_.emplace_back();
-  change.is_activation = true;
-  change.behavior = behavior;
+  Change& change = add_change(true, behavior);
   find_tasks_of_activation(change, solution);
   if (is_restart) {
     change.cause = ChangeCause::restarted;
@@ -117,7 +112,7 @@ bool Transition::activate(BehaviorId behavior, const Assignment* solution, bool 
     explain_activation(change);
   }
   if (change.cause != ChangeCause::undone) {
-    for (const TaskId task : change.tasks) {
+    for (const TaskId task : record_.tasks_of(change)) {
       change.priority = std::max(change.priority, priority_after(task));
     }
   }
@@ -126,38 +121,53 @@ bool Transition::activate(BehaviorId behavior, const Assignment* solution, bool 
   return change.success;
 }
 
+Change& Transition::add_change(bool is_activation, BehaviorId behavior) {
+  Change& change = record_.changes.emplace_back();
+  change.is_activation = is_activation;
+  change.behavior = behavior;
+  change.first_task = static_cast<std::uint32_t>(record_.tasks_of_changes.size());
+  return change;
+}
+
+/// The change is the last one.
+void Transition::add_task(Change& change, TaskId task) {
+  record_.tasks_of_changes.push_back(task);
+  ++change.task_count;
+}
+
 BehaviorId Transition::behavior_in(const Assignment& solution, TaskId task) const {
   const std::uint32_t place = solution[task - first_task_];
   return place == none ? none : catalog_.values[task][place].behavior;
 }
 
 /// The tasks that the behavior performs in the solution, or, in a taking back, before the event.
-void Transition::find_tasks_of_activation(Change& change, const Assignment* solution) const {
+void Transition::find_tasks_of_activation(Change& change, const Assignment* solution) {
   for (const ValueId value : catalog_.performs[change.behavior]) {
     const TaskId task = catalog_.task_of(value);
     const BehaviorId behavior =
         solution != nullptr ? behavior_in(*solution, task) : state_.behavior(task);
-    if (behavior == change.behavior) change.tasks.push_back(task);
+    if (behavior == change.behavior) add_task(change, task);
   }
 }
 
 /// The tasks of its last activation within the event, else those that it performed before.
-void Transition::find_tasks_of_deactivation(Change& change) const {
-  for (auto earlier = changes_.rbegin() + 1; earlier != changes_.rend(); ++earlier) {
+void Transition::find_tasks_of_deactivation(Change& change) {
+  for (auto earlier = record_.changes.rbegin() + 1; earlier != record_.changes.rend(); ++earlier) {
     if (earlier->is_activation && earlier->success && earlier->behavior == change.behavior) {
-      change.tasks = earlier->tasks;
+      change.first_task = earlier->first_task;
+      change.task_count = earlier->task_count;
       return;
     }
   }
   for (const ValueId value : catalog_.performs[change.behavior]) {
     const TaskId task = catalog_.task_of(value);
-    if (state_.behavior(task) == change.behavior) change.tasks.push_back(task);
+    if (state_.behavior(task) == change.behavior) add_task(change, task);
   }
 }
 
 void Transition::explain_activation(Change& change) const {
   change.cause = ChangeCause::required;
-  for (const TaskId task : change.tasks) {
+  for (const TaskId task : record_.tasks_of(change)) {
     const std::optional<std::int32_t> priority = priority_after(task);
     if (!priority) continue;
     change.cause =
@@ -167,7 +177,7 @@ void Transition::explain_activation(Change& change) const {
 
 void Transition::explain_deactivation(Change& change, const Assignment& solution) const {
   change.cause = ChangeCause::released;
-  for (const TaskId task : change.tasks) {
+  for (const TaskId task : record_.tasks_of(change)) {
     const bool is_stopped = trigger_.kind == Trigger::Kind::stop && task == trigger_.task;
     if (is_stopped) {
       change.cause = ChangeCause::requested;

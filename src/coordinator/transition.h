@@ -16,8 +16,8 @@ namespace cbc {
 /// (semantics: section 5), and keeps the list of what was done.
 class Transition {
  public:
-  /// `changes` receives the operations of the event.
-  Transition(const CompiledCatalog& catalog, State& state, std::vector<Change>& changes);
+  /// `record` receives the operations of the event.
+  Transition(const CompiledCatalog& catalog, State& state, EventRecord& record);
 
   /// Takes up an event. `active_before` outlives the transition of the event.
   void load(const Trigger& trigger, const std::vector<BehaviorId>& active_before);
@@ -32,8 +32,8 @@ class Transition {
   /// activated again, in catalog order; they are left counted as active.
   [[nodiscard]] const std::vector<BehaviorId>& take_back(Microseconds now);
 
-  /// Number of behaviors that the solution activates and deactivates: c of f4.
-  [[nodiscard]] std::uint32_t count_changes(const Assignment& solution);
+  /// Number of behaviors that the solution applied last activates and deactivates: c of f4.
+  [[nodiscard]] std::uint32_t count_changes() const;
 
  private:
   void find_wanted(const Assignment& solution);
@@ -49,8 +49,10 @@ class Transition {
   [[nodiscard]] bool activate(BehaviorId behavior, const Assignment* solution, bool is_restart,
                               Microseconds now);
   [[nodiscard]] BehaviorId behavior_in(const Assignment& solution, TaskId task) const;
-  void find_tasks_of_activation(Change& change, const Assignment* solution) const;
-  void find_tasks_of_deactivation(Change& change) const;
+  Change& add_change(bool is_activation, BehaviorId behavior);
+  void add_task(Change& change, TaskId task);
+  void find_tasks_of_activation(Change& change, const Assignment* solution);
+  void find_tasks_of_deactivation(Change& change);
   void explain_activation(Change& change) const;
   void explain_deactivation(Change& change, const Assignment& solution) const;
   [[nodiscard]] std::optional<std::int32_t> priority_before(TaskId task) const;
@@ -58,7 +60,7 @@ class Transition {
 
   const CompiledCatalog& catalog_;
   State& state_;
-  std::vector<Change>& changes_;
+  EventRecord& record_;
   Trigger trigger_;
   TaskId first_task_ = 0;
   BehaviorId first_behavior_ = 0;

@@ -68,7 +68,7 @@ void add_requirements(const CompiledCatalog& catalog, BehaviorId behavior,
     reason.kind = Reason::Kind::requires_task;
     reason.behavior = behavior;
     reason.task = requirement.task;
-    reason.line = requirement.line;
+    reason.line = catalog.line_of(requirement);
     reasons.push_back(reason);
     if (requirement.minimum_performance == 0) continue;
     reason.kind = Reason::Kind::performance;

@@ -1,10 +1,10 @@
 #include "graph/graph.h"
 
+#include <algorithm>
 #include <iterator>
+#include <numeric>
 
-#include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/compressed_sparse_row_graph.hpp>
-#include <boost/graph/connected_components.hpp>
 #include <boost/graph/strong_components.hpp>
 #include <boost/graph/topological_sort.hpp>
 
@@ -23,10 +23,23 @@ Directed to_directed(std::size_t vertices, const Edges& edges) {
 }  // namespace
 
 std::vector<std::uint32_t> connected_components(std::size_t vertices, const Edges& edges) {
-  const boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS> graph(
-      edges.begin(), edges.end(), vertices);
+  // Trees of which the root is the first vertex. Boost's graph would need a list for each vertex.
+  std::vector<std::uint32_t> parent(vertices);
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto find_root = [&](std::uint32_t vertex) {
+    while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
+    return vertex;
+  };
+  for (const auto& [from, to] : edges) {
+    const std::uint32_t a = find_root(from);
+    const std::uint32_t b = find_root(to);
+    parent[std::max(a, b)] = std::min(a, b);
+  }
   std::vector<std::uint32_t> component(vertices);
-  boost::connected_components(graph, component.data());
+  std::uint32_t count = 0;
+  for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
+    component[vertex] = parent[vertex] == vertex ? count++ : component[parent[vertex]];
+  }
   return component;
 }
 

@@ -23,10 +23,12 @@ SearchOptions search_options(std::uint64_t max_nodes, bool any_solution) {
 
 AssignmentSearch::AssignmentSearch(CompiledCatalog catalog, std::uint64_t max_nodes)
     : catalog_(std::move(catalog)),
+      tasks_(catalog_.tasks.begin(), catalog_.tasks.end()),
       any_(catalog_, search_options(max_nodes, true), no_ranks_),
       best_(catalog_, search_options(max_nodes, false), no_ranks_),
       domains_(catalog_.words.back(), 0),
       effort_left_(most_effort) {
+  catalog_.tasks = tasks_;
   for (ValueId value = 0; value < catalog_.values.items.size(); ++value) {
     const Bit bit = bit_of(value);
     domains_[bit.word] |= bit.mask;
@@ -60,7 +62,7 @@ Feasibility AssignmentSearch::find(ValueId value, std::span<const TaskId> closed
 AssignmentSearch::Best AssignmentSearch::best_performance(TaskId task, bool ignore_minimum) {
   open_group(catalog_.tasks[task].group);
   must_run(task);
-  CompiledTask& compiled = catalog_.tasks[task];
+  CompiledTask& compiled = tasks_[task];
   const CompiledTask before = compiled;
   if (ignore_minimum) {
     compiled.minimum_performance = 0;

@@ -62,6 +62,7 @@ class AssignmentSearch {
   [[nodiscard]] std::vector<Millionths> factors_of(TaskId task, const Assignment& solution) const;
 
   CompiledCatalog catalog_;
+  std::vector<CompiledTask> tasks_;  ///< of the catalog, to leave out a minimum for a while
   const std::vector<std::uint32_t> no_ranks_;
   Solver any_;
   Solver best_;

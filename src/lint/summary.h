@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
+#include "compiled/count_constraints.h"
 
 namespace cbc {
 

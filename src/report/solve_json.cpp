@@ -1,6 +1,8 @@
 #include "report/solve_json.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json tasks_to_json(const CompiledCatalog& catalog, const std::vector<TaskId>& tasks) {
+Json tasks_to_json(const CompiledCatalog& catalog, std::span<const TaskId> tasks) {
   Json names = Json::array();
   for (const TaskId task : tasks) names.push_back(catalog.name_of_task(task));
   return names;
@@ -42,13 +44,13 @@ void add_what_happened(Json& json, const CompiledCatalog& catalog, const EventRe
   }
 }
 
-Json changes_to_json(const CompiledCatalog& catalog, const std::vector<Change>& changes) {
+Json changes_to_json(const CompiledCatalog& catalog, const EventRecord& record) {
   Json list = Json::array();
-  for (const Change& change : changes) {
+  for (const Change& change : record.changes) {
     Json& entry = list.emplace_back(Json::object());
     entry["op"] = change.is_activation ? "activate" : "deactivate";
     entry["behavior"] = catalog.name_of_behavior(change.behavior);
-    entry["tasks"] = tasks_to_json(catalog, change.tasks);
+    entry["tasks"] = tasks_to_json(catalog, record.tasks_of(change));
     entry["cause"] = name_of(change.cause);
     entry["priority"] = change.priority ? Json(*change.priority) : Json(nullptr);
     entry["success"] = change.success;
@@ -66,7 +68,7 @@ Json stopped_to_json(const CompiledCatalog& catalog, const std::vector<StoppedTa
 
 /// Appends a member whose name is known to be new: the look-up of operator[] is linear.
 template <typename Value>
-void append(Json& object, const std::string& name, const Value& value) {
+void append(Json& object, std::string_view name, const Value& value) {
   object.get_ref<Json::object_t&>().emplace_back(name, value);
 }
 
@@ -75,7 +77,7 @@ void add_state(Json& json, const CompiledCatalog& catalog, const State& state) {
   Json requests = Json::object();
   for (const std::uint32_t index : state.running()) {
     const TaskId task = catalog.task_ids[index];
-    const std::string& name = catalog.task_names[index];
+    const std::string_view name = catalog.task_names[index];
     append(running, name, catalog.name_of_behavior(state.behavior(task)));
     if (state.has_request(task)) append(requests, name, state.request(task).priority);
   }
@@ -111,7 +113,7 @@ Json conflict_to_json(const CompiledCatalog& catalog, const EventRecord& record)
     entry["kind"] = name_of(reason.kind);
     if (reason.behavior != none) entry["behavior"] = catalog.name_of_behavior(reason.behavior);
     if (reason.other_task != none) {
-      entry["tasks"] = tasks_to_json(catalog, {reason.task, reason.other_task});
+      entry["tasks"] = tasks_to_json(catalog, std::array{reason.task, reason.other_task});
     } else if (reason.task != none) {
       entry["task"] = catalog.name_of_task(reason.task);
     }
@@ -131,7 +133,7 @@ Json event_to_json(const CompiledCatalog& catalog, const EventRecord& record, co
   Json json;
   add_what_happened(json, catalog, record, step);
   json["outcome"] = name_of(record.outcome);
-  json["changes"] = changes_to_json(catalog, record.changes);
+  json["changes"] = changes_to_json(catalog, record);
   json["stopped_tasks"] = stopped_to_json(catalog, record.stopped_tasks);
   add_state(json, catalog, state);
   json["objective"] =

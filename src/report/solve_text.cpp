@@ -1,6 +1,7 @@
 #include "report/solve_text.h"
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,13 +17,13 @@ constexpr std::size_t widest_column = 48;
 constexpr const char* change_indent = "          ";
 constexpr const char* text_indent = "           ";
 
-std::size_t column_width(const std::vector<std::string>& names, std::size_t least) {
+std::size_t column_width(const Texts& names, std::size_t least) {
   std::size_t width = least;
-  for (const std::string& name : names) width = std::max(width, name.size());
+  for (const std::string_view name : names) width = std::max(width, name.size());
   return std::min(width, widest_column);
 }
 
-std::string join_tasks(const CompiledCatalog& catalog, const std::vector<TaskId>& tasks) {
+std::string join_tasks(const CompiledCatalog& catalog, std::span<const TaskId> tasks) {
   std::string text;
   for (const TaskId task : tasks) {
     if (!text.empty()) text += ", ";
@@ -87,7 +88,7 @@ void TextReport::on_event(const EventRecord& record, const Step* step, const Sta
   fmt::print(out_, "{:>10}  {}{}{}{}\n", format_time(record.time), style_.strong,
              describe_event(*catalog_, record, step), style_.reset, describe_outcome(record));
   if (record.outcome == Outcome::rejected) write_reason(record);
-  for (const Change& change : record.changes) write_change(change);
+  for (const Change& change : record.changes) write_change(record, change);
   write_stopped(record);
 }
 
@@ -119,13 +120,13 @@ void TextReport::write_reason(const EventRecord& record) {
   }
 }
 
-void TextReport::write_change(const Change& change) {
+void TextReport::write_change(const EventRecord& record, const Change& change) {
   const std::string priority = change.priority ? std::to_string(*change.priority) : ".";
   const std::string_view color = change.success ? std::string_view() : style_.bad;
   fmt::print(out_, "{}{}{:>2} {} {}  {:<{}}  {:<{}}  {}{}\n", change_indent, color, priority,
              change.is_activation ? '+' : '-', change.success ? 'Y' : 'N',
              printable(catalog_->name_of_behavior(change.behavior)), behavior_width_,
-             join_tasks(*catalog_, change.tasks), task_width_, name_of(change.cause),
+             join_tasks(*catalog_, record.tasks_of(change)), task_width_, name_of(change.cause),
              color.empty() ? std::string_view() : style_.reset);
 }
 

@@ -31,7 +31,7 @@ class TextReport final : public RunListener {
  private:
   [[nodiscard]] std::string describe_outcome(const EventRecord& record) const;
   void write_reason(const EventRecord& record);
-  void write_change(const Change& change);
+  void write_change(const EventRecord& record, const Change& change);
   void write_stopped(const EventRecord& record);
 
   const Style style_;

@@ -66,15 +66,19 @@ class ExpectationReader {
   }
 
   void check_performs(std::uint32_t behavior, std::uint32_t task, const Range& range) {
-    const ScriptNames& names = names_.all();
-    const auto& performed = names.performs[behavior];
-    if (std::binary_search(performed.begin(), performed.end(), task)) return;
-    std::string performs = quote(names.tasks[performed.front()]);
+    const CompiledCatalog& catalog = names_.catalog();
+    std::vector<std::uint32_t> performed;
+    for (const ValueId value : catalog.performs[catalog.behavior_ids[behavior]]) {
+      performed.push_back(catalog.tasks[catalog.task_of(value)].catalog_index);
+    }
+    if (std::find(performed.begin(), performed.end(), task) != performed.end()) return;
+    const std::uint32_t first = *std::min_element(performed.begin(), performed.end());
+    std::string performs = quote(catalog.task_names[first]);
     if (performed.size() > 1) performs += " and " + std::to_string(performed.size() - 1) + " more";
     reporter_.report(rule::impossible_expectation, range,
-                     "this can never hold: behavior " + quote(names.behaviors[behavior]) +
-                         " does not perform task " + quote(names.tasks[task]) + ", it performs " +
-                         performs);
+                     "this can never hold: behavior " + quote(catalog.behavior_names[behavior]) +
+                         " does not perform task " + quote(catalog.task_names[task]) +
+                         ", it performs " + performs);
   }
 
   void read_stopped(const Node& node) {

@@ -3,20 +3,20 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <unordered_map>
 
+#include "compiled/compiled_catalog.h"
 #include "diagnostic/reporter.h"
-#include "script/script_names.h"
 #include "text/nearest.h"
 #include "yaml/document.h"
 
 namespace cbc {
 
-/// Finds the tasks and behaviors that a script names, and reports names that there are not.
+/// Finds the tasks and behaviors that a script names, by their places in the catalog, and reports
+/// names that there are not.
 class NameIndex {
  public:
-  /// The names must outlive this object.
-  explicit NameIndex(const ScriptNames& names);
+  /// The catalog must outlive this object.
+  explicit NameIndex(const CompiledCatalog& catalog) : catalog_(catalog) {}
 
   /// `what` is the key that the name belongs to.
   [[nodiscard]] std::optional<std::uint32_t> find_task(const yaml::Node& node,
@@ -25,18 +25,13 @@ class NameIndex {
                                                            std::string_view what,
                                                            Reporter& reporter);
 
-  [[nodiscard]] const ScriptNames& all() const { return all_; }
+  [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
 
  private:
-  struct Names {
-    explicit Names(const std::vector<std::string_view>& names);
-    std::unordered_map<std::string_view, std::uint32_t> places;
-    Suggestions suggestions;
-  };
-
-  const ScriptNames& all_;
-  Names tasks_;
-  Names behaviors_;
+  const CompiledCatalog& catalog_;
+  // Made when the first unknown name is met.
+  std::optional<Suggestions> tasks_;
+  std::optional<Suggestions> behaviors_;
 };
 
 }  // namespace cbc

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cbc/rules.h"
+#include "compiled/parameters.h"
 #include "text/quote.h"
 
 namespace cbc {
@@ -29,13 +30,17 @@ std::string describe(const std::vector<Parameter>& parameters) {
 
 }  // namespace
 
-ParameterChecks::Declared::Declared(const std::vector<Parameter>& parameters)
-    : suggestions(list_names(parameters)), all(describe(parameters)) {
+ParameterChecks::Declared::Declared(std::vector<Parameter> declared)
+    : parameters(std::move(declared)),
+      suggestions(list_names(parameters)),
+      all(describe(parameters)) {
   for (const Parameter& parameter : parameters) values.try_emplace(parameter.name, parameter);
 }
 
 ParameterChecks::Declared& ParameterChecks::declared_by(std::uint32_t task) {
-  return declared_.try_emplace(task, names_.parameters[task]).first->second;
+  const auto found = declared_.find(task);
+  if (found != declared_.end()) return found->second;
+  return declared_.try_emplace(task, parameters_of(catalog_, task)).first->second;
 }
 
 void ParameterChecks::check(std::uint32_t task, const yaml::Node& given, Reporter& reporter) {
@@ -49,7 +54,7 @@ void ParameterChecks::check(std::uint32_t task, const yaml::Node& given, Reporte
     } else if (const auto fault = found->second.find_fault(*value)) {
       reporter.report_as(severity_, rule::parameter_value, fault->node->range,
                          "parameter " + quote(name->text) + " of task " +
-                             quote(names_.tasks[task]) + ": " + fault->message);
+                             quote(catalog_.task_names[task]) + ": " + fault->message);
     }
   }
 }
@@ -57,7 +62,7 @@ void ParameterChecks::check(std::uint32_t task, const yaml::Node& given, Reporte
 void ParameterChecks::report_undeclared(std::uint32_t task, const yaml::Node& name,
                                         Reporter& reporter) {
   Declared& declared = declared_by(task);
-  std::string message = "task " + quote(names_.tasks[task]);
+  std::string message = "task " + quote(catalog_.task_names[task]);
   if (declared.values.empty()) {
     message += " declares no parameters, found " + quote(name.text);
   } else {

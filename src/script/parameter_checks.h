@@ -8,8 +8,8 @@
 
 #include "catalog/allowed_values.h"
 #include "catalog/catalog.h"
+#include "compiled/compiled_catalog.h"
 #include "diagnostic/reporter.h"
-#include "script/script_names.h"
 #include "text/nearest.h"
 #include "yaml/document.h"
 
@@ -18,9 +18,9 @@ namespace cbc {
 /// Checks what tasks are started with against what they declare.
 class ParameterChecks {
  public:
-  /// Findings have this severity. The names must outlive this object.
-  ParameterChecks(const ScriptNames& names, Severity severity)
-      : names_(names), severity_(severity) {}
+  /// Findings have this severity. The catalog must outlive this object.
+  ParameterChecks(const CompiledCatalog& catalog, Severity severity)
+      : catalog_(catalog), severity_(severity) {}
 
   /// Reports the parameters that the task does not declare, and values that are not allowed.
   /// `given` is a mapping.
@@ -29,7 +29,10 @@ class ParameterChecks {
  private:
   /// The parameters that a task declares; of equal names the first counts.
   struct Declared {
-    explicit Declared(const std::vector<Parameter>& parameters);
+    explicit Declared(std::vector<Parameter> declared);
+    Declared(const Declared&) = delete;
+    Declared& operator=(const Declared&) = delete;
+    const std::vector<Parameter> parameters;
     std::unordered_map<std::string_view, AllowedValues> values;
     Suggestions suggestions;
     std::string all;  ///< for messages
@@ -38,7 +41,7 @@ class ParameterChecks {
   [[nodiscard]] Declared& declared_by(std::uint32_t task);
   void report_undeclared(std::uint32_t task, const yaml::Node& name, Reporter& reporter);
 
-  const ScriptNames& names_;
+  const CompiledCatalog& catalog_;
   Severity severity_;
   std::unordered_map<std::uint32_t, Declared> declared_;  ///< of tasks that were asked for
 };

@@ -57,10 +57,10 @@ std::optional<std::string> catalog_of_script(const yaml::Document& document) {
   return catalog->text;
 }
 
-std::optional<Script> read_script(const yaml::Document& document, const ScriptNames& names,
+std::optional<Script> read_script(const yaml::Document& document, const CompiledCatalog& catalog,
                                   Severity of_parameters, Diagnostics& diagnostics) {
   Reporter reporter(document.file(), diagnostics);
-  StepReader reader(names, of_parameters);
+  StepReader reader(catalog, of_parameters);
   Script script;
   script.file = document.file();
   const Node& root = document.root();

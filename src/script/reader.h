@@ -4,8 +4,8 @@
 #include <string>
 
 #include "cbc/diagnostic.h"
+#include "compiled/compiled_catalog.h"
 #include "script/script.h"
-#include "script/script_names.h"
 #include "yaml/document.h"
 
 namespace cbc {
@@ -17,7 +17,7 @@ namespace cbc {
 /// parameters in it are: findings about them have the severity `of_parameters`. The result is empty
 /// if there is an error.
 [[nodiscard]] std::optional<Script> read_script(const yaml::Document& document,
-                                                const ScriptNames& names, Severity of_parameters,
-                                                Diagnostics& diagnostics);
+                                                const CompiledCatalog& catalog,
+                                                Severity of_parameters, Diagnostics& diagnostics);
 
 }  // namespace cbc

@@ -187,7 +187,7 @@ void StepReader::read_verb(std::string_view verb, const Fields& fields, Step& st
 
 void StepReader::check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter) {
   if (!knows_situation_ || !is_available_[behavior]) return;
-  const std::string_view name = names_.all().behaviors[behavior];
+  const std::string_view name = names_.catalog().behavior_names[behavior];
   reporter.report(rule::still_available, range,
                   "behavior " + quote(name) +
                       " is still available here, so that it can be chosen again at once; say " +

@@ -17,11 +17,11 @@ namespace cbc {
 /// Reads the entries of a script one after the other, and keeps its clock and its situation.
 class StepReader {
  public:
-  /// The names must outlive this object; see read_script.
-  StepReader(const ScriptNames& names, Severity of_parameters)
-      : names_(names),
-        parameter_checks_(names, of_parameters),
-        is_available_(names.behaviors.size(), true) {}
+  /// The catalog must outlive this object; see read_script.
+  StepReader(const CompiledCatalog& catalog, Severity of_parameters)
+      : names_(catalog),
+        parameter_checks_(catalog, of_parameters),
+        is_available_(catalog.behaviors.size(), true) {}
 
   /// The next entry. What is wrong with it is reported; the result may be used only if there were
   /// no errors.

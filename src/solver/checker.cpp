@@ -76,7 +76,7 @@ std::optional<std::string> Checker::check_requirements() {
       }
       if (!performs_at_least(requirement.task, requirement.minimum_performance)) {
         return fmt::format("{} requires more of {} (line {})", describe(task),
-                           describe(requirement.task), requirement.line);
+                           describe(requirement.task), catalog_.line_of(requirement));
       }
     }
   }

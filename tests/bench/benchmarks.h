@@ -21,10 +21,21 @@ namespace cbc::bench {
 void register_event(const std::string& name, std::shared_ptr<const Scenario> scenario,
                     std::size_t moment);
 
+/// Loading (open, map, verify) of a compiled file.
+void time_loading(benchmark::State& state, const std::string& path);
+
 /// mission/NAME/…, every event of the missions of catalogs/; table1/…, the missions as a whole.
 void register_mission_benchmarks();
 
 /// table2/…, a first event on catalogs of growing size; optimum/…, all such events of theirs.
 void register_catalog_benchmarks();
+
+/// compiled/quadrotor/…: loading of the compiled reference catalog, and whole processes on it and
+/// on the YAML.
+void register_compiled_benchmarks();
+
+/// fleet/…, generated catalogs of up to 100,000 tasks: compiling, loading, and events of one robot.
+/// Together they take about a minute.
+void register_fleet_benchmarks();
 
 }  // namespace cbc::bench

@@ -41,7 +41,7 @@ void register_table_row(const std::string& name,
 
 void register_starts(const std::string& name,
                      const std::shared_ptr<const CompiledCatalog>& catalog) {
-  for (const std::string& task : catalog->task_names) {
+  for (const std::string_view task : catalog->task_names) {
     if (task.rfind("task0_", 0) != 0) continue;
     register_event(fmt::format("optimum/{}/{}", name, task),
                    plan(mission_of_start(catalog, task), 0), 0);

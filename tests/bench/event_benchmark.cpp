@@ -2,13 +2,14 @@
 #include <utility>
 
 #include "bench/benchmarks.h"
+#include "compiled/count_constraints.h"
 
 namespace cbc::bench {
 namespace {
 
-double count_constraints(const CompiledCatalog& catalog) {
+double constraints_of(const CompiledCatalog& catalog) {
   std::uint64_t total = 0;
-  for (const ConstraintCount& count : catalog.group_constraints) total += count.total();
+  for (const ConstraintCount& count : count_constraints(catalog)) total += count.total();
   return static_cast<double>(total);
 }
 
@@ -28,7 +29,7 @@ void time_event(benchmark::State& state, const Scenario& scenario, std::size_t p
     times.push_back(batch.take(moment) / Batch::default_size / moment.coordinations);
   }
   state.SetIterationTime(median(std::move(times)) * static_cast<double>(state.iterations()));
-  state.counters["constraints"] = count_constraints(*scenario.mission->catalog);
+  state.counters["constraints"] = constraints_of(*scenario.mission->catalog);
   state.counters["space"] = search_space(*moment.search);
   state.counters["solutions"] = static_cast<double>(moment.search->result.solutions);
   state.counters["nodes"] = static_cast<double>(moment.search->result.nodes);

@@ -16,26 +16,25 @@
 namespace cbc::bench {
 namespace {
 
-[[noreturn]] void refuse(const Diagnostics& diagnostics) {
+Script understand_script(const std::string& path, const CompiledCatalog& catalog) {
+  Diagnostics diagnostics;
+  const std::string text = read_file(path);
+  const auto document = yaml::parse(text, path, diagnostics);
+  if (document == nullptr) refuse(diagnostics);
+  std::optional<Script> script = read_script(*document, catalog, Severity::warning, diagnostics);
+  if (!script) refuse(diagnostics);
+  return std::move(*script);
+}
+
+}  // namespace
+
+void refuse(const Diagnostics& diagnostics) {
   std::string message = "unusable input:\n";
   for (const Diagnostic& diagnostic : diagnostics.all()) {
     message += render(diagnostic, SourceTexts(), plain_style());
   }
   throw std::runtime_error(message);
 }
-
-Script understand_script(const std::string& path, const CompiledCatalog& catalog) {
-  Diagnostics diagnostics;
-  const std::string text = read_file(path);
-  const auto document = yaml::parse(text, path, diagnostics);
-  if (document == nullptr) refuse(diagnostics);
-  std::optional<Script> script =
-      read_script(*document, names_of(catalog), Severity::warning, diagnostics);
-  if (!script) refuse(diagnostics);
-  return std::move(*script);
-}
-
-}  // namespace
 
 std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -61,12 +60,11 @@ std::shared_ptr<const Mission> load_mission(const std::string& name) {
 
 std::shared_ptr<const Mission> mission_of_start(std::shared_ptr<const CompiledCatalog> catalog,
                                                 std::string_view task) {
-  const auto& names = catalog->task_names;
-  const auto place = std::find(names.begin(), names.end(), task);
-  if (place == names.end()) throw std::runtime_error("no task " + std::string(task));
+  const auto place = catalog->find_task(task);
+  if (!place) throw std::runtime_error("no task " + std::string(task));
   Step step;
   step.verb = Verb::start;
-  step.subject = static_cast<std::uint32_t>(place - names.begin());
+  step.subject = *place;
   auto mission = std::make_shared<Mission>();
   mission->catalog = std::move(catalog);
   mission->script.steps.push_back(std::move(step));

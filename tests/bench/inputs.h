@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "cbc/diagnostic.h"
 #include "compiled/compiled_catalog.h"
 #include "script/script.h"
 
@@ -16,6 +17,8 @@ struct Mission {
 };
 
 // All of these throw std::runtime_error if an input is not as it should be.
+
+[[noreturn]] void refuse(const Diagnostics& diagnostics);
 
 [[nodiscard]] std::string read_file(const std::string& path);
 

@@ -31,8 +31,8 @@ std::string name_of(const EventRecord& record, const CompiledCatalog& catalog) {
   std::string name = fmt::format(
       "{:02}_{}", record.index,
       record.origin == Origin::script ? cbc::name_of(record.verb) : cbc::name_of(record.origin));
-  if (record.task != none) name += '_' + catalog.name_of_task(record.task);
-  if (record.behavior != none) name += '_' + catalog.name_of_behavior(record.behavior);
+  if (record.task != none) name += '_' + std::string(catalog.name_of_task(record.task));
+  if (record.behavior != none) name += '_' + std::string(catalog.name_of_behavior(record.behavior));
   return name;
 }
 
@@ -82,7 +82,7 @@ class Planner final : public EventListener {
     if (moment.name.empty()) moment.name = name_of(record, catalog_);
     if (!record.search) return;
     if (++moment.coordinations > 1) return;
-    moment.search = record.search;
+    moment.search = *record.search;
     moment.trigger = trigger_of(record);
   }
 

@@ -64,8 +64,9 @@ struct Name {
   std::string detail;
 };
 
-std::string format_time(double microseconds) { return fmt::format("{:.2f}", microseconds); }
+std::string format_number(double number) { return fmt::format("{:.2f}", number); }
 
+/// In microseconds.
 double time_of(const Run& run) {
   return run.GetAdjustedRealTime() / benchmark::GetTimeUnitMultiplier(run.time_unit) * 1e6;
 }
@@ -123,8 +124,8 @@ void add_events(const Family& family, Table& table) {
     }
     const std::size_t events = family.details(subject).size();
     table.add({subject, std::to_string(events), std::to_string(proven),
-               format_time(sum / static_cast<double>(events)), format_time(least),
-               format_time(greatest), slowest});
+               format_number(sum / static_cast<double>(events)), format_number(least),
+               format_number(greatest), slowest});
   }
 }
 
@@ -147,11 +148,11 @@ void print_missions(const std::vector<Run>& runs, std::ostream& out) {
       const Run* const run = family.find(subject, m);
       if (run == nullptr) continue;
       table.add({subject, m, format_count(value_of(*run, "coordinations")),
-                 format_time(value_of(*run, "mean_us")), format_time(value_of(*run, "min_us")),
-                 format_time(value_of(*run, "max_us"))});
+                 format_number(value_of(*run, "mean_us")), format_number(value_of(*run, "min_us")),
+                 format_number(value_of(*run, "max_us"))});
     }
     if (const Run* const run = family.find(subject, "domains")) {
-      table.add({subject, "domains", "", format_time(time_of(*run)), "", "",
+      table.add({subject, "domains", "", format_number(time_of(*run)), "", "",
                  "(their initialization alone)"});
     }
   }
@@ -171,7 +172,64 @@ void print_catalogs(const std::vector<Run>& runs, std::ostream& out) {
       table.add({subject, format_count(value_of(*run, "constraints")),
                  format_count(value_of(*run, "space")), m,
                  format_count(value_of(*run, "solutions")), format_count(value_of(*run, "nodes")),
-                 format_time(time_of(*run)), run->report_label});
+                 format_number(time_of(*run)), run->report_label});
+    }
+  }
+  table.print(out);
+}
+
+void print_compiled(const std::vector<Run>& runs, std::ostream& out) {
+  Table table("The compiled reference catalog; whole processes in turn on it and on the YAML",
+              {"quadrotor", "t", "ratio"});
+  const Family family(runs, "compiled");
+  for (const std::string& subject : family.subjects()) {
+    if (const Run* const run = family.find(subject, "load")) {
+      table.add({"load (open, map, verify)", format_number(time_of(*run)), ""});
+    }
+    if (const Run* const run = family.find(subject, "solve")) {
+      table.add({"cbc solve, YAML", format_number(value_of(*run, "yaml_us")), ""});
+      table.add({"cbc solve, compiled", format_number(value_of(*run, "compiled_us")),
+                 format_number(value_of(*run, "ratio"))});
+    }
+  }
+  table.print(out);
+}
+
+void print_fleet_sizes(const Family& family, std::ostream& out) {
+  Table table(
+      "Compiling of fleets, 10 tasks and 30 behaviors a robot: seconds of the processor, and how\n"
+      "many times those of the row above; megabytes, and how many times those of the YAML;\n"
+      "microseconds to load",
+      {"tasks", "parse", "check", "compile", "all", "times", "YAML", "compiled", "times", "load"});
+  double before = 0;
+  for (const std::string& subject : family.subjects()) {
+    const Run* const run = family.find(subject, "compile");
+    if (run == nullptr) continue;
+    const double all = time_of(*run) / 1e6;
+    const Run* const load = family.find(subject, "load");
+    table.add({subject, format_number(value_of(*run, "parsing_s")),
+               format_number(value_of(*run, "understanding_s")),
+               format_number(value_of(*run, "compiling_s")), format_number(all),
+               before > 0 ? format_number(all / before) : "",
+               format_number(value_of(*run, "source_mb")), format_number(value_of(*run, "mb")),
+               format_number(value_of(*run, "size_ratio")),
+               load != nullptr ? format_number(time_of(*load)) : ""});
+    before = all;
+  }
+  table.print(out);
+}
+
+void print_fleet_events(const Family& family, std::ostream& out) {
+  Table table(
+      "An event of one robot: with a catalog of its own, in the fleet, and of a random robot there",
+      {"other robots", "alone", "fleet", "times", "random"});
+  for (const std::string& subject : family.subjects()) {
+    for (const char* const detail : {"idle", "busy"}) {
+      const Run* const run = family.find(subject, detail);
+      if (run == nullptr) continue;
+      table.add({detail, format_number(value_of(*run, "alone_us")),
+                 format_number(value_of(*run, "fleet_us")), format_number(value_of(*run, "ratio")),
+                 format_number(value_of(*run, "elsewhere_us"))});
     }
   }
   table.print(out);
@@ -199,8 +257,15 @@ void TableReporter::print_tables(std::ostream& out) const {
   print_missions(medians_, out);
   print_catalogs(medians_, out);
   print_events(medians_, out);
+  print_compiled(medians_, out);
+  const Family fleet(medians_, "fleet");
+  print_fleet_sizes(fleet, out);
+  print_fleet_events(fleet, out);
   out << "\nt: microseconds for a whole event (initialization of the domains, search, checker and\n"
          "applying), the median over repetitions. The CPU times above have the preparation, too.\n";
+  if (fleet.subjects().empty()) {
+    out << "\nCatalogs of up to 100,000 tasks: --benchmark_filter=^fleet/ (a minute).\n";
+  }
 }
 
 }  // namespace cbc::bench

@@ -1,12 +1,14 @@
-# Installs the library, moves the installed tree, and builds main.cpp against it twice: with
-# find_package and with pkg-config. Both must print the version; the installed program must run.
+# Installs the library, moves the installed tree, and builds the example main.cpp against it twice:
+# with find_package and with pkg-config. Both drive a flight on a catalog that the installed program
+# compiled, and must print what expected.txt says.
 #
-# Variables: bindir, build, config, compiler, generator, libdir, pkg_config, version.
+# Variables: bindir, build, catalog, config, compiler, generator, libdir, pkg_config, version.
 cmake_minimum_required(VERSION 3.21)
 
 set(source "${CMAKE_CURRENT_LIST_DIR}")
 set(work "${build}/consumer")
 set(prefix "${work}/moved")
+set(compiled "${work}/catalog.cbc")
 set(ENV{PKG_CONFIG_PATH} "${prefix}/${libdir}/pkgconfig")
 
 function(run)
@@ -14,10 +16,12 @@ function(run)
 endfunction()
 
 function(check program)
-  execute_process(COMMAND "${program}" COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY
-                  OUTPUT_VARIABLE printed OUTPUT_STRIP_TRAILING_WHITESPACE)
-  if(NOT printed STREQUAL version)
-    message(FATAL_ERROR "${program} printed \"${printed}\" instead of \"${version}\"")
+  execute_process(COMMAND "${program}" "${compiled}" COMMAND_ECHO STDOUT
+                  COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE printed)
+  file(READ "${source}/expected.txt" expected)
+  string(PREPEND expected "cbc ${version}\n")
+  if(NOT printed STREQUAL expected)
+    message(FATAL_ERROR "${program} printed\n${printed}\ninstead of\n${expected}")
   endif()
 endfunction()
 
@@ -25,6 +29,7 @@ file(REMOVE_RECURSE "${work}")
 run("${CMAKE_COMMAND}" --install "${build}" --config "${config}" --prefix "${work}/installed")
 file(RENAME "${work}/installed" "${prefix}")
 run("${prefix}/${bindir}/cbc" --version)
+run("${prefix}/${bindir}/cbc" compile "${catalog}" -o "${compiled}")
 
 run("${CMAKE_COMMAND}" -S "${source}" -B "${work}/cmake" -G "${generator}"
     -D "CMAKE_BUILD_TYPE=${config}" -D "CMAKE_CXX_COMPILER=${compiler}"

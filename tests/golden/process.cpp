@@ -151,6 +151,10 @@ void read_all(File& out, File& err, Result& result) {
 }  // namespace
 
 Result run(const Call& call) {
+  return run(call, [](pid_t) {});
+}
+
+Result run(const Call& call, const std::function<void(pid_t)>& meanwhile) {
   Ends out;
   if (call.standard_output.empty()) {
     out = open_pipe();
@@ -161,6 +165,7 @@ Result run(const Call& call) {
   const pid_t process = spawn(call, open_file(call.standard_input, O_RDONLY), out.write, err.write);
   out.write.close();
   err.write.close();
+  meanwhile(process);
   Result result;
   read_all(out.read, err.read, result);
   result.status = wait_for(process);

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
+#include <sys/types.h>
 #include <vector>
 
 namespace cbc::golden {
@@ -26,6 +28,9 @@ struct Result {
 
 /// Runs the program with pipes for its output.
 [[nodiscard]] Result run(const Call& call);
+
+/// The same; `meanwhile` is called with the process, which is not waited for before.
+[[nodiscard]] Result run(const Call& call, const std::function<void(pid_t)>& meanwhile);
 
 /// Runs the program with its output, that is both of its streams, on a terminal. The result has all
 /// of it in `out`, with the line ends of a terminal ("\r\n").

@@ -116,6 +116,15 @@ TEST_F(Terminal, ShowsNoColorIfItIsDumb) {
   }
 }
 
+TEST_F(Terminal, IsNoPlaceForACompiledCatalog) {
+  const Call call{{"compile", "catalog.yaml", "-o", "-"}, folder_of("mission_text")};
+  const Result result = run_on_terminal(call);
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(plain(result.out),
+            "cbc: a compiled catalog is not written to a terminal; expected a file or a pipe\n");
+  EXPECT_EQ(run(call).status, 0);
+}
+
 TEST(PublishedCatalogs, HaveNoFindings) {
   const Result result = run({{"lint", "--strict", "catalogs"}, CBC_SOURCE_DIR});
   EXPECT_EQ(result.status, 0);

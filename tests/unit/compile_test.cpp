@@ -2,12 +2,18 @@
 
 #include <fstream>
 #include <iterator>
+#include <random>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "compiled/count_constraints.h"
 #include "compiled/log_cost.h"
+#include "compiled/parameters.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc {
@@ -16,6 +22,13 @@ namespace {
 using test::behavior_id;
 using test::compile_text;
 using test::task_id;
+
+template <typename Items>
+std::string list(const Items& items) {
+  std::string text;
+  for (const auto& item : items) text += fmt::format("{}{}", text.empty() ? "" : " ", item);
+  return text;
+}
 
 TEST(Compile, KeepsTheDeclaredParametersInCatalogOrder) {
   // Groups, and so the numbers of the tasks, are in another order.
@@ -31,9 +44,9 @@ behaviors:
 - {behavior: d, task: IMPLICIT}
 )");
   std::string text;
-  for (std::size_t task = 0; task < catalog.task_parameters.size(); ++task) {
-    text += catalog.task_names[task] + ":";
-    for (const Parameter& parameter : catalog.task_parameters[task]) {
+  for (std::uint32_t task = 0; task < catalog.task_names.size(); ++task) {
+    text += std::string(catalog.task_names[task]) + ":";
+    for (const Parameter& parameter : parameters_of(catalog, task)) {
       text += " " + parameter.name + (parameter.allowed_is_list ? "[" : "(");
       for (const std::string& value : parameter.allowed_values) text += value + ",";
     }
@@ -48,7 +61,7 @@ std::string tasks_of_groups(const CompiledCatalog& catalog) {
     text += group == 0 ? "" : " |";
     for (TaskId task = catalog.group_tasks[group]; task < catalog.group_tasks[group + 1]; ++task) {
       EXPECT_EQ(catalog.tasks[task].group, group);
-      text += " " + catalog.name_of_task(task);
+      text += " " + std::string(catalog.name_of_task(task));
     }
   }
   return text;
@@ -60,7 +73,7 @@ std::string behaviors_of_groups(const CompiledCatalog& catalog) {
     text += group == 0 ? "" : " |";
     for (BehaviorId behavior = catalog.group_behaviors[group];
          behavior < catalog.group_behaviors[group + 1]; ++behavior) {
-      text += " " + catalog.name_of_behavior(behavior);
+      text += " " + std::string(catalog.name_of_behavior(behavior));
     }
   }
   return text;
@@ -69,8 +82,8 @@ std::string behaviors_of_groups(const CompiledCatalog& catalog) {
 std::string values_of(const CompiledCatalog& catalog, std::string_view task) {
   std::string text;
   for (const Value& value : catalog.values[task_id(catalog, task)]) {
-    text +=
-        " " + catalog.name_of_behavior(value.behavior) + ":" + std::to_string(value.suitability);
+    text += " " + std::string(catalog.name_of_behavior(value.behavior)) + ":" +
+            std::to_string(value.suitability);
     EXPECT_EQ(value.cost, log_cost(value.suitability));
   }
   return text;
@@ -79,8 +92,8 @@ std::string values_of(const CompiledCatalog& catalog, std::string_view task) {
 std::string requirements_of(const CompiledCatalog& catalog, std::string_view behavior) {
   std::string text;
   for (const CompiledRequirement& rule : catalog.requirements[behavior_id(catalog, behavior)]) {
-    text += " " + catalog.name_of_task(rule.task) + ":" + std::to_string(rule.minimum_performance) +
-            "@" + std::to_string(rule.line);
+    text += " " + std::string(catalog.name_of_task(rule.task)) + ":" +
+            std::to_string(rule.minimum_performance) + "@" + std::to_string(catalog.line_of(rule));
     EXPECT_EQ(rule.minimum_cost, log_cost(rule.minimum_performance));
   }
   return text;
@@ -90,7 +103,8 @@ std::string cliques(const CompiledCatalog& catalog) {
   std::string text;
   for (std::size_t clique = 0; clique < catalog.cliques.size(); ++clique) {
     text += clique == 0 ? "" : " |";
-    for (const TaskId task : catalog.cliques[clique]) text += " " + catalog.name_of_task(task);
+    for (const TaskId task : catalog.cliques[clique])
+      text += " " + std::string(catalog.name_of_task(task));
   }
   return text;
 }
@@ -98,10 +112,11 @@ std::string cliques(const CompiledCatalog& catalog) {
 std::string levels(const CompiledCatalog& catalog) {
   std::string text;
   for (const TaskId task : catalog.task_ids) {
-    text += " " + catalog.name_of_task(task) + ":" + std::to_string(catalog.tasks[task].level);
+    text += " " + std::string(catalog.name_of_task(task)) + ":" +
+            std::to_string(catalog.tasks[task].level);
   }
   for (const BehaviorId behavior : catalog.behavior_ids) {
-    text += " " + catalog.name_of_behavior(behavior) + ":" +
+    text += " " + std::string(catalog.name_of_behavior(behavior)) + ":" +
             std::to_string(catalog.behaviors[behavior].level);
   }
   return text;
@@ -110,7 +125,7 @@ std::string levels(const CompiledCatalog& catalog) {
 TEST(Compile, AnEmptyCatalogHasNoGroups) {
   const CompiledCatalog catalog = compile(Catalog{});
   EXPECT_EQ(catalog.group_count(), 0U);
-  EXPECT_EQ(catalog.group_tasks, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(list(catalog.group_tasks), "0");
   EXPECT_EQ(most_in_a_group(catalog.group_tasks), 0U);
   EXPECT_EQ(most_values_in_a_group(catalog), 0U);
 }
@@ -145,10 +160,10 @@ TEST(Compile, GroupsAreOrderedByTheirFirstTaskAndKeepCatalogOrder) {
 TEST(Compile, NamesAndIdsTranslateBetweenCatalogOrderAndGroups) {
   const CompiledCatalog catalog = compile_text(grouped);
   EXPECT_EQ(catalog.file, "a.yaml");
-  EXPECT_EQ(catalog.task_names, (std::vector<std::string>{"A", "B", "C", "D", "E", "G"}));
-  EXPECT_EQ(catalog.task_ids, (std::vector<TaskId>{0, 1, 4, 2, 5, 3}));
-  EXPECT_EQ(catalog.behavior_names, (std::vector<std::string>{"g", "c", "e", "b", "a"}));
-  EXPECT_EQ(catalog.behavior_ids, (std::vector<BehaviorId>{1, 3, 4, 2, 0}));
+  EXPECT_EQ(list(catalog.task_names), "A B C D E G");
+  EXPECT_EQ(list(catalog.task_ids), "0 1 4 2 5 3");
+  EXPECT_EQ(list(catalog.behavior_names), "g c e b a");
+  EXPECT_EQ(list(catalog.behavior_ids), "1 3 4 2 0");
   for (std::uint32_t index = 0; index < 6; ++index) {
     EXPECT_EQ(catalog.tasks[catalog.task_ids[index]].catalog_index, index);
   }
@@ -230,8 +245,8 @@ behaviors:
   for (BehaviorId behavior = 0; behavior < 2; ++behavior) {
     for (const ValueId value : catalog.performs[behavior]) {
       EXPECT_EQ(catalog.values.items[value].behavior, behavior);
-      text +=
-          " " + catalog.name_of_behavior(behavior) + catalog.name_of_task(catalog.task_of(value));
+      text += " " + std::string(catalog.name_of_behavior(behavior)) +
+              std::string(catalog.name_of_task(catalog.task_of(value)));
     }
   }
   EXPECT_EQ(text, " xB xA yA");
@@ -246,7 +261,7 @@ behaviors:
 - {behavior: b, task: B, requires: [{task: A}]}
 )");
   EXPECT_EQ(values_of(catalog, "A"), "");
-  EXPECT_EQ(catalog.words, (std::vector<std::uint32_t>{0, 0, 1}));
+  EXPECT_EQ(list(catalog.words), "0 0 1");
   EXPECT_EQ(levels(catalog), " A:0 B:1 b:1");
 }
 
@@ -259,7 +274,7 @@ TEST(Compile, MoreThanSixtyFourBehaviorsOfATaskTakeSeveralWords) {
   }
   text += "- {behavior: b, task: B}\n";
   const CompiledCatalog catalog = compile_text(text);
-  EXPECT_EQ(catalog.words, (std::vector<std::uint32_t>{0, 3, 4}));
+  EXPECT_EQ(list(catalog.words), "0 3 4");
   const TaskId a = task_id(catalog, "A");
   ASSERT_EQ(catalog.arcs[a].size(), 1U);
   const Arc& arc = catalog.arcs[a][0];
@@ -283,17 +298,18 @@ behaviors:
 )");
   std::string text;
   for (const Arc& arc : catalog.arcs.items) {
-    text += " " + catalog.name_of_task(arc.source) + catalog.name_of_task(arc.target) + ":" +
+    text += " " + std::string(catalog.name_of_task(arc.source)) +
+            std::string(catalog.name_of_task(arc.target)) + ":" +
             std::to_string(catalog.masks[arc.mask]);
   }
   // In rank order the values of A are a3, a2, a1.
   EXPECT_EQ(text, " AC:5 AB:4 BC:1");
   text.clear();
   for (TaskId task = 0; task < 3; ++task) {
-    text += " " + catalog.name_of_task(task) + ":";
+    text += " " + std::string(catalog.name_of_task(task)) + ":";
     for (const std::uint32_t number : catalog.incoming[task]) {
       EXPECT_EQ(catalog.arcs.items[number].target, task);
-      text += catalog.name_of_task(catalog.arcs.items[number].source);
+      text += std::string(catalog.name_of_task(catalog.arcs.items[number].source));
     }
   }
   EXPECT_EQ(text, " A: B:A C:AB");
@@ -312,7 +328,7 @@ TEST(Compile, OfRequirementsOfTheSameTaskTheStrongestStays) {
 - {behavior: c, task: C}
 )");
   EXPECT_EQ(requirements_of(catalog, "a"), " B:0@6 C:700000@7");
-  EXPECT_EQ(catalog.group_constraints[0].requirements, 2U);
+  EXPECT_EQ(count_constraints(catalog)[0].requirements, 2U);
 }
 
 TEST(Compile, RequirementsAreSortedByTask) {
@@ -365,7 +381,7 @@ exclusivity_constraints:
   std::string text;
   for (TaskId task = 0; task < 3; ++task) {
     for (const std::uint32_t clique : catalog.task_cliques[task]) {
-      text += " " + catalog.name_of_task(task) + std::to_string(clique);
+      text += " " + std::string(catalog.name_of_task(task)) + std::to_string(clique);
     }
   }
   EXPECT_EQ(text, " A0 A1 B0 C0 C1");
@@ -381,12 +397,60 @@ exclusivity_constraints:
 - mutually_exclusive: [B, C]
 - mutually_exclusive: [F, E]
 )");
-  ASSERT_EQ(catalog.group_constraints.size(), 2U);
-  EXPECT_EQ(catalog.group_constraints[0].exclusive_pairs, 5U);
-  EXPECT_EQ(catalog.group_constraints[0].task_minimums, 0U);
-  EXPECT_EQ(catalog.group_constraints[1].exclusive_pairs, 1U);
-  EXPECT_EQ(catalog.group_constraints[1].task_minimums, 1U);
-  EXPECT_EQ(catalog.group_constraints[1].total(), 2U);
+  const std::vector<ConstraintCount> counts = count_constraints(catalog);
+  ASSERT_EQ(counts.size(), 2U);
+  EXPECT_EQ(counts[0].exclusive_pairs, 5U);
+  EXPECT_EQ(counts[0].task_minimums, 0U);
+  EXPECT_EQ(counts[1].exclusive_pairs, 1U);
+  EXPECT_EQ(counts[1].task_minimums, 1U);
+  EXPECT_EQ(counts[1].total(), 2U);
+}
+
+/// The pairs of tasks that some list has, one by one.
+std::size_t count_pairs(const std::vector<std::vector<std::size_t>>& lists) {
+  std::set<std::pair<std::size_t, std::size_t>> pairs;
+  for (const std::vector<std::size_t>& list : lists) {
+    for (const std::size_t a : list) {
+      for (const std::size_t b : list) {
+        if (a < b) pairs.emplace(a, b);
+      }
+    }
+  }
+  return pairs.size();
+}
+
+TEST(Compile, PairsOfAnyListsAreCountedOnce) {
+  std::mt19937_64 random(1);
+  for (int round = 0; round < 300; ++round) {
+    const std::size_t tasks = 2 + random() % 12;
+    std::vector<std::vector<std::size_t>> lists(1 + random() % 6);
+    std::string text = "behaviors: []\ntasks:\n";
+    for (std::size_t task = 0; task < tasks; ++task) text += fmt::format("- task: T{}\n", task);
+    text += "exclusivity_constraints:\n";
+    for (std::vector<std::size_t>& list : lists) {
+      text += "- mutually_exclusive:\n";
+      for (std::size_t i = random() % 5 + 1; i > 0; --i) {
+        list.push_back(random() % tasks);
+        text += fmt::format("  - T{}\n", list.back());
+      }
+    }
+    std::uint64_t sum = 0;
+    for (const ConstraintCount& count : count_constraints(compile_text(text))) {
+      sum += count.exclusive_pairs;
+    }
+    EXPECT_EQ(sum, count_pairs(lists)) << text;
+  }
+}
+
+TEST(Compile, AListOfManyTasksHasAllTheirPairs) {
+  std::string text = "behaviors: []\ntasks:\n";
+  std::string list = "exclusivity_constraints:\n- mutually_exclusive: [T0, T0";
+  for (std::size_t task = 0; task < 30'000; ++task) {
+    text += fmt::format("- task: T{}\n", task);
+    if (task > 0) list += fmt::format(", T{}", task);
+  }
+  const CompiledCatalog catalog = compile_text(text + list + "]\n- mutually_exclusive: [T7]\n");
+  EXPECT_EQ(count_constraints(catalog)[0].exclusive_pairs, 30'000U * 29'999U / 2);
 }
 
 TEST(Compile, TheReferenceCatalogHasThirtyThreeConstraints) {
@@ -396,7 +460,7 @@ TEST(Compile, TheReferenceCatalogHasThirtyThreeConstraints) {
   EXPECT_EQ(catalog.tasks.size(), 21U);
   EXPECT_EQ(catalog.behaviors.size(), 26U);
   ConstraintCount sum;
-  for (const ConstraintCount& count : catalog.group_constraints) {
+  for (const ConstraintCount& count : count_constraints(catalog)) {
     sum.exclusive_pairs += count.exclusive_pairs;
     sum.requirements += count.requirements;
     sum.task_minimums += count.task_minimums;

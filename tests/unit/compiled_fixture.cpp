@@ -1,6 +1,7 @@
 #include "unit/compiled_fixture.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -12,10 +13,9 @@
 namespace cbc::test {
 namespace {
 
-std::uint32_t place_in(const std::vector<std::string>& names, std::string_view name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  EXPECT_NE(found, names.end()) << name;
-  return found == names.end() ? 0 : static_cast<std::uint32_t>(found - names.begin());
+std::uint32_t found_or_zero(std::optional<std::uint32_t> place, std::string_view name) {
+  EXPECT_TRUE(place) << name;
+  return place.value_or(0);
 }
 
 /// The domain word of a value.
@@ -35,11 +35,11 @@ CompiledCatalog compile_text(std::string_view yaml) {
 }
 
 TaskId task_id(const CompiledCatalog& catalog, std::string_view name) {
-  return catalog.task_ids[place_in(catalog.task_names, name)];
+  return catalog.task_ids[found_or_zero(catalog.find_task(name), name)];
 }
 
 BehaviorId behavior_id(const CompiledCatalog& catalog, std::string_view name) {
-  return catalog.behavior_ids[place_in(catalog.behavior_names, name)];
+  return catalog.behavior_ids[found_or_zero(catalog.find_behavior(name), name)];
 }
 
 std::uint32_t local_task(const CompiledCatalog& catalog, std::string_view name) {
@@ -98,7 +98,7 @@ void leave_out(Problem& problem, const CompiledCatalog& catalog, std::string_vie
 
 void leave_out_all(Problem& problem, const CompiledCatalog& catalog, std::string_view task) {
   for (const Value& value : catalog.values[task_id(catalog, task)]) {
-    leave_out(problem, catalog, task, catalog.name_of_behavior(value.behavior));
+    leave_out(problem, catalog, task, std::string(catalog.name_of_behavior(value.behavior)));
   }
 }
 
@@ -108,8 +108,8 @@ std::string show(const CompiledCatalog& catalog, const Assignment& answer, std::
     if (answer[task] == none) continue;
     const TaskId id = catalog.group_tasks[group] + task;
     if (!text.empty()) text += " ";
-    text += catalog.name_of_task(id) + "=" +
-            catalog.name_of_behavior(catalog.values[id][answer[task]].behavior);
+    text += std::string(catalog.name_of_task(id)) + "=" +
+            std::string(catalog.name_of_behavior(catalog.values[id][answer[task]].behavior));
   }
   return text;
 }

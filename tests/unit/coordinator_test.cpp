@@ -1,9 +1,11 @@
 #include "coordinator/coordinator.h"
 
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "unit/compiled_fixture.h"
 #include "unit/stage.h"
 
 // One test for each rule of sections 3, 5 and 6 of the semantics that is easy to get wrong.
@@ -1001,6 +1003,63 @@ TEST(ClockEvents, EndTheRunBeyondTheirLimit) {
   stage.advance_to(100);
   EXPECT_EQ(stage.status(), Coordinator::Status::too_many_clock_events);
   EXPECT_EQ(stage.outcomes(), "") << "the event that is one too many is not reported";
+}
+
+class Witness final : public EventListener {
+ public:
+  void on_event(const EventRecord& record) override { times.push_back(record.time); }
+  std::vector<Microseconds> times;
+};
+
+TEST(ClockEvents, GoOnAfterTheirLimitIfMoreAreAllowed) {
+  CoordinatorOptions options;
+  options.max_clock_events = 3;
+  const CompiledCatalog catalog = test::compile_text(restless);
+  Witness witness;
+  Coordinator coordinator(catalog, options, witness);
+  coordinator.begin({});
+  // H from 0.08 to 1.08, G from 1.16 to 2.16, H from 2.24 to 3.24.
+  EXPECT_EQ(coordinator.advance_to(3 * second), Coordinator::Status::too_many_clock_events);
+  EXPECT_EQ(coordinator.advance_to(3 * second), Coordinator::Status::too_many_clock_events);
+  EXPECT_EQ(coordinator.now(), 2'160'000);
+  EXPECT_EQ(coordinator.next_due(), 2'160'000);
+  coordinator.restart_count();
+  EXPECT_EQ(coordinator.advance_to(3 * second), Coordinator::Status::ok);
+  coordinator.restart_count();
+  EXPECT_EQ(coordinator.advance_to(4 * second), Coordinator::Status::ok);
+  EXPECT_EQ(witness.times, (std::vector<Microseconds>{80'000, 1'080'000, 1'160'000, 2'160'000,
+                                                      2'240'000, 3'240'000, 3'320'000}));
+}
+
+TEST(ClockEvents, WhatCouldNotBeTakenBackFinishesLaterIfItIsOneTooMany) {
+  CoordinatorOptions options;
+  options.max_clock_events = 1;
+  const CompiledCatalog catalog = test::compile_text(fragile);
+  Witness witness;
+  Coordinator coordinator(catalog, options, witness);
+  coordinator.begin({});
+  const auto handle = [&](Verb verb, std::uint32_t subject) {
+    Event event;
+    event.verb = verb;
+    event.subject = subject;
+    return coordinator.handle(event);
+  };
+  // The tasks are Y, X, Z, N, the behaviors z, y, x, n.
+  EXPECT_EQ(handle(Verb::start, 2), Coordinator::Status::ok);
+  EXPECT_EQ(handle(Verb::start, 1), Coordinator::Status::ok);
+  for (const std::uint32_t behavior : {0U, 2U, 3U}) {
+    EXPECT_EQ(handle(Verb::fault, behavior), Coordinator::Status::ok);
+  }
+  EXPECT_EQ(handle(Verb::start, 3), Coordinator::Status::too_many_clock_events);
+  EXPECT_EQ(witness.times.size(), 7U) << "the start, and one of two";
+  EXPECT_FALSE(coordinator.state().is_active(catalog.behavior_ids[0]));
+  EXPECT_TRUE(coordinator.state().is_active(catalog.behavior_ids[2])) << "until its finish";
+  EXPECT_EQ(coordinator.next_due(), 0);
+  coordinator.restart_count();
+  EXPECT_EQ(coordinator.advance_to(0), Coordinator::Status::ok);
+  EXPECT_EQ(witness.times.size(), 8U);
+  EXPECT_FALSE(coordinator.state().is_active(catalog.behavior_ids[2]));
+  EXPECT_EQ(coordinator.next_due(), std::nullopt);
 }
 
 TEST(ClockEvents, DoNotCountWhatTheScriptDoes) {

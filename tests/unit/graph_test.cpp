@@ -23,6 +23,18 @@ TEST(Graph, LoopsAndRepeatedEdgesJoinNothingElse) {
   EXPECT_EQ(connected_components(3, {{1, 1}, {0, 2}, {2, 0}, {0, 2}}), (Vertices{0, 1, 0}));
 }
 
+TEST(Graph, LongPathsInAnyOrderAreOneComponent) {
+  constexpr std::uint32_t vertices = 100'000;
+  Edges edges;
+  for (std::uint32_t vertex = 0; vertex + 2 < vertices; ++vertex) {
+    edges.emplace_back(vertices - 1 - vertex, vertices - 3 - vertex);
+  }
+  const Vertices component = connected_components(vertices, edges);
+  for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
+    ASSERT_EQ(component[vertex], vertex % 2);
+  }
+}
+
 TEST(Graph, TargetsComeBeforeSourcesInReverseTopologicalOrder) {
   const Edges edges{{3, 0}, {0, 4}, {3, 4}, {1, 3}, {4, 2}, {1, 2}, {3, 0}};
   const Vertices order = reverse_topological_order(5, edges);

@@ -52,8 +52,9 @@ class Comparison {
     std::vector<std::pair<std::uint32_t, std::string>> keys{{objective.key(local, none), "-"}};
     for (std::uint32_t place = 0; place < domains.values(local).size(); ++place) {
       if (!domains.has(local, place)) continue;
-      keys.emplace_back(objective.key(local, place),
-                        catalog.name_of_behavior(domains.value(local, place).behavior));
+      keys.emplace_back(
+          objective.key(local, place),
+          std::string(catalog.name_of_behavior(domains.value(local, place).behavior)));
     }
     std::sort(keys.begin(), keys.end());
     std::string text;

@@ -41,7 +41,7 @@ class Situation {
   [[nodiscard]] std::string describe() const {
     std::string text;
     for (std::uint32_t one = 0; one < domains.task_count(); ++one) {
-      if (parts.contains(one, parts.depth())) text += catalog.name_of_task(one);
+      if (parts.contains(one, parts.depth())) text += std::string(catalog.name_of_task(one));
     }
     return text;
   }

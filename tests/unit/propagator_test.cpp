@@ -39,12 +39,12 @@ class Propagation {
   std::string describe() {
     std::string text;
     for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
-      text += (task == 0 ? "" : " ") + catalog.name_of_task(task) +
+      text += (task == 0 ? "" : " ") + std::string(catalog.name_of_task(task)) +
               (domains_.may_stop(task) ? "?:" : ":");
       for (std::uint32_t place = 0; place < domains_.values(task).size(); ++place) {
         if (!domains_.has(task, place)) continue;
         if (text.back() != ':') text += ",";
-        text += catalog.name_of_behavior(domains_.value(task, place).behavior);
+        text += std::string(catalog.name_of_behavior(domains_.value(task, place).behavior));
       }
     }
     return text;

@@ -71,14 +71,14 @@ class QuestionTest : public testing::Test {
     std::string result;
     for (std::uint32_t task = 0; task < problem.may_stop.size(); ++task) {
       const TaskId id = catalog.group_tasks[problem.group] + task;
-      result += (task == 0 ? "" : " ") + catalog.name_of_task(id) +
+      result += (task == 0 ? "" : " ") + std::string(catalog.name_of_task(id)) +
                 (problem.may_stop[task] != 0 ? "?:" : ":");
       for (std::uint32_t place = 0; place < catalog.values[id].size(); ++place) {
         const std::uint32_t word =
             catalog.words[id] - catalog.words[catalog.group_tasks[problem.group]];
         if (((problem.domains[word] >> place) & 1) == 0) continue;
         if (result.back() != ':') result += ",";
-        result += catalog.name_of_behavior(catalog.values[id][place].behavior);
+        result += std::string(catalog.name_of_behavior(catalog.values[id][place].behavior));
       }
     }
     return result;
@@ -87,14 +87,14 @@ class QuestionTest : public testing::Test {
     question.load(trigger, 9);
     std::string result;
     for (const std::uint32_t task : question.ask(0).requests) {
-      result += catalog.name_of_task(task);
+      result += std::string(catalog.name_of_task(task));
     }
     return result;
   }
   std::string active() {
     std::string result;
     for (const BehaviorId behavior : question.active_before()) {
-      result += " " + catalog.name_of_behavior(behavior);
+      result += " " + std::string(catalog.name_of_behavior(behavior));
     }
     return result;
   }

@@ -78,8 +78,7 @@ const CompiledCatalog& script_catalog() {
 }
 
 void lint_script(const yaml::Document& document, Diagnostics& diagnostics) {
-  static_cast<void>(
-      read_script(document, names_of(script_catalog()), Severity::error, diagnostics));
+  static_cast<void>(read_script(document, script_catalog(), Severity::error, diagnostics));
 }
 
 /// The rules that a text breaks, which is an example of `rule`.

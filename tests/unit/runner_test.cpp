@@ -30,9 +30,9 @@ class Protocol final : public RunListener {
       : catalog_(test::compile_text(catalog_text)) {
     Diagnostics diagnostics;
     const auto document = yaml::parse(script, "s.yaml", diagnostics);
-    const auto read = document != nullptr ? read_script(*document, names_of(catalog_),
-                                                        Severity::warning, diagnostics)
-                                          : std::optional<Script>{};
+    const auto read = document != nullptr
+                          ? read_script(*document, catalog_, Severity::warning, diagnostics)
+                          : std::optional<Script>{};
     EXPECT_TRUE(read.has_value()) << show(diagnostics);
     result = run_script(catalog_, read.value_or(Script{}), options, *this);
     text += "end " + std::to_string(result.passed) + " " + std::to_string(result.failed);

@@ -10,31 +10,33 @@
 #include "diagnostic/reporter.h"
 #include "script/parameters.h"
 #include "script/reader.h"
+#include "unit/compiled_fixture.h"
 #include "unit/findings.h"
 #include "yaml/document.h"
 
 namespace cbc {
 namespace {
 
-const ScriptNames& names() {
-  const auto parameter = [](std::string name, std::vector<std::string> allowed, bool is_list) {
-    Parameter result;
-    result.name = std::move(name);
-    result.allowed_values = std::move(allowed);
-    result.allowed_is_list = is_list;
-    return result;
-  };
-  static const ScriptNames names{
-      {"TAKE_OFF", "LAND", "HOVER", "BOTH"},
-      {"TAKE_OFF_BASIC", "HOVER_PID", "HOVER_MPC", "BOTH", "any"},
-      {{},
-       {parameter("a", {}, false), parameter("b", {}, false)},
-       {parameter("path", {"point_list"}, false), parameter("x", {}, false),
-        parameter("angle", {"-360", "360"}, true),
-        parameter("direction", {"LEFT", "RIGHT", "FORWARD"}, true)},
-       {}},
-      {{0}, {2}, {2}, {0, 1, 2, 3}, {1}}};
-  return names;
+const CompiledCatalog& catalog() {
+  static const CompiledCatalog catalog = test::compile_text(R"(
+tasks:
+- task: TAKE_OFF
+- {task: LAND, parameters: [{parameter: a}, {parameter: b}]}
+- task: HOVER
+  parameters:
+  - {parameter: path, allowed_values: point_list}
+  - {parameter: x}
+  - {parameter: angle, allowed_values: [-360, 360]}
+  - {parameter: direction, allowed_values: [LEFT, RIGHT, FORWARD]}
+- task: BOTH
+behaviors:
+- {behavior: TAKE_OFF_BASIC, task: TAKE_OFF}
+- {behavior: HOVER_PID, task: HOVER}
+- {behavior: HOVER_MPC, task: HOVER}
+- {behavior: BOTH, tasks: [{task: TAKE_OFF}, {task: LAND}, {task: HOVER}, {task: BOTH}]}
+- {behavior: any, task: LAND}
+)");
+  return catalog;
 }
 
 struct Result {
@@ -47,7 +49,7 @@ Result read_any(std::string_view text, Severity of_parameters = Severity::warnin
   const auto document = yaml::parse(text, "s.yaml", diagnostics);
   Result result;
   if (document != nullptr)
-    result.script = read_script(*document, names(), of_parameters, diagnostics);
+    result.script = read_script(*document, catalog(), of_parameters, diagnostics);
   EXPECT_EQ(result.script.has_value(), !diagnostics.has_errors()) << text;
   result.findings = show(diagnostics);
   return result;

@@ -1,6 +1,3 @@
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -8,43 +5,17 @@
 #include "compiled/compile.h"
 #include "solver/checker.h"
 #include "solver/solver.h"
+#include "unit/allocations.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
-
-// Counts the allocations of this program. The operators are not to be inlined, as GCC would then
-// see new answered by free.
-
-namespace {
-
-std::atomic<std::uint64_t> allocations{0};
-
-}  // namespace
-
-// NOLINTBEGIN(cppcoreguidelines-no-malloc): this is what the operators are made of
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
-  ++allocations;
-  return std::malloc(size == 0 ? 1 : size);
-}
-
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept {
-  std::free(memory);
-}
-// NOLINTEND(cppcoreguidelines-no-malloc)
 
 namespace cbc {
 namespace {
 
 TEST(SolverAllocation, TheCounterCounts) {
-  const std::uint64_t before = allocations;
+  const std::uint64_t before = test::allocations();
   const std::vector<int> some(10'000);
-  EXPECT_GT(allocations, before) << some.size();
+  EXPECT_GT(test::allocations(), before) << some.size();
 }
 
 TEST(SolverAllocation, NothingIsAllocatedInTheSearch) {
@@ -71,9 +42,9 @@ TEST(SolverAllocation, NothingIsAllocatedInTheSearch) {
       for (int i = 0; i < 3; ++i) {
         const auto group = static_cast<std::uint32_t>(random.below(catalog.group_count()));
         const Problem problem = test::random_problem(random, catalog, group);
-        const std::uint64_t before = allocations;
+        const std::uint64_t before = test::allocations();
         nodes += solver.solve(problem, solution).nodes;
-        ASSERT_EQ(allocations - before, 0U) << "round " << round;
+        ASSERT_EQ(test::allocations() - before, 0U) << "round " << round;
       }
     }
   }

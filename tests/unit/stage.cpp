@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "unit/compiled_fixture.h"
 
@@ -118,21 +119,24 @@ void Stage::on_event(const EventRecord& record) {
   if (record.origin != Origin::script) text += std::string(name_of(record.origin)) + " ";
   text += name_of(record.verb);
   if (record.task != none) {
-    text += " " + catalog_.name_of_task(record.task) + " " + std::to_string(record.priority);
+    text += " " + std::string(catalog_.name_of_task(record.task)) + " " +
+            std::to_string(record.priority);
   }
-  if (record.behavior != none) text += " " + catalog_.name_of_behavior(record.behavior);
+  if (record.behavior != none)
+    text += " " + std::string(catalog_.name_of_behavior(record.behavior));
   if (record.verb == Verb::finish) text += " " + std::string(name_of(record.cause));
   if (!record.conflict.empty() && record.conflict.front().kind == Reason::Kind::priority) {
-    text += " conflict " + catalog_.name_of_task(record.conflict.front().task) + " " +
+    text += " conflict " + std::string(catalog_.name_of_task(record.conflict.front().task)) + " " +
             std::to_string(record.conflict.front().priority);
   }
   append(events_, text + " " + std::string(name_of(record.outcome)), "; ");
 
   std::string changes;
-  for (const Change& change : record.changes) append(changes, show(change), ", ");
+  for (const Change& change : record.changes) append(changes, show(record, change), ", ");
   std::string stopped;
   for (const StoppedTask& entry : record.stopped_tasks) {
-    append(stopped, catalog_.name_of_task(entry.task) + " " + std::string(name_of(entry.cause)),
+    append(stopped,
+           std::string(catalog_.name_of_task(entry.task)) + " " + std::string(name_of(entry.cause)),
            ", ");
   }
   if (!is_first) {
@@ -162,13 +166,14 @@ void Stage::on_event(const EventRecord& record) {
   append(objectives_, objective, "; ");
 }
 
-std::string Stage::show(const Change& change) const {
+std::string Stage::show(const EventRecord& record, const Change& change) const {
   std::string text =
-      (change.is_activation ? "+" : "-") + catalog_.name_of_behavior(change.behavior);
-  if (change.tasks.size() != 1 || catalog_.performs[change.behavior].size() != 1) {
+      (change.is_activation ? "+" : "-") + std::string(catalog_.name_of_behavior(change.behavior));
+  const std::span<const TaskId> tasks = record.tasks_of(change);
+  if (tasks.size() != 1 || catalog_.performs[change.behavior].size() != 1) {
     text += "(";
-    for (const TaskId task : change.tasks) {
-      text += (text.back() == '(' ? "" : ",") + catalog_.name_of_task(task);
+    for (const TaskId task : tasks) {
+      text += (text.back() == '(' ? "" : ",") + std::string(catalog_.name_of_task(task));
     }
     text += ")";
   }
@@ -181,7 +186,10 @@ std::string Stage::running() const {
   std::string text;
   for (const std::uint32_t place : state().running()) {
     const BehaviorId behavior = state().behavior(catalog_.task_ids[place]);
-    append(text, catalog_.task_names[place] + "=" + catalog_.name_of_behavior(behavior), " ");
+    append(text,
+           std::string(catalog_.task_names[place]) + "=" +
+               std::string(catalog_.name_of_behavior(behavior)),
+           " ");
   }
   return text;
 }
@@ -193,7 +201,9 @@ std::string Stage::requests() const {
     const TaskId task = catalog_.task_ids[place];
     if (!state().has_request(task)) continue;
     ++count;
-    append(text, catalog_.task_names[place] + ":" + std::to_string(state().request(task).priority),
+    append(text,
+           std::string(catalog_.task_names[place]) + ":" +
+               std::to_string(state().request(task).priority),
            " ");
   }
   if (count != state().request_count()) text += " and another count";
@@ -206,7 +216,7 @@ std::string Stage::show(const Timers& timers) const {
   std::sort(entries.begin(), entries.end());
   std::string text;
   for (const auto& [place, due] : entries) {
-    append(text, catalog_.task_names[place] + "@" + seconds_text(due), " ");
+    append(text, std::string(catalog_.task_names[place]) + "@" + seconds_text(due), " ");
   }
   return text;
 }
@@ -219,7 +229,7 @@ std::string Stage::active() const {
   std::string text;
   for (std::uint32_t place = 0; place < catalog_.behavior_names.size(); ++place) {
     if (state().is_active(catalog_.behavior_ids[place])) {
-      append(text, catalog_.behavior_names[place], " ");
+      append(text, std::string(catalog_.behavior_names[place]), " ");
     }
   }
   return text;

@@ -75,7 +75,7 @@ class Stage final : private EventListener {
   [[nodiscard]] std::uint32_t task_place(std::string_view name) const;
   [[nodiscard]] std::uint32_t behavior_place(std::string_view name) const;
   [[nodiscard]] std::vector<Availability> places_of(const Situation& situation) const;
-  [[nodiscard]] std::string show(const Change& change) const;
+  [[nodiscard]] std::string show(const EventRecord& record, const Change& change) const;
   [[nodiscard]] std::string show(const Timers& timers) const;
 
   CompiledCatalog catalog_;

@@ -1,5 +1,6 @@
 #include "coordinator/state.h"
 
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -178,6 +179,21 @@ TEST_F(StateTest, FaultsAndActivity) {
   EXPECT_FALSE(state.is_active(behavior("b")));
   state.leave_active(behavior("b"));
   EXPECT_TRUE(state.is_active(behavior("b")));
+}
+
+TEST(State, ListsRunningTasksOfLargeCatalogs) {
+  std::string yaml = "behaviors:\n";
+  for (int i = 0; i < 130; ++i) {
+    yaml += "- {behavior: b" + std::to_string(i) + ", task: T" + std::to_string(i) + "}\n";
+  }
+  const CompiledCatalog catalog = compile_text(yaml);
+  State state(catalog);
+  const std::vector<std::uint32_t> running{0, 63, 64, 127, 128, 129};
+  for (const std::uint32_t place : {128U, 0U, 129U, 64U, 127U, 5U, 63U}) {
+    state.set_place(catalog.task_ids[place], 0, 0);
+  }
+  state.set_place(catalog.task_ids[5], none, 0);
+  EXPECT_EQ(state.running(), running);
 }
 
 TEST(State, KnowsWhetherARunningTaskExcludesAnother) {

@@ -1,0 +1,257 @@
+#include "cli/compile_command.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cbc/version.h"
+#include "cli/catalog_loader.h"
+#include "cli/exit_status.h"
+#include "cli/input.h"
+#include "cli/input_files.h"
+#include "compiled/compile.h"
+#include "compiled/compiled_file.h"
+#include "file/atomic_file.h"
+#include "file/mapped_file.h"
+#include "report/catalog_json.h"
+#include "report/catalog_text.h"
+#include "text/quote.h"
+
+namespace cbc::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* footer =
+    "Examples:\n"
+    "  cbc compile quadrotor.yaml                     writes quadrotor.cbc\n"
+    "  cbc compile quadrotor.yaml -o robot/catalog.cbc\n"
+    "                                                 writes another file\n"
+    "  cbc compile --check quadrotor.yaml             is quadrotor.cbc up to date?\n"
+    "  cbc compile --dump quadrotor.cbc               what a compiled catalog holds\n"
+    "  cbc solve quadrotor.cbc mission.yaml           takes it in place of the YAML\n"
+    "\n"
+    "A catalog with errors is not compiled. The same catalog gives the same bytes on every "
+    "machine,\n"
+    "and the file is replaced as a whole or not at all. Nothing is printed if all is well.\n"
+    "\n"
+    "Exit status: 0 all is well, 1 the file that --check looked at is stale, 2 the catalog has "
+    "errors,\n"
+    "a file could not be read or written, or the usage is wrong, 3 an internal error.";
+
+struct CompileCommand {
+  std::string catalog;
+  std::optional<std::string> output;
+  std::string format;
+  bool check = false;
+  bool dump = false;
+};
+
+int usage_error(const std::string& message) {
+  complain(message + "\nSee 'cbc compile --help'.");
+  return exit_unusable;
+}
+
+/// What is wrong with the combination of options; empty if nothing is.
+std::string find_misuse(const CompileCommand& command) {
+  if (command.dump && command.check) return "--dump and --check do not go together";
+  if (command.dump && command.output) {
+    return "--dump writes to standard output, so -o does not go with it";
+  }
+  if (!command.dump && !command.format.empty()) return "--format goes with --dump only";
+  if (command.dump) return {};
+  if (command.output == "") return "expected the name of a file after -o";
+  if (command.catalog == "-" && !command.output) {
+    return "a catalog from standard input gives the output no name; expected -o OUT";
+  }
+  if (command.check && command.output == "-") {
+    return "--check looks at a file, so '-o -' does not go with it";
+  }
+  return {};
+}
+
+std::string output_of(const CompileCommand& command) {
+  if (command.output) return *command.output;
+  return fs::path(command.catalog).replace_extension(".cbc").string();
+}
+
+/// A catalog in YAML, ready to be compiled.
+struct Source {
+  Catalog catalog;
+  Digest digest;
+};
+
+/// Prints the findings. Empty if there are errors.
+std::optional<Source> understand(InputFiles& files, const InputFile& file) {
+  std::optional<Catalog> catalog = CatalogLoader(files).understand(file.path, *file.document);
+  files.print_findings();
+  if (!catalog) return std::nullopt;
+  return Source{std::move(*catalog), digest_of(files.text_of(*file.document))};
+}
+
+std::optional<Source> read_source(const std::string& path) {
+  InputFiles files;
+  const std::optional<InputFile> file = files.read(path);
+  if (!file) {
+    files.print_findings();
+    return std::nullopt;
+  }
+  if (file->document == nullptr) {
+    complain(fmt::format("{} is a compiled catalog already; expected one in YAML",
+                         quote(display_name(path))));
+    return std::nullopt;
+  }
+  return understand(files, *file);
+}
+
+/// A compiled file, and the catalog as those who read it find it.
+struct Compiled {
+  std::string content;
+  CompiledFile file;
+};
+
+/// Says so if there can be none. What nobody would accept is not handed out.
+std::optional<Compiled> compile_source(const Source& source) {
+  std::string content = write_compiled(compile(source.catalog), source.digest);
+  if (content.empty()) {
+    complain(fmt::format("cannot compile {}: the file would be larger than {} MiB",
+                         quote(source.catalog.file), largest_compiled_file >> 20));
+    return std::nullopt;
+  }
+  CompiledFileResult result = read_compiled(content);
+  if (!result.file) {
+    throw std::logic_error("the compiled catalog is refused: " + result.error +
+                           "; please report it with the catalog");
+  }
+  return Compiled{std::move(content), std::move(*result.file)};
+}
+
+int write(const std::string& output, const std::string& content) {
+  if (output == "-") {
+    if (isatty(STDOUT_FILENO) != 0) {
+      complain("a compiled catalog is not written to a terminal; expected a file or a pipe");
+      return exit_unusable;
+    }
+    std::fwrite(content.data(), 1, content.size(), stdout);
+    return exit_ok;
+  }
+  if (const auto error = write_atomically(output, content)) {
+    complain(fmt::format("cannot write {}: {}", quote(output), *error));
+    return exit_unusable;
+  }
+  return exit_ok;
+}
+
+int compile_to_file(const CompileCommand& command) {
+  const std::optional<Source> source = read_source(command.catalog);
+  if (!source) return exit_unusable;
+  const std::string output = output_of(command);
+  std::error_code ignored;
+  if (output != "-" && fs::equivalent(command.catalog, output, ignored)) {
+    return usage_error(fmt::format("the output {} is the catalog itself", quote(output)));
+  }
+  const std::optional<Compiled> compiled = compile_source(*source);
+  return compiled ? write(output, compiled->content) : exit_unusable;
+}
+
+int say_stale(const std::string& output, const std::string& reason) {
+  fmt::print("{} is not up to date: {}\n", quote(output), reason);
+  return exit_no;
+}
+
+/// Compares a file with what would be written in its place now.
+int check(const CompileCommand& command) {
+  std::optional<Source> source = read_source(command.catalog);
+  if (!source) return exit_unusable;
+  const std::string name = source->catalog.file;
+  const std::string output = output_of(command);
+  std::error_code error;
+  if (!fs::exists(output, error) && !error) return say_stale(output, "it does not exist");
+  const MappedFile memory = map_file(output);
+  if (memory.memory == nullptr) {
+    complain(fmt::format("cannot read {}: {}", quote(output), memory.error));
+    return exit_unusable;
+  }
+  const CompiledFileResult existing = read_compiled(memory.content);
+  if (!existing.file) return say_stale(output, existing.error);
+  if (existing.file->source != source->digest) {
+    return say_stale(output, fmt::format("it was made from another text of {}", quote(name)));
+  }
+  if (existing.file->written_by != version) {
+    return say_stale(output, fmt::format("it was written by cbc {}, and this is cbc {}",
+                                         printable(existing.file->written_by), version));
+  }
+  // The same catalog may have been named by another path.
+  source->catalog.file = existing.file->catalog.file;
+  const std::optional<Compiled> compiled = compile_source(*source);
+  if (!compiled) return exit_unusable;
+  if (compiled->content == memory.content) return exit_ok;
+  return say_stale(output, "it is not what would be written now");
+}
+
+/// The compiled form of a catalog, of which there may be no file.
+std::optional<CompiledFile> read_for_dump(const std::string& path) {
+  InputFiles files;
+  const std::optional<InputFile> file = files.read(path);
+  if (!file) {
+    files.print_findings();
+    return std::nullopt;
+  }
+  if (file->document == nullptr) return load(file->compiled);
+  const std::optional<Source> source = understand(files, *file);
+  if (!source) return std::nullopt;
+  std::optional<Compiled> compiled = compile_source(*source);
+  if (!compiled) return std::nullopt;
+  return std::move(compiled->file);
+}
+
+int dump(const CompileCommand& command) {
+  const std::optional<CompiledFile> file = read_for_dump(command.catalog);
+  if (!file) return exit_unusable;
+  fmt::print("{}", command.format == "json" ? catalog_json(*file) : catalog_text(*file));
+  return exit_ok;
+}
+
+int run_compile(const CompileCommand& command) {
+  if (const std::string misuse = find_misuse(command); !misuse.empty()) return usage_error(misuse);
+  if (command.dump) return dump(command);
+  return command.check ? check(command) : compile_to_file(command);
+}
+
+}  // namespace
+
+void add_compile_command(CLI::App& program, int& status) {
+  const auto options = std::make_shared<CompileCommand>();
+  CLI::App* const command = program.add_subcommand(
+      "compile", "Writes a catalog in the form that robots load in microseconds.");
+  command->footer(footer);
+  command
+      ->add_option("CATALOG", options->catalog, "The catalog: a YAML file, or - for standard input")
+      ->option_text(" ")
+      ->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "The file to write, or - for standard output (default:\n"
+                   "CATALOG with the suffix .cbc)")
+      ->option_text("OUT");
+  command->add_flag("--check", options->check,
+                    "Write nothing; say whether the file is what would be\n"
+                    "written now");
+  command->add_flag("--dump", options->dump,
+                    "Write nothing; list what the catalog, a compiled one or\n"
+                    "YAML, holds when it is compiled");
+  command->add_option("--format", options->format, "Of --dump: text (the default) or json")
+      ->option_text("FORMAT")
+      ->check(CLI::IsMember({"text", "json"}));
+  command->callback([options, &status] { status = run_compile(*options); });
+}
+
+}  // namespace cbc::cli

@@ -1,0 +1,69 @@
+#include "file/mapped_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace cbc {
+namespace {
+
+MappedFile fail(int code) { return {nullptr, {}, std::generic_category().message(code)}; }
+
+class Descriptor {
+ public:
+  // A pipe without a writer must not block.
+  explicit Descriptor(const std::string& path)
+      : number_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+}  // namespace
+
+MappedFile map_file(const std::string& path) {
+  const Descriptor file(path);
+  if (file.number() < 0) return fail(errno);
+  struct stat status {};
+  if (fstat(file.number(), &status) != 0) return fail(errno);
+  if (S_ISDIR(status.st_mode)) return fail(EISDIR);
+  if (!S_ISREG(status.st_mode)) return {nullptr, {}, "it is not a regular file"};
+  if (status.st_size == 0) return copy_to_memory({});
+
+  const auto size = static_cast<std::size_t>(status.st_size);
+  void* const begin = mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file.number(), 0);
+  if (begin == MAP_FAILED) return fail(errno);
+  MappedFile mapped;
+  mapped.memory = std::shared_ptr<const void>(begin, [size](const void* memory) {
+    munmap(const_cast<void*>(memory), size);  // it was not const when it was mapped
+  });
+  mapped.content = {static_cast<const char*>(begin), size};
+  return mapped;
+}
+
+MappedFile copy_to_memory(std::string_view content) {
+  struct alignas(16) Block {
+    char bytes[16];
+  };
+  const std::shared_ptr<Block[]> blocks(new Block[content.size() / sizeof(Block) + 1]);
+  char* const begin = blocks[0].bytes;
+  std::copy(content.begin(), content.end(), begin);
+  MappedFile copy;
+  copy.memory = blocks;
+  copy.content = {begin, content.size()};
+  return copy;
+}
+
+}  // namespace cbc

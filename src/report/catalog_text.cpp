@@ -1,0 +1,138 @@
+#include "report/catalog_text.h"
+
+#include <iterator>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "cbc/units.h"
+#include "compiled/parameters.h"
+#include "report/catalog_numbers.h"
+#include "text/decimal.h"
+#include "text/quote.h"
+
+namespace cbc {
+namespace {
+
+std::string percent(Millionths degree) { return format_decimal(degree, 4) + " %"; }
+
+std::string seconds(Microseconds time) { return format_decimal(time, 6) + " s"; }
+
+class Listing {
+ public:
+  explicit Listing(const CompiledFile& file) : file_(file), catalog_(file.catalog) {}
+
+  [[nodiscard]] std::string run() {
+    add_file();
+    const CatalogSummary summary = summarize_groups(catalog_);
+    line("");
+    add_numbers("", summary.total);
+    line("groups: {}", summary.groups.size());
+    for (std::size_t group = 0; group < summary.groups.size(); ++group) {
+      line("");
+      line("group {}", group);
+      add_numbers("  ", summary.groups[group]);
+      add_group(group);
+    }
+    return std::move(text_);
+  }
+
+ private:
+  template <typename... Facts>
+  void line(fmt::format_string<Facts...> form, Facts&&... facts) {
+    fmt::format_to(std::back_inserter(text_), form, std::forward<Facts>(facts)...);
+    text_ += '\n';
+  }
+
+  void add_file() {
+    line("source: {}", printable(catalog_.file));
+    line("source digest: {}", to_hex(file_.source));
+    line("written by: cbc {}", printable(file_.written_by));
+    line("format: {}", file_.format);
+    line("content digest: {}", to_hex(file_.content));
+    line("size: {} bytes", file_.size);
+  }
+
+  void add_numbers(std::string_view indent, const CatalogNumbers& numbers) {
+    line("{}tasks: {}", indent, numbers.tasks);
+    line("{}behaviors: {}", indent, numbers.behaviors);
+    line("{}levels: {}", indent, numbers.levels);
+    line("{}exclusive pairs: {}", indent, numbers.constraints.exclusive_pairs);
+    line("{}requirements: {}", indent, numbers.constraints.requirements);
+    line("{}task minimums: {}", indent, numbers.constraints.task_minimums);
+    line("{}constraints: {}", indent, numbers.constraints.total());
+    line("{}search space: {}", indent, numbers.search_space);
+  }
+
+  void add_group(std::size_t group) {
+    for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1];
+         ++task) {
+      add_task(task);
+    }
+    for (BehaviorId behavior = catalog_.group_behaviors[group];
+         behavior < catalog_.group_behaviors[group + 1]; ++behavior) {
+      add_behavior(behavior);
+    }
+    for (const std::uint32_t clique : cliques_of_group(catalog_, group)) {
+      std::string names;
+      for (const TaskId task : catalog_.cliques[clique]) {
+        names += (names.empty() ? "" : ", ") + printable(catalog_.name_of_task(task));
+      }
+      line("  mutually_exclusive: {}", names);
+    }
+  }
+
+  void add_task(TaskId id) {
+    const CompiledTask& task = catalog_.tasks[id];
+    line("  task {}", printable(catalog_.name_of_task(id)));
+    line("    level: {}", task.level);
+    line("    execution_goal: {}", task.keep_running != 0 ? "keep_running" : "achieve_goal");
+    line("    start_on_request: {}", task.start_on_request != 0);
+    line("    reactive_start: {}", task.reactive_start != 0);
+    if (task.timeout > 0) line("    timeout: {}", seconds(task.timeout));
+    if (task.minimum_performance > 0) {
+      line("    minimum_performance: {}", percent(task.minimum_performance));
+    }
+    for (const Parameter& parameter : parameters_of(catalog_, task.catalog_index)) {
+      add_parameter(parameter);
+    }
+    for (const Value& value : catalog_.values[id]) {
+      line("    behavior: {}, {}", printable(catalog_.name_of_behavior(value.behavior)),
+           percent(value.suitability));
+    }
+  }
+
+  void add_parameter(const Parameter& parameter) {
+    std::string allowed;
+    for (const std::string& value : parameter.allowed_values) {
+      allowed += (allowed.empty() ? "" : ", ") + printable(value);
+    }
+    if (parameter.allowed_is_list) allowed = "[" + allowed + "]";
+    line("    parameter: {}{}{}", printable(parameter.name), allowed.empty() ? "" : ", ", allowed);
+  }
+
+  void add_behavior(BehaviorId id) {
+    const CompiledBehavior& behavior = catalog_.behaviors[id];
+    line("  behavior {}", printable(catalog_.name_of_behavior(id)));
+    line("    level: {}", behavior.level);
+    const std::string_view package =
+        catalog_.texts[catalog_.behavior_packages[behavior.catalog_index]];
+    if (!package.empty()) line("    package: {}", printable(package));
+    if (behavior.timeout > 0) line("    timeout: {}", seconds(behavior.timeout));
+    for (const CompiledRequirement& requirement : catalog_.requirements[id]) {
+      const Millionths minimum = requirement.minimum_performance;
+      line("    requires: {}{}", printable(catalog_.name_of_task(requirement.task)),
+           minimum > 0 ? ", at least " + percent(minimum) : "");
+    }
+  }
+
+  const CompiledFile& file_;
+  const CompiledCatalog& catalog_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string catalog_text(const CompiledFile& file) { return Listing(file).run(); }
+
+}  // namespace cbc

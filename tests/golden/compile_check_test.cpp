@@ -1,0 +1,183 @@
+// `cbc compile --check` and `--dump`, which write nothing.
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+#include <sys/stat.h>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cbc/version.h"
+#include "compiled/compiled_file.h"
+#include "golden/compiled_files.h"
+
+namespace cbc::golden {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CompileCheck : public CompiledFiles {};
+
+TEST_F(CompileCheck, ChecksWithoutWriting) {
+  compile_robot();
+  fs::create_directory(folder / "sub");
+  struct stat before {};
+  ASSERT_EQ(stat((folder / "robot.cbc").c_str(), &before), 0);
+  expect_silence(cbc({"compile", "--check", "robot.yaml"}));
+  expect_silence(cbc({"compile", "--check", "./robot.yaml", "-o", "sub/../robot.cbc"}));
+  expect_silence(cbc({"compile", "--check", folder / "robot.yaml"}));
+  expect_silence(cbc_reading("robot.yaml", {"compile", "--check", "-", "-o", "robot.cbc"}));
+  struct stat after {};
+  ASSERT_EQ(stat((folder / "robot.cbc").c_str(), &after), 0);
+  EXPECT_EQ(before.st_ino, after.st_ino);
+  EXPECT_EQ(before.st_mtim.tv_nsec, after.st_mtim.tv_nsec);
+}
+
+TEST_F(CompileCheck, TellsWhyAFileIsStale) {
+  folder.write("robot.yaml", robot);
+  const auto expect_stale = [&](const std::string& reason) {
+    const std::set<std::string> names = folder.names();
+    const std::string content = folder.read("robot.cbc");
+    expect_result(cbc({"compile", "--check", "robot.yaml"}), 1,
+                  "'robot.cbc' is not up to date: " + reason + "\n", "");
+    EXPECT_EQ(folder.names(), names);
+    EXPECT_EQ(folder.read("robot.cbc"), content);
+  };
+  expect_stale("it does not exist");
+  fs::create_symlink("nowhere", folder / "robot.cbc");
+  expect_stale("it does not exist");
+  fs::remove(folder / "robot.cbc");
+
+  folder.write("robot.cbc", "");
+  expect_stale("it is not a compiled catalog");
+  folder.write("robot.cbc", std::string(robot) + "\n");
+  expect_stale("it is not a compiled catalog");
+
+  compile_robot();
+  std::string content = folder.read("robot.cbc");
+  content[content.size() / 2] = static_cast<char>(content[content.size() / 2] ^ 1);
+  folder.write("robot.cbc", content);
+  expect_stale("it is damaged: its content does not fit its digest");
+  folder.write("robot.cbc", content.substr(0, content.size() / 2));
+  EXPECT_EQ(cbc({"compile", "--check", "robot.yaml"}).status, 1);
+
+  compile_robot();
+  folder.write("robot.yaml", std::string(robot) + "# more\n");
+  expect_stale("it was made from another text of 'robot.yaml'");
+}
+
+struct ContentPlace {
+  std::size_t begin = 0;
+  std::size_t size = 0;
+};
+
+/// Where the content lies in a compiled file: the bytes that have the digest, after their size.
+ContentPlace find_content(const std::string& file, const Digest& digest) {
+  for (std::size_t begin = 4; begin < file.size(); begin += 4) {
+    std::uint32_t size = 0;
+    std::memcpy(&size, file.data() + begin - 4, sizeof size);
+    if (begin + size > file.size()) continue;
+    if (digest_of(std::string_view(file).substr(begin, size)) == digest) return {begin, size};
+  }
+  return {};
+}
+
+/// Replaces a text, which is as long, in a compiled file, and makes the digest fit again.
+std::string forge(std::string file, const std::string& from, const std::string& to) {
+  const Digest digest = read_compiled(file).file->content;
+  const ContentPlace content = find_content(file, digest);
+  const std::string signature(reinterpret_cast<const char*>(digest.bytes.data()),
+                              digest.bytes.size());
+  const std::size_t place = file.find(from, content.begin);
+  EXPECT_NE(place, std::string::npos);
+  file.replace(place, from.size(), to);
+  const Digest anew = digest_of(std::string_view(file).substr(content.begin, content.size));
+  std::memcpy(file.data() + file.find(signature), anew.bytes.data(), anew.bytes.size());
+  return file;
+}
+
+TEST_F(CompileCheck, TellsThatAFileIsOfAnotherVersion) {
+  compile_robot();
+  const std::string now(version);
+  const std::string old(now.size(), '0');
+  folder.write("robot.cbc", forge(folder.read("robot.cbc"), now, old));
+  expect_result(cbc({"compile", "--check", "robot.yaml"}), 1,
+                "'robot.cbc' is not up to date: it was written by cbc " + old +
+                    ", and this is cbc " + now + "\n",
+                "");
+}
+
+TEST_F(CompileCheck, TellsThatAFileIsNotWhatItSeems) {
+  compile_robot();
+  folder.write("robot.cbc", forge(folder.read("robot.cbc"), "LAND_SOFTLY", "LAND_GENTLY"));
+  expect_result(cbc({"compile", "--check", "robot.yaml"}), 1,
+                "'robot.cbc' is not up to date: it is not what would be written now\n", "");
+}
+
+TEST_F(CompileCheck, CannotCheckWhatIsNoFile) {
+  folder.write("robot.yaml", robot);
+  fs::create_directory(folder / "folder");
+  expect_result(cbc({"compile", "--check", "robot.yaml", "-o", "folder"}), 2, "",
+                "cbc: cannot read 'folder': Is a directory\n");
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  expect_result(cbc({"compile", "--check", "robot.yaml", "-o", "pipe"}), 2, "",
+                "cbc: cannot read 'pipe': it is not a regular file\n");
+}
+
+class CompileDump : public CompiledFiles {};
+
+TEST_F(CompileDump, ListsACompiledCatalogAsItsSource) {
+  compile_robot();
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{}, {"--format", "text"}, {"--format", "json"}}) {
+    std::vector<std::string> arguments{"compile", "--dump", "robot.cbc"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Result compiled = cbc(arguments);
+    EXPECT_EQ(compiled.status, 0);
+    EXPECT_GT(compiled.out.size(), 100U);
+    arguments[2] = "robot.yaml";
+    expect_result(cbc(arguments), 0, compiled.out, "");
+    arguments[2] = "-";
+    expect_result(cbc_reading("robot.cbc", arguments), 0, compiled.out, "");
+  }
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"robot.yaml", "robot.cbc"}));
+}
+
+TEST_F(CompileDump, ListsWhatTheFileIs) {
+  compile_robot();
+  const CompiledFileResult file = load_compiled(folder / "robot.cbc");
+  ASSERT_TRUE(file.file);
+  const nlohmann::ordered_json json = nlohmann::ordered_json::parse(
+      cbc({"compile", "--dump", "--format", "json", "robot.cbc"}).out);
+  EXPECT_EQ(json["schema"], "cbc.catalog/1");
+  EXPECT_EQ(json["format"], file.file->format);
+  EXPECT_EQ(json["written_by"], version);
+  EXPECT_EQ(json["source"],
+            nlohmann::ordered_json({{"file", "robot.yaml"}, {"digest", to_hex(digest_of(robot))}}));
+  EXPECT_EQ(json["content_digest"], to_hex(file.file->content));
+  EXPECT_EQ(json["size"], fs::file_size(folder / "robot.cbc"));
+  EXPECT_EQ(json["groups"][0]["tasks"][0]["task"], "HOVER");
+  const std::string text = cbc({"compile", "--dump", "robot.cbc"}).out;
+  EXPECT_NE(text.find("\nsource digest: " + to_hex(digest_of(robot)) + "\n"), std::string::npos);
+  EXPECT_NE(text.find("\ncontent digest: " + to_hex(file.file->content) + "\n"), std::string::npos);
+  EXPECT_NE(text.find("\n  task HOVER\n"), std::string::npos);
+}
+
+TEST_F(CompileDump, ListsNoDamagedFile) {
+  compile_robot();
+  std::string content = folder.read("robot.cbc");
+  content.back() = static_cast<char>(content.back() ^ 1);
+  content[content.size() / 2] = static_cast<char>(content[content.size() / 2] ^ 1);
+  folder.write("robot.cbc", content);
+  expect_result(cbc({"compile", "--dump", "robot.cbc"}), 2, "",
+                "cbc: cannot read 'robot.cbc': it is damaged: its content does not fit its "
+                "digest\n");
+}
+
+}  // namespace
+}  // namespace cbc::golden

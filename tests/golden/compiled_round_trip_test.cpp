@@ -1,0 +1,156 @@
+// Every catalog that is at hand, compiled: the answers are those of the YAML, byte for byte.
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "golden/process.h"
+#include "unit/scratch_folder.h"
+
+namespace cbc::golden {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+fs::path shared_catalogs() {
+  const char* const given = std::getenv("CBC_SHARED");
+  return fs::path(given != nullptr ? given : CBC_SOURCE_DIR "/../shared") / "catalogs";
+}
+
+bool is_mission(const fs::path& file) { return file.stem().extension() == ".mission"; }
+
+/// The YAML files of all folders.
+std::vector<fs::path> find_files() {
+  std::vector<fs::path> files;
+  for (const fs::path& folder : {fs::path(CBC_SOURCE_DIR) / "catalogs", shared_catalogs()}) {
+    if (!fs::exists(folder)) continue;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<std::string> find_catalogs() {
+  std::vector<std::string> catalogs;
+  for (const fs::path& file : find_files()) {
+    if (!is_mission(file)) catalogs.push_back(file.string());
+  }
+  return catalogs;
+}
+
+/// Starts every task in turn, and then stops each: many are rejected, and say why.
+std::string script_of(const Json& summary) {
+  std::string script;
+  for (const char* verb : {"start", "stop"}) {
+    for (const Json& group : summary["groups"]) {
+      for (const Json& task : group["tasks"]) {
+        script += std::string("- {").append(verb).append(": ").append(task.dump()) + "}\n";
+      }
+    }
+  }
+  return script;
+}
+
+/// In two folders a file catalog.yaml: the YAML in one, its compiled form in the other.
+class RoundTrip : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    yaml.write("catalog.yaml", read_file(GetParam()));
+    const Result result =
+        run({{"compile", "catalog.yaml", "-o", compiled / "catalog.yaml"}, yaml.path()});
+    is_good = result.status == 0;
+    EXPECT_EQ(result.out, "");
+    EXPECT_TRUE(is_good || result.status == 2) << result.status;
+  }
+
+  [[nodiscard]] static Json summary_in(const test::ScratchFolder& folder) {
+    const Result result =
+        run({{"lint", "--summary", "--format", "json", "catalog.yaml"}, folder.path()});
+    return Json::parse(result.out)["files"][0]["summary"];
+  }
+
+  void write_script(const std::string& name, const std::string& text) const {
+    yaml.write(name, text);
+    compiled.write(name, text);
+  }
+
+  /// Runs the program in both folders.
+  void expect_same(const std::vector<std::string>& arguments) const {
+    const Result expected = run({arguments, yaml.path()});
+    const Result result = run({arguments, compiled.path()});
+    EXPECT_EQ(result.status, expected.status);
+    EXPECT_TRUE(result.out == expected.out) << result.out << "\ninstead of\n" << expected.out;
+    EXPECT_GT(result.out.size(), 100U);
+  }
+
+  test::ScratchFolder yaml;
+  test::ScratchFolder compiled;
+  bool is_good = false;
+};
+
+/// A catalog that solve refuses is not compiled, and the other way round.
+TEST_P(RoundTrip, IsCompiledIfItCanBeSolved) {
+  yaml.write("script.yaml", "- situation: {}\n");
+  EXPECT_EQ(run({{"solve", "catalog.yaml", "script.yaml"}, yaml.path()}).status, is_good ? 0 : 2);
+  EXPECT_EQ(fs::exists(compiled / "catalog.yaml"), is_good);
+}
+
+TEST_P(RoundTrip, GivesTheSameAnswers) {
+  if (!is_good) return;
+  write_script("script.yaml", script_of(summary_in(yaml)));
+  for (const char* format : {"text", "json"}) {
+    expect_same({"solve", "catalog.yaml", "script.yaml", "--format", format});
+    expect_same({"solve", "catalog.yaml", "script.yaml", "--format", format, "--tie-seed", "3"});
+  }
+}
+
+TEST_P(RoundTrip, GivesTheSameMission) {
+  const fs::path mission = fs::path(GetParam()).replace_extension(".mission.yaml");
+  if (!is_good || !fs::exists(mission)) return;
+  write_script("mission.yaml", read_file(mission));
+  for (const char* format : {"text", "json"}) {
+    expect_same({"solve", "catalog.yaml", "mission.yaml", "--format", format});
+  }
+}
+
+/// The findings are those of the text, which a compiled catalog has not.
+TEST_P(RoundTrip, GivesTheSameSummary) {
+  if (!is_good) return;
+  EXPECT_EQ(summary_in(compiled), summary_in(yaml));
+  const std::string end = "search space";
+  const std::vector<std::string> arguments{"lint", "--summary", "catalog.yaml"};
+  const std::string expected = run({arguments, yaml.path()}).out;
+  const std::size_t size = expected.find('\n', expected.find(end));
+  ASSERT_NE(size, std::string::npos);
+  EXPECT_EQ(run({arguments, compiled.path()}).out.substr(0, size), expected.substr(0, size));
+}
+
+TEST_P(RoundTrip, IsUpToDate) {
+  if (!is_good) return;
+  const Result result =
+      run({{"compile", "--check", "catalog.yaml", "-o", compiled / "catalog.yaml"}, yaml.path()});
+  EXPECT_EQ(result.status, 0) << result.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogs, RoundTrip, testing::ValuesIn(find_catalogs()),
+                         [](const auto& tested) {
+                           std::string name = fs::path(tested.param).stem().string();
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(RoundTrips, CoverTheSharedCatalogs) {
+  if (!fs::exists(shared_catalogs())) GTEST_SKIP() << "no " << shared_catalogs();
+  EXPECT_GE(find_catalogs().size(), 10U);
+}
+
+}  // namespace
+}  // namespace cbc::golden
