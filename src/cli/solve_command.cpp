@@ -11,11 +11,15 @@
 #include <fmt/format.h>
 
 #include "cli/exit_status.h"
+#include "cli/input.h"
 #include "cli/mission.h"
 #include "cli/terminal.h"
 #include "cli/validators.h"
 #include "coordinator/coordinator.h"
+#include "file/atomic_file.h"
+#include "report/solve_html.h"
 #include "report/solve_json.h"
+#include "report/solve_report.h"
 #include "report/solve_text.h"
 #include "script/runner.h"
 #include "text/decimal.h"
@@ -31,6 +35,8 @@ constexpr const char* footer =
     "                                                 all scripts of a folder, as JSON\n"
     "  echo '[{start: TAKE_OFF}]' | cbc solve quadrotor.yaml -\n"
     "                                                 a script from standard input\n"
+    "  cbc solve quadrotor.yaml mission.yaml --html mission.html\n"
+    "                                                 a picture, too, for a browser\n"
     "  cbc solve quadrotor.yaml mission.yaml --max-solutions 5\n"
     "                                                 the best of the first 5 solutions only\n"
     "\n"
@@ -44,6 +50,7 @@ constexpr const char* footer =
 struct SolveOptions {
   std::vector<std::string> paths;
   std::string format = "text";
+  std::optional<std::string> html;
   std::uint64_t max_solutions = 0;
   std::string time_limit;
   std::uint64_t max_nodes = 0;
@@ -94,9 +101,8 @@ void complain(const Mission& mission, const RunResult& result, const std::string
   }
 }
 
-template <typename Report>
 int run_missions(const std::vector<Mission>& missions, const SolveOptions& options,
-                 Report& report) {
+                 SolveReport& report) {
   int status = exit_ok;
   for (const Mission& mission : missions) {
     report.begin_run(*mission.catalog, mission.script);
@@ -111,15 +117,30 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
   return status;
 }
 
+/// Runs with a picture beside the report.
+int draw_missions(const std::vector<Mission>& missions, const SolveOptions& options,
+                  SolveReport& report) {
+  HtmlReport picture;
+  ReportPair both(report, picture);
+  const int status = run_missions(missions, options, both);
+  if (const auto error = write_atomically(*options.html, picture.page())) {
+    cli::complain(fmt::format("cannot write {}: {}", quote(*options.html), *error));
+    return std::max<int>(status, exit_unusable);
+  }
+  return status;
+}
+
+std::unique_ptr<SolveReport> make_report(const SolveOptions& options) {
+  if (options.format == "json") return std::make_unique<JsonReport>(stdout);
+  return std::make_unique<TextReport>(wants_color(stdout) ? color_style() : plain_style(), stdout);
+}
+
 int solve(const SolveOptions& options) {
   const std::optional<std::vector<Mission>> missions = MissionLoader().load(options.paths);
   if (!missions) return exit_unusable;
-  if (options.format == "json") {
-    JsonReport report(stdout);
-    return run_missions(*missions, options, report);
-  }
-  TextReport report(wants_color(stdout) ? color_style() : plain_style(), stdout);
-  return run_missions(*missions, options, report);
+  const std::unique_ptr<SolveReport> report = make_report(options);
+  return options.html ? draw_missions(*missions, options, *report)
+                      : run_missions(*missions, options, *report);
 }
 
 }  // namespace
@@ -139,6 +160,11 @@ void add_solve_command(CLI::App& program, int& status) {
   command->add_option("--format", options->format, "text (the default) or json")
       ->option_text("FORMAT")
       ->check(CLI::IsMember({"text", "json"}));
+  command
+      ->add_option("--html", options->html,
+                   "Write a page with a timeline of all runs to FILE, too: to\n"
+                   "step through in a browser, or to print")
+      ->option_text("FILE");
   command
       ->add_option("--max-solutions", options->max_solutions,
                    "Take the best of the first M solutions, in the order of\n"

@@ -8,6 +8,7 @@
 #include "compiled/compiled_catalog.h"
 #include "coordinator/record.h"
 #include "coordinator/state.h"
+#include "report/solve_report.h"
 #include "script/runner.h"
 #include "script/script.h"
 
@@ -19,17 +20,16 @@ namespace cbc {
                                                    const State& state);
 
 /// Writes runs as one JSON document, event by event, so that memory does not grow with the run.
-class JsonReport final : public RunListener {
+class JsonReport final : public SolveReport {
  public:
   explicit JsonReport(std::FILE* out);
 
-  void begin_run(const CompiledCatalog& catalog, const Script& script);
+  void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
   void on_failure(const Failure& failure) override;
   void on_end(const State& /*state*/) override {}
-  /// `error`: why the run ended early, or empty.
-  void end_run(const RunResult& result, const std::string& error);
-  void end();
+  void end_run(const RunResult& result, const std::string& error) override;
+  void end() override;
 
  private:
   void write(const std::string& text);

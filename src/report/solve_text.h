@@ -7,6 +7,7 @@
 #include "compiled/compiled_catalog.h"
 #include "coordinator/record.h"
 #include "coordinator/state.h"
+#include "report/solve_report.h"
 #include "script/runner.h"
 #include "script/script.h"
 #include "text/style.h"
@@ -15,18 +16,18 @@ namespace cbc {
 
 /// Writes a run for a person: a line for each event, below it the changes in the columns of the
 /// execution viewer of the paper (P priority, T type, S success), at the end what is active.
-class TextReport final : public RunListener {
+class TextReport final : public SolveReport {
  public:
   TextReport(const Style& style, std::FILE* out) : style_(style), out_(out) {}
 
-  void begin_run(const CompiledCatalog& catalog, const Script& script);
+  void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
   void on_failure(const Failure& failure) override;
   void on_end(const State& state) override;
-  /// `error`: why the run ended early, or empty; it is told elsewhere.
-  void end_run(const RunResult& result, const std::string& error);
+  /// An error is told elsewhere.
+  void end_run(const RunResult& result, const std::string& error) override;
   /// The sum, if there are several runs.
-  void end();
+  void end() override;
 
  private:
   [[nodiscard]] std::string describe_outcome(const EventRecord& record) const;

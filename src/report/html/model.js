@@ -1,0 +1,379 @@
+// What the page knows about a run, made of the data once: states, spans of activity, rows, links
+// between what follows each other, and sentences. Nothing here touches the page.
+
+// Names of a catalog may be anything, even "__proto__": look-ups are maps, or ask for own members.
+const get = (object, name) => (Object.hasOwn(object, name) ? object[name] : undefined);
+
+const words = (name) => name.replaceAll('_', ' ');
+
+/** Seconds to the millisecond, or to the microsecond where it takes that. */
+function formatTime(seconds) {
+  return seconds.toFixed(Math.round(seconds * 1e6) % 1000 === 0 ? 3 : 6);
+}
+
+function formatPercent(share) {
+  return `${Number((share * 100).toPrecision(6))} %`;
+}
+
+/** A catalog with look-ups. */
+class Catalog {
+  constructor(data) {
+    this.taskPlace = new Map(data.tasks.map((name, place) => [name, place]));
+    this.behaviorPlace = new Map(data.behaviors.map((behavior, place) => [behavior.name, place]));
+    this.behaviors = new Map(data.behaviors.map((behavior) => [behavior.name, behavior]));
+    this.performers = new Map(data.tasks.map((name) => [name, []]));
+    for (const behavior of data.behaviors) {
+      for (const entry of behavior.performs) this.performers.get(entry.task).push(behavior.name);
+    }
+    this.lists = new Map(); // of each task: the exclusivity lists it is in
+    for (const list of data.exclusive) {
+      for (const task of list) this.lists.set(task, [...(this.lists.get(task) ?? []), list]);
+    }
+  }
+
+  excludes(task, other) {
+    return (this.lists.get(task) ?? []).some((list) => list.includes(other));
+  }
+
+  requires(behavior, task) {
+    return (this.behaviors.get(behavior)?.requires ?? []).includes(task);
+  }
+
+  suitability(behavior, task) {
+    return this.behaviors.get(behavior)?.performs.find((entry) => entry.task === task)?.suitability;
+  }
+
+  sortTasks(names) {
+    return [...names].sort((a, b) => this.taskPlace.get(a) - this.taskPlace.get(b));
+  }
+
+  sortBehaviors(names) {
+    return [...names].sort((a, b) => this.behaviorPlace.get(a) - this.behaviorPlace.get(b));
+  }
+}
+
+/** Whether an event is one that is accepted or rejected. */
+const isAsked = (event) => ['start', 'stop', 'finish'].includes(event.verb);
+
+const describeSituation = (situation) =>
+  Object.entries(situation)
+    .map(([name, available]) => `${name} ${available ? 'available' : 'unavailable'}`)
+    .join(', ');
+
+/** An event in a line, without its outcome. */
+function describeEvent(event) {
+  let text = event.verb;
+  if (event.verb === 'wait') return 'wait';
+  if (event.verb === 'situation') return `situation: ${describeSituation(event.situation ?? {})}`;
+  if (event.name !== undefined) text += ` ${event.name}`;
+  if (event.priority !== undefined) text += `, priority ${event.priority}`;
+  if (event.verb === 'finish') text += `: ${words(event.cause)}`;
+  if (event.parameters !== undefined) text += ` ${JSON.stringify(event.parameters)}`;
+  if (event.origin === 'timeout') text += ' (by the clock)';
+  if (event.origin === 'reactive') text += ' (reactive start)';
+  if (event.origin === 'fault') text += ' (its activation could not be taken back)';
+  return text;
+}
+
+/** The same for a place where it says elsewhere what the situation is. */
+const nameEvent = (event) => (event.verb === 'situation' ? 'situation' : describeEvent(event));
+
+/** Causes of spans, as in the changes: by the request of the task. */
+function causeOf(priority) {
+  if (priority === undefined) return 'required';
+  return priority === 0 ? 'reactive' : 'requested';
+}
+
+class Run {
+  /** `data`: a run of the report; `extra`: the situation before it. */
+  constructor(data, catalog, extra) {
+    this.data = data;
+    this.catalog = catalog;
+    this.events = data.events;
+    this.situation = extra.situation;
+    this.failures = new Map(); // of each index: the messages
+    for (const failure of data.expectations.failures) {
+      this.failures.set(failure.index, [...(this.failures.get(failure.index) ?? []), failure]);
+    }
+    this.readSituations();
+    this.readSpans();
+    this.readLinks();
+  }
+
+  get size() {
+    return this.events.length;
+  }
+
+  event(number) {
+    return this.events[number - 1];
+  }
+
+  /** Task -> behavior after an event; number 0 is the state before all. */
+  running(number) {
+    return number === 0 ? {} : this.event(number).running;
+  }
+
+  requests(number) {
+    return number === 0 ? {} : this.event(number).requests;
+  }
+
+  /** Behaviors that cannot be activated, and faulty ones, after each event; and when that was so. */
+  readSituations() {
+    this.outages = []; // {behavior, kind, from, to}: numbers of events, `to` null at the end
+    const open = { unavailable: new Map(), faulty: new Map() };
+    const set = (kind, behavior, isOut, number) => {
+      const outage = open[kind].get(behavior);
+      if (isOut && outage === undefined) {
+        const begun = { behavior, kind, from: number, to: null };
+        open[kind].set(behavior, begun);
+        this.outages.push(begun);
+      } else if (!isOut && outage !== undefined) {
+        outage.to = number;
+        open[kind].delete(behavior);
+      }
+    };
+    for (const [name, available] of Object.entries(this.situation)) set('unavailable', name, !available, 0);
+    this.unavailable = [];
+    this.faulty = [];
+    for (let number = 0; number <= this.size; ++number) {
+      const event = this.event(number) ?? {};
+      if (event.verb === 'situation') {
+        for (const [name, available] of Object.entries(event.situation ?? {})) {
+          set('unavailable', name, !available, number);
+        }
+      }
+      if (event.verb === 'fault') set('faulty', event.name, true, number);
+      if (event.verb === 'repair') set('faulty', event.name, false, number);
+      this.unavailable.push(this.catalog.sortBehaviors(open.unavailable.keys()));
+      this.faulty.push(this.catalog.sortBehaviors(open.faulty.keys()));
+    }
+  }
+
+  /** When each task was performed by which behavior, and why: a span for each stretch of both. */
+  readSpans() {
+    this.spans = [];
+    const open = new Map();
+    const restarted = (event, task) =>
+      event.changes.some((change) => change.cause === 'restarted' && change.op === 'activate' &&
+                                     change.tasks.includes(task));
+    for (let number = 1; number <= this.size; ++number) {
+      const event = this.event(number);
+      for (const [task, span] of open) {
+        const behavior = get(event.running, task);
+        const priority = get(event.requests, task);
+        if (span.behavior === behavior && span.priority === priority && !restarted(event, task)) {
+          this.noteRequirers(span, number);
+          continue;
+        }
+        span.to = number;
+        open.delete(task);
+      }
+      for (const [task, behavior] of Object.entries(event.running)) {
+        if (open.has(task)) continue;
+        const priority = get(event.requests, task);
+        const span = { task, behavior, priority, cause: causeOf(priority), from: number, to: null };
+        span.requirers = []; // {from, names}: each from an event on
+        this.noteRequirers(span, number);
+        span.isRestart = restarted(event, task);
+        open.set(task, span);
+        this.spans.push(span);
+      }
+    }
+  }
+
+  noteRequirers(span, number) {
+    const names = this.requirers(number, span.task);
+    const last = span.requirers.at(-1);
+    if (last === undefined || last.names.join('\0') !== names.join('\0')) span.requirers.push({ from: number, names });
+  }
+
+  /** Running tasks whose behaviors require a task, after an event. */
+  requirers(number, task) {
+    return Object.entries(this.running(number))
+      .filter(([, behavior]) => this.catalog.requires(behavior, task))
+      .map(([requirer]) => requirer);
+  }
+
+  /** Which behavior follows which at an event: in the same task, or in one that excludes it. */
+  readLinks() {
+    this.links = [];
+    this.linksOf = [[]];
+    for (let number = 1; number <= this.size; ++number) {
+      const before = this.running(number - 1);
+      const after = this.running(number);
+      const links = [];
+      const begun = Object.keys(after).filter((task) => get(before, task) === undefined);
+      for (const [task, behavior] of Object.entries(before)) {
+        const next = get(after, task);
+        const from = { task, behavior };
+        if (next !== undefined && next !== behavior) {
+          links.push({ number, kind: 'replaced', from, to: { task, behavior: next } });
+        }
+        if (next !== undefined) continue;
+        for (const other of begun.filter((name) => this.catalog.excludes(task, name))) {
+          links.push({ number, kind: 'way', from, to: { task: other, behavior: after[other] } });
+        }
+      }
+      this.linksOf.push(links);
+      this.links.push(...links);
+    }
+  }
+
+  /** The tasks with their behaviors that have rows: those that were active or asked for, or all. */
+  rows(wantsAll) {
+    const tasks = new Map();
+    const add = (task, behavior) => {
+      if (!this.catalog.taskPlace.has(task)) return;
+      if (!tasks.has(task)) tasks.set(task, new Set());
+      if (behavior !== undefined) tasks.get(task).add(behavior);
+    };
+    for (const span of this.spans) add(span.task, span.behavior);
+    for (const event of this.events) {
+      if (event.verb === 'start' || event.verb === 'stop') add(event.name);
+      for (const change of event.changes) {
+        for (const task of change.tasks) add(task, change.behavior);
+      }
+    }
+    if (wantsAll) {
+      for (const [task, behaviors] of this.catalog.performers) {
+        add(task);
+        for (const behavior of behaviors) add(task, behavior);
+      }
+    }
+    return this.catalog.sortTasks(tasks.keys())
+      .map((task) => ({ task, behaviors: this.catalog.sortBehaviors(tasks.get(task)) }));
+  }
+
+  /** Why a behavior was replaced in its task, as far as the data tells. */
+  whyReplaced(number, link) {
+    const event = this.event(number);
+    const { task, behavior } = link.from;
+    if (event.verb === 'finish' && event.name === behavior) return `${behavior} finished: ${words(event.cause)}`;
+    const lost = (this.catalog.behaviors.get(behavior)?.requires ?? [])
+      .filter((name) => get(event.running, name) === undefined);
+    if (lost.length > 0) return `${behavior} requires ${lost.join(', ')}, which no longer runs`;
+    const old = this.catalog.suitability(behavior, task);
+    const present = this.catalog.suitability(link.to.behavior, task);
+    if (present > old) return `it suits ${task} better, ${present} % instead of ${old} %`;
+    return '';
+  }
+
+  /** Why a task gave way to one that excludes it. */
+  whyGaveWay(number, link) {
+    const event = this.event(number);
+    const { task, behavior } = link.from;
+    const reasons = [];
+    if (event.verb === 'finish' && event.name === behavior) {
+      reasons.push(`${behavior} finished: ${words(event.cause)}`);
+    }
+    const requirers = this.requirers(number, link.to.task);
+    if (event.verb === 'start' && event.name === link.to.task) {
+      reasons.push(`${link.to.task} was started with priority ${event.priority}`);
+    } else if (requirers.length > 0) {
+      reasons.push(`${requirers.join(', ')} requires ${link.to.task} now`);
+    }
+    reasons.push(`${link.to.task} excludes ${task}`);
+    return reasons.join('; ');
+  }
+
+  /** What an event did, in sentences: [{text, why, isBad}]; the reasons of its rejection are its own. */
+  sentences(number) {
+    const event = this.event(number);
+    const before = this.running(number - 1);
+    const after = event.running;
+    const list = [];
+    const say = (text, why = '', isBad = false) => list.push({ text, why, isBad });
+    if (event.verb === 'situation') say(describeSituation(event.situation ?? {}));
+    if (event.search?.status === 'unknown') {
+      say('a search limit came before the first solution', '', true);
+    } else if (event.outcome === 'rejected' && event.conflict.length === 0) {
+      say('no consistent set of behaviors', '', true);
+    }
+    for (const change of event.changes) {
+      if (!change.success) say(`${change.behavior} could not be ${change.op}d`, '', true);
+    }
+    const told = new Set();
+    for (const link of this.linksOf[number]) {
+      told.add(link.from.task).add(link.to.task);
+      if (link.kind === 'replaced') {
+        say(`${link.to.behavior} replaces ${link.from.behavior} (${link.from.task})`,
+            this.whyReplaced(number, link));
+      } else if (link.from.behavior === link.to.behavior) {
+        say(`${link.from.behavior} passes from ${link.from.task} to ${link.to.task}`,
+            this.whyGaveWay(number, link));
+      } else {
+        say(`${link.to.behavior} (${link.to.task}) takes the place of ` +
+            `${link.from.behavior} (${link.from.task})`, this.whyGaveWay(number, link));
+      }
+    }
+    for (const [task, behavior] of Object.entries(after)) {
+      const was = get(before, task);
+      if (was === undefined && !told.has(task)) {
+        say(`${behavior} starts (${task})`, this.whyRuns(number, task));
+      } else if (was === behavior) {
+        this.tellRequest(number, task, say);
+      }
+    }
+    const causes = new Map(event.stopped_tasks.map((stopped) => [stopped.task, stopped.cause]));
+    for (const [task, behavior] of Object.entries(before)) {
+      if (get(after, task) !== undefined || told.has(task)) continue;
+      say(`${behavior} stops (${task})`, this.whyStopped(number, task, causes.get(task)));
+    }
+    for (const change of event.changes) {
+      if (change.cause === 'restarted' && change.op === 'activate' && change.success) {
+        say(`${change.behavior} restarts`, 'its parameters changed');
+      }
+    }
+    return list;
+  }
+
+  whyRuns(number, task) {
+    const priority = get(this.requests(number), task);
+    if (priority !== undefined) return priority === 0 ? 'reactive' : `requested, priority ${priority}`;
+    const requirers = this.requirers(number, task);
+    return requirers.length > 0 ? `required by ${requirers.join(', ')}` : '';
+  }
+
+  tellRequest(number, task, say) {
+    const old = get(this.requests(number - 1), task);
+    const present = get(this.requests(number), task);
+    if (old === present) return;
+    if (present === undefined) {
+      say(`${task} has no request any more`);
+    } else {
+      say(`${task}, which runs already, is requested with priority ${present}`);
+    }
+  }
+
+  whyStopped(number, task, cause) {
+    const event = this.event(number);
+    if (cause !== undefined && cause !== 'interrupted') return words(cause);
+    if (event.verb === 'stop' && event.name === task) return 'stopped by this event';
+    const behavior = get(this.running(number - 1), task);
+    const lost = (this.catalog.behaviors.get(behavior)?.requires ?? [])
+      .filter((name) => get(event.running, name) === undefined);
+    if (get(this.requests(number - 1), task) === undefined) return 'nothing requires it any more';
+    return lost.length > 0 ? `it requires ${lost.join(', ')}, which does not run` : 'displaced';
+  }
+
+  /** What became of the behavior of a change: who replaced it, or whom it replaced. */
+  note(number, change) {
+    const notes = [];
+    for (const link of this.linksOf[number]) {
+      const isReplaced = link.kind === 'replaced';
+      if (change.op === 'deactivate' && link.from.behavior === change.behavior) {
+        notes.push(`${isReplaced ? 'replaced by' : 'gives way to'} ${link.to.behavior}`);
+      }
+      if (change.op === 'activate' && change.success && link.to.behavior === change.behavior) {
+        notes.push(`${isReplaced ? 'replaces' : 'in place of'} ${link.from.behavior}`);
+      }
+    }
+    return [...new Set(notes)].join(', ');
+  }
+}
+
+function readRuns(data) {
+  const catalogs = data.catalogs.map((catalog) => new Catalog(catalog));
+  return data.report.runs.map(
+    (run, place) => new Run(run, catalogs[data.runs[place].catalog], data.runs[place]));
+}

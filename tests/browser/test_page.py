@@ -1,0 +1,502 @@
+"""The page of `cbc solve --html` in a headless Chromium.
+
+    ./dev test-browser
+
+Screenshots go to build/browser; look at them after a change of the page. questions.md has what
+somebody who has never seen the page should find out from one of them.
+"""
+
+import json
+import os
+import pathlib
+import random
+import re
+import subprocess
+import time
+import unittest
+
+from chromium import BrowserError, Chromium
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = os.environ.get("CBC_PROGRAM", str(ROOT / "build/release/cbc"))
+OUT = ROOT / "build/browser"
+QUADROTOR = "catalogs/quadrotor.yaml"
+
+HOSTILE_TASK = "</script><script>alert(1)</script>"
+HOSTILE_BEHAVIORS = ["<img src=x onerror=alert(2)>", "__proto__", "\"quotes' & <!-- <b>bold</b>",
+                     "line\u2028and\u2029paragraph", "constructor"]
+
+
+def solve(name, *arguments):
+    """Makes a page, and returns where it is and the same report as JSON."""
+    page = OUT / (name + ".html")
+    result = subprocess.run([PROGRAM, "solve", *arguments, "--format", "json", "--html", str(page)],
+                            cwd=ROOT, stdout=subprocess.PIPE, check=False)
+    assert result.returncode in (0, 1), result.returncode
+    return page.as_uri(), json.loads(result.stdout)
+
+
+def write(name, data):
+    path = OUT / name
+    path.write_text(json.dumps(data))  # JSON is YAML, too
+    return str(path)
+
+
+def hostile_files():
+    catalog = {
+        "tasks": [{"task": HOSTILE_TASK}, {"task": "2"}, {"task": "1"}],
+        "behaviors": [{"behavior": name, "task": HOSTILE_TASK} for name in HOSTILE_BEHAVIORS] +
+                     [{"behavior": "toString", "task": "2"}, {"behavior": "valueOf", "task": "1"}],
+        "exclusivity_constraints": [{"mutually_exclusive": ["1", "2"]}],
+    }
+    events = [{"start": HOSTILE_TASK, "parameters": {"</script>": ["<b>", "\u2028", "'\""]}}]
+    for name in HOSTILE_BEHAVIORS[:-1]:
+        events += [{"fault": name}, {"finish": name, "cause": "process_failure", "wait": 1}]
+    events += [{"start": "2", "priority": 2}, {"start": "1"}, {"expect": {"stopped": ["2"]}}]
+    return write("hostile.yaml", catalog), write("hostile.mission.yaml", {"events": events})
+
+
+def long_script(count):
+    """A mission of `count` scripted events, the same each time."""
+    choose = random.Random(4)
+    tasks = ["HOVER", "ROTATE", "FOLLOW_PATH", "TAKE_OFF", "LAND", "INFORM_POSITION_TO_ROBOTS"]
+    behaviors = re.findall(r"^- behavior: (\w+)", (ROOT / QUADROTOR).read_text(), re.MULTILINE)
+    events = []
+    for _ in range(count):
+        verb = choose.choice(["start", "start", "start", "stop", "finish", "finish", "situation"])
+        if verb in ("start", "stop"):
+            event = {verb: choose.choice(tasks)}
+            if verb == "start":
+                event["priority"] = choose.choice([1, 2, 2, 2])
+        elif verb == "finish":
+            event = {verb: choose.choice(behaviors),
+                     "cause": choose.choice(["goal_achieved", "process_failure"])}
+        else:
+            event = {verb: {choose.choice(behaviors): choose.random() < 0.8}}
+        events.append({**event, "wait": choose.choice([0, 0.5, 3])})
+    return write("long.mission.yaml", {"events": events})
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        OUT.mkdir(parents=True, exist_ok=True)
+        cls.browser = Chromium().__enter__()
+        cls.addClassCleanup(cls.browser.close)
+        cls.target = solve("target-following", "tests/browser/target-following.mission.yaml")
+        cls.quadrotor = solve("quadrotor", QUADROTOR, "catalogs/quadrotor.mission.yaml")
+
+    def setUp(self):
+        self.browser.set_size(1600, 1250)
+        self.browser.set_scheme("light")
+        self.open(self.target)
+        self.events = self.run_of(self.target)["events"]
+
+    def tearDown(self):
+        self.assertEqual(self.noises(), [])
+        self.assertEqual(self.requests(), [self.url])
+
+    # What the page does besides -------------------------------------------------------------------
+
+    def noises(self):
+        names = ("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded",
+                 "Page.javascriptDialogOpening")
+        return [event for event in self.browser.events if event["method"] in names]
+
+    def requests(self):
+        """All but those that lie in their own address (the empty icon)."""
+        urls = [event["params"]["request"]["url"] for event in self.browser.events
+                if event["method"] == "Network.requestWillBeSent"]
+        return [url for url in urls if not url.startswith("data:")]
+
+    # Helpers --------------------------------------------------------------------------------------
+
+    def open(self, made):
+        self.url = made[0]
+        self.browser.load(self.url)
+
+    @staticmethod
+    def run_of(made, place=0):
+        return made[1]["runs"][place]
+
+    def text(self, selector):
+        return self.browser.ask(f"document.querySelector({json.dumps(selector)}).textContent")
+
+    def status(self):
+        return self.text("#status")
+
+    def place(self, selector):
+        """The middle of an element that is in view."""
+        box = self.browser.ask(
+            f"(() => {{ const box = document.querySelector({json.dumps(selector)})"
+            ".getBoundingClientRect(); return [box.x, box.y, box.width, box.height]; })()")
+        return box[0] + box[2] / 2, box[1] + box[3] / 2
+
+    def click(self, selector):
+        self.browser.click(*self.place(selector))
+
+    def focus(self, selector):
+        self.browser.ask(f"document.querySelector({json.dumps(selector)}).focus()")
+
+    def number(self):
+        return int(re.match(r"Event (\d+) of", self.status()).group(1))
+
+    def shown_state(self):
+        return self.browser.ask(
+            "Object.fromEntries([...document.querySelectorAll('#state-body tbody tr')]"
+            ".map((row) => [row.cells[0].textContent, row.cells[1].textContent]))")
+
+    def assert_shows(self, number):
+        """That everything agrees on which event is shown, and with the report."""
+        event = self.events[number - 1]
+        self.assertEqual(self.number(), number)
+        self.assertEqual(self.browser.ask("document.querySelector('#slider').value"), str(number))
+        self.assertIn(event["verb"], self.text("#detail-body .headline"))
+        self.assertEqual(self.shown_state(), event["running"])
+        chosen = self.browser.ask("[...document.querySelectorAll('[aria-current]')]"
+                                  ".map((row) => row.dataset.event)")
+        self.assertEqual(chosen, [str(number)])
+
+    # Tests ----------------------------------------------------------------------------------------
+
+    def test_noises_and_requests_are_seen(self):
+        self.browser.ask("console.error('one')")
+        self.browser.ask("fetch('file:///two').catch(() => {}).then(() => true)")
+        self.browser.ask("setTimeout(() => { throw new Error('three'); })")
+        self.browser.settle()
+        methods = {noise["method"] for noise in self.noises()}
+        self.assertLessEqual({"Runtime.consoleAPICalled", "Runtime.exceptionThrown"}, methods)
+        self.assertTrue(methods & {"Log.entryAdded"} or len(self.requests()) > 1)
+        with self.assertRaises(BrowserError):
+            self.browser.ask("nothing_of_this_name")
+        self.open(self.target)
+
+    def test_data_are_those_of_the_json_report(self):
+        data = self.browser.ask("JSON.parse(document.querySelector('#data').textContent)")
+        self.assertEqual(data["report"], self.target[1])
+
+    def test_table_has_all_events(self):
+        rows = self.browser.ask("[...document.querySelectorAll('#events > tbody > tr')]"
+                                ".map((row) => [...row.cells].map((cell) => cell.textContent))")
+        self.assertEqual(len(rows), len(self.events))
+        for row, event in zip(rows, self.events):
+            self.assertEqual(row[0], str(event["index"]))
+            self.assertEqual(float(row[1]), event["time"])
+            if event["verb"] in ("start", "stop", "finish"):
+                self.assertTrue(row[3].endswith(event["outcome"]), row)
+            for reason in event["conflict"]:
+                self.assertIn(reason["message"], row[4])
+
+    def test_keys_step_through_the_events(self):
+        self.assert_shows(1)
+        for key, number in [("ArrowRight", 2), ("ArrowRight", 3), ("ArrowLeft", 2), ("End", 9),
+                            ("ArrowRight", 9), ("Home", 1), ("ArrowLeft", 1)]:
+            self.browser.key(key)
+            self.assert_shows(number)
+
+    def test_every_state_is_that_of_the_report(self):
+        self.open(self.quadrotor)
+        self.events = self.run_of(self.quadrotor)["events"]
+        for number in range(1, len(self.events) + 1):
+            self.assert_shows(number)
+            self.browser.key("ArrowRight")
+
+    def test_slider(self):
+        self.focus("#slider")
+        self.browser.key("ArrowRight")
+        self.assert_shows(2)
+        self.browser.key("End")
+        self.assert_shows(len(self.events))
+        x, y = self.place("#slider")
+        self.browser.drag(x + self.browser.ask("document.querySelector('#slider').offsetWidth") / 2
+                          - 8, y, x, y)
+        self.assert_shows(5)
+        self.assertEqual(self.browser.ask(
+            "document.querySelector('#slider').getAttribute('aria-valuetext')"), self.status())
+
+    def test_buttons(self):
+        for selector, number in [("#next", 2), ("#last", 9), ("#back", 8), ("#first", 1)]:
+            self.click(selector)
+            self.assert_shows(number)
+
+    def test_keys_in_the_table(self):
+        self.focus("#events tbody tr:nth-child(1) button")
+        self.browser.key("ArrowDown")
+        self.browser.key("ArrowDown")
+        self.assert_shows(3)
+        self.assertEqual(self.browser.ask("document.activeElement.textContent"), "3")
+        self.browser.key("ArrowUp")
+        self.assert_shows(2)
+
+    def test_click_in_the_table(self):
+        self.click("#events tbody tr:nth-child(2) td:nth-child(5)")
+        self.assert_shows(2)
+
+    def test_click_in_the_picture(self):
+        self.click(".mark[data-event='7']")
+        self.assert_shows(7)
+        self.click(".span.requested")
+        self.assert_shows(1)
+        x, y = self.place(".mark[data-event='8']")
+        self.browser.click(x + 3, y + 250)  # between the rows: the nearest event
+        self.assert_shows(8)
+
+    def test_hover_tells_about_events_and_spans(self):
+        self.browser.move(*self.place(".mark[data-event='7']"))
+        self.assertTrue(self.browser.ask("!document.querySelector('#tip').hidden"))
+        self.assertIn("stop ApproachTarget, priority 1", self.text("#tip"))
+        self.assertIn(self.events[6]["conflict"][0]["message"], self.text("#tip"))
+        self.browser.move(*self.place(".span.requested"))
+        tip = self.text("#tip")
+        self.assertIn("MotionPlannerDistantTarget", tip)
+        self.assertIn("finished: situation change", tip)
+        self.assertIn("replaced by MotionPlannerCloseTarget", tip)
+        self.browser.key("Escape")
+        self.assertTrue(self.browser.ask("document.querySelector('#tip').hidden"))
+        self.browser.move(*self.place(".span.requested"))
+        self.browser.move(*self.place("#title"))
+        self.assertTrue(self.browser.ask("document.querySelector('#tip').hidden"))
+
+    def test_details_tell_who_replaced_whom(self):
+        self.click(".mark[data-event='6']")
+        text = self.text("#detail-body")
+        self.assertIn("MotionPlannerCloseTarget replaces MotionPlannerDistantTarget", text)
+        self.assertIn("MotionPlannerDistantTarget finished: situation change", text)
+        shown = self.browser.ask("[...document.querySelectorAll('.changes tbody tr')].map((row) => "
+                                 "[0, 1, 2, 4, 5].map((cell) => row.cells[cell].textContent))")
+        expected = [["." if change["priority"] is None else str(change["priority"]),
+                     "+" if change["op"] == "activate" else "\u2212",
+                     "Y" if change["success"] else "N", ", ".join(change["tasks"]),
+                     change["cause"]] for change in self.events[5]["changes"]]
+        self.assertEqual(shown, expected)
+
+    def test_rejected_events_are_in_the_picture(self):
+        for number in (2, 7):
+            self.assertIn("\u00d7", self.text(f".mark.rejected[data-event='{number}'] text"))
+            self.click(f".mark[data-event='{number}']")
+            for reason in self.events[number - 1]["conflict"]:
+                self.assertIn(reason["message"], self.text("#detail-body"))
+        self.assertIn("rejected: ApproachTarget has a request of priority 2, higher than 1",
+                      self.text("#svg"))
+
+    def test_zoom_and_scale(self):
+        width = "document.querySelector('#extent').offsetWidth"
+        whole = self.browser.ask(width)
+        self.click("#zoom-in")
+        self.assertGreater(self.browser.ask(width), whole)
+        self.click("#fit")
+        self.assertEqual(self.browser.ask(width), whole)
+        self.focus("#plot")
+        self.browser.key("+", "+")
+        self.assertGreater(self.browser.ask(width), whole)
+        self.browser.key("0", "0")
+        self.assertEqual(self.browser.ask(width), whole)
+        x = [self.place(f".mark[data-event='{number}']")[0] for number in (3, 4)]
+        self.assertAlmostEqual(x[0], x[1])
+        self.browser.ask("(() => { const scale = document.querySelector('#scale');"
+                         "scale.value = 'event'; scale.dispatchEvent(new Event('change')); })()")
+        x = [self.place(f".mark[data-event='{number}']")[0] for number in (3, 4)]
+        self.assertGreater(x[1], x[0] + 20)
+        self.browser.screenshot(OUT / "target-following-events.png")
+
+    def test_simultaneous_marks_do_not_overlap(self):
+        boxes = self.browser.ask(
+            "[...document.querySelectorAll('#svg .mark .pill')].map((mark) => mark.getBoundingClientRect())"
+            ".map((box) => [box.left, box.top, box.right, box.bottom])")
+        self.assertEqual(len(boxes), len(self.events))
+        for place, one in enumerate(boxes):
+            for other in boxes[:place]:
+                self.assertTrue(one[0] >= other[2] or other[0] >= one[2] or
+                                one[1] >= other[3] or other[1] >= one[3], (one, other))
+
+    def test_whole_catalog(self):
+        self.open(self.quadrotor)
+        rows = "document.querySelectorAll('#labels .behavior').length"
+        few = self.browser.ask(rows)
+        self.click("#all-rows")
+        self.assertGreater(self.browser.ask(rows), few)
+
+    def test_light_and_dark(self):
+        pairs = [("ink", "paper"), ("muted", "paper"), ("muted", "panel"), ("bad", "paper"),
+                 ("bad", "bad-paper"), ("good", "paper"), ("requested-ink", "requested"),
+                 ("required-ink", "required"), ("reactive-ink", "reactive")]
+        backgrounds = set()
+        for scheme in ("light", "dark"):
+            self.browser.set_scheme(scheme)
+            backgrounds.add(self.browser.ask("getComputedStyle(document.body).backgroundColor"))
+            for text, ground in pairs:
+                with self.subTest(scheme=scheme, text=text, ground=ground):
+                    self.assertGreaterEqual(self.contrast(text, ground), 4.5)  # WCAG, level AA
+        self.assertEqual(len(backgrounds), 2)
+
+    def contrast(self, *names):
+        def luminance(color):
+            parts = [int(color[place:place + 2], 16) / 255 for place in (1, 3, 5)]
+            parts = [part / 12.92 if part <= 0.03928 else ((part + 0.055) / 1.055) ** 2.4
+                     for part in parts]
+            return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
+
+        light = sorted(luminance(self.browser.ask(
+            f"getComputedStyle(document.documentElement).getPropertyValue('--{name}').trim()"))
+            for name in names)
+        return (light[1] + 0.05) / (light[0] + 0.05)
+
+    def test_names_for_assistive_technology(self):
+        self.browser.call("Accessibility.enable")
+        tree = self.browser.call("Accessibility.getFullAXTree")["nodes"]
+        self.browser.call("Accessibility.disable")
+        controls = [node for node in tree if node.get("role", {}).get("value") in
+                    ("button", "slider", "combobox", "checkbox", "image", "region", "group")]
+        roles = {node["role"]["value"] for node in controls}
+        self.assertLessEqual({"button", "slider", "combobox", "checkbox", "image"}, roles)
+        for node in controls:
+            self.assertTrue(node["name"].get("value"), node)
+        ids = self.browser.ask("[...document.querySelectorAll('[id]')].map((one) => one.id)")
+        self.assertEqual(len(ids), len(set(ids)))
+
+    def test_focus_is_visible_on_the_way_through_the_page(self):
+        seen = []
+        for _ in range(14):
+            self.browser.key("Tab")
+            focused = self.browser.ask(
+                "(() => { const one = document.activeElement, style = getComputedStyle(one);"
+                "return [one.id || one.tagName, style.outlineStyle, parseFloat(style.outlineWidth)]; })()")
+            if focused[0] == "BODY":
+                break
+            seen.append(focused[0])
+            self.assertNotEqual(focused[1], "none", focused)
+            self.assertGreaterEqual(focused[2], 1, focused)
+        for name in ("slider", "scale", "zoom-in", "all-rows", "plot", "BUTTON"):
+            self.assertIn(name, seen)
+
+    def test_paper(self):
+        self.open(self.quadrotor)
+        paper = self.browser.pdf()
+        self.assertTrue(paper.startswith(b"%PDF"))
+        self.assertGreater(len(re.findall(rb"/Type\s*/Page\b", paper)), 1)
+        (OUT / "quadrotor.pdf").write_bytes(paper)
+        self.assertEqual(self.browser.ask("document.querySelectorAll('.for-print').length"), 0)
+        self.browser.call("Emulation.setEmulatedMedia", media="print")
+        self.browser.set_size(1030, 1400)
+        self.browser.ask("dispatchEvent(new Event('beforeprint'))")
+        rows = self.browser.ask("[...document.querySelectorAll('#events > tbody > tr')]"
+                                ".map((row) => row.textContent)")
+        for row, event in zip(rows, self.run_of(self.quadrotor)["events"]):
+            for change in event["changes"]:
+                self.assertIn(change["behavior"], row)
+                self.assertIn(change["cause"], row)
+        self.browser.screenshot(OUT / "print.png", whole=True)
+        self.browser.ask("dispatchEvent(new Event('afterprint'))")
+        self.browser.call("Emulation.setEmulatedMedia", media="")
+
+    def test_two_thousand_events(self):
+        made = solve("long", QUADROTOR, long_script(2000))
+        self.events = self.run_of(made)["events"]
+        self.assertGreaterEqual(len(self.events), 2000)
+        begin = time.monotonic()
+        self.open(made)
+        for _ in range(100):
+            self.browser.key("ArrowRight")
+        self.assert_shows(101)
+        self.browser.key("End")
+        self.assert_shows(len(self.events))
+        self.browser.screenshot(OUT / "long.png")
+        for _ in range(8):
+            self.click("#zoom-in")
+        self.browser.key("Home")
+        self.assert_shows(1)
+        self.browser.screenshot(OUT / "long-zoomed.png")
+        # Not how fast it is, but that it can be used at all.
+        self.assertLess(time.monotonic() - begin, 30)
+        self.assertLess(self.browser.ask("document.querySelectorAll('#svg *').length"), 20_000)
+
+    def test_hostile_names(self):
+        made = solve("hostile", *hostile_files())
+        self.open(made)
+        self.events = self.run_of(made)["events"]
+        data = self.browser.ask("JSON.parse(document.querySelector('#data').textContent)")
+        self.assertEqual(data["report"], made[1])
+        for number in range(1, len(self.events) + 1):
+            self.assert_shows(number)
+            self.browser.key("ArrowRight")
+        labels = self.browser.ask("[...document.querySelectorAll('#labels div')]"
+                                  ".map((label) => label.textContent)")
+        for name in [HOSTILE_TASK, *HOSTILE_BEHAVIORS]:
+            self.assertIn(name, labels)
+        self.assertEqual(self.browser.ask("document.querySelectorAll('img, b, body script').length"), 2)
+        self.browser.screenshot(OUT / "hostile.png")
+
+    def test_several_runs_and_failed_expectations(self):
+        wrong = write("wrong.mission.yaml", {"events": [
+            {"start": "HOVER"}, {"start": "LAND", "priority": 3, "at": 2},
+            {"expect": {"running": {"HOVER": "any"}}}]})
+        empty = write("empty.mission.yaml", {"events": []})
+        made = solve("several", QUADROTOR, wrong, "catalogs/quadrotor.mission.yaml", empty)
+        self.open(made)
+        self.assertEqual(self.browser.ask("document.querySelectorAll('#run option').length"), 3)
+        failure = self.run_of(made)["expectations"]["failures"][0]["message"]
+        self.assertIn(failure, self.text("#alarms"))
+        self.assertIn(failure, self.text("#events tbody tr:nth-child(2)"))
+        self.click("#alarms button")
+        self.assertEqual(self.number(), 2)
+        self.browser.screenshot(OUT / "failed.png")
+        self.choose_run(1)
+        self.events = self.run_of(made, 1)["events"]
+        self.assert_shows(1)
+        self.assertTrue(self.browser.ask("document.querySelector('#alarms').hidden"))
+        self.choose_run(2)
+        self.assertEqual(self.status(), "No events.")
+        self.browser.key("ArrowRight")
+        self.assertEqual(self.status(), "No events.")
+
+    def test_reactive_starts_timeouts_and_restarts(self):
+        case = "tests/golden/cases/"
+        made = solve("reactive", case + "reactive_queue/catalog.yaml",
+                     case + "reactive_queue/script.yaml")
+        self.open(made)
+        events = self.run_of(made)["events"]
+        started = [event for event in events
+                   if event["origin"] == "reactive" and event["outcome"] == "accepted"]
+        self.assertGreater(len(started), 0)
+        for event in started:
+            self.assertEqual(self.text(f".mark[data-event='{event['index']}'] text"),
+                             f"{event['index']} r")
+        self.assertGreaterEqual(
+            self.browser.ask("document.querySelectorAll('#svg .span.reactive').length"), 1)
+        self.browser.screenshot(OUT / "reactive.png")
+        made = solve("timeouts", case + "timeouts/catalog.yaml", case + "timeouts/script.yaml")
+        self.open(made)
+        for event in self.run_of(made)["events"]:
+            mark = self.text(f".mark[data-event='{event['index']}'] text")
+            self.assertEqual(mark.endswith(" t"), event["origin"] == "timeout")
+        made = solve("restart", case + "restart/catalog.yaml", case + "restart/script.yaml")
+        self.open(made)
+        restarts = [event["index"] for event in self.run_of(made)["events"]
+                    if any(change["cause"] == "restarted" for change in event["changes"])]
+        self.assertGreater(len(restarts), 0)
+        for number in restarts:
+            row = self.text(f"#events > tbody > tr:nth-child({number})")
+            self.assertIn("restarts \u2013 its parameters changed", row)
+        self.browser.screenshot(OUT / "restart.png")
+
+    def choose_run(self, place):
+        self.browser.ask(f"(() => {{ const run = document.querySelector('#run'); run.value = {place};"
+                         "run.dispatchEvent(new Event('change')); })()")
+        self.browser.settle()
+
+    def test_pictures_to_look_at(self):
+        for scheme in ("light", "dark"):
+            self.browser.set_scheme(scheme)
+            self.open(self.target)
+            for _ in range(5):
+                self.browser.key("ArrowRight")
+            self.browser.set_size(1600, 1600)
+            self.browser.screenshot(OUT / f"target-following-{scheme}.png")
+            self.open(self.quadrotor)
+            self.browser.screenshot(OUT / f"quadrotor-{scheme}.png")
+        self.browser.set_size(420, 900)
+        self.browser.screenshot(OUT / "narrow.png", whole=True)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
