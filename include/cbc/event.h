@@ -40,6 +40,7 @@ enum class ChangeCause : std::uint8_t {
   undone      ///< takes back an earlier change of the same event
 };
 
+/// The names of the enumerators, as scripts and reports have them; of enumerators only.
 [[nodiscard]] std::string_view name_of(Verb verb);
 [[nodiscard]] std::string_view name_of(FinishCause cause);
 [[nodiscard]] std::string_view name_of(Origin origin);
@@ -60,8 +61,8 @@ struct Event {
   /// Parameters of a start in canonical form: two are the same data iff the texts are equal; the
   /// empty text is "none". Absent: not given.
   std::optional<std::string_view> parameters;
-  FinishCause cause = FinishCause::goal_achieved;
-  std::span<const Availability> situation;
+  FinishCause cause = FinishCause::goal_achieved;  ///< of finish
+  std::span<const Availability> situation;  ///< of situation; what is not in it stays as it was
 };
 
 }  // namespace cbc

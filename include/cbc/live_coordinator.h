@@ -24,7 +24,7 @@ struct LiveOptions {
   Microseconds time_limit = 0;  ///< 0 to longest_time; 0: no limit
 };
 
-/// What became of a call. But for ok and too_many_events, it changed nothing.
+/// What became of a call. But for ok, too_many_events and internal_error, it changed nothing.
 enum class [[nodiscard]] LiveStatus : std::uint8_t{
     ok,
     invalid_time,        ///< before now(), or after longest_time

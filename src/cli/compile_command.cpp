@@ -175,7 +175,7 @@ int check(const CompileCommand& command) {
   const std::string output = output_of(command);
   std::error_code error;
   if (!fs::exists(output, error) && !error) return say_stale(output, "it does not exist");
-  const MappedFile memory = map_file(output);
+  const MappedFile memory = map_file(output, largest_compiled_file);
   if (memory.memory == nullptr) {
     complain(fmt::format("cannot read {}: {}", quote(output), memory.error));
     return exit_unusable;

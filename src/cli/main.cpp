@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <unistd.h>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -96,11 +97,21 @@ int run(int argc, char** argv) {
   return status;
 }
 
+/// Compiled catalogs are read where they lie in the file: this is how the system tells that it was
+/// cut off meanwhile.
+void end_without_file(int /*signal*/) {
+  constexpr std::string_view message = "cbc: a compiled catalog was cut off while it was in use\n";
+  const auto ignored = write(STDERR_FILENO, message.data(), message.size());
+  static_cast<void>(ignored);
+  _exit(cbc::cli::exit_unusable);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   // A file that may not grow any more is an output that cannot be written, not the end.
   std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGBUS, end_without_file);
   try {
     return run(argc, argv);
   } catch (const std::system_error& error) {

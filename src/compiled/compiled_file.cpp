@@ -22,7 +22,9 @@ CompiledFileResult open(MappedFile memory) {
 
 }  // namespace
 
-CompiledFileResult load_compiled(const std::string& path) { return open(map_file(path)); }
+CompiledFileResult load_compiled(const std::string& path) {
+  return open(map_file(path, largest_compiled_file));
+}
 
 CompiledFileResult read_compiled(std::string_view content) { return open(copy_to_memory(content)); }
 

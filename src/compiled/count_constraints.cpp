@@ -1,5 +1,8 @@
 #include "compiled/count_constraints.h"
 
+#include <algorithm>
+#include <numeric>
+
 namespace cbc {
 namespace {
 
@@ -7,27 +10,42 @@ namespace {
 class PairCounter {
  public:
   explicit PairCounter(const CompiledCatalog& catalog)
-      : catalog_(catalog),
-        seen_(catalog.tasks.size(), none),
-        met_(catalog.cliques.size(), none),
-        is_apart_(catalog.cliques.size(), 0) {
-    for (std::uint32_t clique = 0; clique < is_apart_.size(); ++clique) {
-      is_apart_[clique] = shares_no_pair(clique) ? 1 : 0;
+      : catalog_(catalog), seen_(catalog.tasks.size(), none) {}
+
+  /// In one group. Tasks that are in the same cliques exclude the same tasks (and each other), so
+  /// that these are counted once for all of them.
+  std::uint64_t count(std::uint32_t group) {
+    tasks_.resize(catalog_.group_tasks[group + 1] - catalog_.group_tasks[group]);
+    std::iota(tasks_.begin(), tasks_.end(), catalog_.group_tasks[group]);
+    std::sort(tasks_.begin(), tasks_.end(), [this](TaskId a, TaskId b) {
+      const auto first = catalog_.task_cliques[a];
+      const auto second = catalog_.task_cliques[b];
+      return std::lexicographical_compare(first.begin(), first.end(), second.begin(), second.end());
+    });
+    std::uint64_t ends_of_pairs = 0;
+    for (auto alike = tasks_.begin(); alike != tasks_.end();) {
+      const auto end = std::find_if_not(alike, tasks_.end(),
+                                        [&](TaskId task) { return are_in_the_same(*alike, task); });
+      ends_of_pairs += static_cast<std::uint64_t>(end - alike) * count_excluded(*alike);
+      alike = end;
     }
+    return ends_of_pairs / 2;
   }
 
-  /// Of `task`, with tasks after it.
-  std::uint64_t count(TaskId task) {
+ private:
+  [[nodiscard]] bool are_in_the_same(TaskId a, TaskId b) const {
+    const auto first = catalog_.task_cliques[a];
+    const auto second = catalog_.task_cliques[b];
+    return std::equal(first.begin(), first.end(), second.begin(), second.end());
+  }
+
+  /// Number of tasks that share a clique with `task`.
+  std::uint64_t count_excluded(TaskId task) {
     std::uint64_t count = 0;
+    seen_[task] = task;
     for (const std::uint32_t clique : catalog_.task_cliques[task]) {
-      const std::span<const TaskId> tasks = catalog_.cliques[clique];
-      if (is_apart_[clique] != 0) {
-        // Nobody else counts these pairs, so they need not be looked at.
-        if (task == tasks.front()) count += std::uint64_t{tasks.size()} * (tasks.size() - 1) / 2;
-        continue;
-      }
-      for (const TaskId other : tasks) {
-        if (other <= task || seen_[other] == task) continue;
+      for (const TaskId other : catalog_.cliques[clique]) {
+        if (seen_[other] == task) continue;
         seen_[other] = task;
         ++count;
       }
@@ -35,28 +53,9 @@ class PairCounter {
     return count;
   }
 
- private:
-  /// Whether no other clique has two tasks of this one. Says no, too, where finding that out takes
-  /// longer than going through its pairs.
-  bool shares_no_pair(std::uint32_t clique) {
-    const std::span<const TaskId> tasks = catalog_.cliques[clique];
-    std::uint64_t work_left = std::uint64_t{tasks.size()} * tasks.size();
-    for (const TaskId task : tasks) {
-      const std::span<const std::uint32_t> others = catalog_.task_cliques[task];
-      if (others.size() > work_left) return false;
-      work_left -= others.size();
-      for (const std::uint32_t other : others) {
-        if (other != clique && met_[other] == clique) return false;
-        met_[other] = clique;
-      }
-    }
-    return true;
-  }
-
   const CompiledCatalog& catalog_;
-  std::vector<TaskId> seen_;            ///< by task: the last one that met it in `count`
-  std::vector<std::uint32_t> met_;      ///< by clique: the last one that met it, by a common task
-  std::vector<std::uint8_t> is_apart_;  ///< by clique
+  std::vector<TaskId> seen_;   ///< by task: the last one that was found to exclude it
+  std::vector<TaskId> tasks_;  ///< of a group, those in the same cliques side by side
 };
 
 }  // namespace
@@ -64,10 +63,10 @@ class PairCounter {
 std::vector<ConstraintCount> count_constraints(const CompiledCatalog& catalog) {
   std::vector<ConstraintCount> counts(catalog.group_count());
   PairCounter pairs(catalog);
-  for (std::size_t group = 0; group < counts.size(); ++group) {
+  for (std::uint32_t group = 0; group < counts.size(); ++group) {
     ConstraintCount& count = counts[group];
+    count.exclusive_pairs = pairs.count(group);
     for (TaskId task = catalog.group_tasks[group]; task < catalog.group_tasks[group + 1]; ++task) {
-      count.exclusive_pairs += pairs.count(task);
       if (catalog.tasks[task].minimum_performance > 0) ++count.task_minimums;
     }
     for (BehaviorId behavior = catalog.group_behaviors[group];

@@ -248,7 +248,7 @@ class Decoder {
   }
 
   /// False if the items do not lie where they can be used: the verifier of FlatBuffers looks after
-  /// bounds only.
+  /// bounds only, and after presence where a field is `required`, as all are up to format 1.
   template <typename T, typename Items>
   [[nodiscard]] static bool take(const flatbuffers::Vector<Items>* items, std::span<const T>& to) {
     static_assert(is_stored_as_it_is<T>);

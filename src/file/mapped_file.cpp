@@ -33,7 +33,7 @@ class Descriptor {
 
 }  // namespace
 
-MappedFile map_file(const std::string& path) {
+MappedFile map_file(const std::string& path, std::size_t largest) {
   const Descriptor file(path);
   if (file.number() < 0) return fail(errno);
   struct stat status {};
@@ -43,6 +43,10 @@ MappedFile map_file(const std::string& path) {
   if (status.st_size == 0) return copy_to_memory({});
 
   const auto size = static_cast<std::size_t>(status.st_size);
+  // Asked before all of it is read, which mapping does.
+  if (size > largest) {
+    return {nullptr, {}, "it is larger than " + std::to_string(largest >> 20) + " MiB"};
+  }
   void* const begin = mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file.number(), 0);
   if (begin == MAP_FAILED) return fail(errno);
   MappedFile mapped;

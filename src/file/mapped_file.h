@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,8 +14,8 @@ struct MappedFile {
   std::string error;
 };
 
-/// Maps a regular file into memory, read-only.
-[[nodiscard]] MappedFile map_file(const std::string& path);
+/// Maps a regular file of at most `largest` bytes into memory, read-only.
+[[nodiscard]] MappedFile map_file(const std::string& path, std::size_t largest);
 
 /// Memory with a copy of a content.
 [[nodiscard]] MappedFile copy_to_memory(std::string_view content);

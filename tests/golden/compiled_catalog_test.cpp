@@ -1,8 +1,14 @@
 // Compiled catalogs in the place of YAML, for all commands.
+#include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "golden/compiled_files.h"
@@ -122,6 +128,27 @@ TEST_F(CompiledCatalog, GivesLintNoText) {
   const Result both = cbc({"lint", "robot.cbc", "robot.yaml"});
   expect_result(both, 2, "no findings in 1 file\n", complaint);
   EXPECT_EQ(folder.read("robot.yaml"), robot);
+}
+
+bool has_mapped(pid_t process, std::string_view file) {
+  const std::string maps = read_file(fmt::format("/proc/{}/maps", process));
+  return maps.find(file) != std::string::npos;
+}
+
+/// The catalog is cut off when it is in memory already, and the script has yet to come.
+TEST_F(CompiledCatalog, ThatIsCutOffMeanwhileEndsTheProgramWithAMessage) {
+  compile_robot();
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const int pipe = open((folder / "pipe").c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_GE(pipe, 0);
+  const Call call{{"solve", "robot.cbc", "-"}, folder.path(), folder / "pipe"};
+  const Result result = run(call, [&](pid_t process) {
+    for (int wait = 0; wait < 2000 && !has_mapped(process, "robot.cbc"); ++wait) usleep(5000);
+    fs::resize_file(folder / "robot.cbc", 0);
+    EXPECT_EQ(write(pipe, script, std::strlen(script)), static_cast<ssize_t>(std::strlen(script)));
+    close(pipe);
+  });
+  expect_result(result, 2, "", "cbc: a compiled catalog was cut off while it was in use\n");
 }
 
 /// In folders, lint looks for catalogs to mend.

@@ -95,9 +95,12 @@ TEST(CompiledFile, SaysWhyItCannotBeLoaded) {
   const test::ScratchFolder folder;
   folder.write("empty", "");
   folder.write("catalog.yaml", test::rich_catalog);
+  folder.write("huge", test::compiled_bytes(test::rich_catalog));
+  std::filesystem::resize_file(folder / "huge", largest_compiled_file + 1);  // takes no space
   EXPECT_EQ(error_of(folder / "missing"), "No such file or directory");
   EXPECT_EQ(error_of(folder.path()), "Is a directory");
   EXPECT_EQ(error_of("/dev/null"), "it is not a regular file");
+  EXPECT_EQ(error_of(folder / "huge"), "it is larger than 1024 MiB");
   EXPECT_EQ(error_of(folder / "empty"), "it is not a compiled catalog");
   EXPECT_EQ(error_of(folder / "catalog.yaml"), "it is not a compiled catalog");
 }
@@ -123,7 +126,7 @@ TEST(CompiledFile, OfANewerFormatIsRefusedByItsNumber) {
   const std::size_t place = place_of_format(bytes, content);
   bytes[place] = 7;
   // Whatever a newer format may hold.
-  bytes[content.begin + content.size / 2] ^= 1;
+  bytes.replace(content.begin, content.size, content.size, '\xFF');
   EXPECT_EQ(read_compiled(bytes).error, "its format is version 7, but cbc " + std::string(version) +
                                             " knows none above 1; a newer cbc can read it");
   bytes[place] = 0;
