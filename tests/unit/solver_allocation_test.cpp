@@ -21,7 +21,7 @@ TEST(SolverAllocation, TheCounterCounts) {
 TEST(SolverAllocation, NothingIsAllocatedInTheSearch) {
   test::Random random(11);
   std::uint64_t nodes = 0;
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < 80; ++round) {
     test::Shape shape;
     shape.tasks = static_cast<std::uint32_t>(random.between(2, 30));
     shape.most_behaviors = round % 10 == 0 ? 100 : 4;
