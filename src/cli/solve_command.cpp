@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "cli/exit_status.h"
+#include "cli/explain_options.h"
 #include "cli/input.h"
 #include "cli/mission.h"
 #include "cli/terminal.h"
@@ -37,6 +38,9 @@ constexpr const char* footer =
     "                                                 a script from standard input\n"
     "  cbc solve quadrotor.yaml mission.yaml --html mission.html\n"
     "                                                 a picture, too, for a browser\n"
+    "  cbc solve quadrotor.yaml mission.yaml --why HOVER --alternatives 3\n"
+    "                                                 why HOVER is as it is, and the three\n"
+    "                                                 best configurations, of each event\n"
     "  cbc solve quadrotor.yaml mission.yaml --max-solutions 5\n"
     "                                                 the best of the first 5 solutions only\n"
     "\n"
@@ -56,9 +60,11 @@ struct SolveOptions {
   std::uint64_t max_nodes = 0;
   std::optional<std::uint64_t> tie_seed;
   std::uint64_t max_clock_events = CoordinatorOptions{}.max_clock_events;
+  ExplainOptions explain;
 };
 
-CoordinatorOptions to_coordinator_options(const SolveOptions& options) {
+CoordinatorOptions to_coordinator_options(const SolveOptions& options,
+                                          const CompiledCatalog& catalog) {
   CoordinatorOptions result;
   result.search.max_solutions = options.max_solutions;
   result.search.max_nodes = options.max_nodes;
@@ -67,6 +73,8 @@ CoordinatorOptions to_coordinator_options(const SolveOptions& options) {
   }
   result.tie_seed = options.tie_seed;
   result.max_clock_events = options.max_clock_events;
+  result.explain = explanation_for(catalog, options.explain);
+  result.explain.displaced = options.format == "text";
   return result;
 }
 
@@ -106,8 +114,8 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
   int status = exit_ok;
   for (const Mission& mission : missions) {
     report.begin_run(*mission.catalog, mission.script);
-    const RunResult result =
-        run_script(*mission.catalog, mission.script, to_coordinator_options(options), report);
+    const RunResult result = run_script(*mission.catalog, mission.script,
+                                        to_coordinator_options(options, *mission.catalog), report);
     const std::string reason = describe_end(result, options);
     report.end_run(result, reason);
     if (!reason.empty()) complain(mission, result, reason);
@@ -131,13 +139,16 @@ int draw_missions(const std::vector<Mission>& missions, const SolveOptions& opti
 }
 
 std::unique_ptr<SolveReport> make_report(const SolveOptions& options) {
-  if (options.format == "json") return std::make_unique<JsonReport>(stdout);
+  if (options.format == "json") {
+    const JsonAdditions adds{!options.explain.why.empty(), options.explain.alternatives > 0};
+    return std::make_unique<JsonReport>(stdout, adds);
+  }
   return std::make_unique<TextReport>(wants_color(stdout) ? color_style() : plain_style(), stdout);
 }
 
 int solve(const SolveOptions& options) {
   const std::optional<std::vector<Mission>> missions = MissionLoader().load(options.paths);
-  if (!missions) return exit_unusable;
+  if (!missions || !knows_all_names(*missions, options.explain)) return exit_unusable;
   const std::unique_ptr<SolveReport> report = make_report(options);
   return options.html ? draw_missions(*missions, options, *report)
                       : run_missions(*missions, options, *report);
@@ -165,6 +176,7 @@ void add_solve_command(CLI::App& program, int& status) {
                    "Write a page with a timeline of all runs to FILE, too: to\n"
                    "step through in a browser, or to print")
       ->option_text("FILE");
+  add_explain_options(*command, options->explain);
   command
       ->add_option("--max-solutions", options->max_solutions,
                    "Take the best of the first M solutions, in the order of\n"

@@ -1,6 +1,7 @@
 #include "coordinator/conflict.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "explain/constraints.h"
 #include "explain/minimal_set.h"
@@ -15,16 +16,16 @@ constexpr std::size_t most_candidates = 20'000;
 /// All that may speak against the event.
 class Candidates {
  public:
-  Candidates(const CompiledCatalog& catalog, const State& state, const Trigger& trigger,
-             std::span<const BehaviorId> failed)
+  Candidates(const CompiledCatalog& catalog, const Circumstances& circumstances)
       : catalog_(catalog),
-        state_(state),
-        trigger_(trigger),
-        failed_(failed),
-        relevant_(catalog, trigger.group) {}
+        state_(circumstances.state),
+        trigger_(circumstances.trigger),
+        protection_(circumstances.protection),
+        failed_(circumstances.failed),
+        relevant_(catalog, trigger_.group) {}
 
-  std::vector<Reason> collect() && {
-    find_relevant_tasks();
+  std::vector<Reason> collect(std::span<const Demands> ways) && {
+    find_relevant_tasks(ways);
     for (const TaskId task : relevant_.tasks()) {
       add_exclusions(catalog_, task, relevant_, most_candidates + 1, reasons_);
       add_state(task);
@@ -39,10 +40,14 @@ class Candidates {
 
  private:
   [[nodiscard]] bool is_protected(TaskId task) const {
-    return task != trigger_.task && cbc::is_protected(state_, trigger_, task, trigger_.priority);
+    return task != trigger_.task && !has_finished(state_, trigger_, task) &&
+           cbc::is_protected(state_, trigger_, task, protection_);
   }
 
-  void find_relevant_tasks() {
+  void find_relevant_tasks(std::span<const Demands> ways) {
+    for (const Demands& demands : ways) {
+      for (const Demand& demand : demands) relevant_.add(demand.task);
+    }
     for (TaskId task = catalog_.group_tasks[trigger_.group];
          task < catalog_.group_tasks[trigger_.group + 1]; ++task) {
       if (task == trigger_.task || is_protected(task)) relevant_.add(task);
@@ -68,7 +73,8 @@ class Candidates {
     Reason reason;
     reason.behavior = behavior;
     if (std::find(failed_.begin(), failed_.end(), behavior) != failed_.end()) {
-      reason.kind = Reason::Kind::faulty;
+      // The one that a finish event is about is in this list if it failed.
+      reason.kind = behavior == trigger_.behavior ? Reason::Kind::finished : Reason::Kind::faulty;
       reasons_.push_back(reason);
     } else if (!state_.is_available(behavior)) {
       reason.kind = Reason::Kind::unavailable;
@@ -79,37 +85,76 @@ class Candidates {
   const CompiledCatalog& catalog_;
   const State& state_;
   const Trigger& trigger_;
+  const std::int32_t protection_;
   const std::span<const BehaviorId> failed_;
   RelevantTasks relevant_;
   std::vector<Reason> reasons_;
 };
 
+/// What the event alone asks for.
+Demands demands_of(const CompiledCatalog& catalog, const State& state, const Trigger& trigger) {
+  switch (trigger.kind) {
+    case Trigger::Kind::start:
+      return {{Demand::Kind::run, trigger.task, none}};
+    case Trigger::Kind::stop:
+      return {{Demand::Kind::stop, trigger.task, none}};
+    case Trigger::Kind::finish:
+      break;
+  }
+  Demands demands;
+  if (trigger.cause != FinishCause::goal_achieved) return demands;
+  for (const ValueId value : catalog.performs[trigger.behavior]) {
+    const TaskId task = catalog.task_of(value);
+    if (has_finished(state, trigger, task)) demands.push_back({Demand::Kind::stop, task, none});
+  }
+  return demands;
+}
+
 }  // namespace
 
-std::vector<Reason> find_conflict(const CompiledCatalog& catalog, const State& state,
-                                  const Trigger& trigger, std::span<const BehaviorId> failed) {
-  const bool is_start = trigger.kind == Trigger::Kind::start;
-  if (is_start && catalog.values[trigger.task].empty()) {
+std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
+                                                const Circumstances& circumstances,
+                                                std::span<const Demands> ways) {
+  const Trigger& trigger = circumstances.trigger;
+  const std::vector<Reason> candidates = Candidates(catalog, circumstances).collect(ways);
+  if (candidates.size() > most_candidates) return std::nullopt;
+
+  // Keeping a behavior is no activation, unless it has just finished.
+  std::vector<std::uint32_t> present;
+  for (TaskId task = catalog.group_tasks[trigger.group];
+       task < catalog.group_tasks[trigger.group + 1]; ++task) {
+    const bool is_kept = !has_finished(circumstances.state, trigger, task);
+    present.push_back(is_kept ? circumstances.state.place(task) : none);
+  }
+  std::vector<RelaxedProblem> problems;
+  problems.reserve(ways.size());
+  for (const Demands& way : ways) {
+    Demands demands = demands_of(catalog, circumstances.state, trigger);
+    demands.insert(demands.end(), way.begin(), way.end());
+    problems.emplace_back(catalog, trigger.group, present, std::move(demands));
+  }
+  const HasSolution has_solution = [&problems](std::span<const Reason> reasons) {
+    return std::any_of(problems.begin(), problems.end(), [&](RelaxedProblem& problem) {
+      return problem.solve(reasons) != Feasibility::no;
+    });
+  };
+  if (!has_solution({})) return std::vector<Reason>();
+  if (has_solution(candidates)) return std::nullopt;
+  return minimal_set(candidates, has_solution);
+}
+
+std::vector<Reason> find_conflict(const CompiledCatalog& catalog,
+                                  const Circumstances& circumstances) {
+  const Trigger& trigger = circumstances.trigger;
+  if (trigger.kind == Trigger::Kind::start && catalog.values[trigger.task].empty()) {
     Reason reason;
     reason.kind = Reason::Kind::no_behavior;
     reason.task = trigger.task;
     return {reason};
   }
-  const std::vector<Reason> candidates = Candidates(catalog, state, trigger, failed).collect();
-  if (candidates.empty() || candidates.size() > most_candidates) return {};
-
-  std::vector<std::uint32_t> present;
-  for (TaskId task = catalog.group_tasks[trigger.group];
-       task < catalog.group_tasks[trigger.group + 1]; ++task) {
-    present.push_back(state.place(task));
-  }
-  RelaxedProblem problem(catalog, trigger.group, present, trigger.task,
-                         is_start ? RelaxedProblem::Goal::run : RelaxedProblem::Goal::stop);
-  const HasSolution has_solution = [&problem](std::span<const Reason> reasons) {
-    return problem.solve(reasons) != Feasibility::no;
-  };
-  if (has_solution(candidates)) return {};
-  return minimal_set(candidates, has_solution);
+  const Demands nothing_else;
+  return find_reasons(catalog, circumstances, std::span(&nothing_else, 1))
+      .value_or(std::vector<Reason>());
 }
 
 }  // namespace cbc

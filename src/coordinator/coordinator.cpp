@@ -146,6 +146,7 @@ void Coordinator::open_record(Origin origin, Verb verb) {
   record_.objective.reset();
   record_.search = nullptr;
   record_.conflict.clear();
+  record_.explanation.clear();
   record_.index = index;
   record_.time = now_;
   record_.origin = origin;
@@ -264,6 +265,7 @@ Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
     }
     const auto failed = transition_.apply(solution_, behavior_to_restart(trigger), now_);
     if (!failed) {
+      explain(trigger, *problem);
       accept(trigger, *problem);
       return report();
     }
@@ -362,11 +364,28 @@ void Coordinator::accept(const Trigger& trigger, const Problem& problem) {
   update_queue();
 }
 
+/// Explains the solution, as far as that is asked for. Displaced requests are looked for first, so
+/// that nothing is set up where there are none.
+void Coordinator::explain(const Trigger& trigger, const Problem& problem) {
+  if (!options_.explain.asks_for_any() || search_.result.status != SearchStatus::optimal) return;
+  const bool is_only_of_displaced =
+      options_.explain.why.empty() && options_.explain.alternatives == 0;
+  const auto is_displaced = [&](std::uint32_t task) { return solution_[task] == none; };
+  if (is_only_of_displaced &&
+      std::none_of(problem.requests.begin(), problem.requests.end(), is_displaced)) {
+    return;
+  }
+  if (!explainer_) explainer_.emplace(catalog_, ranks_, options_.explain);
+  explainer_->explain({state_, trigger, search_.protection, question_.excluded()}, problem,
+                      solution_, record_.explanation);
+}
+
 /// Nothing changes, but for behaviors that could not be activated again, which are lost.
 Coordinator::Status Coordinator::reject(const Trigger& trigger) {
   record_.outcome = Outcome::rejected;
   if (options_.find_conflicts && search_.result.status == SearchStatus::infeasible) {
-    record_.conflict = find_conflict(catalog_, state_, trigger, question_.excluded());
+    record_.conflict =
+        find_conflict(catalog_, {state_, trigger, search_.protection, question_.excluded()});
   }
   // The first comes last, to finish next.
   const std::vector<BehaviorId>& lost = transition_.take_back(now_);

@@ -9,6 +9,8 @@
 #include "cbc/event.h"
 #include "cbc/units.h"
 #include "compiled/compiled_catalog.h"
+#include "coordinator/explainer.h"
+#include "coordinator/explanation.h"
 #include "coordinator/question.h"
 #include "coordinator/record.h"
 #include "coordinator/state.h"
@@ -23,6 +25,7 @@ struct CoordinatorOptions {
   Microseconds reactive_delay = 80'000;        ///< delta of section 6; over 0
   std::uint64_t max_clock_events = 1'000'000;  ///< events that no script asked for
   bool find_conflicts = true;                  ///< finds the reasons of rejections
+  ExplanationOptions explain;                  ///< of accepted events
   /// Orders behaviors of equal suitability at random instead of in catalog order.
   std::optional<std::uint64_t> tie_seed;
 };
@@ -40,7 +43,7 @@ class EventListener {
 /// later call goes on with them, if restart_count() allows for more. After refused_answer the
 /// coordinator must not be used any more.
 ///
-/// Nothing is allocated on an event, but for the reasons of a rejection, once the buffers have the
+/// Nothing is allocated on an event, but for reasons and explanations, once the buffers have the
 /// sizes that the events need.
 class Coordinator {
  public:
@@ -99,6 +102,7 @@ class Coordinator {
   void note_domain_sizes(const Problem& problem);
   [[nodiscard]] BehaviorId behavior_to_restart(const Trigger& trigger) const;
   void accept(const Trigger& trigger, const Problem& problem);
+  void explain(const Trigger& trigger, const Problem& problem);
   Status reject(const Trigger& trigger);
   void assign(const Trigger& trigger);
   void update_timeouts(std::uint32_t group);
@@ -119,6 +123,7 @@ class Coordinator {
   Transition transition_;
   Solver solver_;
   Checker checker_;
+  std::optional<Explainer> explainer_;
   Assignment solution_;
   std::vector<TaskId> started_;
   std::vector<TaskId> stopped_;

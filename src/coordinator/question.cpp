@@ -10,6 +10,10 @@ bool is_protected(const State& state, const Trigger& trigger, TaskId task,
   return trigger.is_reactive || state.request(task).priority > protection;
 }
 
+bool has_finished(const State& state, const Trigger& trigger, TaskId task) {
+  return trigger.kind == Trigger::Kind::finish && state.behavior(task) == trigger.behavior;
+}
+
 Question::Question(const CompiledCatalog& catalog, const State& state)
     : catalog_(catalog), state_(state) {}
 
@@ -38,10 +42,6 @@ void Question::load(const Trigger& trigger, std::uint64_t event) {
       trigger.cause != FinishCause::situation_change) {
     exclude(trigger.behavior);
   }
-}
-
-bool Question::has_finished(TaskId task) const {
-  return trigger_.kind == Trigger::Kind::finish && state_.behavior(task) == trigger_.behavior;
 }
 
 void Question::find_active() {

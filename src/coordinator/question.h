@@ -30,6 +30,9 @@ struct Trigger {
 [[nodiscard]] bool is_protected(const State& state, const Trigger& trigger, TaskId task,
                                 std::int32_t protection);
 
+/// Whether the behavior that has finished performed the task.
+[[nodiscard]] bool has_finished(const State& state, const Trigger& trigger, TaskId task);
+
 /// Turns a trigger and the state into the constraint problem of its group (semantics: section 4).
 class Question {
  public:
@@ -53,8 +56,9 @@ class Question {
   /// The behaviors that were active just before the event, in BehaviorId order; one that has
   /// finished is none of them.
   [[nodiscard]] const std::vector<BehaviorId>& active_before() const { return problem_.active; }
-  /// Whether the behavior that has finished performed the task.
-  [[nodiscard]] bool has_finished(TaskId task) const;
+  [[nodiscard]] bool has_finished(TaskId task) const {
+    return cbc::has_finished(state_, trigger_, task);
+  }
 
  private:
   void find_active();

@@ -9,6 +9,8 @@
 #include "cbc/event.h"
 #include "cbc/units.h"
 #include "compiled/compiled_catalog.h"
+#include "coordinator/explanation.h"
+#include "explain/configuration.h"
 #include "explain/reason.h"
 #include "solver/problem.h"
 
@@ -30,15 +32,6 @@ struct Change {
 struct StoppedTask {
   TaskId task = 0;
   FinishCause cause = FinishCause::interrupted;
-};
-
-/// The objectives of an accepted solution, over the whole catalog. f2 is a property of the state.
-struct ObjectiveValues {
-  std::uint32_t satisfied = 0;     ///< r of f1
-  std::uint32_t requests = 0;      ///< n of f1
-  std::uint32_t idle_total = 0;    ///< t of f3
-  std::uint32_t idle_running = 0;  ///< a of f3
-  std::uint32_t changes = 0;       ///< c of f4
 };
 
 struct SearchRecord {
@@ -67,6 +60,7 @@ struct EventRecord {
   std::optional<ObjectiveValues> objective;
   const SearchRecord* search = nullptr;  ///< null: there was none
   std::vector<Reason> conflict;          ///< of a rejected event: a minimal set of reasons
+  Explanation explanation;               ///< of an accepted event, what was asked for
 
   /// The tasks that one of the changes is about.
   [[nodiscard]] std::span<const TaskId> tasks_of(const Change& change) const {

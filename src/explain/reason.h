@@ -9,7 +9,7 @@
 
 namespace cbc {
 
-/// One of the reasons why an event is rejected.
+/// One of the reasons why an event is rejected, or why an accepted one did not do otherwise.
 struct Reason {
   enum class Kind : std::uint8_t {
     priority,       ///< the task's own request is stronger than the event; comes alone
@@ -20,7 +20,8 @@ struct Reason {
     requires_task,  ///< where the behavior is assigned, the task runs
     performance,    ///< where it is (or, without a behavior, always), the task performs well enough
     unavailable,    ///< the behavior cannot be activated in the present situation
-    faulty          ///< the activation of the behavior failed in this event
+    faulty,         ///< the activation of the behavior failed in this event
+    finished        ///< the behavior of a finish event, where it failed; never of a rejected one
   };
   Kind kind = Kind::priority;
   TaskId task = none;

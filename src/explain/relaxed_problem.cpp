@@ -6,11 +6,10 @@
 namespace cbc {
 
 RelaxedProblem::RelaxedProblem(const CompiledCatalog& catalog, std::uint32_t group,
-                               const std::vector<std::uint32_t>& present, TaskId task, Goal goal)
+                               const std::vector<std::uint32_t>& present, Demands demands)
     : catalog_(catalog),
       present_(present),
-      task_(task),
-      goal_(goal),
+      demands_(std::move(demands)),
       first_task_(catalog.group_tasks[group]),
       end_task_(catalog.group_tasks[group + 1]),
       first_value_(catalog.values.begin[first_task_]),
@@ -64,12 +63,8 @@ bool RelaxedProblem::begin(Domains& domains, std::span<const Reason> reasons) {
   for (TaskId task = first_task_; task < end_task_; ++task) {
     domains.counts.push_back(static_cast<std::uint32_t>(catalog_.values[task].size()));
   }
-  if (goal_ == Goal::run ? !need(domains, task_) : !close(domains, task_)) return false;
-  if (goal_place_ != none) {
-    for (std::uint32_t place = 0; place < catalog_.values[task_].size(); ++place) {
-      // One value is left, so no removal fails.
-      if (place != goal_place_) (void)remove(domains, task_, place);
-    }
+  for (const Demand& each : demands_) {
+    if (!demand(domains, each)) return false;
   }
   if (low_task_ != none && !need(domains, low_task_)) return false;
   for (const Reason& reason : reasons) {
@@ -82,6 +77,7 @@ bool RelaxedProblem::begin(Domains& domains, std::span<const Reason> reasons) {
         break;
       case Reason::Kind::unavailable:
       case Reason::Kind::faulty:
+      case Reason::Kind::finished:
         for (const ValueId id : catalog_.performs[reason.behavior]) {
           const TaskId task = catalog_.task_of(id);
           const std::uint32_t place = id - catalog_.values.begin[task];
@@ -93,6 +89,24 @@ bool RelaxedProblem::begin(Domains& domains, std::span<const Reason> reasons) {
       default:
         break;
     }
+  }
+  return true;
+}
+
+bool RelaxedProblem::demand(Domains& domains, const Demand& demand) {
+  switch (demand.kind) {
+    case Demand::Kind::run:
+      return need(domains, demand.task);
+    case Demand::Kind::stop:
+      return close(domains, demand.task);
+    case Demand::Kind::has:
+      if (!need(domains, demand.task)) return false;
+      for (std::uint32_t place = 0; place < catalog_.values[demand.task].size(); ++place) {
+        if (place != demand.place && !remove(domains, demand.task, place)) return false;
+      }
+      return true;
+    case Demand::Kind::has_not:
+      return remove(domains, demand.task, demand.place);
   }
   return true;
 }

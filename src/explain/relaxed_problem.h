@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
+#include "explain/demand.h"
 #include "explain/reason.h"
 #include "solver/exact_product.h"
 
@@ -13,19 +14,14 @@ namespace cbc {
 /// Whether a problem has a solution; unknown at a limit of effort.
 enum class Feasibility : std::uint8_t { no, yes, unknown };
 
-/// A problem with only some of the reasons in force: one task runs, or stops; every other task of
-/// the group is free to have any of its behaviors or none; and there is no constraint but those of
-/// the reasons.
+/// A problem with only some of the reasons in force: the demands hold; every task of the group is
+/// free otherwise to have any of its behaviors or none; and there is no constraint but those of the
+/// reasons.
 class RelaxedProblem {
  public:
-  enum class Goal : std::uint8_t { run, stop };
-
   /// `present`: by task of the group, place of its behavior, or none.
   RelaxedProblem(const CompiledCatalog& catalog, std::uint32_t group,
-                 const std::vector<std::uint32_t>& present, TaskId task, Goal goal);
-
-  /// The task that runs does so with this value.
-  void run_with(std::uint32_t place) { goal_place_ = place; }
+                 const std::vector<std::uint32_t>& present, Demands demands);
 
   /// Only solutions count in which `task` runs, and performs less well than `minimum`.
   void keep_below(TaskId task, Millionths minimum) {
@@ -46,6 +42,7 @@ class RelaxedProblem {
     std::vector<std::uint8_t> needed;   ///< by task: whether it runs
   };
 
+  [[nodiscard]] bool demand(Domains& domains, const Demand& demand);
   [[nodiscard]] bool begin(Domains& domains, std::span<const Reason> reasons);
   [[nodiscard]] bool remove(Domains& domains, TaskId task, std::uint32_t place);
   [[nodiscard]] bool close(Domains& domains, TaskId task);
@@ -71,9 +68,7 @@ class RelaxedProblem {
 
   const CompiledCatalog& catalog_;
   const std::vector<std::uint32_t>& present_;
-  const TaskId task_;
-  const Goal goal_;
-  std::uint32_t goal_place_ = none;
+  const Demands demands_;
   TaskId low_task_ = none;
   Millionths low_minimum_ = 0;
   const TaskId first_task_;

@@ -26,10 +26,9 @@ Semantics::Semantics(const Catalog& catalog, AssignmentSearch& search, const Liv
       effort_left_(most_effort) {}
 
 RelaxedProblem Semantics::relaxed(const Goal& goal) const {
-  RelaxedProblem problem(compiled(), compiled().tasks[goal.task].group, nothing_present_, goal.task,
-                         RelaxedProblem::Goal::run);
-  problem.run_with(goal.place);
-  return problem;
+  const Demand::Kind kind = goal.place == none ? Demand::Kind::run : Demand::Kind::has;
+  const std::uint32_t group = compiled().tasks[goal.task].group;
+  return {compiled(), group, nothing_present_, {{kind, goal.task, goal.place}}};
 }
 
 Feasibility Semantics::solve(RelaxedProblem& problem, std::span<const Reason> reasons) {

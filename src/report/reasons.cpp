@@ -1,5 +1,8 @@
 #include "report/reasons.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "text/decimal.h"
@@ -12,13 +15,12 @@ std::string place(const CompiledCatalog& catalog, const Reason& reason) {
   return fmt::format(" ({}:{})", printable(catalog.file), reason.line);
 }
 
-std::string describe_protection(const EventRecord& record, const std::string& task,
-                                const Reason& reason) {
+std::string describe_protection(const EventRecord& record, const Reason& reason) {
   if (record.origin == Origin::reactive) {
-    return fmt::format("{} runs by request, and a reactive start stops no such task", task);
+    return "runs by request, and a reactive start stops no such task";
   }
-  return fmt::format("{} runs with priority {}, higher than {}", task, reason.priority,
-                     record.priority);
+  const std::int32_t level = record.search != nullptr ? record.search->protection : record.priority;
+  return fmt::format("runs with priority {}, higher than {}", reason.priority, level);
 }
 
 }  // namespace
@@ -38,7 +40,7 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
     case Reason::Kind::no_behavior:
       return fmt::format("no behavior performs {}", task);
     case Reason::Kind::is_protected:
-      return describe_protection(record, task, reason);
+      return fmt::format("{} {}", task, describe_protection(record, reason));
     case Reason::Kind::exclusive:
       return fmt::format("{} excludes {}", task, task_name(reason.other_task)) +
              place(catalog, reason);
@@ -55,8 +57,49 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
       return fmt::format("{} cannot be activated in the present situation", behavior);
     case Reason::Kind::faulty:
       return fmt::format("{} is faulty", behavior);
+    case Reason::Kind::finished:
+      return fmt::format("{} has just finished ({})", behavior, name_of(record.cause));
   }
   return {};
+}
+
+std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const EventRecord& record,
+                                          std::span<const Reason> reasons, TaskId it) {
+  std::vector<std::string> sentences;
+  std::vector<TaskId> told;  // protected tasks whose sentence is part of another one
+  const auto protection_of = [&](TaskId task) -> const Reason* {
+    const auto found = std::find_if(reasons.begin(), reasons.end(), [&](const Reason& reason) {
+      return reason.kind == Reason::Kind::is_protected && reason.task == task;
+    });
+    return found == reasons.end() || std::count(told.begin(), told.end(), task) > 0 ? nullptr
+                                                                                    : &*found;
+  };
+  for (const Reason& reason : reasons) {
+    if (reason.kind != Reason::Kind::exclusive) continue;
+    TaskId other = reason.task;
+    TaskId excluded = reason.other_task;
+    if (other == it || (excluded != it && protection_of(other) != nullptr)) {
+      std::swap(other, excluded);
+    }
+    const bool is_it = excluded == it;
+    std::string sentence = fmt::format("{} excludes {}", printable(catalog.name_of_task(other)),
+                                       is_it ? "it" : printable(catalog.name_of_task(excluded))) +
+                           place(catalog, reason);
+    const TaskId guarded = is_it ? other : excluded;
+    if (const Reason* const protection = protection_of(guarded)) {
+      sentence +=
+          fmt::format(", {} {}", is_it ? "and" : "which", describe_protection(record, *protection));
+      told.push_back(guarded);
+    }
+    sentences.push_back(std::move(sentence));
+  }
+  for (const Reason& reason : reasons) {
+    if (reason.kind == Reason::Kind::exclusive) continue;
+    if (reason.kind == Reason::Kind::is_protected && protection_of(reason.task) == nullptr)
+      continue;
+    sentences.push_back(describe_reason(catalog, record, reason));
+  }
+  return sentences;
 }
 
 }  // namespace cbc

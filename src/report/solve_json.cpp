@@ -8,6 +8,7 @@
 
 #include "compiled/search_space.h"
 #include "report/exact_values.h"
+#include "report/explanation_json.h"
 #include "report/json_text.h"
 #include "report/reasons.h"
 
@@ -106,9 +107,12 @@ Json search_to_json(const SearchRecord& search) {
           {"solutions", search.result.solutions},       {"nodes", search.result.nodes}};
 }
 
-Json conflict_to_json(const CompiledCatalog& catalog, const EventRecord& record) {
+}  // namespace
+
+Json reasons_to_json(const CompiledCatalog& catalog, const EventRecord& record,
+                     std::span<const Reason> reasons) {
   Json list = Json::array();
-  for (const Reason& reason : record.conflict) {
+  for (const Reason& reason : reasons) {
     Json& entry = list.emplace_back(Json::object());
     entry["kind"] = name_of(reason.kind);
     if (reason.behavior != none) entry["behavior"] = catalog.name_of_behavior(reason.behavior);
@@ -126,8 +130,6 @@ Json conflict_to_json(const CompiledCatalog& catalog, const EventRecord& record)
   return list;
 }
 
-}  // namespace
-
 Json event_to_json(const CompiledCatalog& catalog, const EventRecord& record, const Step* step,
                    const State& state) {
   Json json;
@@ -139,11 +141,13 @@ Json event_to_json(const CompiledCatalog& catalog, const EventRecord& record, co
   json["objective"] =
       record.objective ? objective_to_json(catalog, *record.objective, state) : Json(nullptr);
   json["search"] = record.search ? search_to_json(*record.search) : Json(nullptr);
-  json["conflict"] = conflict_to_json(catalog, record);
+  json["conflict"] = reasons_to_json(catalog, record, record.conflict);
   return json;
 }
 
-JsonReport::JsonReport(std::FILE* out) : out_(out) { write(R"({"schema":"cbc.solve/1","runs":[)"); }
+JsonReport::JsonReport(std::FILE* out, const JsonAdditions& adds) : out_(out), adds_(adds) {
+  write(R"({"schema":"cbc.solve/1","runs":[)");
+}
 
 void JsonReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
   catalog_ = &catalog;
@@ -156,7 +160,10 @@ void JsonReport::begin_run(const CompiledCatalog& catalog, const Script& script)
 
 void JsonReport::on_event(const EventRecord& record, const Step* step, const State& state) {
   begin_item(is_first_event_, "\n ");
-  write(to_text(event_to_json(*catalog_, record, step, state)));
+  Json event = event_to_json(*catalog_, record, step, state);
+  if (adds_.why) event["why"] = why_to_json(*catalog_, record, state);
+  if (adds_.alternatives) event["alternatives"] = alternatives_to_json(*catalog_, record, state);
+  write(to_text(event));
 }
 
 void JsonReport::on_failure(const Failure& failure) {

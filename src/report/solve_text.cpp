@@ -84,12 +84,13 @@ void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   }
 }
 
-void TextReport::on_event(const EventRecord& record, const Step* step, const State& /*state*/) {
+void TextReport::on_event(const EventRecord& record, const Step* step, const State& state) {
   fmt::print(out_, "{:>10}  {}{}{}{}\n", format_time(record.time), style_.strong,
              describe_event(*catalog_, record, step), style_.reset, describe_outcome(record));
   if (record.outcome == Outcome::rejected) write_reason(record);
   for (const Change& change : record.changes) write_change(record, change);
   write_stopped(record);
+  write_explanation(record, state);
 }
 
 std::string TextReport::describe_outcome(const EventRecord& record) const {
@@ -110,8 +111,8 @@ std::string TextReport::describe_outcome(const EventRecord& record) const {
 }
 
 void TextReport::write_reason(const EventRecord& record) {
-  for (const Reason& reason : record.conflict) {
-    fmt::print(out_, "{}{}\n", text_indent, describe_reason(*catalog_, record, reason));
+  for (const std::string& sentence : describe_reasons(*catalog_, record, record.conflict)) {
+    fmt::print(out_, "{}{}\n", text_indent, sentence);
   }
   if (record.search && record.search->result.status == SearchStatus::unknown) {
     fmt::print(out_, "{}a search limit came before the first solution\n", text_indent);
@@ -138,6 +139,34 @@ void TextReport::write_stopped(const EventRecord& record) {
                         printable(catalog_->name_of_task(stopped.task)), name_of(stopped.cause));
   }
   fmt::print(out_, "{}stopped: {}\n", text_indent, text);
+}
+
+void TextReport::write_explanation(const EventRecord& record, const State& state) {
+  for (const Displacement& displaced : record.explanation.displaced) {
+    write(describe_displacement(*catalog_, record, displaced, state));
+  }
+  for (const Why& why : record.explanation.why) write(describe_why(*catalog_, record, why, state));
+  write_alternatives(record, state);
+}
+
+void TextReport::write_alternatives(const EventRecord& record, const State& state) {
+  const std::size_t count = record.explanation.alternatives.size();
+  if (count == 0) return;
+  fmt::print(out_, "{}best configurations:\n", text_indent);
+  for (std::size_t place = 0; place < count; ++place) {
+    fmt::print(out_, "{}{:>4}  {}\n", text_indent, place + 1,
+               describe_alternative(*catalog_, record, place, state));
+  }
+  if (record.explanation.is_list_cut) {
+    fmt::print(out_, "{}a limit of effort came before the next one\n", text_indent);
+  }
+}
+
+void TextReport::write(const Sentences& sentences) {
+  fmt::print(out_, "{}{}\n", text_indent, sentences.first);
+  for (const std::string& sentence : sentences.more) {
+    fmt::print(out_, "{}  {}\n", text_indent, sentence);
+  }
 }
 
 void TextReport::on_failure(const Failure& failure) {

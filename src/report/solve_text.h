@@ -7,6 +7,7 @@
 #include "compiled/compiled_catalog.h"
 #include "coordinator/record.h"
 #include "coordinator/state.h"
+#include "report/explanation.h"
 #include "report/solve_report.h"
 #include "script/runner.h"
 #include "script/script.h"
@@ -34,6 +35,9 @@ class TextReport final : public SolveReport {
   void write_reason(const EventRecord& record);
   void write_change(const EventRecord& record, const Change& change);
   void write_stopped(const EventRecord& record);
+  void write_explanation(const EventRecord& record, const State& state);
+  void write_alternatives(const EventRecord& record, const State& state);
+  void write(const Sentences& sentences);
 
   const Style style_;
   std::FILE* const out_;

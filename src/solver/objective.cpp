@@ -8,12 +8,10 @@ namespace cbc {
 
 Objective::Objective(const CompiledCatalog& catalog, const Domains& domains, const Parts& parts,
                      const std::vector<std::uint32_t>& ranks)
-    : catalog_(catalog), domains_(domains), parts_(parts), ranks_(ranks) {
+    : catalog_(catalog), domains_(domains), parts_(parts), order_(catalog, ranks) {
   const std::size_t tasks = most_in_a_group(catalog.group_tasks);
   const std::size_t behaviors = most_in_a_group(catalog.group_behaviors);
   is_request_.reserve(tasks);
-  empty_first_.reserve(tasks);
-  kept_first_.reserve(tasks);
   active_.reserve(behaviors);
   free_.reserve(tasks + most_values_in_a_group(catalog) / 64);
   counted_.resize(behaviors, 0);
@@ -23,6 +21,7 @@ Objective::Objective(const CompiledCatalog& catalog, const Domains& domains, con
 
 void Objective::load(const Problem& problem) {
   problem_ = &problem;
+  order_.load(problem);
   const std::uint32_t tasks = domains_.task_count();
   const BehaviorId first_behavior = domains_.first_behavior();
   const std::uint32_t behaviors = catalog_.group_behaviors[problem.group + 1] - first_behavior;
@@ -32,17 +31,8 @@ void Objective::load(const Problem& problem) {
   active_.assign(behaviors, 0);
   for (const BehaviorId behavior : problem.active) active_[behavior - first_behavior] = 1;
 
-  empty_first_.resize(tasks);
-  kept_first_.resize(tasks);
   free_.assign(problem.domains.size(), 0);
   for (std::uint32_t task = 0; task < tasks; ++task) {
-    const std::uint32_t present = problem.present[task];
-    empty_first_[task] = present == none && problem.may_stop[task] != 0;
-    const bool is_best = present != none && domains_.has(task, present) &&
-                         domains_.value(task, present).suitability ==
-                             domains_.value(task, domains_.best(task)).suitability;
-    kept_first_[task] = is_best ? present : none;
-
     const auto values = domains_.values(task);
     for (std::uint32_t place = 0; place < values.size(); ++place) {
       const BehaviorId behavior = values[place].behavior;
@@ -51,13 +41,6 @@ void Objective::load(const Problem& problem) {
       }
     }
   }
-}
-
-std::uint32_t Objective::key(std::uint32_t task, std::uint32_t place) const {
-  if (place == none) return empty_first_[task] != 0 ? 0 : none;
-  if (place == kept_first_[task]) return 0;
-  if (ranks_.empty()) return place + 1;
-  return ranks_[catalog_.values.begin[domains_.first_task() + task] + place] + 1;
 }
 
 /// Whether the task may run in a best solution of the present subtree.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
+#include "solver/canonical_order.h"
 #include "solver/domains.h"
 #include "solver/exact_product.h"
 #include "solver/parts.h"
@@ -47,7 +48,9 @@ class Objective {
   void record(Incumbent& incumbent);
 
   /// Order of a value (or none) of a task in rule 5: lower is better.
-  [[nodiscard]] std::uint32_t key(std::uint32_t task, std::uint32_t place) const;
+  [[nodiscard]] std::uint32_t key(std::uint32_t task, std::uint32_t place) const {
+    return order_.key(task, place);
+  }
 
   [[nodiscard]] bool was_active(BehaviorId behavior) const {
     return active_[behavior - domains_.first_behavior()] != 0;
@@ -67,13 +70,11 @@ class Objective {
   const CompiledCatalog& catalog_;
   const Domains& domains_;
   const Parts& parts_;
-  const std::vector<std::uint32_t>& ranks_;
   const Problem* problem_ = nullptr;
 
-  std::vector<std::uint8_t> is_request_;   ///< by task
-  std::vector<std::uint8_t> empty_first_;  ///< by task: "not running" comes first in rule 5
-  std::vector<std::uint32_t> kept_first_;  ///< by task: the place that comes first, or none
-  std::vector<std::uint8_t> active_;       ///< by behavior of the group: active before the event
+  CanonicalOrder order_;
+  std::vector<std::uint8_t> is_request_;  ///< by task
+  std::vector<std::uint8_t> active_;      ///< by behavior of the group: active before the event
   std::vector<std::uint64_t> free_;     ///< as domains: choosing it may be no activation of its own
   std::vector<std::uint64_t> counted_;  ///< by behavior of the group: last count it was in
   std::uint64_t count_number_ = 0;

@@ -16,6 +16,8 @@ struct Problem {
   std::vector<std::uint32_t> present;  ///< by task: place of its behavior before the event, or none
   std::vector<std::uint32_t> requests;  ///< tasks with an active request, most important first
   std::vector<BehaviorId> active;       ///< active behaviors just before the event
+  /// The problem whose domains fix the canonical order, where this one is a part of it; null: this.
+  const Problem* part_of = nullptr;
 };
 
 /// A value for every task of a group: a place, or none.

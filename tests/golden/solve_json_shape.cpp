@@ -26,6 +26,7 @@ Keys keys_of_reason(const Json& reason) {
       {"exclusive", {"tasks", "line"}},
       {"unavailable", {"behavior"}},
       {"faulty", {"behavior"}},
+      {"finished", {"behavior"}},
       {"no_behavior", {"task"}},
       {"on_request", {"task"}},
       {"priority", {"task", "priority"}},
@@ -80,6 +81,10 @@ class ShapeCheck {
     }
     keys.insert(keys.end(), {"outcome", "changes", "stopped_tasks", "running", "requests", "queue",
                              "objective", "search", "conflict"});
+    // Only where the command line asks for them.
+    for (const char* const key : {"why", "alternatives"}) {
+      if (event.contains(key)) keys.emplace_back(key);
+    }
     if (!has_keys(event, keys, where)) return;
     if (event["index"] != index) add(where + " has the index " + event["index"].dump());
     for (const Json& change : event["changes"]) {
@@ -91,6 +96,46 @@ class ShapeCheck {
     }
     check_answer(event, where);
     check_conflict(event, where);
+    if (event.contains("why")) check_why(event["why"], where);
+    if (event.contains("alternatives")) check_alternatives(event["alternatives"], where);
+  }
+
+  void check_why(const Json& list, const std::string& where) {
+    for (const Json& why : list) {
+      const bool is_of_task = why.contains("task");
+      Keys keys = is_of_task ? Keys{"task", "chosen"} : Keys{"behavior", "active"};
+      keys.insert(keys.end(), {"limit_reached", "alternative", "loses", "conflict", "message"});
+      if (!has_keys(why, keys, "a reason why of " + where)) continue;
+      if (!why["alternative"].is_null()) check_configuration(why["alternative"], where);
+      if (!why["loses"].is_null()) check_loss(why["loses"], where);
+      for (const Json& reason : why["conflict"]) {
+        has_keys(reason, keys_of_reason(reason), "a reason of " + where);
+      }
+    }
+  }
+
+  void check_loss(const Json& loss, const std::string& where) {
+    const bool is_canonical = loss.value("objective", "") == "canonical";
+    has_keys(loss,
+             is_canonical ? Keys{"objective", "task", "chosen", "alternative"}
+                          : Keys{"objective", "chosen", "alternative"},
+             "where the alternative loses in " + where);
+  }
+
+  void check_alternatives(const Json& alternatives, const std::string& where) {
+    if (!has_keys(alternatives, {"limit_reached", "configurations"}, "the list of " + where)) {
+      return;
+    }
+    for (const Json& configuration : alternatives["configurations"]) {
+      check_configuration(configuration, where);
+    }
+  }
+
+  void check_configuration(const Json& configuration, const std::string& where) {
+    if (!has_keys(configuration, {"running", "objective"}, "a configuration of " + where)) return;
+    has_keys(configuration["objective"],
+             {"satisfied", "requests", "suitability", "idle", "changes"},
+             "the objective of a configuration of " + where);
   }
 
   void check_answer(const Json& event, const std::string& where) {

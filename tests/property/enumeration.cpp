@@ -170,8 +170,6 @@ Solution evaluate(const CatalogFacts& facts, const Problem& problem, const Assig
   return solution;
 }
 
-enum class Criterion { satisfied, request_order, suitability, idle, changes, ranks, nothing };
-
 const char* to_string(Criterion criterion) {
   switch (criterion) {
     case Criterion::satisfied:
@@ -389,14 +387,16 @@ Integer search_space(const Problem& problem) {
   return space;
 }
 
-std::optional<Solution> solve(const CatalogFacts& facts, const Problem& problem,
-                              Statistics* statistics) {
+namespace {
+
+// All solutions, in no order that means anything.
+std::vector<Solution> enumerate(const CatalogFacts& facts, const Problem& problem) {
   const std::vector<std::size_t>& tasks = facts.groups[problem.group];
   std::vector<std::vector<std::size_t>> ranked;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     ranked.push_back(ranked_domain(facts, problem, tasks[i], problem.domains[i]));
     if (ranked.back().empty()) {
-      return std::nullopt;
+      return {};
     }
   }
 
@@ -421,6 +421,25 @@ std::optional<Solution> solve(const CatalogFacts& facts, const Problem& problem,
       }
     }
   }
+  return solutions;
+}
+
+}  // namespace
+
+Criterion first_difference(const Solution& a, const Solution& b) {
+  return compare(a, b).decided_by;
+}
+
+std::vector<Solution> solve_all(const CatalogFacts& facts, const Problem& problem) {
+  std::vector<Solution> solutions = enumerate(facts, problem);
+  std::sort(solutions.begin(), solutions.end(),
+            [](const auto& a, const auto& b) { return compare(a, b).first_is_better; });
+  return solutions;
+}
+
+std::optional<Solution> solve(const CatalogFacts& facts, const Problem& problem,
+                              Statistics* statistics) {
+  const std::vector<Solution> solutions = enumerate(facts, problem);
   if (solutions.empty()) {
     return std::nullopt;
   }

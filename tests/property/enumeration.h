@@ -72,10 +72,19 @@ struct Solution {
   std::vector<std::size_t> ranks;   // rule 5: of the value of each task of the group
 };
 
+// What tells two solutions apart, in order.
+enum class Criterion { satisfied, request_order, suitability, idle, changes, ranks, nothing };
+
+// The first criterion in which the two differ.
+Criterion first_difference(const Solution& a, const Solution& b);
+
 // From the highest priority to the lowest, within one from the most recent to the oldest.
 void sort_requests(std::vector<ActiveRequest>& requests);
 
 Integer search_space(const Problem& problem);
+
+// All solutions, the best first.
+std::vector<Solution> solve_all(const CatalogFacts& facts, const Problem& problem);
 
 // The best solution, or nothing if there is none.
 std::optional<Solution> solve(const CatalogFacts& facts, const Problem& problem,

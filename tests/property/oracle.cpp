@@ -344,6 +344,11 @@ void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
                          {"cause", to_string(own ? trigger.cause : Cause::interrupted)}});
     }
     objectives = objective(transition, *solution);
+    if (keeps_answers_) {
+      answers_[record["index"]] = {
+          trigger,    problem(transition),       *solution,           state_,
+          available_, transition.finished_tasks, transition.excluded, transition.level};
+    }
     commit(transition, solution->values);
   } else {
     take_back(transition);

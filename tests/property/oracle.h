@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -39,6 +40,18 @@ struct Trigger {
   Cause cause = Cause::goal_achieved;
 };
 
+// An accepted start, stop or finish: what was asked, and all that mattered for the answer.
+struct Answer {
+  Trigger trigger;
+  Problem problem;
+  Solution solution;
+  State before;
+  std::vector<bool> available;
+  std::vector<std::size_t> finished_tasks;  // of a finish: what the behavior performed
+  std::set<std::size_t> excluded;           // behaviors that may not be chosen
+  int level = 0;                            // of protection
+};
+
 // Whether two parameters are the same data: mappings without order; null, empty and absent alike.
 bool same_parameters(const Parameters& a, const Parameters& b);
 
@@ -56,6 +69,10 @@ class Oracle {
 
   // All that happened so far; `search` lacks solutions and nodes, and `conflict` is left out.
   const nlohmann::ordered_json& events() const { return events_; }
+
+  // The accepted answers from here on are kept, by the index of their event.
+  void keep_answers() { keeps_answers_ = true; }
+  const std::map<std::int64_t, Answer>& answers() const { return answers_; }
 
   // What the event would do, as events(). Statistics may be null.
   nlohmann::ordered_json preview(const Event& event, Statistics* statistics) const;
@@ -159,6 +176,8 @@ class Oracle {
   std::vector<Microseconds> taken_at_;              // of each task: when it took its behavior
   Microseconds now_ = 0;
   std::int64_t event_number_ = 0;
+  bool keeps_answers_ = false;
+  std::map<std::int64_t, Answer> answers_;
   nlohmann::ordered_json events_ = nlohmann::ordered_json::array();
 };
 

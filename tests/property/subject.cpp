@@ -6,6 +6,7 @@
 #include "catalog/reader.h"
 #include "compiled/compile.h"
 #include "compiled/compiled_file.h"
+#include "report/explanation_json.h"
 #include "report/solve_json.h"
 #include "script/reader.h"
 #include "script/runner.h"
@@ -29,6 +30,51 @@ class Events final : public RunListener {
 
   void on_event(const EventRecord& record, const Step* step, const State& state) override {
     events_.push_back(event_to_json(catalog_, record, step, state));
+  }
+  void on_failure(const Failure& failure) override { throw std::runtime_error(failure.message); }
+  void on_end(const State& /*state*/) override {}
+
+  [[nodiscard]] nlohmann::ordered_json take() { return std::move(events_); }
+
+ private:
+  const CompiledCatalog& catalog_;
+  nlohmann::ordered_json events_ = nlohmann::ordered_json::array();
+};
+
+CompiledCatalog compile_text(const std::string& catalog_yaml) {
+  Diagnostics diagnostics;
+  const auto catalog = read_catalog(catalog_yaml, "catalog.yaml", diagnostics);
+  if (!catalog) refuse(diagnostics);
+  return compile(*catalog);
+}
+
+Script read_text(const std::string& script_yaml, const CompiledCatalog& catalog) {
+  Diagnostics diagnostics;
+  const auto document = yaml::parse(script_yaml, "script.yaml", diagnostics);
+  if (!document) refuse(diagnostics);
+  const auto script = read_script(*document, catalog, Severity::warning, diagnostics);
+  if (!script) refuse(diagnostics);
+  return *script;
+}
+
+class ExplainedEvents final : public RunListener {
+ public:
+  explicit ExplainedEvents(const CompiledCatalog& catalog) : catalog_(catalog) {}
+
+  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+    auto event = event_to_json(catalog_, record, step, state);
+    event["why"] = why_to_json(catalog_, record, state);
+    event["alternatives"] = alternatives_to_json(catalog_, record, state);
+    EventRecord of_displaced = record;
+    of_displaced.explanation.why.clear();
+    for (const Displacement& displaced : record.explanation.displaced) {
+      Why why;
+      why.task = displaced.task;
+      why.why_not = displaced.why_not;
+      of_displaced.explanation.why.push_back(why);
+    }
+    event["displaced"] = why_to_json(catalog_, of_displaced, state);
+    events_.push_back(std::move(event));
   }
   void on_failure(const Failure& failure) override { throw std::runtime_error(failure.message); }
   void on_end(const State& /*state*/) override {}
@@ -66,26 +112,38 @@ void strip_effort(nlohmann::ordered_json& events) {
 
 nlohmann::ordered_json run_subject(const std::string& catalog_yaml,
                                    const std::string& script_yaml) {
-  Diagnostics diagnostics;
-  const auto catalog = read_catalog(catalog_yaml, "catalog.yaml", diagnostics);
-  if (!catalog) refuse(diagnostics);
-  const CompiledCatalog compiled = compile(*catalog);
-
-  const auto document = yaml::parse(script_yaml, "script.yaml", diagnostics);
-  if (!document) refuse(diagnostics);
-  const auto script = read_script(*document, compiled, Severity::warning, diagnostics);
-  if (!script) refuse(diagnostics);
-
-  nlohmann::ordered_json easy = run(compiled, *script, SearchOptions{}.easy_nodes);
+  const CompiledCatalog compiled = compile_text(catalog_yaml);
+  const Script script = read_text(script_yaml, compiled);
+  nlohmann::ordered_json easy = run(compiled, script, SearchOptions{}.easy_nodes);
   const CompiledFileResult loaded = read_compiled(write_compiled(compiled, {}));
   if (!loaded.file) throw std::runtime_error("the compiled file is refused: " + loaded.error);
-  nlohmann::ordered_json hard = run(loaded.file->catalog, *script, 0);
+  nlohmann::ordered_json hard = run(loaded.file->catalog, script, 0);
   strip_effort(easy);
   strip_effort(hard);
   if (easy != hard) {
     throw std::runtime_error("answers depend on the file, or on when the search looks ahead");
   }
   return easy;
+}
+
+nlohmann::ordered_json explain_subject(const std::string& catalog_yaml,
+                                       const std::string& script_yaml, std::uint32_t alternatives) {
+  const CompiledCatalog compiled = compile_text(catalog_yaml);
+  CoordinatorOptions options;
+  options.explain.displaced = true;
+  options.explain.alternatives = alternatives;
+  for (std::uint32_t task = 0; task < compiled.task_names.size(); ++task) {
+    options.explain.why.push_back({true, task});
+  }
+  for (std::uint32_t behavior = 0; behavior < compiled.behavior_names.size(); ++behavior) {
+    options.explain.why.push_back({false, behavior});
+  }
+  ExplainedEvents events(compiled);
+  const RunResult result = run_script(compiled, read_text(script_yaml, compiled), options, events);
+  if (result.status != Coordinator::Status::ok) {
+    throw std::runtime_error("the run ended early: " + result.internal_error);
+  }
+  return events.take();
 }
 
 }  // namespace cbc::oracle

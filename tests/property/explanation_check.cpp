@@ -1,0 +1,460 @@
+#include "explanation_check.h"
+
+#include <algorithm>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "enumeration.h"
+#include "oracle.h"
+
+namespace cbc::oracle {
+namespace {
+
+using nlohmann::ordered_json;
+using Holds = std::function<bool(const Assignment&)>;
+
+void demand(bool holds, const std::string& otherwise) {
+  if (!holds) {
+    throw std::runtime_error(otherwise);
+  }
+}
+
+bool contains(const std::vector<std::size_t>& items, std::size_t item) {
+  return std::find(items.begin(), items.end(), item) != items.end();
+}
+
+// Performance(task) as far as it can be told: a required task that does not run does not count.
+bool reaches(const CatalogFacts& facts, const Assignment& values, std::size_t task,
+             Millionths minimum) {
+  std::set<std::size_t> factors;
+  const std::function<void(std::size_t)> collect = [&](std::size_t at) {
+    if (values[at] == none || !factors.insert(at).second) {
+      return;
+    }
+    for (const Requirement& requirement : facts.catalog.behaviors[values[at]].requirements) {
+      collect(requirement.task);
+    }
+  };
+  collect(task);
+  Integer product = 1;
+  for (const std::size_t factor : factors) {
+    product *= facts.suitability(values[factor], factor);
+  }
+  return product >= power_of_million(factors.size() - 1) * minimum;
+}
+
+// The explanations of one event.
+class Check {
+ public:
+  Check(const CatalogFacts& facts, const Answer& answer, const ordered_json& event,
+        Statistics& statistics)
+      : facts_(facts),
+        answer_(answer),
+        event_(event),
+        statistics_(statistics),
+        tasks_(facts.groups[answer.problem.group]),
+        solutions_(solve_all(facts, answer.problem)) {}
+
+  void check_alternatives(std::size_t most) {
+    const ordered_json& list = event_["alternatives"]["configurations"];
+    demand(event_["alternatives"]["limit_reached"] == false, "a limit was reached");
+    demand(list.size() == std::min(most, solutions_.size()), "wrong number of alternatives");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      check_configuration(list[i], solutions_[i]);
+    }
+    statistics_.count(list.size() < most ? "alternatives: all" : "alternatives: the best");
+  }
+
+  void check_why() {
+    std::size_t next = 0;
+    for (const std::size_t task : tasks_) {
+      check_task(task, event_["why"].at(next++));
+    }
+    for (std::size_t b = 0; b < facts_.catalog.behaviors.size(); ++b) {
+      if (facts_.group_of_behavior(b) == answer_.problem.group) {
+        check_behavior(b, event_["why"].at(next++));
+      }
+    }
+    demand(next == event_["why"].size(), "more explanations than asked for");
+  }
+
+  // Requests that are not satisfied are displaced, and explained as any task that does not run.
+  void check_displaced() {
+    std::size_t next = 0;
+    for (const ActiveRequest& request : answer_.problem.requests) {
+      if (answer_.solution.values[request.task] != none) {
+        continue;
+      }
+      const auto place = std::find(tasks_.begin(), tasks_.end(), request.task) - tasks_.begin();
+      demand(event_["displaced"].at(next++) == event_["why"].at(static_cast<std::size_t>(place)),
+             "a displaced task is explained in two ways");
+      statistics_.count("displaced");
+    }
+    demand(next == event_["displaced"].size(), "a task that is not displaced");
+  }
+
+ private:
+  using Wanted = std::function<bool(const Assignment&)>;
+
+  const std::string& name_of_task(std::size_t task) const {
+    return facts_.catalog.tasks[task].name;
+  }
+  ordered_json name_of_value(std::size_t value) const {
+    return value == none ? ordered_json() : ordered_json(facts_.catalog.behaviors[value].name);
+  }
+  std::size_t task_of(const ordered_json& name) const {
+    for (std::size_t task = 0; task < facts_.catalog.tasks.size(); ++task) {
+      if (name == name_of_task(task)) {
+        return task;
+      }
+    }
+    throw std::runtime_error("no such task: " + name.dump());
+  }
+  std::size_t behavior_of(const ordered_json& name) const {
+    for (std::size_t b = 0; b < facts_.catalog.behaviors.size(); ++b) {
+      if (name == facts_.catalog.behaviors[b].name) {
+        return b;
+      }
+    }
+    throw std::runtime_error("no such behavior: " + name.dump());
+  }
+
+  // Of the tasks outside the group, too.
+  Integer suitability_of_all(const Assignment& values) const {
+    Integer product = 1;
+    for (std::size_t task = 0; task < values.size(); ++task) {
+      product *= values[task] == none ? whole_degree : facts_.suitability(values[task], task);
+    }
+    return product;
+  }
+
+  std::pair<std::size_t, std::size_t> idle_of_all(const Assignment& values) const {
+    std::size_t all = 0;
+    std::size_t running = 0;
+    for (std::size_t task = 0; task < values.size(); ++task) {
+      if (!facts_.catalog.tasks[task].start_on_request) {
+        ++all;
+        running += values[task] == none ? 0U : 1U;
+      }
+    }
+    return {all - running, all};
+  }
+
+  std::size_t satisfied_of_all(const Solution& solution) const {
+    return event_["objective"]["satisfied"].get<std::size_t>() + solution.satisfied_count -
+           answer_.solution.satisfied_count;
+  }
+
+  void check_configuration(const ordered_json& actual, const Solution& expected) const {
+    ordered_json running = ordered_json::object();
+    for (const std::size_t task : tasks_) {
+      if (expected.values[task] != none) {
+        running[name_of_task(task)] = name_of_value(expected.values[task]);
+      }
+    }
+    const auto [idle, all] = idle_of_all(expected.values);
+    const ordered_json objective = {
+        {"satisfied", satisfied_of_all(expected)},
+        {"requests", event_["objective"]["requests"]},
+        {"suitability", nearest_double(suitability_of_all(expected.values),
+                                       power_of_million(expected.values.size()))},
+        {"idle", all == 0 ? 1.0 : static_cast<double>(idle) / static_cast<double>(all)},
+        {"changes", expected.changes}};
+    const ordered_json whole = {{"running", running}, {"objective", objective}};
+    demand(actual == whole, "expected " + whole.dump() + ", found " + actual.dump());
+  }
+
+  void check_task(std::size_t task, const ordered_json& why) {
+    demand(why.at("task") == name_of_task(task), "not the next task");
+    const std::size_t value = answer_.solution.values[task];
+    demand(why.at("chosen") == name_of_value(value), "not the value of the task");
+    check_why_not(why, [&](const Assignment& values) { return values[task] != value; });
+  }
+
+  void check_behavior(std::size_t behavior, const ordered_json& why) {
+    const auto is_active = [&](const Assignment& values) { return contains(values, behavior); };
+    const bool was_chosen = is_active(answer_.solution.values);
+    demand(why.at("behavior") == name_of_value(behavior), "not the next behavior");
+    demand(why.at("active") == was_chosen, "wrong about being active");
+    check_why_not(why, [&](const Assignment& values) { return is_active(values) != was_chosen; });
+  }
+
+  void check_why_not(const ordered_json& why, const Wanted& wanted) {
+    demand(why.at("limit_reached") == false, "a limit was reached");
+    demand(!why.at("message").get<std::string>().empty(), "no message");
+    const auto best =
+        std::find_if(solutions_.begin(), solutions_.end(),
+                     [&](const Solution& solution) { return wanted(solution.values); });
+    if (best == solutions_.end()) {
+      demand(why["alternative"].is_null() && why["loses"].is_null(), "there is no alternative");
+      check_conflict(why["conflict"], wanted);
+      return;
+    }
+    demand(why["conflict"].empty(), "a conflict, but there is an alternative");
+    check_configuration(why["alternative"], *best);
+    demand(why["loses"] == loss(*best),
+           "expected " + loss(*best).dump() + ", found " + why["loses"].dump());
+    statistics_.count("loses by: " + why["loses"]["objective"].get<std::string>());
+  }
+
+  ordered_json loss(const Solution& other) const {
+    const Solution& chosen = answer_.solution;
+    const auto of = [](const char* objective, const ordered_json& ours,
+                       const ordered_json& theirs) {
+      return ordered_json{{"objective", objective}, {"chosen", ours}, {"alternative", theirs}};
+    };
+    switch (first_difference(chosen, other)) {
+      case Criterion::satisfied:
+        return of("requests", satisfied_of_all(chosen), satisfied_of_all(other));
+      case Criterion::request_order: {
+        std::vector<std::size_t> only(2, none);
+        for (std::size_t i = chosen.satisfied.size(); i > 0; --i) {
+          if (chosen.satisfied[i - 1] != other.satisfied[i - 1]) {
+            only[chosen.satisfied[i - 1] ? 0 : 1] = answer_.problem.requests[i - 1].task;
+          }
+        }
+        return of("request_order", name_of_task(only[0]), name_of_task(only[1]));
+      }
+      case Criterion::suitability:
+        return of("suitability", exact(chosen.values), exact(other.values));
+      case Criterion::idle:
+        return of("idle", idle_text(chosen.values), idle_text(other.values));
+      case Criterion::changes:
+        return of("changes", chosen.changes, other.changes);
+      case Criterion::ranks:
+        for (const std::size_t task : tasks_) {
+          if (chosen.values[task] != other.values[task]) {
+            return {{"objective", "canonical"},
+                    {"task", name_of_task(task)},
+                    {"chosen", name_of_value(chosen.values[task])},
+                    {"alternative", name_of_value(other.values[task])}};
+          }
+        }
+        break;
+      case Criterion::nothing:
+        break;
+    }
+    throw std::runtime_error("the chosen solution is its own alternative");
+  }
+
+  std::string idle_text(const Assignment& values) const {
+    const auto [idle, all] = idle_of_all(values);
+    return std::to_string(idle) + "/" + std::to_string(all);
+  }
+
+  // As a decimal number; of the group alone, where it is 0 outside.
+  std::string exact(Assignment values) const {
+    Assignment outside = values;
+    for (const std::size_t task : tasks_) {
+      outside[task] = none;
+    }
+    if (suitability_of_all(outside) == 0) {
+      for (std::size_t task = 0; task < values.size(); ++task) {
+        if (!contains(tasks_, task)) {
+          values[task] = none;
+        }
+      }
+    }
+    const Integer product = suitability_of_all(values);
+    const Integer whole = power_of_million(values.size());
+    if (product == 0 || product == whole) {
+      return product == 0 ? "0" : "1";
+    }
+    std::string digits = Integer(whole + product).str();
+    digits.erase(digits.find_last_not_of('0') + 1);
+    return "0." + digits.substr(1);
+  }
+
+  // Whether an assignment is what the event alone asks for.
+  bool is_asked_for(const Assignment& values) const {
+    const Trigger& trigger = answer_.trigger;
+    if (trigger.verb == Verb::start) {
+      return values[trigger.subject] != none;
+    }
+    if (trigger.verb == Verb::stop) {
+      return values[trigger.subject] == none;
+    }
+    return trigger.cause != Cause::goal_achieved ||
+           std::all_of(answer_.finished_tasks.begin(), answer_.finished_tasks.end(),
+                       [&](std::size_t task) { return values[task] == none; });
+  }
+
+  // Each assignment that is wanted, and asked for, is ruled out by a reason, and each reason is the
+  // only one to rule out some of them.
+  void check_conflict(const ordered_json& conflict, const Wanted& wanted) {
+    std::vector<Holds> reasons;
+    for (const ordered_json& reason : conflict) {
+      reasons.push_back(read_reason(reason));
+      statistics_.count("reason: " + reason["kind"].get<std::string>());
+    }
+    statistics_.count(conflict.empty() ? "no other choice" : "explained by reasons");
+    std::vector<bool> needed(reasons.size(), false);
+    Assignment values = answer_.before.values;
+    const std::function<void(std::size_t)> enumerate = [&](std::size_t place) {
+      if (place == tasks_.size()) {
+        if (wanted(values) && is_asked_for(values)) {
+          judge(reasons, values, needed);
+        }
+        return;
+      }
+      values[tasks_[place]] = none;
+      enumerate(place + 1);
+      for (const std::size_t behavior : facts_.behaviors_of[tasks_[place]]) {
+        values[tasks_[place]] = behavior;
+        enumerate(place + 1);
+      }
+    };
+    enumerate(0);
+    for (std::size_t i = 0; i < needed.size(); ++i) {
+      demand(needed[i], "superfluous: " + conflict[i].dump());
+    }
+  }
+
+  static void judge(const std::vector<Holds>& reasons, const Assignment& values,
+                    std::vector<bool>& needed) {
+    std::size_t violated = 0;
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < reasons.size() && violated < 2; ++i) {
+      if (!reasons[i](values)) {
+        ++violated;
+        last = i;
+      }
+    }
+    demand(violated > 0, "the reasons leave a solution");
+    if (violated == 1) {
+      needed[last] = true;
+    }
+  }
+
+  // What a reason says of an assignment. It must be true of the catalog, or of the moment.
+  Holds read_reason(const ordered_json& reason) const {
+    const std::string kind = reason.at("kind");
+    if (kind == "exclusive") {
+      const std::size_t a = task_of(reason.at("tasks").at(0));
+      const std::size_t b = task_of(reason.at("tasks").at(1));
+      demand(facts_.excludes[a].contains(b), "not exclusive");
+      return [=](const Assignment& values) { return values[a] == none || values[b] == none; };
+    }
+    if (kind == "unavailable" || kind == "faulty" || kind == "finished") {
+      return read_condition(kind, behavior_of(reason.at("behavior")));
+    }
+    const std::size_t task = task_of(reason.at("task"));
+    const bool has_finished = contains(answer_.finished_tasks, task);
+    const bool is_subject = answer_.trigger.verb != Verb::finish && task == answer_.trigger.subject;
+    if (kind == "protected") {
+      const std::optional<Request>& request = answer_.before.requests[task];
+      demand(request && reason.at("priority") == request->priority, "not the request");
+      demand(!has_finished && !is_subject &&
+                 (answer_.trigger.reactive || request->priority > answer_.level),
+             "not protected");
+      return [=](const Assignment& values) { return values[task] != none; };
+    }
+    if (kind == "on_request") {
+      demand(answer_.before.values[task] == none && !is_subject &&
+                 facts_.catalog.tasks[task].start_on_request,
+             "it can start by itself");
+      return [=](const Assignment& values) { return values[task] == none; };
+    }
+    return read_constraint(reason, kind, task);
+  }
+
+  Holds read_condition(const std::string& kind, std::size_t behavior) const {
+    if (kind != "unavailable") {
+      const bool is_own =
+          answer_.trigger.verb == Verb::finish && answer_.trigger.subject == behavior;
+      demand(answer_.excluded.contains(behavior) && is_own == (kind == "finished"),
+             "not excluded for this");
+      return [=](const Assignment& values) { return !contains(values, behavior); };
+    }
+    demand(!answer_.available[behavior], "available");
+    return [this, behavior](const Assignment& values) {
+      for (std::size_t task = 0; task < values.size(); ++task) {
+        const bool is_kept =
+            answer_.before.values[task] == behavior && !contains(answer_.finished_tasks, task);
+        if (values[task] == behavior && !is_kept) {
+          return false;
+        }
+      }
+      return true;
+    };
+  }
+
+  Holds read_constraint(const ordered_json& reason, const std::string& kind,
+                        std::size_t task) const {
+    demand(kind == "requires" || kind == "performance", "unknown kind: " + kind);
+    if (!reason.contains("behavior")) {
+      const Millionths minimum = facts_.catalog.tasks[task].minimum;
+      demand(kind == "performance" && minimum > 0, "no minimum");
+      return [=, this](const Assignment& values) {
+        return values[task] == none || reaches(facts_, values, task, minimum);
+      };
+    }
+    const std::size_t behavior = behavior_of(reason.at("behavior"));
+    const auto& requirements = facts_.catalog.behaviors[behavior].requirements;
+    const auto requirement = std::find_if(requirements.begin(), requirements.end(),
+                                          [&](const Requirement& one) { return one.task == task; });
+    demand(requirement != requirements.end(), "no such requirement");
+    if (kind == "requires") {
+      return [=](const Assignment& values) {
+        return !contains(values, behavior) || values[task] != none;
+      };
+    }
+    const Millionths minimum = requirement->minimum;
+    demand(minimum > 0, "no minimum");
+    return [=, this](const Assignment& values) {
+      return !contains(values, behavior) || values[task] == none ||
+             reaches(facts_, values, task, minimum);
+    };
+  }
+
+  const CatalogFacts& facts_;
+  const Answer& answer_;
+  const ordered_json& event_;
+  Statistics& statistics_;
+  const std::vector<std::size_t>& tasks_;
+  std::vector<Solution> solutions_;  // all, the best first
+};
+
+}  // namespace
+
+std::optional<std::string> check_explanations(const Catalog& catalog, const Script& script,
+                                              const ordered_json& events, std::size_t most,
+                                              Statistics& statistics) {
+  const auto facts = std::make_shared<const CatalogFacts>(catalog);
+  Oracle oracle(facts, script, nullptr);
+  oracle.keep_answers();
+  for (const Event& event : script.events) {
+    oracle.handle(event);
+  }
+  oracle.finish();
+  std::size_t accepted = 0;
+  for (const ordered_json& event : events) {
+    const auto answer = oracle.answers().find(event.at("index"));
+    try {
+      if (answer == oracle.answers().end()) {
+        demand(event["why"].empty() && event["displaced"].empty() &&
+                   event["alternatives"]["configurations"].empty(),
+               "nothing was solved");
+        continue;
+      }
+      ++accepted;
+      Check check(*facts, answer->second, event, statistics);
+      check.check_alternatives(most);
+      check.check_why();
+      check.check_displaced();
+    } catch (const std::exception& error) {
+      return std::string(error.what()) + "\n" + event.dump(1);
+    }
+  }
+  if (accepted != oracle.answers().size()) {
+    return "not all accepted events are there";
+  }
+  return std::nullopt;
+}
+
+}  // namespace cbc::oracle

@@ -1,0 +1,132 @@
+// Random catalogs and scripts: the explanations of every accepted event against brute force.
+// CBC_SEED sets the seed of the first case, CBC_EXPLANATION_CASES their number.
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "explanation_check.h"
+#include "generator.h"
+#include "random.h"
+#include "statistics.h"
+#include "subject.h"
+#include "yaml_text.h"
+
+namespace cbc::oracle {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::uint32_t most_alternatives = 7;
+constexpr std::uint64_t cases_for_statistics = 150;  // fewer say nothing about how often
+
+std::uint64_t environment(const char* name, std::uint64_t otherwise) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? otherwise : std::strtoull(value, nullptr, 0);
+}
+
+struct Sample {
+  Case inputs;
+  std::string catalog;
+  std::string script;
+};
+
+Sample make_sample(std::uint64_t seed) {
+  Sample sample;
+  sample.inputs = generate_case(seed);
+  Random forms(~seed);
+  sample.catalog = catalog_yaml(sample.inputs.catalog, forms);
+  sample.script = script_yaml(sample.inputs.catalog, sample.inputs.script, forms);
+  return sample;
+}
+
+// How often something has to happen in 100 cases for the comparison to mean anything.
+struct LowerBound {
+  const char* what;
+  std::int64_t per_hundred;
+};
+
+const LowerBound lower_bounds[] = {
+    {"alternatives: all", 100},    {"alternatives: the best", 100}, {"displaced", 20},
+    {"loses by: requests", 100},   {"loses by: request_order", 1},  {"loses by: suitability", 100},
+    {"loses by: idle", 100},       {"loses by: changes", 20},       {"loses by: canonical", 20},
+    {"explained by reasons", 500}, {"no other choice", 20},         {"reason: protected", 20},
+    {"reason: exclusive", 50},     {"reason: on_request", 50},      {"reason: requires", 50},
+    {"reason: performance", 20},   {"reason: unavailable", 50},     {"reason: faulty", 10},
+    {"reason: finished", 20},
+};
+
+TEST(Explanation, AgreesWithBruteForce) {
+  const std::uint64_t first = environment("CBC_SEED", 1);
+  const std::uint64_t cases = environment("CBC_EXPLANATION_CASES", 200);
+  std::cout << "CBC_SEED=" << first << " CBC_EXPLANATION_CASES=" << cases << std::endl;
+  Statistics statistics;
+  for (std::uint64_t seed = first; seed < first + cases; ++seed) {
+    const Sample sample = make_sample(seed);
+    const ordered_json events = explain_subject(sample.catalog, sample.script, most_alternatives);
+    const std::optional<std::string> fault = check_explanations(
+        sample.inputs.catalog, sample.inputs.script, events, most_alternatives, statistics);
+    ASSERT_FALSE(fault) << "seed " << seed << "\n--- catalog\n"
+                        << sample.catalog << "--- script\n"
+                        << sample.script << "---\n"
+                        << *fault;
+  }
+  for (const auto& [what, times] : statistics.all()) std::cout << times << "  " << what << "\n";
+  if (cases < cases_for_statistics) return;
+  for (const LowerBound& bound : lower_bounds) {
+    EXPECT_GE(statistics.of(bound.what), bound.per_hundred * static_cast<std::int64_t>(cases) / 100)
+        << "too rare: " << bound.what;
+  }
+}
+
+// Explanations with something left out or altered must not pass.
+TEST(Explanation, CheckSeesWhatIsWrong) {
+  std::size_t altered = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Sample sample = make_sample(seed);
+    ordered_json events = explain_subject(sample.catalog, sample.script, most_alternatives);
+    const auto expect_fault = [&](ordered_json& part, const ordered_json& wrong) {
+      const ordered_json right = part;
+      part = wrong;
+      Statistics statistics;
+      EXPECT_TRUE(check_explanations(sample.inputs.catalog, sample.inputs.script, events,
+                                     most_alternatives, statistics))
+          << "seed " << seed << ": " << right.dump(1) << "\n"
+          << wrong.dump(1);
+      part = right;
+      ++altered;
+    };
+    // The check is of all events, so a few of them are enough.
+    for (std::size_t i = 0; i < std::min<std::size_t>(events.size(), 6); ++i) {
+      ordered_json& list = events[i]["alternatives"]["configurations"];
+      if (list.size() >= 2) {
+        ordered_json swapped = list;
+        std::swap(swapped[0], swapped[1]);
+        expect_fault(list, swapped);
+      }
+      for (ordered_json& why : events[i]["why"]) {
+        if (!why["loses"].is_null()) {
+          expect_fault(why["loses"]["objective"], "nothing");
+          expect_fault(why["loses"]["alternative"], why["loses"]["chosen"]);
+        }
+        if (!why["conflict"].empty()) {
+          ordered_json less = why["conflict"];
+          less.erase(0);
+          expect_fault(why["conflict"], less);
+          ordered_json twice = why["conflict"];
+          twice.push_back(twice.front());
+          expect_fault(why["conflict"], twice);
+        }
+      }
+    }
+  }
+  EXPECT_GE(altered, 100U);
+}
+
+}  // namespace
+}  // namespace cbc::oracle
