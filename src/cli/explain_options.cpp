@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/input.h"
@@ -51,15 +52,12 @@ ExplanationOptions explanation_for(const CompiledCatalog& catalog, const Explain
   return result;
 }
 
-bool knows_all_names(const std::vector<Mission>& missions, const ExplainOptions& options) {
-  for (const Mission& mission : missions) {
-    const CompiledCatalog& catalog = *mission.catalog;
-    for (const std::string& name : options.why) {
-      if (catalog.find_task(name) || catalog.find_behavior(name)) continue;
-      complain(fmt::format("--why: catalog {} has no task or behavior {}{}", quote(catalog.file),
-                           quote(name), suggest(catalog, name)));
-      return false;
-    }
+bool knows_names(const CompiledCatalog& catalog, const ExplainOptions& options) {
+  for (const std::string& name : options.why) {
+    if (catalog.find_task(name) || catalog.find_behavior(name)) continue;
+    complain(fmt::format("--why: catalog {} has no task or behavior {}{}", quote(catalog.file),
+                         quote(name), suggest(catalog, name)));
+    return false;
   }
   return true;
 }

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
-#include "cli/mission.h"
+#include "compiled/compiled_catalog.h"
 #include "coordinator/explanation.h"
+
+namespace CLI {
+class App;
+}
 
 namespace cbc::cli {
 
@@ -24,8 +26,7 @@ void add_explain_options(CLI::App& command, ExplainOptions& options);
 [[nodiscard]] ExplanationOptions explanation_for(const CompiledCatalog& catalog,
                                                  const ExplainOptions& options);
 
-/// Whether each catalog knows all names; says on standard error what is wrong.
-[[nodiscard]] bool knows_all_names(const std::vector<Mission>& missions,
-                                   const ExplainOptions& options);
+/// Whether the catalog has all names; says on standard error which it has not.
+[[nodiscard]] bool knows_names(const CompiledCatalog& catalog, const ExplainOptions& options);
 
 }  // namespace cbc::cli

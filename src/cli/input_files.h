@@ -43,6 +43,9 @@ class InputFiles {
   /// Prints all findings to standard error, file by file.
   void print_findings();
 
+  /// All that was found in all files.
+  [[nodiscard]] const std::vector<Diagnostic>& findings() const { return findings_; }
+
  private:
   std::map<std::string, std::string> texts_;  ///< by name in messages
   std::vector<Diagnostic> findings_;

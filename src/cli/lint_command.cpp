@@ -10,6 +10,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cbc/rules.h"

@@ -19,6 +19,7 @@
 #include "cli/exit_status.h"
 #include "cli/lint_command.h"
 #include "cli/solve_command.h"
+#include "cli/standard_descriptors.h"
 #include "text/nearest.h"
 #include "text/quote.h"
 
@@ -112,6 +113,7 @@ int main(int argc, char** argv) {
   // A file that may not grow any more is an output that cannot be written, not the end.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGBUS, end_without_file);
+  cbc::cli::hold_standard_descriptors();
   try {
     return run(argc, argv);
   } catch (const std::system_error& error) {

@@ -27,6 +27,9 @@ class MissionLoader {
   /// script from standard input, a folder stands for the scripts in it. Empty if anything is wrong.
   [[nodiscard]] std::optional<std::vector<Mission>> load(const std::vector<std::string>& paths);
 
+  /// What was found in the files.
+  [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }
+
  private:
   [[nodiscard]] std::shared_ptr<const CompiledCatalog> catalog_of(const std::string& script_path,
                                                                   const yaml::Document& script);

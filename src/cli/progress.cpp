@@ -20,9 +20,14 @@ Progress::~Progress() { clear(); }
 
 void Progress::begin(const std::string& name) {
   ++begun_;
+  name_ = name;
+  show();
+}
+
+void Progress::show(const std::string& detail) {
   if (!is_wanted_ || std::chrono::steady_clock::now() - start_ < std::chrono::seconds(1)) return;
   // The line is written over: return, text, erase to the end.
-  fmt::print(stderr, "\r{} {} of {}: {}\x1b[K", what_, begun_, total_, printable(name));
+  fmt::print(stderr, "\r{} {} of {}: {}{}\x1b[K", what_, begun_, total_, printable(name_), detail);
   std::fflush(stderr);
   is_shown_ = true;
 }

@@ -19,6 +19,8 @@ class Progress {
 
   /// Says that the next thing is begun.
   void begin(const std::string& name);
+  /// Shows the line, also where it was taken away; `detail` goes on its end.
+  void show(const std::string& detail = "");
   /// Takes the line away.
   void clear();
 
@@ -28,6 +30,7 @@ class Progress {
   const bool is_wanted_;
   const std::chrono::steady_clock::time_point start_;
   std::size_t begun_ = 0;
+  std::string name_;  ///< of what was begun last
   bool is_shown_ = false;
 };
 

@@ -1,30 +1,21 @@
 #include "cli/solve_command.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <cstdio>
+#include <initializer_list>
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
+#include <string_view>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/exit_status.h"
-#include "cli/explain_options.h"
 #include "cli/input.h"
-#include "cli/mission.h"
-#include "cli/terminal.h"
+#include "cli/solve_missions.h"
+#include "cli/solve_options.h"
+#include "cli/solve_stream.h"
+#include "cli/sweep_command.h"
 #include "cli/validators.h"
-#include "coordinator/coordinator.h"
-#include "file/atomic_file.h"
-#include "report/solve_html.h"
-#include "report/solve_json.h"
-#include "report/solve_report.h"
-#include "report/solve_text.h"
-#include "script/runner.h"
-#include "text/decimal.h"
-#include "text/quote.h"
 
 namespace cbc::cli {
 namespace {
@@ -41,8 +32,14 @@ constexpr const char* footer =
     "  cbc solve quadrotor.yaml mission.yaml --why HOVER --alternatives 3\n"
     "                                                 why HOVER is as it is, and the three\n"
     "                                                 best configurations, of each event\n"
+    "  cbc solve quadrotor.yaml missions/ --format junit > results.xml\n"
+    "                                                 for CI, a test suite per script\n"
+    "  robot | cbc solve quadrotor.cbc - --format jsonl > log.jsonl\n"
+    "                                                 events as they come, one on a line\n"
+    "  cbc solve --replay log.jsonl quadrotor.cbc     the same again: is it still the same?\n"
     "  cbc solve quadrotor.yaml mission.yaml --max-solutions 5\n"
     "                                                 the best of the first 5 solutions only\n"
+    "  cbc solve quadrotor.yaml --sweep 1000          what happens under random events and faults\n"
     "\n"
     "In the text, P is the priority of the request behind a change, T is + for an activation and "
     "-\n"
@@ -51,107 +48,59 @@ constexpr const char* footer =
     "Exit status: 0 all expectations hold, 1 one does not, 2 the input or the usage is wrong,\n"
     "3 an internal error (please report it).";
 
-struct SolveOptions {
-  std::vector<std::string> paths;
-  std::string format = "text";
-  std::optional<std::string> html;
-  std::uint64_t max_solutions = 0;
-  std::string time_limit;
-  std::uint64_t max_nodes = 0;
-  std::optional<std::uint64_t> tie_seed;
-  std::uint64_t max_clock_events = CoordinatorOptions{}.max_clock_events;
-  ExplainOptions explain;
-};
-
-CoordinatorOptions to_coordinator_options(const SolveOptions& options,
-                                          const CompiledCatalog& catalog) {
-  CoordinatorOptions result;
-  result.search.max_solutions = options.max_solutions;
-  result.search.max_nodes = options.max_nodes;
-  if (!options.time_limit.empty()) {
-    result.search.time_limit = std::chrono::microseconds(parse_seconds(options.time_limit).value);
-  }
-  result.tie_seed = options.tie_seed;
-  result.max_clock_events = options.max_clock_events;
-  result.explain = explanation_for(catalog, options.explain);
-  result.explain.displaced = options.format == "text";
-  return result;
+bool is_one_of(const std::string& format, std::initializer_list<std::string_view> formats) {
+  return std::find(formats.begin(), formats.end(), format) != formats.end();
 }
 
-/// Why a run ended early, or empty.
-std::string describe_end(const RunResult& result, const SolveOptions& options) {
-  switch (result.status) {
-    case Coordinator::Status::ok:
-      return {};
-    case Coordinator::Status::too_many_clock_events:
-      return fmt::format("the clock made more than {} events (--max-clock-events)",
-                         options.max_clock_events);
-    case Coordinator::Status::refused_answer:
-      return "the checker refuses an answer of the solver: " + result.internal_error;
+/// Which options do not go together, or empty. What is not refused here has its effect.
+std::string find_clash(const SolveOptions& options) {
+  const bool is_sweep = options.sweep.is_wanted();
+  const bool is_replay = options.stream.replay.has_value();
+  const bool is_stream = is_replay || options.format == "jsonl";
+  const bool has_reasons = !options.explain.why.empty() || options.explain.alternatives > 0;
+  const bool has_state = options.stream.state_in || options.stream.state_out;
+  if (is_sweep) {
+    if (!is_one_of(options.format, {"text", "json"})) {
+      return fmt::format("a sweep has the formats text and json, not {}", options.format);
+    }
+    if (options.html) return "--html draws scripts, not a sweep";
+    if (has_reasons) return "--why and --alternatives are for scripts, not for a sweep";
+    if (is_replay || has_state)
+      return "--replay, --state-in and --state-out do not go with a sweep";
+    if (!options.time_limit.empty()) {
+      return "a sweep has no --time-limit, as its result must not depend on the machine; "
+             "--max-nodes is such a limit";
+    }
+    return {};
+  }
+  if (options.sweep.slowest || options.sweep.slowest_by_time) {
+    return "--slowest and --slowest-by-time are for a sweep (--sweep or --merge)";
+  }
+  if (is_replay && !is_one_of(options.format, {"text", "jsonl"})) {
+    return fmt::format("--replay writes the format jsonl, not {}", options.format);
+  }
+  if (is_replay && options.stats) return "--replay cannot repeat times; leave out --stats";
+  if (is_stream && options.html) return "--html goes with a script, not with jsonl or --replay";
+  if (!is_stream && has_state)
+    return "--state-in and --state-out go with --format jsonl or --replay";
+  if (is_one_of(options.format, {"junit", "github"})) {
+    if (options.stats) return fmt::format("--stats has no place in the format {}", options.format);
+    if (has_reasons) {
+      return fmt::format("--why and --alternatives have no place in the format {}", options.format);
+    }
   }
   return {};
 }
 
-int status_of(const RunResult& result) {
-  if (result.status == Coordinator::Status::refused_answer) return exit_internal;
-  if (result.status == Coordinator::Status::too_many_clock_events) return exit_unusable;
-  return result.failed > 0 ? exit_no : exit_ok;
-}
-
-/// Says on standard error why a run ended early.
-void complain(const Mission& mission, const RunResult& result, const std::string& reason) {
-  fmt::print(stderr, "cbc: {}: {}\n", quote(mission.script.file), reason);
-  if (result.status == Coordinator::Status::refused_answer) {
-    fmt::print(stderr,
-               "cbc: this is a fault of cbc, not of the catalog {}; please report it with the "
-               "catalog and the script\n",
-               quote(mission.catalog->file));
-  }
-}
-
-int run_missions(const std::vector<Mission>& missions, const SolveOptions& options,
-                 SolveReport& report) {
-  int status = exit_ok;
-  for (const Mission& mission : missions) {
-    report.begin_run(*mission.catalog, mission.script);
-    const RunResult result = run_script(*mission.catalog, mission.script,
-                                        to_coordinator_options(options, *mission.catalog), report);
-    const std::string reason = describe_end(result, options);
-    report.end_run(result, reason);
-    if (!reason.empty()) complain(mission, result, reason);
-    status = std::max(status, status_of(result));
-  }
-  report.end();
-  return status;
-}
-
-/// Runs with a picture beside the report.
-int draw_missions(const std::vector<Mission>& missions, const SolveOptions& options,
-                  SolveReport& report) {
-  HtmlReport picture;
-  ReportPair both(report, picture);
-  const int status = run_missions(missions, options, both);
-  if (const auto error = write_atomically(*options.html, picture.page())) {
-    cli::complain(fmt::format("cannot write {}: {}", quote(*options.html), *error));
-    return std::max<int>(status, exit_unusable);
-  }
-  return status;
-}
-
-std::unique_ptr<SolveReport> make_report(const SolveOptions& options) {
-  if (options.format == "json") {
-    const JsonAdditions adds{!options.explain.why.empty(), options.explain.alternatives > 0};
-    return std::make_unique<JsonReport>(stdout, adds);
-  }
-  return std::make_unique<TextReport>(wants_color(stdout) ? color_style() : plain_style(), stdout);
-}
-
 int solve(const SolveOptions& options) {
-  const std::optional<std::vector<Mission>> missions = MissionLoader().load(options.paths);
-  if (!missions || !knows_all_names(*missions, options.explain)) return exit_unusable;
-  const std::unique_ptr<SolveReport> report = make_report(options);
-  return options.html ? draw_missions(*missions, options, *report)
-                      : run_missions(*missions, options, *report);
+  if (const std::string clash = find_clash(options); !clash.empty()) {
+    complain(clash + "\nSee 'cbc solve --help'.");
+    return exit_unusable;
+  }
+  if (options.sweep.is_wanted()) return run_sweep(options);
+  if (options.stream.replay) return replay_stream(options);
+  if (options.format == "jsonl") return solve_stream(options);
+  return solve_missions(options);
 }
 
 }  // namespace
@@ -168,15 +117,33 @@ void add_solve_command(CLI::App& program, int& status) {
                    "script names its own (catalog: FILE).")
       ->option_text("...")
       ->required();
-  command->add_option("--format", options->format, "text (the default) or json")
+  command
+      ->add_option("--format", options->format,
+                   "text (the default), json, junit, github; or jsonl: each\n"
+                   "event as a line, as soon as it is solved; - is then a\n"
+                   "stream of events, one on a line (JSON, or a mapping in\n"
+                   "braces)")
       ->option_text("FORMAT")
-      ->check(CLI::IsMember({"text", "json"}));
+      ->check(CLI::IsMember({"text", "json", "junit", "github", "jsonl"}));
   command
       ->add_option("--html", options->html,
                    "Write a page with a timeline of all runs to FILE, too: to\n"
                    "step through in a browser, or to print")
       ->option_text("FILE");
+  command
+      ->add_option("-j,--jobs", options->jobs,
+                   "Run up to N scripts, or sequences of a sweep, at once\n"
+                   "(default: the number of processors); the output is the\n"
+                   "same for any N")
+      ->option_text("N")
+      ->check(whole_number(1));
+  command->add_flag("--stats", options->stats,
+                    "Show what each search took, and mean, least and greatest\n"
+                    "of all, with the memory and the time of the process; of a\n"
+                    "sweep, report times, too");
+  command->option_defaults()->group("Reasons");
   add_explain_options(*command, options->explain);
+  command->option_defaults()->group("Search");
   command
       ->add_option("--max-solutions", options->max_solutions,
                    "Take the best of the first M solutions, in the order of\n"
@@ -205,6 +172,10 @@ void add_solve_command(CLI::App& program, int& status) {
                    "than N events (default: 1000000)")
       ->option_text("N")
       ->check(whole_number(1));
+  command->option_defaults()->group("Streams");
+  add_stream_options(*command, options->stream);
+  command->option_defaults()->group("Sweeps");
+  add_sweep_options(*command, options->sweep);
   command->callback([options, &status] { status = solve(*options); });
 }
 

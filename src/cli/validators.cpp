@@ -1,7 +1,6 @@
 #include "cli/validators.h"
 
 #include <charconv>
-#include <limits>
 #include <string>
 #include <system_error>
 
@@ -21,14 +20,15 @@ std::string check_seconds(const std::string& text) {
 
 }  // namespace
 
-CLI::Validator whole_number(std::int64_t least) {
-  const auto check = [least](const std::string& text) -> std::string {
+CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
+  const auto check = [least, most](const std::string& text) -> std::string {
     std::int64_t number = 0;
     const char* const end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, number);
-    if (error == std::errc() && stop == end && number >= least) return {};
-    return fmt::format("expected a whole number from {} to {}, found {}", least,
-                       std::numeric_limits<std::int64_t>::max(), quote(text));
+    if (error == std::errc() && stop == end && number >= least && number <= most) {
+      return {};
+    }
+    return fmt::format("expected a whole number from {} to {}, found {}", least, most, quote(text));
   };
   return {check, ""};
 }

@@ -5,9 +5,15 @@
 namespace cbc {
 
 std::string search_space(const std::vector<std::uint32_t>& domain_sizes) {
-  boost::multiprecision::cpp_int product = 1;
-  for (const std::uint32_t size : domain_sizes) {
-    if (size != 1) product *= size;
+  // Most products fit in a machine word.
+  std::uint64_t word = 1;
+  std::size_t place = 0;
+  while (place < domain_sizes.size() && word <= UINT32_MAX) word *= domain_sizes[place++];
+  if (place == domain_sizes.size()) return std::to_string(word);
+
+  boost::multiprecision::cpp_int product = word;
+  for (; place < domain_sizes.size(); ++place) {
+    if (domain_sizes[place] != 1) product *= domain_sizes[place];
   }
   return product.str();
 }

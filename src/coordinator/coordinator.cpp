@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 
 #include <fmt/format.h>
 
@@ -29,6 +30,50 @@ void Coordinator::begin(std::span<const Availability> situation) {
     state_.set_available(catalog_.behavior_ids[entry.behavior], entry.available);
   }
   for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) enqueue_group(group);
+}
+
+void Coordinator::resume(const Snapshot& snapshot) {
+  now_ = snapshot.now;
+  record_.index = snapshot.events;
+  for (const BehaviorId behavior : snapshot.unavailable) state_.set_available(behavior, false);
+  for (const BehaviorId behavior : snapshot.faulty) state_.set_faulty(behavior, true);
+  for (const auto& [behavior, time] : snapshot.active) state_.set_active(behavior, time);
+  for (const Snapshot::RunningTask& entry : snapshot.running) {
+    state_.set_place(entry.task, entry.place, entry.since);
+    if (const auto& request = entry.request) {
+      state_.set_request(entry.task, request->priority, request->event, request->parameters);
+    }
+    // As of before all times, so that a timeout that is due right now is set as well.
+    if (entry.waits_for_timeout) state_.update_timeout(entry.task, -1);
+  }
+  for (const auto& [task, due] : snapshot.queue) state_.enqueue(task, due);
+}
+
+Snapshot Coordinator::snapshot() const {
+  Snapshot snapshot;
+  snapshot.now = now_;
+  snapshot.events = record_.index;
+  snapshot.reactive_delay = options_.reactive_delay;
+  for (const std::uint32_t index : state_.running()) {
+    const TaskId task = catalog_.task_ids[index];
+    Snapshot::RunningTask& entry = snapshot.running.emplace_back();
+    entry = {task, state_.place(task), state_.taken_at(task), {}, state_.timeouts().has(index)};
+    if (state_.has_request(task)) entry.request = state_.request(task);
+  }
+  for (const BehaviorId behavior : catalog_.behavior_ids) {
+    if (state_.is_active(behavior)) {
+      snapshot.active.emplace_back(behavior, state_.activated_at(behavior));
+    }
+    if (!state_.is_available(behavior)) snapshot.unavailable.push_back(behavior);
+    if (state_.is_faulty(behavior)) snapshot.faulty.push_back(behavior);
+  }
+  for (const auto& [due, index] : state_.queue().entries()) {
+    snapshot.queue.emplace_back(catalog_.task_ids[index], due);
+  }
+  std::sort(snapshot.queue.begin(), snapshot.queue.end(), [this](const auto& a, const auto& b) {
+    return catalog_.tasks[a.first].catalog_index < catalog_.tasks[b.first].catalog_index;
+  });
+  return snapshot;
 }
 
 // The clock.
@@ -257,7 +302,7 @@ Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
   transition_.load(trigger, question_.active_before());
   if (trigger.kind == Trigger::Kind::finish) state_.set_inactive(trigger.behavior);
   for (;;) {
-    const Problem* const problem = search(trigger);
+    const Problem* const problem = options_.measure_time ? timed_search(trigger) : search(trigger);
     if (problem == nullptr) return reject(trigger);
     if (const auto violation = checker_.find_violation(*problem, solution_)) {
       internal_error_ = describe_refusal(*violation);
@@ -294,16 +339,21 @@ std::string Coordinator::describe_refusal(const std::string& violation) const {
 /// the level that protects nothing. Returns the problem that was solved, or null.
 const Problem* Coordinator::search(const Trigger& trigger) {
   std::int32_t protection = question_.first_protection();
-  if (record_.search == nullptr) search_.result = {};
+  if (record_.search == nullptr) {
+    search_.result = {};
+    search_.elapsed.reset();
+  }
   record_.search = &search_;
   search_.group = trigger.group;
   for (;;) {
     const Problem& problem = question_.ask(protection);
     const SearchResult result = solver_.solve(problem, solution_);
     search_.protection = protection;
+    search_.is_escalated = protection != question_.first_protection();
     search_.result.status = result.status;
     search_.result.solutions += result.solutions;
     search_.result.nodes += result.nodes;
+    search_.result.propagations += result.propagations;
     if (has_solution(result.status)) {
       note_domain_sizes(problem);
       return &problem;
@@ -318,6 +368,15 @@ const Problem* Coordinator::search(const Trigger& trigger) {
     }
     protection = *next;
   }
+}
+
+/// The same, by the clock of the machine.
+const Problem* Coordinator::timed_search(const Trigger& trigger) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Problem* const problem = search(trigger);
+  const std::chrono::nanoseconds elapsed = std::chrono::steady_clock::now() - begin;
+  search_.elapsed = search_.elapsed.value_or(std::chrono::nanoseconds(0)) + elapsed;
+  return problem;
 }
 
 void Coordinator::note_domain_sizes(const Problem& problem) {

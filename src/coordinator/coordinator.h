@@ -13,6 +13,7 @@
 #include "coordinator/explanation.h"
 #include "coordinator/question.h"
 #include "coordinator/record.h"
+#include "coordinator/snapshot.h"
 #include "coordinator/state.h"
 #include "coordinator/transition.h"
 #include "solver/checker.h"
@@ -26,6 +27,7 @@ struct CoordinatorOptions {
   std::uint64_t max_clock_events = 1'000'000;  ///< events that no script asked for
   bool find_conflicts = true;                  ///< finds the reasons of rejections
   ExplanationOptions explain;                  ///< of accepted events
+  bool measure_time = false;                   ///< notes what searches take
   /// Orders behaviors of equal suitability at random instead of in catalog order.
   std::optional<std::uint64_t> tie_seed;
 };
@@ -60,6 +62,12 @@ class Coordinator {
 
   /// Before the first event: sets the situation and queues the reactive tasks.
   void begin(std::span<const Availability> situation);
+
+  /// Instead of begin: goes on from the state of another coordinator, which find_inconsistency
+  /// accepts. The reactive delay is that of the options.
+  void resume(const Snapshot& snapshot);
+  /// All that there is to go on from. The last call returned ok.
+  [[nodiscard]] Snapshot snapshot() const;
 
   /// Moves the clock to `time` (not before now), and before that through everything that falls due
   /// earlier.
@@ -98,6 +106,7 @@ class Coordinator {
 
   Status coordinate(const Trigger& trigger);
   [[nodiscard]] const Problem* search(const Trigger& trigger);
+  [[nodiscard]] const Problem* timed_search(const Trigger& trigger);
   [[nodiscard]] std::string describe_refusal(const std::string& violation) const;
   void note_domain_sizes(const Problem& problem);
   [[nodiscard]] BehaviorId behavior_to_restart(const Trigger& trigger) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -38,7 +39,10 @@ struct SearchRecord {
   SearchResult result;  ///< of the last search; its counts over all searches of the event
   std::uint32_t group = 0;
   std::int32_t protection = 0;
+  bool is_escalated = false;                ///< there was no solution at the first protection level
   std::vector<std::uint32_t> domain_sizes;  ///< their product is the search space
+  /// What all searches of the event took, with the making of their problems; empty unless measured.
+  std::optional<std::chrono::nanoseconds> elapsed;
 };
 
 /// What one event did. Valid until the coordinator handles the next one, whose record takes over

@@ -38,6 +38,8 @@ class State {
   [[nodiscard]] std::uint32_t idle_running() const { return idle_running_; }
   [[nodiscard]] std::uint32_t idle_total() const { return idle_total_; }
 
+  /// When a running task took its behavior.
+  [[nodiscard]] Microseconds taken_at(TaskId task) const { return taken_at_[task]; }
   /// Gives the task a value (a place, or none). A task that stops loses its request.
   void set_place(TaskId task, std::uint32_t place, Microseconds now);
 
@@ -62,6 +64,10 @@ class State {
   [[nodiscard]] bool is_faulty(BehaviorId behavior) const { return faulty_[behavior] != 0; }
   void set_faulty(BehaviorId behavior, bool faulty) { faulty_[behavior] = faulty ? 1 : 0; }
   [[nodiscard]] bool is_active(BehaviorId behavior) const { return active_[behavior] != 0; }
+  /// When an active behavior was activated.
+  [[nodiscard]] Microseconds activated_at(BehaviorId behavior) const {
+    return activated_at_[behavior];
+  }
   void set_inactive(BehaviorId behavior) { active_[behavior] = 0; }
   void set_active(BehaviorId behavior, Microseconds now);
   /// Counts the behavior as active though its activation failed.

@@ -6,7 +6,7 @@
 #include "report/exact_values.h"
 #include "report/explanation.h"
 #include "report/reasons.h"
-#include "report/solve_json.h"
+#include "report/reasons_json.h"
 
 namespace cbc {
 namespace {
@@ -116,7 +116,7 @@ Json why_to_json(const CompiledCatalog& catalog, const EventRecord& record, cons
                                : Json(nullptr);
     entry["loses"] =
         why_not.alternative ? loss_to_json(catalog, record, why_not, state) : Json(nullptr);
-    entry["conflict"] = reasons_to_json(catalog, record, why_not.conflict);
+    entry["conflict"] = Json::parse(reasons_to_json(catalog, record, why_not.conflict));
     entry["message"] = message_of(describe_why(catalog, record, why, state));
   }
   return list;

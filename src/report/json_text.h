@@ -1,6 +1,9 @@
 #pragma once
 
+#include <charconv>
+#include <concepts>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -11,5 +14,15 @@ namespace cbc {
 
 /// Appends an item of an array that has one item on a line, begun by `[`.
 void append_item(std::string& array, const std::string& item);
+
+// These append what to_text gives for the value, without making a tree of it.
+
+void append_text(std::string& json, std::string_view text);
+void append_number(std::string& json, double number);
+template <std::integral Integer>
+void append_integer(std::string& json, Integer number) {
+  char digits[24];
+  json.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
 
 }  // namespace cbc

@@ -1,40 +1,29 @@
 #pragma once
 
 #include <cstdio>
-#include <span>
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
 #include "compiled/compiled_catalog.h"
 #include "coordinator/record.h"
+#include "coordinator/search_totals.h"
 #include "coordinator/state.h"
+#include "report/event_json.h"
 #include "report/solve_report.h"
 #include "script/runner.h"
 #include "script/script.h"
 
 namespace cbc {
 
-/// One event as the JSON of `cbc solve` has it. `step` is the scripted one, or null.
-[[nodiscard]] nlohmann::ordered_json event_to_json(const CompiledCatalog& catalog,
-                                                   const EventRecord& record, const Step* step,
-                                                   const State& state);
-
-/// A set of reasons as the JSON of `cbc solve` has it.
-[[nodiscard]] nlohmann::ordered_json reasons_to_json(const CompiledCatalog& catalog,
-                                                     const EventRecord& record,
-                                                     std::span<const Reason> reasons);
-
-/// What the events have beside the keys that they always have.
-struct JsonAdditions {
-  bool why = false;
-  bool alternatives = false;
-};
-
 /// Writes runs as one JSON document, event by event, so that memory does not grow with the run.
 class JsonReport final : public SolveReport {
  public:
-  explicit JsonReport(std::FILE* out, const JsonAdditions& adds = {});
+  explicit JsonReport(std::FILE* out, const EventAdditions& adds = {})
+      : JsonReport(out, adds, false) {}
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
@@ -43,15 +32,22 @@ class JsonReport final : public SolveReport {
   void end_run(const RunResult& result, const std::string& error) override;
   void end() override;
 
+  [[nodiscard]] std::unique_ptr<SolveReport> make_part(std::FILE* out) const override;
+  void add_part(std::string_view text, const RunResult& result) override;
+
  private:
-  void write(const std::string& text);
+  JsonReport(std::FILE* out, const EventAdditions& adds, bool is_part);
+  void count(const RunResult& result);
+  void write(std::string_view text);
   void begin_item(bool& is_first, const char* indent);
 
   std::FILE* const out_;
-  const JsonAdditions adds_;
+  const EventAdditions adds_;
   const CompiledCatalog* catalog_ = nullptr;
   bool is_first_run_ = true;
   bool is_first_event_ = true;
+  std::string event_;                   ///< kept for its memory
+  std::optional<SearchTotals> totals_;  ///< if time was measured
   nlohmann::ordered_json failures_;
 };
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdio>
+#include <memory>
 #include <string>
+#include <string_view>
 
 #include "compiled/compiled_catalog.h"
 #include "script/runner.h"
@@ -17,6 +20,16 @@ class SolveReport : public RunListener {
   virtual void end_run(const RunResult& result, const std::string& error) = 0;
   /// After the last run.
   virtual void end() = 0;
+
+  // For runs that are not told one after the other.
+
+  /// A report that is told of one run, on any thread, and writes to `out` what this one would write
+  /// of it. Null: this report has to be told of all runs itself.
+  [[nodiscard]] virtual std::unique_ptr<SolveReport> make_part(std::FILE* /*out*/) const {
+    return nullptr;
+  }
+  /// Takes, in place of a run, what a part has written of it.
+  virtual void add_part(std::string_view /*text*/, const RunResult& /*result*/) {}
 };
 
 /// Passes everything on to two reports.

@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "report/exact_values.h"
+#include "report/describe_event.h"
+#include "report/process_usage.h"
 #include "report/reasons.h"
+#include "report/solve_stats.h"
 #include "text/quote.h"
 
 namespace cbc {
@@ -29,39 +31,6 @@ std::string join_tasks(const CompiledCatalog& catalog, std::span<const TaskId> t
     if (!text.empty()) text += ", ";
     text += printable(catalog.name_of_task(task));
   }
-  return text;
-}
-
-std::string describe_situation(const CompiledCatalog& catalog,
-                               const std::vector<Availability>& situation) {
-  std::string text;
-  for (const Availability& entry : situation) {
-    text += fmt::format("{} {} {}", text.empty() ? "" : ",",
-                        printable(catalog.behavior_names[entry.behavior]),
-                        entry.available ? "available" : "unavailable");
-  }
-  return text;
-}
-
-/// Seconds, to the millisecond, or to the microsecond where it takes that.
-std::string format_time(Microseconds time) {
-  return fmt::format("{:.{}f}", to_seconds(time), time % 1000 == 0 ? 3 : 6);
-}
-
-std::string describe_event(const CompiledCatalog& catalog, const EventRecord& record,
-                           const Step* step) {
-  std::string text(name_of(record.verb));
-  if (record.task != none) {
-    text += " " + printable(catalog.name_of_task(record.task));
-    text += fmt::format(", priority {}", record.priority);
-  }
-  if (record.behavior != none) text += " " + printable(catalog.name_of_behavior(record.behavior));
-  if (record.verb == Verb::finish) text += fmt::format(", {}", name_of(record.cause));
-  if (step != nullptr && record.verb == Verb::situation) {
-    text += describe_situation(catalog, step->situation);
-  }
-  if (step != nullptr && step->parameters) text += " " + printable(step->parameters->json);
-  if (record.origin != Origin::script) text += fmt::format(" ({})", name_of(record.origin));
   return text;
 }
 
@@ -91,6 +60,10 @@ void TextReport::on_event(const EventRecord& record, const Step* step, const Sta
   for (const Change& change : record.changes) write_change(record, change);
   write_stopped(record);
   write_explanation(record, state);
+  if (record.search != nullptr && record.search->elapsed) {
+    fmt::print(out_, "{}{}{}{}\n", text_indent, style_.faint, stats_line(*record.search),
+               style_.reset);
+  }
 }
 
 std::string TextReport::describe_outcome(const EventRecord& record) const {
@@ -193,18 +166,37 @@ void TextReport::on_end(const State& state) {
 }
 
 void TextReport::end_run(const RunResult& result, const std::string& /*error*/) {
-  ++runs_;
-  if (result.failed > 0) ++failed_runs_;
+  count(result);
   if (result.passed + result.failed == 0) return;
   fmt::print(out_, "\n{}expectations: {} passed, {} failed{}\n",
              result.failed > 0 ? style_.bad : style_.good, result.passed, result.failed,
              style_.reset);
 }
 
+void TextReport::count(const RunResult& result) {
+  ++runs_;
+  if (result.failed > 0) ++failed_runs_;
+  if (!result.totals) return;
+  if (!totals_) totals_.emplace();
+  totals_->merge(*result.totals);
+}
+
+std::unique_ptr<SolveReport> TextReport::make_part(std::FILE* out) const {
+  return std::make_unique<TextReport>(style_, out);
+}
+
+void TextReport::add_part(std::string_view text, const RunResult& result) {
+  if (runs_ > 0) fmt::print(out_, "\n");
+  fmt::print(out_, "{}", text);
+  count(result);
+}
+
 void TextReport::end() {
-  if (runs_ < 2) return;
-  fmt::print(out_, "\n{}{} scripts, {} with failed expectations{}\n",
-             failed_runs_ > 0 ? style_.bad : style_.good, runs_, failed_runs_, style_.reset);
+  if (runs_ > 1) {
+    fmt::print(out_, "\n{}{} scripts, {} with failed expectations{}\n",
+               failed_runs_ > 0 ? style_.bad : style_.good, runs_, failed_runs_, style_.reset);
+  }
+  if (totals_) fmt::print(out_, "\n{}", stats_table(*totals_, process_usage(), style_));
 }
 
 }  // namespace cbc

@@ -2,10 +2,14 @@
 
 #include <cstddef>
 #include <cstdio>
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "compiled/compiled_catalog.h"
 #include "coordinator/record.h"
+#include "coordinator/search_totals.h"
 #include "coordinator/state.h"
 #include "report/explanation.h"
 #include "report/solve_report.h"
@@ -27,8 +31,11 @@ class TextReport final : public SolveReport {
   void on_end(const State& state) override;
   /// An error is told elsewhere.
   void end_run(const RunResult& result, const std::string& error) override;
-  /// The sum, if there are several runs.
+  /// The sum, if there are several runs, and what searches took, if that was measured.
   void end() override;
+
+  [[nodiscard]] std::unique_ptr<SolveReport> make_part(std::FILE* out) const override;
+  void add_part(std::string_view text, const RunResult& result) override;
 
  private:
   [[nodiscard]] std::string describe_outcome(const EventRecord& record) const;
@@ -38,6 +45,7 @@ class TextReport final : public SolveReport {
   void write_explanation(const EventRecord& record, const State& state);
   void write_alternatives(const EventRecord& record, const State& state);
   void write(const Sentences& sentences);
+  void count(const RunResult& result);
 
   const Style style_;
   std::FILE* const out_;
@@ -47,6 +55,7 @@ class TextReport final : public SolveReport {
   std::size_t task_width_ = 0;
   std::size_t runs_ = 0;
   std::size_t failed_runs_ = 0;
+  std::optional<SearchTotals> totals_;
 };
 
 }  // namespace cbc

@@ -58,9 +58,10 @@ std::optional<std::string> catalog_of_script(const yaml::Document& document) {
 }
 
 std::optional<Script> read_script(const yaml::Document& document, const CompiledCatalog& catalog,
-                                  Severity of_parameters, Diagnostics& diagnostics) {
+                                  Severity of_parameters, Diagnostics& diagnostics,
+                                  Microseconds start) {
   Reporter reporter(document.file(), diagnostics);
-  StepReader reader(catalog, of_parameters);
+  StepReader reader(catalog, of_parameters, start);
   Script script;
   script.file = document.file();
   const Node& root = document.root();

@@ -15,9 +15,10 @@ namespace cbc {
 
 /// Understands an event script and checks it as a whole. A script has a meaning whatever the
 /// parameters in it are: findings about them have the severity `of_parameters`. The result is empty
-/// if there is an error.
+/// if there is an error. Time begins at `start`.
 [[nodiscard]] std::optional<Script> read_script(const yaml::Document& document,
                                                 const CompiledCatalog& catalog,
-                                                Severity of_parameters, Diagnostics& diagnostics);
+                                                Severity of_parameters, Diagnostics& diagnostics,
+                                                Microseconds start = 0);
 
 }  // namespace cbc

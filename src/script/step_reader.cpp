@@ -104,6 +104,15 @@ Step StepReader::read(const Node& node, Reporter& reporter) {
   return step;
 }
 
+void StepReader::resume(Microseconds now, const State& state) {
+  clock_ = now;
+  const auto& ids = names_.catalog().behavior_ids;
+  for (std::uint32_t behavior = 0; behavior < ids.size(); ++behavior) {
+    is_available_[behavior] = state.is_available(ids[behavior]);
+  }
+  knows_situation_ = true;
+}
+
 void StepReader::read_time(const Fields& fields, Step& step, Reporter& reporter) {
   const Node* at = fields.find("at");
   const Node* wait = fields.find("wait");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cbc/units.h"
+#include "coordinator/state.h"
 #include "diagnostic/reporter.h"
 #include "script/names.h"
 #include "script/parameter_checks.h"
@@ -17,9 +18,10 @@ namespace cbc {
 /// Reads the entries of a script one after the other, and keeps its clock and its situation.
 class StepReader {
  public:
-  /// The catalog must outlive this object; see read_script.
-  StepReader(const CompiledCatalog& catalog, Severity of_parameters)
-      : names_(catalog),
+  /// The catalog must outlive this object; see read_script. Time begins at `start`.
+  StepReader(const CompiledCatalog& catalog, Severity of_parameters, Microseconds start = 0)
+      : clock_(start),
+        names_(catalog),
         parameter_checks_(catalog, of_parameters),
         is_available_(catalog.behaviors.size(), true) {}
 
@@ -31,6 +33,9 @@ class StepReader {
   [[nodiscard]] std::vector<Availability> read_situation(const yaml::Node& node,
                                                          Reporter& reporter);
 
+  /// Goes on from the state that a coordinator has come to, whatever was read before.
+  void resume(Microseconds now, const State& state);
+
   /// Tells that something may be meant to change the situation, but is not understood.
   void doubt_situation() { knows_situation_ = false; }
 
@@ -39,9 +44,9 @@ class StepReader {
   void read_verb(std::string_view verb, const yaml::Fields& fields, Step& step, Reporter& reporter);
   void check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter);
 
+  Microseconds clock_;
   NameIndex names_;
   ParameterChecks parameter_checks_;
-  Microseconds clock_ = 0;
   std::vector<bool> is_available_;  ///< by behavior, at this place of the script
   bool knows_situation_ = true;
 };

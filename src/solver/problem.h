@@ -38,6 +38,8 @@ struct SearchResult {
   SearchStatus status = SearchStatus::infeasible;
   std::uint64_t solutions = 0;  ///< solutions met, each better than the one before (all, with m)
   std::uint64_t nodes = 0;      ///< decisions taken
+  /// Times that the constraints of a task whose domain had changed were applied to the others.
+  std::uint64_t propagations = 0;
 };
 
 }  // namespace cbc

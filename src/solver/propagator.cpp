@@ -19,6 +19,7 @@ Propagator::Propagator(const CompiledCatalog& catalog, Domains& domains)
 void Propagator::load(const Problem& problem) {
   first_task_ = catalog_.group_tasks[problem.group];
   has_performance_rules_ = has_rules_[problem.group] != 0;
+  propagations_ = 0;
 }
 
 bool Propagator::propagate() {
@@ -32,6 +33,7 @@ bool Propagator::propagate() {
 }
 
 bool Propagator::revise(std::uint32_t task) {
+  ++propagations_;
   if (domains_.count(task) == 0) return close_dependents(task);
   return close_rivals(task) && need_requirements(task);
 }
@@ -75,6 +77,7 @@ bool Propagator::revise_performance() {
 }
 
 bool Propagator::revise_performance_of(std::uint32_t task) {
+  ++propagations_;
   const CompiledTask& compiled = catalog_.tasks[first_task_ + task];
   if (compiled.minimum_performance > 0 &&
       !enforce(task, compiled.minimum_performance, compiled.minimum_cost)) {

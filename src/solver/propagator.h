@@ -22,6 +22,9 @@ class Propagator {
   /// true means that these behaviors, all other tasks not running, are a solution.
   [[nodiscard]] bool propagate();
 
+  /// Tasks looked at since the last load, each time that one is.
+  [[nodiscard]] std::uint64_t propagations() const { return propagations_; }
+
  private:
   /// The most that the performance of a task can be: product of the best suitabilities of the
   /// task and of what it surely requires (its closure).
@@ -47,6 +50,7 @@ class Propagator {
   Domains& domains_;
   TaskId first_task_ = 0;
   bool has_performance_rules_ = false;
+  std::uint64_t propagations_ = 0;
   std::vector<std::uint8_t> has_rules_;  ///< by group
 
   std::vector<std::uint32_t> closure_;

@@ -26,6 +26,7 @@ Solver::Solver(const CompiledCatalog& catalog, const SearchOptions& options,
 SearchResult Solver::solve(const Problem& problem, Assignment& solution) {
   load(problem);
   const bool is_complete = search();
+  result_.propagations = propagator_.propagations();
   const Incumbent& best = scopes_.front().best;
   if (best.exists) {
     result_.status = is_complete ? SearchStatus::optimal : SearchStatus::feasible;

@@ -32,6 +32,7 @@
 #include "golden/lint_json_shape.h"
 #include "golden/process.h"
 #include "golden/solve_json_shape.h"
+#include "golden/sweep_json_shape.h"
 
 namespace cbc::golden {
 namespace {
@@ -134,8 +135,10 @@ bool asks_for_json(const Call& call) {
 /// What is wrong with the shape of a report in JSON, by the schema that it names.
 std::vector<std::string> find_json_faults(const std::string& text) {
   const nlohmann::json report = nlohmann::json::parse(text, nullptr, false);
-  const bool is_of_lint = report.is_object() && report.value("schema", "") == "cbc.lint/1";
-  return is_of_lint ? find_lint_shape_faults(text) : find_shape_faults(text);
+  const std::string schema = report.is_object() ? report.value("schema", "") : "";
+  if (schema == "cbc.lint/1") return find_lint_shape_faults(text);
+  if (schema == "cbc.sweep/1") return find_sweep_shape_faults(text);
+  return find_shape_faults(text);
 }
 
 class Golden : public testing::TestWithParam<std::string> {};

@@ -90,10 +90,14 @@ TEST_F(Terminal, ShowsWhatOtherProgramsReadWithoutColor) {
   EXPECT_FALSE(shows_color({{"lint", "--diff", "catalog.yaml"}, folder_of("lint_diff")}));
 }
 
-TEST_F(Terminal, ShowsJsonWithoutColor) {
-  Call call = mission_call();
-  call.arguments.insert(call.arguments.end(), {"--format", "json"});
-  EXPECT_FALSE(shows_color(call));
+TEST_F(Terminal, ShowsReportsForProgramsWithoutColor) {
+  for (const char* format : {"json", "junit", "github"}) {
+    Call call{{"solve", "catalog.yaml", "script.yaml"}, folder_of("expectation_fails")};
+    call.arguments.insert(call.arguments.end(), {"--format", format});
+    std::string shown = run_on_terminal(call).out;
+    std::erase(shown, '\r');
+    EXPECT_NE(shown.find(run(call).out), std::string::npos) << format;
+  }
 }
 
 TEST_F(Terminal, ShowsNoColorWhereNoneIsWanted) {
@@ -169,7 +173,7 @@ std::vector<Excerpt> excerpts_of_readme() {
 TEST(Readme, ShowsWhatTheProgramPrints) {
   const fs::path source = CBC_SOURCE_DIR;
   const std::vector<Excerpt> excerpts = excerpts_of_readme();
-  ASSERT_EQ(excerpts.size(), 2U);
+  ASSERT_EQ(excerpts.size(), 3U);
   for (const Excerpt& excerpt : excerpts) {
     ASSERT_GT(excerpt.lines.size(), 10U);
     const bool is_here = fs::exists(source / excerpt.arguments.back());

@@ -1,5 +1,6 @@
 #include "golden/solve_json_shape.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -45,9 +46,15 @@ Keys keys_of_reason(const Json& reason) {
 class ShapeCheck {
  public:
   void check_report(const Json& report) {
-    if (!has_keys(report, {"schema", "runs"}, "the report")) return;
+    has_stats_ = report.contains("totals");
+    Keys keys{"schema", "runs"};
+    if (has_stats_) keys.insert(keys.end(), {"totals", "process"});
+    if (!has_keys(report, keys, "the report")) return;
     if (report["schema"] != "cbc.solve/1") add("the schema is " + report["schema"].dump());
     for (const Json& run : report["runs"]) check_run(run);
+    if (!has_stats_) return;
+    check_totals(report["totals"], "the totals of all runs");
+    has_keys(report["process"], {"peak_memory_bytes", "cpu_us"}, "the process");
   }
 
   [[nodiscard]] std::vector<std::string> take() { return std::move(faults_); }
@@ -55,12 +62,34 @@ class ShapeCheck {
  private:
   void check_run(const Json& run) {
     Keys keys{"catalog", "script", "events", "expectations"};
+    if (has_stats_) keys.emplace_back("totals");
     // Why the run ended early, if it did.
     if (run.contains("error")) keys.emplace_back("error");
     if (!has_keys(run, keys, "a run")) return;
     std::size_t index = 0;
     for (const Json& event : run["events"]) check_event(event, ++index);
     check_expectations(run["expectations"]);
+    if (has_stats_) check_totals(run["totals"], "the totals of a run");
+  }
+
+  void check_totals(const Json& totals, const std::string& where) {
+    const Keys measures{"solutions", "nodes", "propagations", "elapsed_us"};
+    Keys keys{"events"};
+    keys.insert(keys.end(), measures.begin(), measures.end());
+    keys.emplace_back("kinds");
+    if (!has_keys(totals, keys, where)) return;
+    const auto check_measures = [&](const Json& effort) {
+      for (const std::string& measure : measures) {
+        has_keys(effort[measure], {"sum", "mean", "min", "max"}, measure + " in " + where);
+      }
+    };
+    check_measures(totals);
+    keys.back() = "verb";
+    std::rotate(keys.begin(), keys.end() - 1, keys.end());
+    keys.insert(keys.begin() + 1, "origin");
+    for (const Json& kind : totals["kinds"]) {
+      if (has_keys(kind, keys, "a kind in " + where)) check_measures(kind);
+    }
   }
 
   void check_event(const Json& event, std::size_t index) {
@@ -144,8 +173,9 @@ class ShapeCheck {
                "the objective of " + where);
     }
     if (!event["search"].is_null()) {
-      has_keys(event["search"], {"status", "group", "space", "protection", "solutions", "nodes"},
-               "the search of " + where);
+      Keys keys{"status", "group", "space", "protection", "solutions", "nodes"};
+      if (has_stats_) keys.insert(keys.end(), {"propagations", "elapsed_us"});
+      has_keys(event["search"], keys, "the search of " + where);
     }
     if (event["outcome"] != "accepted" && !event["objective"].is_null()) {
       add(where + " was not accepted and has an objective");
@@ -185,6 +215,7 @@ class ShapeCheck {
   void add(std::string fault) { faults_.push_back(std::move(fault)); }
 
   std::vector<std::string> faults_;
+  bool has_stats_ = false;  ///< of a call with --stats
 };
 
 }  // namespace

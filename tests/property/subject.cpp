@@ -6,8 +6,8 @@
 #include "catalog/reader.h"
 #include "compiled/compile.h"
 #include "compiled/compiled_file.h"
+#include "report/event_json.h"
 #include "report/explanation_json.h"
-#include "report/solve_json.h"
 #include "script/reader.h"
 #include "script/runner.h"
 #include "yaml/document.h"
@@ -24,12 +24,20 @@ namespace {
   throw std::runtime_error(text);
 }
 
+nlohmann::ordered_json event_to_json(const CompiledCatalog& catalog, const EventRecord& record,
+                                     const Step* step, const State& state,
+                                     const EventAdditions& adds) {
+  std::string text;
+  append_event(text, catalog, record, step, state, adds);
+  return nlohmann::ordered_json::parse(text);
+}
+
 class Events final : public RunListener {
  public:
   explicit Events(const CompiledCatalog& catalog) : catalog_(catalog) {}
 
   void on_event(const EventRecord& record, const Step* step, const State& state) override {
-    events_.push_back(event_to_json(catalog_, record, step, state));
+    events_.push_back(event_to_json(catalog_, record, step, state, {}));
   }
   void on_failure(const Failure& failure) override { throw std::runtime_error(failure.message); }
   void on_end(const State& /*state*/) override {}
@@ -62,9 +70,7 @@ class ExplainedEvents final : public RunListener {
   explicit ExplainedEvents(const CompiledCatalog& catalog) : catalog_(catalog) {}
 
   void on_event(const EventRecord& record, const Step* step, const State& state) override {
-    auto event = event_to_json(catalog_, record, step, state);
-    event["why"] = why_to_json(catalog_, record, state);
-    event["alternatives"] = alternatives_to_json(catalog_, record, state);
+    auto event = event_to_json(catalog_, record, step, state, {true, true});
     EventRecord of_displaced = record;
     of_displaced.explanation.why.clear();
     for (const Displacement& displaced : record.explanation.displaced) {

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace cbc::cli {
+
+/// Makes items on several threads, and hands them out in their order. As no thread is far ahead of
+/// what was handed out, there are never more than a few items for each thread.
+template <typename Item>
+class OrderedWork {
+ public:
+  /// Makes items 0 to count - 1 with `make`, which is called on `threads` threads at once, or on
+  /// fewer if the system has no more.
+  OrderedWork(std::size_t count, std::size_t threads, std::function<Item(std::size_t)> make)
+      : make_(std::move(make)), count_(count), slots_(threads * items_per_thread) {
+    threads_.reserve(threads);
+    try {
+      while (threads_.size() < threads) threads_.emplace_back([this] { make_items(); });
+    } catch (const std::system_error&) {
+      if (threads_.empty()) throw;
+    }
+  }
+  /// Items that are being made are waited for, others are not made any more.
+  ~OrderedWork() {
+    {
+      const std::lock_guard lock(mutex_);
+      begun_ = count_;
+    }
+    has_room_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
+  }
+  OrderedWork(const OrderedWork&) = delete;
+  OrderedWork& operator=(const OrderedWork&) = delete;
+
+  /// Whether the next item is there within the time.
+  [[nodiscard]] bool wait_for(std::chrono::milliseconds time) {
+    std::unique_lock lock(mutex_);
+    return has_item_.wait_for(lock, time, [this] { return next_slot().is_ready; });
+  }
+
+  /// The next item; waits for it. What its making has thrown is thrown.
+  [[nodiscard]] Item take() {
+    Slot slot;
+    {
+      std::unique_lock lock(mutex_);
+      has_item_.wait(lock, [this] { return next_slot().is_ready; });
+      slot = std::exchange(next_slot(), {});
+      ++taken_;
+    }
+    has_room_.notify_one();
+    if (slot.error) std::rethrow_exception(slot.error);
+    return std::move(*slot.item);
+  }
+
+ private:
+  static constexpr std::size_t items_per_thread = 4;
+
+  struct Slot {
+    bool is_ready = false;
+    std::optional<Item> item;
+    std::exception_ptr error;
+  };
+
+  [[nodiscard]] Slot& next_slot() { return slots_[taken_ % slots_.size()]; }
+
+  void make_items() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      has_room_.wait(lock, [this] { return begun_ == count_ || begun_ < taken_ + slots_.size(); });
+      if (begun_ == count_) return;
+      const std::size_t number = begun_++;
+      lock.unlock();
+      Slot slot = make(number);
+      lock.lock();
+      slots_[number % slots_.size()] = std::move(slot);
+      has_item_.notify_one();
+    }
+  }
+
+  [[nodiscard]] Slot make(std::size_t number) {
+    Slot slot;
+    slot.is_ready = true;
+    try {
+      slot.item.emplace(make_(number));
+    } catch (...) {
+      slot.error = std::current_exception();
+    }
+    return slot;
+  }
+
+  const std::function<Item(std::size_t)> make_;
+  const std::size_t count_;
+  std::mutex mutex_;
+  std::condition_variable has_item_;
+  std::condition_variable has_room_;
+  std::size_t begun_ = 0;
+  std::size_t taken_ = 0;
+  std::vector<Slot> slots_;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace cbc::cli

@@ -1,0 +1,72 @@
+#include "cli/stream_start.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/catalog_loader.h"
+#include "cli/exit_status.h"
+#include "cli/file_kind.h"
+#include "cli/input.h"
+#include "cli/input_files.h"
+#include "coordinator/saved_state.h"
+#include "file/atomic_file.h"
+#include "text/quote.h"
+
+namespace cbc::cli {
+
+std::shared_ptr<const CompiledCatalog> load_catalog(const std::string& path) {
+  InputFiles files;
+  std::shared_ptr<const CompiledCatalog> catalog;
+  const std::optional<InputFile> file = files.read(path);
+  if (file && file->document != nullptr && is_script(*file->document)) {
+    complain(fmt::format("{} is a script; expected a catalog here", quote(display_name(path))));
+  } else if (file) {
+    catalog = CatalogLoader(files).load(*file);
+  }
+  files.print_findings();
+  return catalog;
+}
+
+bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
+                std::optional<Snapshot>& state) {
+  if (!options.state_in) return true;
+  const std::optional<std::string> text = read_input(*options.state_in);
+  if (!text) return false;
+  StateReading reading = read_state(*text, catalog);
+  if (!reading.snapshot) {
+    complain(fmt::format("cannot use the state {}: {}", quote(display_name(*options.state_in)),
+                         reading.error));
+    return false;
+  }
+  state = std::move(reading.snapshot);
+  return true;
+}
+
+bool save_state(const StreamOptions& options, const CompiledCatalog& catalog,
+                const Runner& runner) {
+  if (!options.state_out || runner.result().status != Coordinator::Status::ok) return true;
+  const auto error =
+      write_atomically(*options.state_out, write_state(catalog, runner.coordinator().snapshot()));
+  if (error) complain(fmt::format("cannot write {}: {}", quote(*options.state_out), *error));
+  return !error;
+}
+
+int report_end(const Runner& runner, const CoordinatorOptions& options) {
+  const RunResult& result = runner.result();
+  switch (result.status) {
+    case Coordinator::Status::ok:
+      return result.failed > 0 ? exit_no : exit_ok;
+    case Coordinator::Status::too_many_clock_events:
+      complain(fmt::format("the clock made more than {} events (--max-clock-events)",
+                           options.max_clock_events));
+      return exit_unusable;
+    case Coordinator::Status::refused_answer:
+      complain("the checker refuses an answer of the solver: " + result.internal_error);
+      complain("this is a fault of cbc, not of the catalog; please report it");
+      return exit_internal;
+  }
+  return exit_ok;
+}
+
+}  // namespace cbc::cli

@@ -1,0 +1,196 @@
+// Many scripts in one call: whatever -j says, the output is the same.
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "golden/process.h"
+#include "golden/solve_json_shape.h"
+
+namespace cbc::golden {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* catalog_text = R"(
+behaviors:
+- {behavior: MOVE_FAST, task: MOVE}
+- {behavior: MOVE_SLOWLY, task: MOVE, suitability: 50}
+- {behavior: BEEP, task: BEEP}
+- {behavior: TICK_ONCE, task: TICK}
+- {behavior: TOCK_ONCE, task: TOCK}
+tasks:
+- {task: MOVE}
+- {task: BEEP}
+- {task: TICK, reactive_start: true, timeout: 1}
+- {task: TOCK, reactive_start: true, timeout: 1}
+exclusivity_constraints:
+- mutually_exclusive: [MOVE, BEEP, TICK, TOCK]
+)";
+
+/// A folder with scripts of very different lengths, of which every fifth fails, and one comes to
+/// too many events of the clock.
+class SolveRuns : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "cbc-test-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    folder = name;
+    std::ofstream(folder / "catalog.yaml") << catalog_text;
+    fs::create_directory(folder / "missions");
+    for (std::size_t number = 0; number < scripts; ++number) {
+      std::ofstream script(folder / "missions" / ("m" + std::to_string(100 + number) + ".yaml"));
+      const std::size_t rounds = number % 7 == 0 ? 300 : number % 3;
+      script << "- start: BEEP\n";
+      for (std::size_t round = 0; round < rounds; ++round) {
+        script << "- {start: MOVE, priority: 2}\n- {stop: MOVE, priority: 2}\n- start: BEEP\n";
+      }
+      script << (number % 5 == 0 ? "- expect: {outcome: rejected}\n"
+                                 : "- expect: {running: {BEEP: any}}\n");
+      if (number == endless) script << "- {stop: BEEP}\n- wait: 1000\n";
+    }
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  [[nodiscard]] Result solve(std::vector<std::string> more) const {
+    Call call{{"solve", "catalog.yaml", "missions", "--max-clock-events", "20"}, folder};
+    call.arguments.insert(call.arguments.end(), more.begin(), more.end());
+    return run(call);
+  }
+
+  static constexpr std::size_t scripts = 40;
+  static constexpr std::size_t endless = 23;
+  fs::path folder;
+};
+
+TEST_F(SolveRuns, AreTheSameWhateverTheNumberOfJobs) {
+  for (const std::string format : {"text", "json", "junit", "github"}) {
+    const Result alone = solve({"--format", format, "-j", "1"});
+    EXPECT_EQ(alone.status, 2) << "the highest of all";
+    EXPECT_NE(alone.err.find("m123.yaml"), std::string::npos);
+    for (const std::vector<std::string>& jobs :
+         {std::vector<std::string>{}, {"-j", "2"}, {"--jobs", "7"}, {"-j", "1000000"}}) {
+      std::vector<std::string> arguments{"--format", format};
+      arguments.insert(arguments.end(), jobs.begin(), jobs.end());
+      const Result together = solve(arguments);
+      EXPECT_EQ(together.status, alone.status);
+      EXPECT_TRUE(together.out == alone.out) << jobs.size();  // too long to print
+      EXPECT_EQ(together.err, alone.err);
+    }
+  }
+}
+
+TEST_F(SolveRuns, AreAllInTheReportInOrder) {
+  const json report = json::parse(solve({"--format", "json", "-j", "3"}).out);
+  std::vector<std::string> names;
+  for (const json& run : report["runs"]) names.push_back(run["script"]);
+  EXPECT_EQ(names.size(), scripts);
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+}
+
+TEST_F(SolveRuns, MakeTheSamePageWhateverTheNumberOfJobs) {
+  static_cast<void>(solve({"--html", "one.html", "-j", "1"}));
+  static_cast<void>(solve({"--html", "many.html", "-j", "4"}));
+  EXPECT_EQ(read_file(folder / "one.html"), read_file(folder / "many.html"));
+}
+
+/// Sums over events, worked out anew from the events of the report.
+json effort_of(const std::vector<json>& searches) {
+  json effort = {{"events", searches.size()}};
+  for (const char* measure : {"solutions", "nodes", "propagations"}) {
+    std::uint64_t sum = 0;
+    std::uint64_t least = UINT64_MAX;
+    std::uint64_t greatest = 0;
+    for (const json& search : searches) {
+      const auto number = search[measure].get<std::uint64_t>();
+      sum += number;
+      least = std::min(least, number);
+      greatest = std::max(greatest, number);
+    }
+    effort[measure] = {{"sum", sum},
+                       {"mean", static_cast<double>(sum) / static_cast<double>(searches.size())},
+                       {"min", least},
+                       {"max", greatest}};
+  }
+  return effort;
+}
+
+std::vector<json> searches_of(const json& run) {
+  std::vector<json> searches;
+  for (const json& event : run["events"]) {
+    if (!event["search"].is_null()) searches.push_back(event["search"]);
+  }
+  return searches;
+}
+
+void expect_totals(json totals, const std::vector<json>& searches) {
+  double elapsed = 0;
+  for (const json& search : searches) {
+    EXPECT_GT(search["elapsed_us"], 0);
+    elapsed += search["elapsed_us"].get<double>();
+  }
+  EXPECT_NEAR(totals["elapsed_us"]["sum"].get<double>(), elapsed, 0.01);
+  std::uint64_t of_kinds = 0;
+  for (const json& kind : totals["kinds"]) of_kinds += kind["events"].get<std::uint64_t>();
+  EXPECT_EQ(of_kinds, searches.size());
+  totals.erase("elapsed_us");
+  totals.erase("kinds");
+  EXPECT_EQ(totals, effort_of(searches));
+}
+
+TEST_F(SolveRuns, HaveStatisticsThatAddUp) {
+  const Result result = solve({"--format", "json", "--stats", "-j", "4"});
+  EXPECT_EQ(find_shape_faults(result.out), std::vector<std::string>());
+  const json report = json::parse(result.out);
+  std::vector<json> all;
+  for (const json& run : report["runs"]) {
+    const std::vector<json> searches = searches_of(run);
+    expect_totals(run["totals"], searches);
+    all.insert(all.end(), searches.begin(), searches.end());
+  }
+  expect_totals(report["totals"], all);
+  EXPECT_GT(all.size(), scripts);
+  EXPECT_GT(report["process"]["peak_memory_bytes"], 1 << 20);
+  EXPECT_GT(report["process"]["cpu_us"], 0);
+}
+
+/// A report without what --stats adds to it.
+json without_stats(json report) {
+  report.erase("totals");
+  report.erase("process");
+  for (json& run : report["runs"]) {
+    run.erase("totals");
+    for (json& event : run["events"]) {
+      if (event["search"].is_null()) continue;
+      event["search"].erase("propagations");
+      event["search"].erase("elapsed_us");
+    }
+  }
+  return report;
+}
+
+TEST_F(SolveRuns, AreTheSameWithStatisticsBesideThem) {
+  EXPECT_EQ(without_stats(json::parse(solve({"--format", "json", "--stats"}).out)),
+            json::parse(solve({"--format", "json"}).out));
+}
+
+TEST_F(SolveRuns, HaveStatisticsInTheText) {
+  const std::string text = solve({"--stats"}).out;
+  const std::size_t table = text.find("\nsearches\n");
+  ASSERT_NE(table, std::string::npos);
+  EXPECT_EQ(text.find("\nsearches\n", table + 1), std::string::npos) << "one for all runs";
+  EXPECT_NE(text.find("  start (reactive) ", table), std::string::npos);
+  EXPECT_NE(text.find("1 solution, "), std::string::npos);
+  EXPECT_EQ(solve({}).out.find("propagation"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cbc::golden

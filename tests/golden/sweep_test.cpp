@@ -1,0 +1,113 @@
+// `cbc solve --sweep` from outside: what it writes can be used as the manual says.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "golden/process.h"
+#include "golden/sweep_json_shape.h"
+
+namespace cbc::golden {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+const std::string catalog = CBC_SOURCE_DIR "/catalogs/quadrotor.yaml";
+
+class Sweep : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "cbc-test-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    scratch = name;
+  }
+  void TearDown() override { fs::remove_all(scratch); }
+
+  /// The standard output of a call that has to succeed.
+  [[nodiscard]] std::string call(const std::vector<std::string>& arguments) const {
+    Call call{arguments, scratch};
+    call.arguments.insert(call.arguments.begin(), "solve");
+    const Result result = run(call);
+    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(result.err, "");
+    return result.out;
+  }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(scratch / name, std::ios::binary) << text;
+  }
+
+  fs::path scratch;
+};
+
+/// The nodes of an event in a report of `cbc solve`.
+Json nodes_of(const std::string& report, const Json& index) {
+  const Json json = Json::parse(report);
+  for (const Json& event : json["runs"][0]["events"]) {
+    if (event["index"] == index) return event["search"]["nodes"];
+  }
+  return nullptr;
+}
+
+TEST_F(Sweep, WritesTheSlowestEventAsAScript) {
+  const Json sweep = Json::parse(call({catalog, "--sweep", "50", "--tie-seed", "4", "--slowest",
+                                       "slowest.yaml", "--format", "json"}));
+  const std::string report = call({catalog, "slowest.yaml", "--tie-seed", "4", "--format", "json"});
+  EXPECT_EQ(nodes_of(report, sweep["slowest"]["event"]), sweep["slowest"]["nodes"]);
+  EXPECT_EQ(read_file(scratch / "slowest.yaml"), sweep["slowest"]["script"]);
+}
+
+TEST_F(Sweep, WritesTheEventThatTookLongestAsAScript) {
+  const Json sweep = Json::parse(call({catalog, "--sweep", "50", "--stats", "--slowest-by-time",
+                                       "longest.yaml", "--format", "json"}));
+  EXPECT_TRUE(nodes_of(call({catalog, "longest.yaml", "--format", "json"}),
+                       sweep["stats"]["slowest"]["event"])
+                  .is_number());
+}
+
+TEST_F(Sweep, IsTheSameForACompiledCatalogElsewhere) {
+  const Result compiled = run({{"compile", catalog, "-o", "q.cbc"}, scratch});
+  ASSERT_EQ(compiled.status, 0);
+  fs::copy(catalog, scratch / "moved.yaml");
+  const std::string text = call({catalog, "--sweep", "20", "--format", "json", "-j", "1"});
+  EXPECT_EQ(call({"q.cbc", "--sweep", "20", "--format", "json", "-j", "3"}), text);
+  Json moved = Json::parse(call({"moved.yaml", "--sweep", "20", "--format", "json"}));
+  EXPECT_EQ(moved["catalog"], "moved.yaml");
+  moved["catalog"] = catalog;
+  EXPECT_EQ(moved, Json::parse(text));
+}
+
+TEST_F(Sweep, MergesShardsWithStatistics) {
+  for (const std::string shard : {"1", "2"}) {
+    write(shard,
+          call({catalog, "--sweep", "20", "--shard", shard + "/2", "--stats", "--format", "json"}));
+  }
+  const std::string merged = call({"--merge", "2", "1", "--format", "json"});
+  EXPECT_EQ(find_sweep_shape_faults(merged), std::vector<std::string>());
+  Json sweep = Json::parse(merged);
+  EXPECT_EQ(sweep["stats"]["elapsed_us"],
+            Json::parse(read_file(scratch / "1"))["stats"]["elapsed_us"].get<int>() +
+                Json::parse(read_file(scratch / "2"))["stats"]["elapsed_us"].get<int>());
+  sweep.erase("stats");
+  EXPECT_EQ(sweep, Json::parse(call({catalog, "--sweep", "20", "--format", "json"})));
+}
+
+TEST_F(Sweep, RunsAsTheRecipeForParallelSays) {
+  if (std::system("parallel --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no GNU parallel";
+  const std::string command =
+      "cd '" + scratch.string() + "' && parallel --will-cite '" CBC_PROGRAM_PATH " solve " +
+      catalog + " --sweep 100 --shard {}/8 -j 1 --format json > shard-{}.json' ::: $(seq 8) && " +
+      CBC_PROGRAM_PATH " solve --merge shard-*.json --format json > merged.json";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(read_file(scratch / "merged.json"),
+            call({catalog, "--sweep", "100", "--format", "json"}));
+}
+
+}  // namespace
+}  // namespace cbc::golden

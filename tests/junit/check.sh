@@ -1,0 +1,55 @@
+#!/bin/sh
+# check.sh PROGRAM CASES: validates what `cbc solve --format junit` prints of the golden cases with the
+# schema, and that the counts of each suite are those of its test cases.
+#
+# Exit status: 0 valid, 1 not valid, 77 skipped: no xmllint.
+set -u
+
+schema=$(cd -- "$(dirname -- "$0")" && pwd)/junit.xsd
+program=$1
+cases=$2
+
+command -v xmllint >/dev/null || {
+  echo "check.sh: skipped: there is no xmllint" >&2
+  exit 77
+}
+
+report=$(mktemp) || exit 1
+broken=$(mktemp) || exit 1
+trap 'rm -f "$report" "$broken"' EXIT
+
+fail() {
+  echo "check.sh: $1" >&2
+  exit 1
+}
+
+# count XPATH: how many nodes of the report it finds
+count() { xmllint --xpath "count($1)" "$report"; }
+
+write_report() {
+  (cd "$1" && "$program" solve catalog.yaml script.yaml --max-clock-events 100 --format junit) \
+    >"$report" 2>/dev/null
+}
+
+checked=0
+for folder in "$cases"/*/; do
+  [ -f "$folder/catalog.yaml" ] && [ -f "$folder/script.yaml" ] || continue
+  write_report "$folder"
+  xmllint --noout --schema "$schema" "$report" 2>"$broken" || fail "$folder: $(cat "$broken")"
+  for kind in failure error skipped; do
+    counted=$(xmllint --xpath "string(//testsuite/@${kind}s | //testsuite/@$kind)" "$report")
+    [ "$counted" = "$(count "//testcase/$kind")" ] || fail "$folder: $kind: the count is wrong"
+  done
+  [ "$(xmllint --xpath 'string(//testsuite/@tests)' "$report")" = "$(count //testcase)" ] ||
+    fail "$folder: tests: the count is wrong"
+  checked=$((checked + 1))
+done
+[ "$checked" -gt 50 ] || fail "only $checked reports were checked"
+
+# The check itself: what is not in the schema is found.
+write_report "$cases/expectation_fails"
+sed 's/ failures="[0-9]*"//' "$report" >"$broken"
+xmllint --noout --schema "$schema" "$broken" 2>/dev/null && fail "a missing attribute is not found"
+sed 's/<testcase /<testcase line="1" /' "$report" >"$broken"
+xmllint --noout --schema "$schema" "$broken" 2>/dev/null && fail "a foreign attribute is not found"
+echo "check.sh: $checked reports are valid"

@@ -1,0 +1,185 @@
+// Random missions, cut in pieces or recorded: a state that was saved and restored, and the log of a
+// run, must give the same events as the run in one go, byte for byte.
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "catalog/reader.h"
+#include "compiled/compile.h"
+#include "coordinator/saved_state.h"
+#include "generator.h"
+#include "random.h"
+#include "report/event_stream.h"
+#include "script/event_log.h"
+#include "script/reader.h"
+#include "script/runner.h"
+#include "yaml/document.h"
+#include "yaml_text.h"
+
+namespace cbc::oracle {
+namespace {
+
+constexpr std::uint64_t cases = 300;
+
+using Lines = std::vector<std::string>;
+
+struct Mission {
+  CompiledCatalog catalog;
+  cbc::Script script;
+};
+
+Mission make_mission(std::uint64_t seed) {
+  const Case sample = generate_case(seed);
+  Random forms(~seed);
+  Diagnostics diagnostics;
+  const auto catalog =
+      read_catalog(catalog_yaml(sample.catalog, forms), "catalog.yaml", diagnostics);
+  Mission mission{compile(catalog.value()), {}};
+  const auto document =
+      yaml::parse(script_yaml(sample.catalog, sample.script, forms), "script.yaml", diagnostics);
+  mission.script = read_script(*document, mission.catalog, Severity::warning, diagnostics).value();
+  return mission;
+}
+
+/// A run whose events become lines.
+class Recording {
+ public:
+  Recording(const CompiledCatalog& catalog, Microseconds reactive_delay, Lines& lines)
+      : events_(
+            catalog, {}, [&lines](std::string_view line) { lines.emplace_back(line); },
+            [](const Failure&) {}),
+        runner_(catalog, options(reactive_delay), events_) {}
+
+  [[nodiscard]] Runner& runner() { return runner_; }
+
+ private:
+  static CoordinatorOptions options(Microseconds reactive_delay) {
+    CoordinatorOptions options;
+    options.reactive_delay = reactive_delay;
+    return options;
+  }
+
+  EventStream events_;
+  Runner runner_;
+};
+
+Lines run_whole(const Mission& mission) {
+  Lines lines;
+  Recording recording(mission.catalog, mission.script.reactive_delay, lines);
+  recording.runner().begin(mission.script.situation);
+  for (const Step& step : mission.script.steps) EXPECT_TRUE(recording.runner().take(step));
+  EXPECT_TRUE(recording.runner().settle());
+  return lines;
+}
+
+/// Saves and restores the state before one step in `one_in`.
+Lines run_in_pieces(const Mission& mission, Random& random, std::uint64_t one_in,
+                    std::vector<std::string>& states) {
+  const Microseconds delay = mission.script.reactive_delay;
+  Lines lines;
+  auto recording = std::make_unique<Recording>(mission.catalog, delay, lines);
+  recording->runner().begin(mission.script.situation);
+  for (const Step& step : mission.script.steps) {
+    if (random.below(one_in) == 0) {
+      states.push_back(write_state(mission.catalog, recording->runner().coordinator().snapshot()));
+      const StateReading reading = read_state(states.back(), mission.catalog);
+      if (!reading.snapshot) {
+        ADD_FAILURE() << reading.error << "\n" << states.back();
+        return lines;
+      }
+      EXPECT_EQ(write_state(mission.catalog, *reading.snapshot), states.back());
+      recording =
+          std::make_unique<Recording>(mission.catalog, reading.snapshot->reactive_delay, lines);
+      recording->runner().resume(*reading.snapshot);
+    }
+    EXPECT_TRUE(recording->runner().take(step));
+  }
+  EXPECT_TRUE(recording->runner().settle());
+  return lines;
+}
+
+TEST(StreamProperty, PiecesGiveTheSameEventsAsTheWholeMission) {
+  std::size_t cuts = 0;
+  for (std::uint64_t seed = 1; seed <= cases && !HasFailure(); ++seed) {
+    const Mission mission = make_mission(seed);
+    Random random(seed);
+    std::vector<std::string> states;
+    EXPECT_EQ(run_in_pieces(mission, random, 1 + seed % 4, states), run_whole(mission)) << seed;
+    cuts += states.size();
+  }
+  EXPECT_GT(cuts, 2 * cases);
+}
+
+TEST(StreamProperty, LogGivesTheSameEventsAgain) {
+  std::size_t scripted = 0;
+  for (std::uint64_t seed = 1; seed <= cases && !HasFailure(); ++seed) {
+    const Mission mission = make_mission(seed);
+    const Lines lines = run_whole(mission);
+    EventLog log(mission.catalog);
+    const auto header =
+        log.read_header(stream_header(mission.catalog, mission.catalog.file,
+                                      mission.script.reactive_delay, mission.script.situation));
+    ASSERT_TRUE(header) << log.error();
+    Lines again;
+    Recording recording(mission.catalog, header->reactive_delay, again);
+    recording.runner().begin(header->situation);
+    for (const std::string& line : lines) {
+      const auto entry = log.read_entry(line, 2);
+      ASSERT_TRUE(entry) << log.error() << "\n" << line;
+      EXPECT_TRUE(entry->is_event);
+      if (!entry->step) continue;
+      EXPECT_TRUE(recording.runner().take(*entry->step));
+      ++scripted;
+    }
+    EXPECT_TRUE(recording.runner().settle());
+    EXPECT_EQ(again, lines) << seed;
+  }
+  EXPECT_GT(scripted, 5 * cases);
+}
+
+/// Whatever is accepted must be a state to go on from.
+TEST(StreamProperty, DamagedStatesAreRefusedOrHarmless) {
+  std::size_t refused = 0;
+  std::size_t damaged = 0;
+  for (std::uint64_t seed = 1; seed <= cases && !HasFailure(); ++seed) {
+    const Mission mission = make_mission(seed);
+    Random random(seed);
+    std::vector<std::string> states;
+    static_cast<void>(run_in_pieces(mission, random, 4, states));
+    for (const std::string& state : states) {
+      for (int time = 0; time < 8; ++time) {
+        std::string text = state;
+        if (time == 0) text.resize(random.below(text.size()));
+        for (int place = 0; place < 1 + time / 2; ++place) {
+          if (text.empty()) break;
+          constexpr std::string_view characters = "0123456789,[]{}\"-. etn";
+          text[random.below(text.size())] = characters[random.below(characters.size())];
+        }
+        ++damaged;
+        const StateReading reading = read_state(text, mission.catalog);
+        if (!reading.snapshot) {
+          EXPECT_FALSE(reading.error.empty());
+          ++refused;
+          continue;
+        }
+        Lines lines;
+        Recording recording(mission.catalog, reading.snapshot->reactive_delay, lines);
+        recording.runner().resume(*reading.snapshot);
+        for (const Step& step : mission.script.steps) {
+          if (step.time && *step.time < recording.runner().coordinator().now()) continue;
+          ASSERT_TRUE(recording.runner().take(step)) << recording.runner().result().internal_error;
+        }
+      }
+    }
+  }
+  EXPECT_GT(refused, damaged / 2);
+  EXPECT_LT(refused, damaged);
+}
+
+}  // namespace
+}  // namespace cbc::oracle
