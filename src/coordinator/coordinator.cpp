@@ -110,24 +110,27 @@ Coordinator::Status Coordinator::process_next_due() {
   const Timers& timeouts = state_.timeouts();
   const Timers& queue = state_.queue();
   now_ = *next_due();
-  if (!timeouts.empty() && timeouts.first_due() == now_) {
-    const TaskId task = catalog_.task_ids[timeouts.first()];
-    if (clock_events_ == options_.max_clock_events) return Status::too_many_clock_events;
-    state_.drop_timeout(task);
-    open_clock_record(Origin::timeout, Verb::finish);
-    const Status status = finish(state_.behavior(task), FinishCause::time_out);
-    return status == Status::ok ? finish_lost() : status;
-  }
-  const TaskId task = catalog_.task_ids[queue.first()];
-  if (!may_start(task)) {
+  const bool is_timeout = !timeouts.empty() && timeouts.first_due() == now_;
+  const TaskId task = catalog_.task_ids[is_timeout ? timeouts.first() : queue.first()];
+  if (!is_timeout && !may_start(task)) {
     state_.dequeue(task);
     return Status::ok;
   }
   if (clock_events_ == options_.max_clock_events) return Status::too_many_clock_events;
+  const Status status = is_timeout ? time_out(task) : start_reactive(task);
+  return status == Status::ok ? finish_lost() : status;
+}
+
+Coordinator::Status Coordinator::time_out(TaskId task) {
+  state_.drop_timeout(task);
+  open_clock_record(Origin::timeout, Verb::finish);
+  return finish(state_.behavior(task), FinishCause::time_out);
+}
+
+Coordinator::Status Coordinator::start_reactive(TaskId task) {
   state_.dequeue(task);
   open_clock_record(Origin::reactive, Verb::start);
-  const Status status = start(task, 0, std::string_view{}, true);
-  return status == Status::ok ? finish_lost() : status;
+  return start(task, 0, std::string_view{}, true);
 }
 
 /// Whether a reactive task that is due starts, as far as can be told without search.

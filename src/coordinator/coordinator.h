@@ -88,6 +88,8 @@ class Coordinator {
 
  private:
   Status process_next_due();
+  Status time_out(TaskId task);
+  Status start_reactive(TaskId task);
   Status finish_lost();
   [[nodiscard]] bool may_start(TaskId task) const;
 

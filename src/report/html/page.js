@@ -95,8 +95,10 @@ class Page {
     byId('title').textContent = script;
     byId('subtitle').textContent = `catalog ${catalog}`;
     const count = (outcome) => run.events.filter((event) => isAsked(event) && event.outcome === outcome).length;
-    byId('counts').textContent = `${run.size} events: ${count('accepted')} accepted, ${count('rejected')} rejected` +
-      ` \u00b7 expectations: ${expectations.passed} passed, ${expectations.failed} failed`;
+    const [accepted, rejected] = [count('accepted'), count('rejected')];
+    const others = run.size - accepted - rejected;
+    byId('counts').textContent = `${run.size} events: ${accepted} accepted, ${rejected} rejected` +
+      (others > 0 ? `, ${others} neither` : '') + ` \u00b7 expectations: ${expectations.passed} passed, ${expectations.failed} failed`;
     const alarms = [...expectations.failures.map((failure) => this.alarm(failure)),
                     ...(error === undefined ? [] : [html('p', 'alarm', `the run ended early: ${error}`)])];
     byId('alarms').replaceChildren(...alarms);

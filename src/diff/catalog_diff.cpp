@@ -1,0 +1,201 @@
+#include "diff/catalog_diff.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "compiled/parameters.h"
+#include "diff/exclusion_diff.h"
+#include "text/decimal.h"
+
+namespace cbc {
+namespace {
+
+using Kind = CatalogChange::Kind;
+using Subject = CatalogChange::Subject;
+
+/// An attribute and its value.
+struct Attribute {
+  std::string name;
+  AttributeValue value;
+};
+using Attributes = std::vector<Attribute>;  ///< in the order of names
+
+/// Something that a catalog says, and by which names it is known in another one.
+struct Fact {
+  std::string_view first;
+  std::string_view second;  ///< of pairs
+  Attributes attributes;
+};
+
+template <typename Number>
+AttributeValue unless_zero(Number number) {
+  return number == 0 ? AttributeValue() : AttributeValue(number);
+}
+
+/// What a parameter may be set to. Words are a set, two numbers a range.
+std::string describe(Parameter parameter) {
+  std::vector<std::string>& values = parameter.allowed_values;
+  const bool is_range =
+      values.size() == 2 && parse_number(values.front()) && parse_number(values.back());
+  if (!is_range) std::sort(values.begin(), values.end());
+  std::string text;
+  for (const std::string& value : values) text += (text.empty() ? "" : ", ") + value;
+  return parameter.allowed_is_list ? "[" + text + "]" : text;
+}
+
+Attributes attributes_of_task(const CompiledCatalog& catalog, std::uint32_t index) {
+  const CompiledTask& task = catalog.tasks[catalog.task_ids[index]];
+  Attributes attributes{
+      {"execution_goal", std::string(task.keep_running != 0 ? "keep_running" : "achieve_goal")},
+      {"minimum_performance", unless_zero(task.minimum_performance)},
+      {"reactive_start", task.reactive_start != 0},
+      {"start_on_request", task.start_on_request != 0},
+      {"timeout", unless_zero(task.timeout)}};
+  for (Parameter& parameter : parameters_of(catalog, index)) {
+    std::string name = "parameter " + parameter.name;
+    attributes.push_back({std::move(name), describe(std::move(parameter))});
+  }
+  std::sort(attributes.begin(), attributes.end(),
+            [](const Attribute& a, const Attribute& b) { return a.name < b.name; });
+  return attributes;
+}
+
+Attributes attributes_of_behavior(const CompiledCatalog& catalog, std::uint32_t index) {
+  const std::string_view package = catalog.texts[catalog.behavior_packages[index]];
+  return {{"package", package.empty() ? AttributeValue() : AttributeValue(std::string(package))},
+          {"timeout", unless_zero(catalog.behaviors[catalog.behavior_ids[index]].timeout)}};
+}
+
+std::vector<Fact> facts(const CompiledCatalog& catalog, Subject subject) {
+  std::vector<Fact> result;
+  const auto task_count = static_cast<std::uint32_t>(catalog.tasks.size());
+  const auto behavior_count = static_cast<std::uint32_t>(catalog.behaviors.size());
+  switch (subject) {
+    case Subject::task:
+      for (std::uint32_t task = 0; task < task_count; ++task) {
+        result.push_back({catalog.task_names[task], {}, attributes_of_task(catalog, task)});
+      }
+      break;
+    case Subject::behavior:
+      for (std::uint32_t behavior = 0; behavior < behavior_count; ++behavior) {
+        result.push_back(
+            {catalog.behavior_names[behavior], {}, attributes_of_behavior(catalog, behavior)});
+      }
+      break;
+    case Subject::performs:
+      for (TaskId task = 0; task < task_count; ++task) {
+        for (const Value& value : catalog.values[task]) {
+          result.push_back({catalog.name_of_behavior(value.behavior),
+                            catalog.name_of_task(task),
+                            {{"suitability", value.suitability}}});
+        }
+      }
+      break;
+    case Subject::requirement:
+      for (BehaviorId behavior = 0; behavior < behavior_count; ++behavior) {
+        for (const CompiledRequirement& requirement : catalog.requirements[behavior]) {
+          result.push_back(
+              {catalog.name_of_behavior(behavior),
+               catalog.name_of_task(requirement.task),
+               {{"minimum_performance", unless_zero(requirement.minimum_performance)}}});
+        }
+      }
+      break;
+    case Subject::exclusion:
+      break;  // see compare_exclusions
+  }
+  std::sort(result.begin(), result.end(), [](const Fact& a, const Fact& b) {
+    return std::pair(a.first, a.second) < std::pair(b.first, b.second);
+  });
+  return result;
+}
+
+/// What the attributes, in the order of names, do not have in common. Either may be missing as a
+/// whole.
+std::vector<AttributeChange> compare(const Attributes& before, const Attributes& after) {
+  std::vector<AttributeChange> changes;
+  const auto add = [&](const std::string& name, const AttributeValue& old,
+                       const AttributeValue& now) {
+    if (old != now) changes.push_back({name, old, now});
+  };
+  auto old = before.begin();
+  auto now = after.begin();
+  while (old != before.end() || now != after.end()) {
+    if (now == after.end() || (old != before.end() && old->name < now->name)) {
+      add(old->name, old->value, {});
+      ++old;
+    } else if (old == before.end() || now->name < old->name) {
+      add(now->name, {}, now->value);
+      ++now;
+    } else {
+      add(now->name, old->value, now->value);
+      ++old;
+      ++now;
+    }
+  }
+  return changes;
+}
+
+CatalogChange to_change(Kind kind, Subject subject, const Fact& fact,
+                        std::vector<AttributeChange> attributes) {
+  CatalogChange change;
+  change.kind = kind;
+  change.subject = subject;
+  (subject == Subject::task ? change.task : change.behavior) = fact.first;
+  if (subject != Subject::task) change.task = fact.second;
+  change.attributes = std::move(attributes);
+  return change;
+}
+
+/// Walks through both in the order of names.
+void compare_facts(Subject subject, const std::vector<Fact>& before, const std::vector<Fact>& after,
+                   std::vector<CatalogChange>& changes) {
+  auto old = before.begin();
+  auto now = after.begin();
+  const auto precedes = [](const Fact& a, const Fact& b) {
+    return std::pair(a.first, a.second) < std::pair(b.first, b.second);
+  };
+  while (old != before.end() || now != after.end()) {
+    if (now == after.end() || (old != before.end() && precedes(*old, *now))) {
+      changes.push_back(to_change(Kind::removed, subject, *old, compare(old->attributes, {})));
+      ++old;
+    } else if (old == before.end() || precedes(*now, *old)) {
+      changes.push_back(to_change(Kind::added, subject, *now, compare({}, now->attributes)));
+      ++now;
+    } else {
+      std::vector<AttributeChange> attributes = compare(old->attributes, now->attributes);
+      if (!attributes.empty()) {
+        changes.push_back(to_change(Kind::changed, subject, *now, std::move(attributes)));
+      }
+      ++old;
+      ++now;
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(Kind kind) {
+  constexpr std::array<std::string_view, 3> names{"removed", "added", "changed"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+std::string_view name_of(Subject subject) {
+  constexpr std::array<std::string_view, 5> names{"task", "behavior", "performs", "requirement",
+                                                  "exclusion"};
+  return names[static_cast<std::size_t>(subject)];
+}
+
+CatalogDiff compare_catalogs(const CompiledCatalog& before, const CompiledCatalog& after) {
+  CatalogDiff diff;
+  for (const Subject subject :
+       {Subject::task, Subject::behavior, Subject::performs, Subject::requirement}) {
+    compare_facts(subject, facts(before, subject), facts(after, subject), diff.changes);
+  }
+  compare_exclusions(before, after, diff);
+  return diff;
+}
+
+}  // namespace cbc

@@ -1,0 +1,258 @@
+// Random catalogs, and changed ones: the differences against plain sets of what each of the two
+// says. CBC_SEED sets the seed of the first case, CBC_PROPERTY_CASES their number.
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <iterator>
+#include <map>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "catalog/reader.h"
+#include "compiled/compile.h"
+#include "diff/catalog_diff.h"
+#include "generator.h"
+#include "random.h"
+#include "yaml_text.h"
+
+namespace cbc::oracle {
+namespace {
+
+constexpr std::uint64_t default_cases = 1000;
+
+std::uint64_t environment(const char* name, std::uint64_t otherwise) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? otherwise : std::strtoull(value, nullptr, 0);
+}
+
+/// What a catalog says: "b requires t" -> {"minimum_performance": "500000"}.
+using Statements = std::map<std::string, std::map<std::string, std::string>>;
+
+std::string truth(bool value) { return value ? "true" : "false"; }
+
+Statements statements_of(const Catalog& catalog) {
+  Statements statements;
+  for (const Task& task : catalog.tasks) {
+    auto& attributes = statements["task " + task.name];
+    attributes["execution_goal"] = task.keep_running ? "keep_running" : "achieve_goal";
+    attributes["reactive_start"] = truth(task.reactive_start);
+    attributes["start_on_request"] = truth(task.start_on_request);
+    if (task.timeout.value_or(0) > 0) attributes["timeout"] = std::to_string(*task.timeout);
+    if (task.minimum > 0) attributes["minimum_performance"] = std::to_string(task.minimum);
+  }
+  for (const Behavior& behavior : catalog.behaviors) {
+    auto& attributes = statements["behavior " + behavior.name];
+    if (behavior.timeout.value_or(0) > 0) attributes["timeout"] = std::to_string(*behavior.timeout);
+    for (const Performance& one : behavior.performs) {
+      statements[behavior.name + " performs " + catalog.tasks[one.task].name]["suitability"] =
+          std::to_string(one.suitability);
+    }
+    for (const Requirement& one : behavior.requirements) {
+      auto& minimum = statements[behavior.name + " requires " + catalog.tasks[one.task].name];
+      const Millionths present = minimum.empty() ? 0 : std::stoll(minimum["minimum_performance"]);
+      const Millionths strongest = std::max(one.minimum, present);
+      if (strongest > 0) minimum["minimum_performance"] = std::to_string(strongest);
+    }
+  }
+  for (const auto& list : catalog.exclusivity) {
+    for (const std::size_t one : list) {
+      for (const std::size_t other : list) {
+        const auto& [a, b] = std::minmax(catalog.tasks[one].name, catalog.tasks[other].name);
+        if (one != other) statements[std::string(a).append(" excludes ").append(b)];
+      }
+    }
+  }
+  return statements;
+}
+
+std::vector<std::string> differences(const Statements& before, const Statements& after) {
+  std::vector<std::string> lines;
+  for (const auto& [statement, attributes] : before) {
+    const auto other = after.find(statement);
+    if (other == after.end()) {
+      lines.push_back("- " + statement);
+    } else if (other->second != attributes) {
+      lines.push_back("~ " + statement);
+      for (const auto* side : {&attributes, &other->second}) {
+        for (const auto& [name, value] : *side) {
+          const auto& opposite = side == &attributes ? other->second : attributes;
+          const auto found = opposite.find(name);
+          if (found != opposite.end() && found->second == value) continue;
+          lines.push_back(statement + (side == &attributes ? " before " : " after ") + name + " " +
+                          value);
+        }
+      }
+    }
+  }
+  for (const auto& [statement, attributes] : after) {
+    if (before.count(statement) == 0) lines.push_back("+ " + statement);
+  }
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+std::string to_text(const AttributeValue& value) {
+  if (const auto* const flag = std::get_if<bool>(&value)) return truth(*flag);
+  if (const auto* const degree = std::get_if<cbc::Millionths>(&value)) {
+    return std::to_string(*degree);
+  }
+  if (const auto* const time = std::get_if<cbc::Microseconds>(&value)) {
+    return std::to_string(*time);
+  }
+  return std::get<std::string>(value);
+}
+
+/// Packages and parameters are left to the form of the YAML; the model has none.
+std::vector<std::string> lines_of(CatalogDiff diff) {
+  std::vector<std::string> lines;
+  for (CatalogChange& change : diff.changes) {
+    std::erase_if(change.attributes, [](const AttributeChange& attribute) {
+      return attribute.name == "package" || attribute.name.starts_with("parameter ");
+    });
+    if (change.kind == CatalogChange::Kind::changed && change.attributes.empty()) continue;
+    std::string statement;
+    switch (change.subject) {
+      case CatalogChange::Subject::task:
+        statement = "task " + change.task;
+        break;
+      case CatalogChange::Subject::behavior:
+        statement = "behavior " + change.behavior;
+        break;
+      case CatalogChange::Subject::performs:
+        statement = change.behavior + " performs " + change.task;
+        break;
+      case CatalogChange::Subject::requirement:
+        statement = change.behavior + " requires " + change.task;
+        break;
+      case CatalogChange::Subject::exclusion:
+        statement = change.task + " excludes " + change.other_task;
+        break;
+    }
+    if (change.kind == CatalogChange::Kind::removed) lines.push_back("- " + statement);
+    if (change.kind == CatalogChange::Kind::added) lines.push_back("+ " + statement);
+    if (change.kind != CatalogChange::Kind::changed) continue;
+    lines.push_back("~ " + statement);
+    for (const AttributeChange& attribute : change.attributes) {
+      const auto add = [&](const char* when, const AttributeValue& value) {
+        if (std::holds_alternative<std::monostate>(value)) return;
+        lines.push_back(statement + when + attribute.name + " " + to_text(value));
+      };
+      add(" before ", attribute.before);
+      add(" after ", attribute.after);
+    }
+  }
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+/// The same meaning, otherwise written: tasks, behaviors and lists in another order, lists twice,
+/// or as pairs.
+Catalog reordered(const Catalog& catalog, Random& random) {
+  Catalog result = catalog;
+  std::vector<std::size_t> places(catalog.tasks.size());
+  for (std::size_t task = 0; task < places.size(); ++task) places[task] = task;
+  random.shuffle(places);
+  for (std::size_t task = 0; task < places.size(); ++task) {
+    result.tasks[places[task]] = catalog.tasks[task];
+  }
+  for (Behavior& behavior : result.behaviors) {
+    for (Performance& one : behavior.performs) one.task = places[one.task];
+    for (Requirement& one : behavior.requirements) one.task = places[one.task];
+    random.shuffle(behavior.performs);
+    random.shuffle(behavior.requirements);
+  }
+  random.shuffle(result.behaviors);
+  for (auto& list : result.exclusivity) {
+    for (std::size_t& task : list) task = places[task];
+    random.shuffle(list);
+  }
+  random.shuffle(result.exclusivity);
+  if (!result.exclusivity.empty() && random.percent(50)) {
+    const std::vector<std::size_t> list = result.exclusivity.back();
+    if (random.percent(50)) result.exclusivity.pop_back();
+    for (std::size_t one = 0; one < list.size(); ++one) {
+      for (std::size_t other = 0; other < one; ++other) {
+        result.exclusivity.push_back({list[one], list[other]});
+      }
+    }
+  }
+  return result;
+}
+
+/// Changes that leave a catalog valid.
+void change(Catalog& catalog, Random& random) {
+  if (catalog.tasks.empty() || catalog.behaviors.empty()) return;
+  const std::size_t task = random.below(catalog.tasks.size());
+  const std::size_t behavior = random.below(catalog.behaviors.size());
+  switch (random.below(8)) {
+    case 0:
+      catalog.tasks[task].name += "_NEW";
+      break;
+    case 1:
+      catalog.behaviors[behavior].name += "_new";
+      break;
+    case 2:
+      catalog.tasks[task].timeout = random.between(1, 9) * 1'000'000;
+      catalog.tasks[task].listed = true;
+      break;
+    case 3:
+      catalog.behaviors[behavior].timeout = random.between(1, 9) * 500'000;
+      break;
+    case 4:
+      if (!catalog.behaviors[behavior].requirements.empty()) {
+        catalog.behaviors[behavior].requirements.pop_back();
+      }
+      break;
+    case 5:
+      if (!catalog.behaviors[behavior].requirements.empty()) {
+        catalog.behaviors[behavior].requirements.back().minimum = random.between(0, 4) * 250'000;
+      }
+      break;
+    case 6:
+      if (!catalog.behaviors[behavior].performs.empty()) {
+        catalog.behaviors[behavior].performs.back().suitability = random.between(0, 9) * 100'000;
+      }
+      break;
+    default:
+      if (!catalog.exclusivity.empty()) catalog.exclusivity.pop_back();
+      break;
+  }
+}
+
+CompiledCatalog compiled(const Catalog& catalog, Random& forms) {
+  Diagnostics diagnostics;
+  const std::string yaml = catalog_yaml(catalog, forms);
+  const auto read = read_catalog(yaml, "catalog.yaml", diagnostics);
+  EXPECT_TRUE(read.has_value()) << yaml;
+  return compile(read.value());
+}
+
+TEST(Diff, IsThatOfPlainSets) {
+  const std::uint64_t first = environment("CBC_SEED", 1);
+  const std::uint64_t cases = environment("CBC_PROPERTY_CASES", default_cases);
+  std::size_t changes = 0;
+  for (std::uint64_t seed = first; seed < first + cases; ++seed) {
+    Random random(seed);
+    const Catalog before = generate_catalog(random);
+    Catalog after = reordered(before, random);
+    const CompiledCatalog one = compiled(before, random);
+    EXPECT_EQ(lines_of(compare_catalogs(one, compiled(after, random))), std::vector<std::string>())
+        << "CBC_SEED=" << seed;
+    for (std::size_t count = random.below(4) + 1; count > 0; --count) change(after, random);
+    const CompiledCatalog other = compiled(after, random);
+    const auto expected = differences(statements_of(before), statements_of(after));
+    ASSERT_EQ(lines_of(compare_catalogs(one, other)), expected) << "CBC_SEED=" << seed;
+    ASSERT_EQ(lines_of(compare_catalogs(other, one)),
+              differences(statements_of(after), statements_of(before)))
+        << "CBC_SEED=" << seed;
+    changes += expected.size();
+  }
+  EXPECT_GT(changes, cases) << "too few changes to mean anything";
+}
+
+}  // namespace
+}  // namespace cbc::oracle

@@ -1,0 +1,121 @@
+#include "diff/catalog_diff.h"
+
+#include <string>
+#include <string_view>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "catalog/reader.h"
+#include "compiled/compile.h"
+#include "report/diff_json.h"
+#include "report/diff_text.h"
+
+namespace cbc {
+namespace {
+
+CompiledCatalog compiled(const std::string& yaml) {
+  Diagnostics diagnostics;
+  return compile(read_catalog(yaml, "catalog.yaml", diagnostics).value());
+}
+
+std::string text_of(const std::string& before, const std::string& after) {
+  return diff_text(compare_catalogs(compiled(before), compiled(after)), plain_style());
+}
+
+const std::string robot =
+    "tasks:\n"
+    "- {task: FLY, timeout: 20, parameters: [{parameter: speed, allowed_values: [0, 30]}]}\n"
+    "- {task: LAND, reactive_start: true, start_on_request: false}\n"
+    "behaviors:\n"
+    "- {behavior: FLY_FAST, task: FLY, suitability: 80, requires: [{task: SEE, "
+    "minimum_performance: 50}]}\n"
+    "- {behavior: LAND, task: LAND}\n"
+    "- {behavior: SEE, task: SEE}\n"
+    "exclusivity_constraints:\n"
+    "- mutually_exclusive: [FLY, LAND]\n";
+
+std::string replaced(std::string_view old, std::string_view by) {
+  std::string result = robot;
+  result.replace(result.find(old), old.size(), by);
+  return result;
+}
+
+TEST(CatalogDiff, NamesWhatChanged) {
+  EXPECT_EQ(text_of(robot, robot), "");
+  EXPECT_EQ(text_of(robot, replaced("timeout: 20", "timeout: 2.5")),
+            "~ task FLY: timeout 20 s -> 2.5 s\n");
+  EXPECT_EQ(text_of(robot, replaced("timeout: 20, ", "")), "~ task FLY: timeout 20 s -> none\n");
+  EXPECT_EQ(text_of(robot, replaced("[0, 30]", "[0, 31]")),
+            "~ task FLY: parameter speed [0, 30] -> [0, 31]\n");
+  EXPECT_EQ(text_of(robot, replaced("suitability: 80", "suitability: 90")),
+            "~ FLY_FAST performs FLY: suitability 80 % -> 90 %\n");
+  EXPECT_EQ(text_of(robot, replaced("minimum_performance: 50", "minimum_performance: 60")),
+            "~ FLY_FAST requires SEE: minimum_performance 50 % -> 60 %\n");
+  EXPECT_EQ(text_of(robot, replaced("reactive_start: true, start_on_request: false",
+                                    "execution_goal: keep_running")),
+            "~ task LAND: execution_goal achieve_goal -> keep_running, reactive_start true -> "
+            "false, start_on_request false -> true\n");
+  EXPECT_EQ(
+      text_of(
+          robot,
+          replaced("[FLY, LAND]", "[LAND, SEE]").replace(robot.find("FLY_FAST"), 8, "FLY_SLOW")),
+      "- behavior FLY_FAST\n"
+      "+ behavior FLY_SLOW\n"
+      "- FLY_FAST performs FLY: suitability 80 %\n"
+      "+ FLY_SLOW performs FLY: suitability 80 %\n"
+      "- FLY_FAST requires SEE: minimum_performance 50 %\n"
+      "+ FLY_SLOW requires SEE: minimum_performance 50 %\n"
+      "- FLY excludes LAND\n"
+      "+ LAND excludes SEE\n");
+}
+
+TEST(CatalogDiff, WordsAreASetAndTwoNumbersARange) {
+  const std::string before = replaced("[0, 30]", "[LEFT, RIGHT]");
+  EXPECT_EQ(text_of(before, replaced("[0, 30]", "[RIGHT, LEFT]")), "");
+  EXPECT_EQ(text_of(robot, replaced("[0, 30]", "[-5, 30]")),
+            "~ task FLY: parameter speed [0, 30] -> [-5, 30]\n");
+}
+
+/// A catalog of tasks T1000 up to T1000 + count - 1, of which at most one runs.
+std::string exclusive(int count, bool with_list) {
+  std::string behaviors = "behaviors:\n";
+  std::string names;
+  for (int number = 1000; number < 1000 + count; ++number) {
+    const std::string name = "T" + std::to_string(number);
+    behaviors.append("- {behavior: ").append(name).append(", task: ").append(name).append("}\n");
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  if (with_list) behaviors += "exclusivity_constraints:\n- mutually_exclusive: [" + names + "]\n";
+  return behaviors;
+}
+
+TEST(CatalogDiff, CountsExclusionsThatAreTooManyToList) {
+  const CompiledCatalog with = compiled(exclusive(600, true));
+  const CompiledCatalog without = compiled(exclusive(600, false));
+  constexpr std::uint64_t pairs = 600 * 599 / 2;
+  for (const CatalogDiff& diff :
+       {compare_catalogs(with, without), compare_catalogs(without, with)}) {
+    EXPECT_EQ(diff.changes.size(), most_listed_exclusions);
+    EXPECT_EQ(diff.size(), pairs);
+  }
+  const CatalogDiff none = compare_catalogs(with, with);
+  EXPECT_EQ(none.size(), 0U);
+  // A task more is in 600 pairs more, each of which is listed.
+  const CatalogDiff one_more = compare_catalogs(with, compiled(exclusive(601, true)));
+  EXPECT_EQ(one_more.further_exclusions, 0U);
+  EXPECT_EQ(one_more.size(), 600U + 3U);
+}
+
+TEST(CatalogDiff, IsJson) {
+  const std::string after = replaced("timeout: 20", "timeout: 2.5");
+  const auto json = nlohmann::json::parse(
+      diff_json(compare_catalogs(compiled(robot), compiled(after)), "old.yaml", "new.yaml"));
+  EXPECT_EQ(json, nlohmann::json::parse(R"({"schema": "cbc.diff/1", "old": "old.yaml",
+    "new": "new.yaml", "changes": [{"kind": "changed", "subject": "task", "task": "FLY",
+    "attributes": [{"name": "timeout", "before": 20.0, "after": 2.5}]}],
+    "further_exclusions": 0})"));
+}
+
+}  // namespace
+}  // namespace cbc
