@@ -1,0 +1,124 @@
+// check.js PROGRAM: validates what the program writes as JSON with the schemas; see check.sh.
+'use strict';
+
+const Ajv = require('ajv/dist/2020');
+const fs = require('fs');
+const path = require('path');
+const {damages} = require('./damages');
+const {lies} = require('./lies');
+const {takeSamples} = require('./samples');
+const {goldenTexts, programTexts} = require('./texts');
+
+const root = path.join(__dirname, '..', '..');
+const program = path.resolve(process.argv[2]);
+
+function refuse(reason) {
+  console.error(`check.js: ${reason}`);
+  process.exit(1);
+}
+
+/** All schemas, by name. */
+function readSchemas() {
+  const folder = path.join(root, 'schemas');
+  const files = fs.readdirSync(folder).filter((file) => file.endsWith('.json'));
+  return new Map(
+    files.map((file) => [
+      path.basename(file, '.json'),
+      JSON.parse(fs.readFileSync(path.join(folder, file), 'utf8')),
+    ])
+  );
+}
+
+// Validates the schemas, too, and refuses keywords that are unknown or have no effect.
+const schemas = readSchemas();
+const ajv = new Ajv({strict: true});
+ajv.addSchema([...schemas.values()]);
+
+/** Of a schema, or of the part of it that a JSON pointer leads to. */
+function validatorOf(name, pointer = '') {
+  const id = `urn:cbc:schema:${name}:1`;
+  const validate = ajv.getSchema(pointer ? `${id}#${pointer}` : id);
+  return validate ?? refuse(`${name}.json has not the $id ${id}`);
+}
+
+/** The examples in a schema, each with the validator of the part that it is an example of. */
+function* examplesIn(name, part, pointer = '') {
+  for (const document of part.examples ?? []) {
+    const source = `an example in ${name}.json${pointer}`;
+    yield {schema: name, source, document, validate: validatorOf(name, pointer)};
+  }
+  for (const [key, value] of Object.entries(part)) {
+    if (key === 'examples' || value === null || typeof value !== 'object') continue;
+    yield* examplesIn(name, value, `${pointer}/${key}`);
+  }
+}
+
+/** The documents in a text: the lines of a stream, or the whole. */
+function documentsIn({schema, source, text}) {
+  const validate = validatorOf(schema);
+  const parts = schema === 'events' ? text.split('\n').filter(Boolean) : [text];
+  return parts.map((part, place) => ({
+    schema,
+    source: `document ${place + 1} of ${source}`,
+    size: part.length,
+    document: JSON.parse(part),
+    validate,
+  }));
+}
+
+function checkValid(items) {
+  for (const {source, document, validate} of items) {
+    if (validate(document)) continue;
+    const errors = ajv.errorsText(validate.errors, {separator: '\n'});
+    refuse(`not valid: ${source}:\n${errors.slice(0, 4000)}`);
+  }
+}
+
+/** A schema that accepts everything would find no fault: each damage must be refused. */
+function checkDamages(items) {
+  let count = 0;
+  for (const {schema, source, document, validate} of items) {
+    for (const damage of damages(document)) {
+      if (validate(document)) refuse(`${schema}.json accepts ${source} where ${damage}`);
+      ++count;
+    }
+  }
+  return count;
+}
+
+/** Each lie is told in the first document that has occasion for it. */
+function checkLies(documents) {
+  let count = 0;
+  for (const [schema, list] of Object.entries(lies)) {
+    const validate = validatorOf(schema);
+    for (const [what, find, say] of list) {
+      const source = documents.find((item) => item.schema === schema && find(item.document));
+      if (source === undefined) refuse(`no document has occasion for ${what}`);
+      const document = structuredClone(source.document);
+      const part = find(document);
+      if (typeof say === 'function') say(part);
+      else Object.assign(part, say);
+      if (validate(document)) refuse(`${schema}.json accepts ${what}`);
+      ++count;
+    }
+  }
+  return count;
+}
+
+const examples = [...schemas].flatMap(([name, schema]) => [...examplesIn(name, schema)]);
+checkValid(examples);
+
+const documents = [...goldenTexts(root), ...programTexts(root, program)].flatMap(documentsIn);
+checkValid(documents);
+const least = {'catalog-dump': 100, events: 500, lint: 5, solve: 60, state: 40, sweep: 10};
+for (const name of schemas.keys()) {
+  const found = documents.filter((item) => item.schema === name).length;
+  if (!(found >= least[name])) refuse(`only ${found} documents of ${name}.json were found`);
+}
+
+const damaged = checkDamages([...examples, ...takeSamples(documents)]);
+const told = checkLies(documents);
+console.log(
+  `valid: ${schemas.size} schemas, ${examples.length} examples, ${documents.length} documents; ` +
+    `refused: ${damaged} damaged ones, ${told} that contradict themselves`
+);

@@ -1,0 +1,13 @@
+#!/bin/sh
+# check.sh FOLDER PROGRAM: validates the JSON of PROGRAM, and that of the golden cases, with the
+# schemas of the repository. The validator comes from npm, and goes to FOLDER.
+#
+# Exit status: 0 valid, 1 not valid, 77 skipped: no Node.js, or no way to the packages.
+set -u
+
+source=$(cd -- "$(dirname -- "$0")" && pwd)
+folder=$1
+program=$2
+
+sh "$source/../npm_install.sh" "$source" "$folder" || exit
+NODE_PATH=$folder/node_modules exec node "$source/check.js" "$program"

@@ -1,0 +1,212 @@
+// What no document may say, although each member by itself is of the right form. By schema: what it
+// is, which part of a document it can be said of (a function that finds it, or nothing), and the
+// members that say it, or a function that makes the part say it.
+'use strict';
+
+const of =
+  (find, ...more) =>
+  (item) =>
+    more.reduce((part, next) => part && next(part), find(item));
+
+// Lines of a stream.
+const lineWith = (member) => (line) => member in line && line;
+const eventWhere = (fits) => (line) => 'index' in line && fits(line) && line;
+const outcome = (word) => eventWhere((line) => line.outcome === word);
+const verb = (word) => eventWhere((line) => line.verb === word && line.origin === 'script');
+const origin = (word) => eventWhere((line) => line.origin === word);
+const searched = of(outcome('rejected'), (line) => line.search && line);
+const notSearched = of(outcome('rejected'), (line) => !line.search && line);
+
+// Parts of an event.
+const objective = of(outcome('accepted'), (line) => line.objective);
+const search = (word) => of(outcome(word), (line) => line.search);
+const change = (op, cause) => (line) =>
+  (line.changes ?? []).find((item) => item.op === op && (!cause || item.cause === cause));
+const reason = (kind) => (line) =>
+  [line, ...(line.why ?? [])]
+    .flatMap((item) => item.conflict ?? [])
+    .find((item) => item.kind === kind);
+const why = (fits) => (line) => (line.why ?? []).find(fits);
+const whyTask = why((item) => 'task' in item);
+const whyAlternative = why((item) => item.alternative);
+const whyNone = why((item) => item.conflict.length > 0);
+const loss = (word) =>
+  of(
+    why((item) => item.loses?.objective === word),
+    (item) => item.loses
+  );
+
+// Parts of the other documents.
+const whole = (document) => document;
+const failure = (report) => report.runs[0].expectations.failures[0];
+const kindOfTotals = of(lineWith('totals'), (line) => line.totals.kinds[0]);
+const exclusion = (sweep) => sweep.reasons.find((item) => item.kind === 'exclusive');
+const histogram = (sweep) => sweep.nodes.histogram;
+const request = (state) => state.running[0]?.request;
+const finding = ({files}) => files[0].diagnostics[0];
+const summary = ({files}) => files[0].summary;
+const group = ({groups}) => groups[0];
+const task = of(group, ({tasks}) => tasks[0]);
+const withMinimum = of(group, ({tasks}) => tasks.find((item) => item.minimum_performance !== null));
+const noMinimum = of(group, ({tasks}) => tasks.find((item) => item.minimum_performance === null));
+const exclusivity = of(group, (item) => item.exclusivity[0]);
+
+// What is said.
+const faulty = {kind: 'faulty', behavior: 'GPS', message: 'GPS is faulty'};
+const priority = {kind: 'priority', task: 'HOVER', priority: 2, message: 'HOVER has priority 2'};
+const stopped = {task: 'HOVER', cause: 'interrupted'};
+const activation = {
+  op: 'activate',
+  behavior: 'GPS',
+  tasks: ['LOCALIZE'],
+  cause: 'required',
+  priority: null,
+  success: true,
+};
+const noAnswer = {
+  task: 'HOVER',
+  chosen: null,
+  limit_reached: true,
+  alternative: null,
+  loses: null,
+  conflict: [],
+  message: 'it would have taken too long to find out',
+};
+
+const lies = {
+  events: [
+    ['a reactive delay of 0', lineWith('schema'), {reactive_delay: 0}],
+    ['a digest in capitals', lineWith('schema'), {digest: 'F'.repeat(32)}],
+    ['an error in line 0', lineWith('error'), {line: 0}],
+    ['totals of no event', kindOfTotals, {events: 0}],
+    ['totals of repairs', kindOfTotals, {verb: 'repair'}],
+
+    ['an index of 0', lineWith('index'), {index: 0}],
+    ['a start with priority 0', verb('start'), {priority: 0}],
+    ['a priority that is too large', verb('start'), {priority: 2 ** 31}],
+    ['a stop with a cause', verb('stop'), {cause: 'interrupted'}],
+    ['a stop with parameters', verb('stop'), {parameters: {}}],
+    ['a finish with a situation', verb('finish'), {situation: {}}],
+    ['a fault with a priority', verb('fault'), {priority: 1}],
+    ['a wait with a name', verb('wait'), {name: 'HOVER'}],
+    ['a timeout with success', origin('timeout'), {cause: 'goal_achieved'}],
+    ['a lost behavior that timed out', origin('fault'), {cause: 'time_out'}],
+    ['a reactive start with priority 1', origin('reactive'), {priority: 1}],
+    ['a start by a timeout', origin('reactive'), {origin: 'timeout'}],
+    ['a start by a fault', origin('reactive'), {origin: 'fault'}],
+    ['a reactive finish', origin('timeout'), {origin: 'reactive'}],
+
+    ['an accepted event without an objective', outcome('accepted'), {objective: null}],
+    ['an accepted event without a search', outcome('accepted'), {search: null}],
+    ['an accepted event that is infeasible', search('accepted'), {status: 'infeasible'}],
+    ['an accepted event with a conflict', outcome('accepted'), {conflict: [faulty]}],
+    [
+      'an accepted wait',
+      of(outcome('accepted'), verb('stop')),
+      (line) => delete line.name && delete line.priority && Object.assign(line, {verb: 'wait'}),
+    ],
+    ['a rejected event that stopped a task', outcome('rejected'), {stopped_tasks: [stopped]}],
+    ['a rejected event that is optimal', search('rejected'), {status: 'optimal'}],
+    ['a rejected event that is explained', outcome('rejected'), {why: [noAnswer]}],
+    ['a rejection after a search by priority', searched, {conflict: [priority]}],
+    ['a rejection without search by a fault', notSearched, {conflict: [faulty]}],
+    ['a rejection without search for two reasons', notSearched, {conflict: [priority, priority]}],
+    ['a rejection without search or reason', notSearched, {conflict: []}],
+    ['an unchanged event with a change', outcome('unchanged'), {changes: [activation]}],
+    ['an unchanged event with a conflict', outcome('unchanged'), {conflict: [faulty]}],
+
+    ['a change for no task', change('activate'), {tasks: []}],
+    ['a change for a task twice', change('activate'), {tasks: ['HOVER', 'HOVER']}],
+    ['an activation that replaces', change('activate'), {cause: 'replaced'}],
+    ['a requested activation without priority', change('activate', 'requested'), {priority: null}],
+    ['a requested activation with priority 0', change('activate', 'requested'), {priority: 0}],
+    ['a reactive activation with priority 2', change('activate', 'reactive'), {priority: 2}],
+    ['a required activation with a priority', change('activate', 'required'), {priority: 1}],
+    ['a taking back with a priority', change('activate', 'undone'), {priority: 1}],
+    ['a deactivation that failed', change('deactivate'), {success: false}],
+    ['a deactivation that is required', change('deactivate', 'released'), {cause: 'required'}],
+    ['a displaced task without a request', change('deactivate', 'displaced'), {priority: null}],
+
+    ['a suitability over 1', objective, {suitability: 1.5}],
+    ['an idle share over 1', objective, {idle: 1.5}],
+
+    ['a task that excludes nothing', reason('exclusive'), {tasks: ['A']}],
+    ['a task that excludes itself', reason('exclusive'), {tasks: ['A', 'A']}],
+    ['three tasks that exclude one another', reason('exclusive'), {tasks: ['A', 'B', 'C']}],
+    ['an unavailable behavior of a task', reason('unavailable'), {task: 'HOVER'}],
+    ['a requirement with a priority', reason('requires'), {priority: 1}],
+    ['a protected behavior', reason('protected'), {behavior: 'GPS'}],
+    [
+      'a rejection because a behavior finished',
+      (line) => line.conflict?.find((item) => item.kind === 'faulty'),
+      {kind: 'finished'},
+    ],
+
+    ['an answer about a task and a behavior', whyTask, {behavior: 'GPS', active: true}],
+    ['a task that is active', whyTask, {active: true}],
+    ['an alternative that does not lose', whyAlternative, {loses: null}],
+    ['a loss without an alternative', whyAlternative, {alternative: null}],
+    ['an alternative that was not found', whyAlternative, {limit_reached: true}],
+    ['an alternative that cannot be', whyAlternative, {conflict: [faulty]}],
+    ['an alternative that a priority rules out', whyNone, {conflict: [priority]}],
+    ['reasons that were not found', whyNone, {limit_reached: true}],
+    ['a number of requests in words', loss('requests'), {chosen: 'two'}],
+    ['a suitability that is rounded', loss('suitability'), {chosen: 0.9}],
+    ['an exact suitability over 1', loss('suitability'), {chosen: '1.5'}],
+    ['an idle share that is rounded', loss('idle'), {chosen: '0.5'}],
+  ],
+
+  solve: [
+    ['no run', whole, {runs: []}],
+    ['a failure in line 0', failure, {line: 0}],
+    [
+      'totals of the runs only',
+      (report) => 'totals' in report && report,
+      (report) => delete report.totals && delete report.process,
+    ],
+  ],
+
+  sweep: [
+    ['kinds of events in another order', whole, ({events}) => events.reverse()],
+    ['a kind of event too few', whole, ({events}) => events.pop()],
+    ['a kind of event too many', whole, ({events}) => events.push(events[0])],
+    ['a task that never ran twice', whole, {never_ran: ['A', 'A']}],
+    ['a share over 1', (sweep) => sweep.options, {faults: 1.5}],
+    ['shard 0', (sweep) => sweep.shard, {index: 0}],
+    ['a reason without rejections', (sweep) => sweep.reasons[0], {count: 0}],
+    ['a task that excludes nothing', exclusion, {tasks: ['A']}],
+    ['three tasks that exclude one another', exclusion, {tasks: ['A', 'B', 'C']}],
+    ['a number that did not occur', histogram, (numbers) => numbers.push([9999, 0])],
+    ['a histogram of single numbers', histogram, (numbers) => numbers.push([9999])],
+    ['a histogram of triples', histogram, (numbers) => numbers.push([9999, 1, 1])],
+  ],
+
+  state: [
+    ['a reactive delay of 0', whole, {reactive_delay_us: 0}],
+    ['a time in seconds', whole, {time_us: 0.5}],
+    ['a behavior that is faulty twice', whole, {faulty: ['GPS', 'GPS']}],
+    ['a request of event 0', request, {event: 0}],
+    ['a priority that is too large', request, {priority: 2 ** 31}],
+  ],
+
+  lint: [
+    ['a finding in column 0', finding, {column: 0}],
+    ['a search space of nothing', summary, {search_space: '0'}],
+    ['a group without tasks', of(summary, group), {tasks: []}],
+    ['a task twice in a group', of(summary, group), {tasks: ['A', 'A']}],
+  ],
+
+  'catalog-dump': [
+    ['a group without tasks', group, {tasks: []}],
+    ['a timeout of 0', task, {timeout: 0}],
+    ['a suitability over 100', of(task, ({behaviors}) => behaviors[0]), {suitability: 100.5}],
+    ['a minimum over 100', withMinimum, {minimum_performance: 100.5}],
+    ['a minimum without a line', withMinimum, {line: null}],
+    ['a minimum in line 0', withMinimum, {line: 0}],
+    ['the line of no minimum', noMinimum, {line: 7}],
+    ['a task that excludes nothing', exclusivity, {tasks: ['A']}],
+    ['a task that excludes itself', exclusivity, {tasks: ['A', 'A']}],
+  ],
+};
+
+module.exports = {lies};

@@ -1,0 +1,128 @@
+// What the program writes as JSON: {schema, source, text}, by the name of the schema's file.
+'use strict';
+
+const {spawnSync} = require('child_process');
+const fs = require('fs');
+const os = require('os');
+const path = require('path');
+
+const schemaOf = {
+  'cbc.catalog/1': 'catalog-dump',
+  'cbc.events/1': 'events',
+  'cbc.lint/1': 'lint',
+  'cbc.solve/1': 'solve',
+  'cbc.state/1': 'state',
+  'cbc.sweep/1': 'sweep',
+};
+
+/** A text that names its schema at its beginning, or nothing if it does not. */
+function label(source, text) {
+  const found = /^\{\s*"schema":\s*"([^"]*)"/.exec(text);
+  return found && found[1] in schemaOf ? [{schema: schemaOf[found[1]], source, text}] : [];
+}
+
+/** The expected output of the golden cases. */
+function* goldenTexts(root) {
+  const cases = path.join(root, 'tests', 'golden', 'cases');
+  for (const name of fs.readdirSync(cases).sort()) {
+    const file = path.join(cases, name, 'stdout');
+    if (fs.existsSync(file)) yield* label(file, fs.readFileSync(file, 'utf8'));
+  }
+}
+
+class Runs {
+  constructor(root, program, scratch) {
+    this.root = root;
+    this.program = program;
+    this.scratch = scratch;
+  }
+
+  /** Standard output; empty if the program cannot make anything of its input. */
+  run(...args) {
+    const {status, error, stdout, stderr} = spawnSync(this.program, args, {
+      cwd: this.root,
+      encoding: 'utf8',
+      maxBuffer: 1 << 28,
+    });
+    if (status === 0 || status === 1 || status === 2) return stdout;
+    throw new Error(`cbc ${args.join(' ')}: ${error ?? `status ${status}: ${stderr}`}`);
+  }
+
+  *labelled(...args) {
+    yield* label(`cbc ${args.join(' ')}`, this.run(...args));
+  }
+
+  *solve(catalog, script, names) {
+    const limits = ['--max-clock-events', '100'];
+    const reasons = [...names.flatMap((name) => ['--why', name]), '--alternatives', '3'];
+    const all = ['solve', catalog, script, ...limits, ...reasons, '--stats', '--format'];
+    yield* this.labelled(...all, 'json');
+    const state = path.join(this.scratch, 'state.json');
+    fs.rmSync(state, {force: true});
+    yield* this.labelled(...all, 'jsonl', '--state-out', state);
+    if (fs.existsSync(state)) yield* label(`state of ${script}`, fs.readFileSync(state, 'utf8'));
+  }
+
+  *sweep(catalog) {
+    const sweep = ['solve', catalog, '--sweep', '5', '--events', '20', '--format', 'json'];
+    yield* this.labelled(...sweep);
+    yield* this.labelled(...sweep, '--stats', '--tie-seed', '3', '--max-nodes', '1');
+    const shards = [];
+    for (const shard of [1, 2]) {
+      const file = path.join(this.scratch, `shard-${shard}.json`);
+      const [text] = this.labelled(...sweep, '--shard', `${shard}/2`);
+      fs.writeFileSync(file, text.text);
+      shards.push(file);
+      yield text;
+    }
+    yield* this.labelled('solve', '--merge', ...shards, '--format', 'json');
+    // A share without any sequence has nothing that could be slowest.
+    yield* this.labelled(...sweep, '--shard', '7/7');
+  }
+}
+
+/** The first few names of tasks and behaviors, to ask about. */
+function namesIn(dump) {
+  const [group] = JSON.parse(dump).groups;
+  if (group === undefined) return [];
+  const tasks = group.tasks.slice(0, 3).map((item) => item.task);
+  const behaviors = group.behaviors.slice(0, 3).map((item) => item.behavior);
+  return [...tasks, ...behaviors];
+}
+
+// The last one has minimum performances, which reject events.
+const swept = new Set([
+  'catalogs/quadrotor.yaml',
+  'catalogs/target-following.yaml',
+  'tests/golden/cases/rejected/catalog.yaml',
+]);
+
+/** What the program makes of a catalog, and of the scripts that belong to it. */
+function* textsOfCatalog(runs, file) {
+  const [dump] = runs.labelled('compile', '--dump', '--format', 'json', file);
+  if (dump === undefined) return; // it has errors
+  yield dump;
+  const folder = path.dirname(file);
+  for (const script of [file.replace(/yaml$/, 'mission.yaml'), `${folder}/script.yaml`]) {
+    if (fs.existsSync(path.join(runs.root, script))) {
+      yield* runs.solve(file, script, namesIn(dump.text));
+    }
+  }
+  if (swept.has(file)) yield* runs.sweep(file);
+}
+
+/** What the program makes of all catalogs in the repository. */
+function* programTexts(root, program) {
+  const scratch = fs.mkdtempSync(path.join(os.tmpdir(), 'cbc-schemas-'));
+  try {
+    const runs = new Runs(root, program, scratch);
+    const [lint] = runs.labelled('lint', '--format', 'json', 'catalogs', 'tests/golden/cases');
+    yield lint;
+    const catalogs = JSON.parse(lint.text).files.filter((file) => file.summary !== null);
+    for (const {file} of catalogs) yield* textsOfCatalog(runs, file);
+  } finally {
+    fs.rmSync(scratch, {recursive: true});
+  }
+}
+
+module.exports = {goldenTexts, programTexts};

@@ -1,0 +1,107 @@
+// The JSON Schemas in schemas/ have the words that the program has, and no others.
+#include <fstream>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cbc/diagnostic.h"
+#include "cbc/event.h"
+#include "cbc/rules.h"
+#include "coordinator/record.h"
+#include "coordinator/search_totals.h"
+#include "explain/comparison.h"
+#include "explain/reason.h"
+#include "sweep/counts.h"
+
+namespace cbc {
+namespace {
+
+using Json = nlohmann::json;
+using Words = std::set<std::string, std::less<>>;
+
+Json schema(const std::string& name) {
+  std::ifstream file(CBC_SOURCE_DIR "/schemas/" + name + ".json");
+  return Json::parse(file);
+}
+
+void add_words(const Json& part, Words& words) {
+  if (part.contains("const")) words.insert(part["const"].get<std::string>());
+  if (!part.contains("enum")) return;
+  for (const Json& word : part["enum"]) words.insert(word.get<std::string>());
+}
+
+/// Of the part that a JSON pointer leads to.
+Words words_at(const Json& schema, const std::string& pointer) {
+  Words words;
+  add_words(schema.at(Json::json_pointer(pointer)), words);
+  return words;
+}
+
+/// Of one member, in all parts of a list.
+Words words_in_list(const Json& schema, const std::string& pointer, const char* member) {
+  Words words;
+  for (const Json& part : schema.at(Json::json_pointer(pointer))) {
+    add_words(part["properties"][member], words);
+  }
+  return words;
+}
+
+template <typename Enumeration>
+Words names_up_to(Enumeration last) {
+  Words names;
+  for (int value = 0; value <= static_cast<int>(last); ++value) {
+    names.emplace(name_of(static_cast<Enumeration>(value)));
+  }
+  return names;
+}
+
+TEST(SchemaWords, OfEvents) {
+  const Json events = schema("events");
+  const std::string event = "/$defs/event/properties/";
+  EXPECT_EQ(words_at(events, event + "origin"), names_up_to(Origin::fault));
+  EXPECT_EQ(words_at(events, event + "verb"), names_up_to(Verb::wait));
+  EXPECT_EQ(words_at(events, event + "outcome"), names_up_to(Outcome::unchanged));
+  EXPECT_EQ(words_at(events, "/$defs/finish_cause"), names_up_to(FinishCause::interrupted));
+  EXPECT_EQ(words_at(events, "/$defs/change/properties/cause"), names_up_to(ChangeCause::undone));
+  EXPECT_EQ(words_at(events, "/$defs/search/properties/status"),
+            names_up_to(SearchStatus::unknown));
+  EXPECT_EQ(words_in_list(events, "/$defs/reason/oneOf", "kind"),
+            names_up_to(Reason::Kind::finished));
+  EXPECT_EQ(words_in_list(events, "/$defs/loss/oneOf", "objective"),
+            names_up_to(Criterion::canonical));
+}
+
+TEST(SchemaWords, OfTotals) {
+  Words verbs;
+  Words origins;
+  for (const SearchTotals::Kind& kind : SearchTotals::kinds) {
+    verbs.emplace(name_of(kind.verb));
+    origins.emplace(name_of(kind.origin));
+  }
+  const Json events = schema("events");
+  EXPECT_EQ(words_at(events, "/$defs/effort_of_kind/properties/verb"), verbs);
+  EXPECT_EQ(words_at(events, "/$defs/effort_of_kind/properties/origin"), origins);
+}
+
+TEST(SchemaWords, OfSweeps) {
+  const Json sweep = schema("sweep");
+  EXPECT_EQ(words_in_list(sweep, "/properties/events/prefixItems", "kind"),
+            names_up_to(SweepKind::lost));
+  // That a behavior finished is a reason of no rejection.
+  EXPECT_EQ(words_in_list(sweep, "/$defs/reason/oneOf", "kind"), names_up_to(Reason::Kind::faulty));
+}
+
+TEST(SchemaWords, OfLint) {
+  const Json lint = schema("lint");
+  const std::string diagnostic = "/$defs/diagnostic/properties/";
+  Words rules;
+  for (const Rule& rule : all_rules()) rules.emplace(rule.name);
+  EXPECT_EQ(words_at(lint, diagnostic + "rule"), rules);
+  EXPECT_EQ(words_at(lint, diagnostic + "severity"), names_up_to(Severity::error));
+}
+
+}  // namespace
+}  // namespace cbc
