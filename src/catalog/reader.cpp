@@ -36,6 +36,9 @@ class Resolver {
     return std::move(catalog_);
   }
 
+  /// The names that the catalog leaves out.
+  std::vector<UndefinedTask> undefined_tasks() { return std::move(undefined_tasks_); }
+
  private:
   struct Undefined {
     draft::Name name;
@@ -124,6 +127,10 @@ class Resolver {
         behavior.requirements.push_back({*task, requirement.minimum_performance.value,
                                          requirement.minimum_performance.range,
                                          requirement.task.range, requirement.entry});
+      } else {
+        undefined_tasks_.push_back({std::string(requirement.task.text),
+                                    static_cast<BehaviorIndex>(catalog_.behaviors.size()),
+                                    requirement.minimum_performance.value, 0});
       }
     }
     catalog_.behaviors.push_back(std::move(behavior));
@@ -155,6 +162,8 @@ class Resolver {
       } else {
         list.entry.reset();
         list.is_complete = false;
+        undefined_tasks_.push_back(
+            {std::string(name.text), std::nullopt, 0, catalog_.exclusivity.size()});
       }
     }
     catalog_.exclusivity.push_back(std::move(list));
@@ -208,6 +217,7 @@ class Resolver {
   std::unordered_map<std::string_view, TaskIndex> tasks_;
   std::unordered_map<std::string_view, Range> behaviors_;
   std::vector<Undefined> undefined_;
+  std::vector<UndefinedTask> undefined_tasks_;
 };
 
 }  // namespace
@@ -216,7 +226,9 @@ CatalogReading understand_catalog(const yaml::Document& document, Diagnostics& d
   Reporter reporter(document.file(), diagnostics);
   CatalogReading reading;
   const draft::Catalog draft = draft::read(document.root(), reporter);
-  reading.catalog = Resolver(draft, reporter).resolve();
+  Resolver resolver(draft, reporter);
+  reading.catalog = resolver.resolve();
+  reading.undefined_tasks = resolver.undefined_tasks();
   reading.catalog.file = document.file();
   const std::size_t hiding = reporter.errors() - reporter.errors(rule::on_request_and_reactive);
   reading.is_complete = hiding == 0;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "catalog/catalog.h"
 #include "cbc/diagnostic.h"
@@ -10,10 +12,20 @@
 
 namespace cbc {
 
+/// A name that stands where a task is required or excluded, and that no task has.
+struct UndefinedTask {
+  std::string name;
+  std::optional<BehaviorIndex> behavior;  ///< that requires it; empty: an exclusivity list has it
+  Millionths minimum_performance = 0;     ///< of the requirement; 0: none
+  std::size_t list = 0;                   ///< place in Catalog::exclusivity, if one has it
+};
+
 /// What could be made of a catalog.
 struct CatalogReading {
   /// As far as it was understood.
   Catalog catalog;
+  /// What it leaves out of requirements and exclusivity lists.
+  std::vector<UndefinedTask> undefined_tasks;
   /// Whether it was understood as a whole, though it may break assumptions of the semantics.
   bool is_complete = false;
   /// Whether all entries and names were understood. Values may be missing, and then exclude

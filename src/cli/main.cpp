@@ -17,6 +17,7 @@
 #include "cbc/version.h"
 #include "cli/compile_command.h"
 #include "cli/exit_status.h"
+#include "cli/graph_command.h"
 #include "cli/lint_command.h"
 #include "cli/solve_command.h"
 #include "cli/standard_descriptors.h"
@@ -35,6 +36,7 @@ constexpr const char* footer =
     "  cbc compile quadrotor.yaml -o quadrotor.cbc\n"
     "  cbc solve quadrotor.yaml mission.yaml\n"
     "  cbc solve quadrotor.yaml mission.yaml --format json | jq .\n"
+    "  cbc graph quadrotor.yaml -o quadrotor.svg\n"
     "\n"
     "Exit status: 0 all is well, 1 lint found an error, a compiled catalog is stale, or an\n"
     "expectation failed, 2 the input or the usage is wrong, 3 an internal error.";
@@ -75,6 +77,7 @@ int run(int argc, char** argv) {
   add_lint_command(program, status);
   add_compile_command(program, status);
   add_solve_command(program, status);
+  add_graph_command(program, status);
 
   program.failure_message([](const CLI::App* app, const CLI::Error& error) {
     return "cbc: " + std::string(error.what()) + "\nSee '" + full_name(*app) + " --help'.\n";

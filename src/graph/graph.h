@@ -21,4 +21,8 @@ using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 [[nodiscard]] std::vector<std::uint32_t> reverse_topological_order(std::size_t vertices,
                                                                    const Edges& edges);
 
+/// Whether each edge says nothing new, because another path leads from its source to its target.
+/// Cycles count as one vertex each: edges within them stay. Edges are distinct.
+[[nodiscard]] std::vector<bool> transitive_edges(std::size_t vertices, const Edges& edges);
+
 }  // namespace cbc

@@ -52,5 +52,49 @@ TEST(Graph, OrderHasEveryVertexOnce) {
   EXPECT_EQ(reverse_topological_order(0, {}), Vertices{});
 }
 
+TEST(Graph, EdgesAreTransitiveIfAnotherPathLeadsToTheirTarget) {
+  using Answer = std::vector<bool>;
+  EXPECT_EQ(transitive_edges(3, {{0, 1}, {0, 2}, {1, 2}}), (Answer{false, true, false}));
+  EXPECT_EQ(transitive_edges(4, {{0, 3}, {0, 1}, {1, 2}, {2, 3}}),
+            (Answer{true, false, false, false}));
+  EXPECT_EQ(transitive_edges(4, {{0, 1}, {0, 2}, {1, 3}, {2, 3}}),
+            (Answer{false, false, false, false}));
+  EXPECT_EQ(transitive_edges(2, {}), Answer{});
+}
+
+TEST(Graph, EdgesWithinCyclesAreNotTransitive) {
+  using Answer = std::vector<bool>;
+  // 0, 1 and 2 require one another; that 0 leads to 3 follows from the path by 4.
+  EXPECT_EQ(transitive_edges(5, {{0, 1}, {1, 2}, {2, 0}, {0, 2}, {0, 3}, {1, 4}, {4, 3}}),
+            (Answer{false, false, false, false, true, false, false}));
+}
+
+TEST(Graph, TransitiveEdgesAreThoseThatReachabilityHasAnyway) {
+  std::uint32_t state = 1;
+  const auto draw = [&](std::uint32_t bound) {
+    state = state * 1664525U + 1013904223U;
+    return (state >> 16U) % bound;
+  };
+  for (int round = 0; round < 300; ++round) {
+    const std::uint32_t vertices = 2 + draw(8);
+    Edges edges;
+    for (std::uint32_t from = 0; from < vertices; ++from) {
+      for (std::uint32_t to = from + 1; to < vertices; ++to) {
+        if (draw(100) < 40) edges.emplace_back(from, to);
+      }
+    }
+    const std::vector<bool> answer = transitive_edges(vertices, edges);
+    for (std::size_t left_out = 0; left_out < edges.size(); ++left_out) {
+      // Without the edge, in order: what its source still reaches.
+      std::vector<bool> reached(vertices);
+      reached[edges[left_out].first] = true;
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (i != left_out && reached[edges[i].first]) reached[edges[i].second] = true;
+      }
+      ASSERT_EQ(answer[left_out], reached[edges[left_out].second]);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace cbc

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "catalog/reader.h"
+#include "cbc/diagnostic.h"
+#include "cbc/units.h"
+#include "compiled/catalog_arrays.h"
+#include "compiled/compiled_catalog.h"
+
+namespace cbc::draw {
+
+/// What a catalog has that can be drawn, good or bad. Places of tasks and behaviors are those in
+/// the catalog, with the undefined tasks behind the others. Texts are views of what it was made of.
+///
+/// A good catalog and the compiled file of it give the same.
+struct CatalogGraph {
+  struct Task {
+    std::string_view name;
+    std::uint32_t group = 0;
+    Millionths minimum_performance = 0;  ///< 0: none
+    bool is_defined = true;
+    bool is_faulty = false;
+  };
+  struct Behavior {
+    std::string_view name;  ///< may be missing in a bad catalog
+    std::string_view package;
+    std::uint32_t group = none;  ///< none: it has no task
+    bool is_faulty = false;
+  };
+  struct Performance {
+    std::uint32_t behavior = 0;
+    std::uint32_t task = 0;
+    Millionths suitability = one_million;
+    bool is_faulty = false;
+  };
+  struct Requirement {
+    std::uint32_t behavior = 0;
+    std::uint32_t task = 0;
+    Millionths minimum_performance = 0;  ///< 0: none
+    bool is_faulty = false;
+  };
+
+  std::string_view file;
+  std::vector<Task> tasks;
+  std::vector<Behavior> behaviors;
+  std::vector<Performance> performances;  ///< by behavior, then by task; pairs differ
+  std::vector<Requirement> requirements;  ///< the same
+  GrowingRows<std::uint32_t> exclusions;  ///< the tasks of each list, ascending; at least two
+  std::vector<bool> exclusion_is_faulty;
+
+  // Places in the arrays above: what a task or a behavior has to do with.
+  GrowingRows<std::uint32_t> performances_of_task;
+  GrowingRows<std::uint32_t> performances_of_behavior;
+  GrowingRows<std::uint32_t> requirements_of_task;  ///< those that ask for it
+  GrowingRows<std::uint32_t> requirements_of_behavior;
+  GrowingRows<std::uint32_t> exclusions_of_task;
+};
+
+/// `catalog` must outlive the result.
+[[nodiscard]] CatalogGraph to_graph(const CompiledCatalog& catalog);
+
+/// The same of a catalog that may have errors. What an error among the findings points at is
+/// faulty, and so is all that is on a cycle. `reading` must outlive the result.
+[[nodiscard]] CatalogGraph to_graph(const CatalogReading& reading,
+                                    const std::vector<Diagnostic>& findings);
+
+/// Fills in what is next to what. The other arrays are complete.
+void connect(CatalogGraph& graph);
+
+}  // namespace cbc::draw

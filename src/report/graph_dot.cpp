@@ -1,0 +1,226 @@
+#include "report/graph_dot.h"
+
+#include <cstddef>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "draw/names.h"
+#include "report/graph_palette.h"
+#include "text/wrap.h"
+
+namespace cbc {
+namespace {
+
+using draw::Edge;
+using draw::EdgeKind;
+using draw::Mark;
+using draw::Node;
+using draw::NodeKind;
+
+constexpr std::size_t line_length = 10;  // characters, about
+
+/// A text of DOT. Between quotes only the quote itself needs a backslash; in texts that are shown,
+/// backslashes and ampersands would begin something else as well.
+void append_id(std::string& dot, std::string_view id) {
+  dot += '"';
+  for (const char character : id) {
+    if (character == '"') dot += '\\';
+    dot += character;
+  }
+  dot += '"';
+}
+
+void append_shown(std::string& dot, std::string_view text) {
+  for (const char character : text) {
+    if (character == '"' || character == '\\') dot += '\\';
+    dot += character;
+    if (character == '&') dot += "amp;";
+  }
+}
+
+/// The attributes of a node or an edge: "[a=b, c=d]", or nothing.
+class Attributes {
+ public:
+  void add(std::string_view name, std::string_view value) {
+    text_ += text_.empty() ? " [" : ", ";
+    text_ += name;
+    text_ += '=';
+    text_ += value;
+  }
+  void add_color(std::string_view name, std::string_view color) {
+    add(name, '"' + std::string(color) + '"');
+  }
+  void add_shown(std::string_view name, std::string_view text) {
+    std::string value = "\"";
+    append_shown(value, text);
+    add(name, value + '"');
+  }
+  /// Long names are broken, since pictures are wide rather than high.
+  void add_label(const Node& node) {
+    std::string value = "\"";
+    std::vector<std::string_view> lines = wrap_name(node.label, line_length);
+    if (!node.note.empty()) lines.emplace_back(node.note);
+    for (const std::string_view line : lines) {
+      if (value.size() > 1) value += "\\n";
+      append_shown(value, line);
+    }
+    add("label", value + '"');
+  }
+  [[nodiscard]] std::string end() const { return text_.empty() ? ";\n" : text_ + "];\n"; }
+
+ private:
+  std::string text_;
+};
+
+class Writer {
+ public:
+  explicit Writer(const draw::Diagram& diagram) : diagram_(diagram) {}
+
+  std::string run() && {
+    dot_ = "digraph ";
+    append_id(dot_, draw::id_of("catalog", diagram_.file));
+    dot_ += " {\n";
+    // The page is white, not transparent: black lines would not be seen on a dark one.
+    dot_ += "  graph [rankdir=LR, bgcolor=\"#FFFFFF\", pad=0.2, ";
+    add_distances();
+    dot_ +=
+        "fontname=\"Helvetica,Arial,sans-serif\", fontsize=12];\n"
+        "  node [style=filled, height=0.3, margin=\"0.08,0.04\", "
+        "fontname=\"Helvetica,Arial,sans-serif\", fontsize=11];\n"
+        "  edge [arrowsize=0.6, fontname=\"Helvetica,Arial,sans-serif\", fontsize=9];\n";
+    add_nodes();
+    for (const Edge& edge : diagram_.edges) add_edge(edge);
+    dot_ += "}\n";
+    return std::move(dot_);
+  }
+
+ private:
+  /// Many lines need space between the columns. Within a column each of them takes some itself, so
+  /// that the picture grows too high if there are many nodes, too.
+  void add_distances() {
+    const bool is_dense = diagram_.edges.size() > 3 * diagram_.nodes.size() / 2;
+    const bool is_large = diagram_.nodes.size() > 40;
+    dot_ += is_dense && !is_large ? "ranksep=0.9, " : "ranksep=0.3, ";
+    dot_ += is_dense && is_large ? "nodesep=0.02, " : "nodesep=0.15, ";
+  }
+
+  void add_nodes() {
+    for (const Node& node : diagram_.nodes) {
+      if (node.cluster == none) add_node(node, "  ");
+    }
+    std::vector<std::vector<const Node*>> members(diagram_.clusters.size());
+    for (const Node& node : diagram_.nodes) {
+      if (node.cluster != none) members[node.cluster].push_back(&node);
+    }
+    for (std::size_t place = 0; place < members.size(); ++place) {
+      const draw::Cluster& cluster = diagram_.clusters[place];
+      dot_ += "  subgraph ";
+      append_id(dot_, cluster.id);
+      dot_ += " {\n    label=\"";
+      append_shown(dot_, cluster.label);
+      dot_ += "\"; style=rounded; color=\"" + std::string(palette::frame) + "\";\n";
+      for (const Node* const node : members[place]) add_node(*node, "    ");
+      dot_ += "  }\n";
+    }
+  }
+
+  void add_node(const Node& node, std::string_view indent) {
+    Attributes attributes;
+    if (node.kind == NodeKind::hub) {
+      add_hub(node, attributes);
+    } else {
+      add_shape(node, attributes);
+    }
+    dot_ += indent;
+    append_id(dot_, node.id);
+    dot_ += attributes.end();
+  }
+
+  /// A dot, unless it has something to say. (A label beside a dot, an xlabel, does not go with
+  /// pack.)
+  static void add_hub(const Node& node, Attributes& attributes) {
+    const bool is_faulty = node.mark == Mark::faulty;
+    const std::string_view color = is_faulty ? palette::faulty.line : palette::exclusion;
+    if (node.label.empty()) {
+      attributes.add("shape", "circle");
+      attributes.add("width", "0.1");
+      attributes.add("height", "0.1");
+      attributes.add("fixedsize", "true");
+      attributes.add("label", "\"\"");
+      attributes.add_color("fillcolor", color);
+    } else {
+      attributes.add("shape", "ellipse");
+      attributes.add("margin", "\"0.01,0.01\"");
+      attributes.add("fontsize", "9");
+      attributes.add_label(node);
+      attributes.add_color("fillcolor", palette::paper);
+      attributes.add_color("fontcolor", color);
+    }
+    attributes.add_color("color", color);
+  }
+
+  static void add_shape(const Node& node, Attributes& attributes) {
+    const bool is_task = node.kind == NodeKind::task;
+    palette::Color color = is_task ? palette::task : palette::behavior;
+    if (node.color != none) color = palette::of_group(node.color);
+    if (node.mark == Mark::faulty) color = palette::faulty;
+    if (node.mark == Mark::faint) color = {palette::faint, palette::paper};
+    attributes.add("shape", is_task ? "ellipse" : "box");
+    if (is_task) attributes.add("margin", "\"0.01,0.03\"");
+    attributes.add_label(node);
+    attributes.add_color("color", color.line);
+    attributes.add_color("fillcolor", color.fill);
+    if (node.mark == Mark::faint) attributes.add_color("fontcolor", color.line);
+    if (node.mark == Mark::faulty) attributes.add("penwidth", "2");
+    if (!node.is_defined) attributes.add("style", "\"filled,dashed\"");
+  }
+
+  void add_edge(const Edge& edge) {
+    Attributes attributes;
+    if (!edge.label.empty()) attributes.add_shown("label", edge.label);
+    std::string_view color = palette::ink;
+    switch (edge.kind) {
+      case EdgeKind::performed_by:
+      case EdgeKind::same_behavior:
+        attributes.add("dir", "none");
+        break;
+      case EdgeKind::requirement:
+        attributes.add("style", "dashed");
+        color = palette::requirement;
+        break;
+      case EdgeKind::exclusion:
+        attributes.add("dir", "none");
+        attributes.add("style", "dotted");
+        attributes.add("penwidth", edge.mark == Mark::faulty ? "2.5" : "1.5");
+        if (!is_hub(edge.from)) attributes.add("constraint", "false");
+        color = palette::exclusion;
+        break;
+    }
+    if (edge.mark == Mark::faint) color = palette::faint;
+    if (edge.mark == Mark::faulty) {
+      color = palette::faulty.line;
+      if (edge.kind != EdgeKind::exclusion) attributes.add("penwidth", "2");
+    }
+    attributes.add_color("color", color);
+    if (!edge.label.empty()) attributes.add_color("fontcolor", color);
+    dot_ += "  ";
+    append_id(dot_, diagram_.nodes[edge.from].id);
+    dot_ += " -> ";
+    append_id(dot_, diagram_.nodes[edge.to].id);
+    dot_ += attributes.end();
+  }
+
+  [[nodiscard]] bool is_hub(std::uint32_t node) const {
+    return diagram_.nodes[node].kind == NodeKind::hub;
+  }
+
+  const draw::Diagram& diagram_;
+  std::string dot_;
+};
+
+}  // namespace
+
+std::string graph_dot(const draw::Diagram& diagram) { return Writer(diagram).run(); }
+
+}  // namespace cbc

@@ -1,0 +1,130 @@
+#include "report/graph_json.h"
+
+#include <optional>
+#include <string_view>
+
+#include "report/json_text.h"
+#include "report/json_writer.h"
+
+namespace cbc {
+namespace {
+
+using draw::Edge;
+using draw::EdgeKind;
+using draw::Mark;
+using draw::Node;
+using draw::NodeKind;
+
+std::string_view name_of(draw::View view) {
+  switch (view) {
+    case draw::View::tasks:
+      return "tasks";
+    case draw::View::constraints:
+      return "constraints";
+    case draw::View::behaviors:
+      return "behaviors";
+    case draw::View::full:
+      break;
+  }
+  return "full";
+}
+
+std::string_view name_of(NodeKind kind) {
+  switch (kind) {
+    case NodeKind::behavior:
+      return "behavior";
+    case NodeKind::hub:
+      return "hub";
+    case NodeKind::task:
+      break;
+  }
+  return "task";
+}
+
+std::string_view name_of(EdgeKind kind) {
+  switch (kind) {
+    case EdgeKind::requirement:
+      return "requirement";
+    case EdgeKind::exclusion:
+      return "exclusion";
+    case EdgeKind::same_behavior:
+      return "same_behavior";
+    case EdgeKind::performed_by:
+      break;
+  }
+  return "performed_by";
+}
+
+void write_percent(JsonWriter& json, std::string_view name, std::optional<Millionths> degree) {
+  if (!degree) {
+    json.write_null(name);
+  } else if (*degree % 10'000 == 0) {
+    json.write_integer(name, *degree / 10'000);
+  } else {
+    json.write_number(name, static_cast<double>(*degree) / 10'000);
+  }
+}
+
+std::string node_to_text(const Node& node) {
+  std::string text;
+  JsonWriter json(text);
+  json.open('{');
+  json.write_text("id", node.id);
+  json.write_text("kind", name_of(node.kind));
+  if (node.name.empty() && node.kind != NodeKind::task) {
+    json.write_null("name");
+  } else {
+    json.write_text("name", node.name);
+  }
+  if (node.group == none) {
+    json.write_null("group");
+  } else {
+    json.write_integer("group", node.group);
+  }
+  if (node.kind == NodeKind::behavior) json.write_text("package", node.package);
+  if (node.kind == NodeKind::hub) json.write_integer("left_out", node.left_out);
+  if (node.kind == NodeKind::task) {
+    const Millionths minimum = node.minimum_performance;
+    write_percent(json, "minimum_performance", minimum > 0 ? std::optional(minimum) : std::nullopt);
+    json.write_truth("defined", node.is_defined);
+  }
+  json.write_truth("faulty", node.mark == Mark::faulty);
+  json.close('}');
+  return text;
+}
+
+std::string edge_to_text(const draw::Diagram& diagram, const Edge& edge) {
+  std::string text;
+  JsonWriter json(text);
+  json.open('{');
+  json.write_text("kind", name_of(edge.kind));
+  json.write_text("from", diagram.nodes[edge.from].id);
+  json.write_text("to", diagram.nodes[edge.to].id);
+  if (edge.kind == EdgeKind::performed_by) write_percent(json, "suitability", edge.degree);
+  if (edge.kind == EdgeKind::requirement) write_percent(json, "minimum_performance", edge.degree);
+  json.write_truth("faulty", edge.mark == Mark::faulty);
+  json.close('}');
+  return text;
+}
+
+}  // namespace
+
+std::string graph_json(const draw::Diagram& diagram) {
+  std::string text;
+  JsonWriter json(text);
+  json.open('{');
+  json.write_text("schema", "cbc.graph/1");
+  json.write_text("catalog", diagram.file);
+  json.write_text("view", name_of(diagram.view));
+  json.open("nodes", '[');
+  for (const Node& node : diagram.nodes) append_item(text, node_to_text(node));
+  json.close(']');
+  json.open("edges", '[');
+  for (const Edge& edge : diagram.edges) append_item(text, edge_to_text(diagram, edge));
+  json.close(']');
+  json.close('}');
+  text += '\n';
+  return text;
+}
+
+}  // namespace cbc

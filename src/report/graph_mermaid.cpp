@@ -1,0 +1,227 @@
+#include "report/graph_mermaid.h"
+
+#include <cstddef>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "report/graph_palette.h"
+
+namespace cbc {
+namespace {
+
+using draw::Edge;
+using draw::EdgeKind;
+using draw::Mark;
+using draw::Node;
+using draw::NodeKind;
+
+bool is_letter_or_digit(char byte) {
+  return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') ||
+         (byte >= '0' && byte <= '9');
+}
+
+bool is_ascii(char byte) { return static_cast<unsigned char>(byte) < 0x80; }
+
+/// An id of one word: "task_HOVER". ".20" stands for another byte.
+void append_id(std::string& text, std::string_view id) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  bool is_in_name = false;
+  for (const char byte : id) {
+    if (is_letter_or_digit(byte) || byte == '_') {
+      text += byte;
+    } else if (byte == ':' && !is_in_name) {
+      text += '_';
+      is_in_name = true;
+    } else {
+      const unsigned value = static_cast<unsigned char>(byte);
+      text += '.';
+      text += digits[value / 16];
+      text += digits[value % 16];
+    }
+  }
+}
+
+/// A label, which Mermaid reads as Markdown with entities of its own ("#35;"). Only what has no
+/// meaning there stands for itself.
+void append_label(std::string& text, std::string_view label) {
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    const char byte = label[i];
+    const bool is_inside = i > 0 && i + 1 < label.size() && is_letter_or_digit(label[i - 1]) &&
+                           is_letter_or_digit(label[i + 1]);
+    const bool is_single_blank =
+        byte == ' ' && i > 0 && i + 1 < label.size() && label[i - 1] != ' ';
+    const bool is_single_percent =
+        byte == '%' && label.substr(i + 1, 1) != "%" && (i == 0 || label[i - 1] != '%');
+    const bool stands_for_itself = is_single_percent || is_letter_or_digit(byte) ||
+                                   !is_ascii(byte) || is_single_blank ||
+                                   (is_inside && (byte == '_' || byte == '.' || byte == '-'));
+    if (stands_for_itself) {
+      text += byte;
+    } else {
+      text += '#' + std::to_string(static_cast<int>(byte)) + ';';
+    }
+  }
+}
+
+std::string class_of_group(std::size_t group) {
+  return "group" + std::to_string(group % palette::groups.size());
+}
+
+std::string class_of(const Node& node) {
+  if (node.mark == Mark::faulty) return node.is_defined ? "faulty" : "undefined";
+  if (node.mark == Mark::faint) return "faint";
+  if (node.color != none) return class_of_group(node.color);
+  if (node.kind == NodeKind::hub) return "hub";
+  return node.kind == NodeKind::task ? "task" : "behavior";
+}
+
+class Writer {
+ public:
+  explicit Writer(const draw::Diagram& diagram) : diagram_(diagram) {}
+
+  std::string run() && {
+    text_ = "flowchart LR\n";
+    add_nodes();
+    for (const Edge& edge : diagram_.edges) add_edge(edge);
+    add_classes();
+    add_line_styles();
+    return std::move(text_);
+  }
+
+ private:
+  void add_nodes() {
+    for (const Node& node : diagram_.nodes) {
+      if (node.cluster == none) add_node(node, "  ");
+    }
+    std::vector<std::vector<const Node*>> members(diagram_.clusters.size());
+    for (const Node& node : diagram_.nodes) {
+      if (node.cluster != none) members[node.cluster].push_back(&node);
+    }
+    for (std::size_t place = 0; place < members.size(); ++place) {
+      text_ += "  subgraph ";
+      append_id(text_, diagram_.clusters[place].id);
+      text_ += "[\"";
+      append_label(text_, diagram_.clusters[place].label);
+      text_ += "\"]\n";
+      for (const Node* const node : members[place]) add_node(*node, "    ");
+      text_ += "  end\n";
+    }
+  }
+
+  void add_node(const Node& node, std::string_view indent) {
+    text_ += indent;
+    append_id(text_, node.id);
+    switch (node.kind) {
+      case NodeKind::task:
+        add_text("([\"", node, "\"])");
+        break;
+      case NodeKind::behavior:
+        add_text("[\"", node, "\"]");
+        break;
+      case NodeKind::hub:
+        add_text("((\"", node, "\"))");
+        break;
+    }
+    text_ += ":::" + class_of(node) + '\n';
+  }
+
+  void add_text(std::string_view open, const Node& node, std::string_view close) {
+    text_ += open;
+    if (node.label.empty()) {
+      text_ += ' ';
+    } else {
+      append_label(text_, node.label);
+    }
+    if (!node.note.empty()) {
+      text_ += "<br/>";
+      append_label(text_, node.note);
+    }
+    text_ += close;
+  }
+
+  void add_edge(const Edge& edge) {
+    text_ += "  ";
+    append_id(text_, diagram_.nodes[edge.from].id);
+    switch (edge.kind) {
+      case EdgeKind::performed_by:
+      case EdgeKind::same_behavior:
+        text_ += " ---";
+        break;
+      case EdgeKind::requirement:
+        text_ += " -.->";
+        break;
+      case EdgeKind::exclusion:
+        text_ += " -.-";
+        break;
+    }
+    if (!edge.label.empty()) {
+      text_ += "|\"";
+      append_label(text_, edge.label);
+      text_ += "\"|";
+    }
+    text_ += ' ';
+    append_id(text_, diagram_.nodes[edge.to].id);
+    text_ += '\n';
+  }
+
+  void add_class(std::string_view name, const palette::Color& color, std::string_view text_color,
+                 std::string_view more) {
+    text_ += "  classDef ";
+    text_ += name;
+    text_ += " fill:" + std::string(color.fill) + ",stroke:" + std::string(color.line) +
+             ",color:" + std::string(text_color) + std::string(more) + '\n';
+  }
+
+  /// Fills, lines and texts have colors, so that the nodes look alike on light and dark pages.
+  void add_classes() {
+    std::set<std::string> used;
+    for (const Node& node : diagram_.nodes) used.insert(class_of(node));
+    const auto add = [&](std::string_view name, const palette::Color& color,
+                         std::string_view text_color, std::string_view more = {}) {
+      if (used.contains(std::string(name))) add_class(name, color, text_color, more);
+    };
+    add("task", palette::task, palette::ink);
+    add("behavior", palette::behavior, palette::ink);
+    add("hub", {palette::exclusion, palette::exclusion}, palette::paper);
+    add("faint", {palette::faint, palette::paper}, palette::faint);
+    add("faulty", palette::faulty, palette::ink, ",stroke-width:3px");
+    add("undefined", palette::faulty, palette::ink, ",stroke-width:3px,stroke-dasharray:6 4");
+    for (std::uint32_t group = 0; group < palette::groups.size(); ++group) {
+      add(class_of_group(group), palette::groups[group], palette::ink);
+    }
+  }
+
+  void add_line_style(const std::vector<std::size_t>& edges, std::string_view style) {
+    if (edges.empty()) return;
+    text_ += "  linkStyle ";
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (i > 0) text_ += ',';
+      text_ += std::to_string(edges[i]);
+    }
+    text_ += ' ';
+    text_ += style;
+    text_ += '\n';
+  }
+
+  /// Plain lines keep the color of the page's theme.
+  void add_line_styles() {
+    std::vector<std::size_t> dotted;
+    std::vector<std::size_t> faulty;
+    for (std::size_t place = 0; place < diagram_.edges.size(); ++place) {
+      if (diagram_.edges[place].kind == EdgeKind::exclusion) dotted.push_back(place);
+      if (diagram_.edges[place].mark == Mark::faulty) faulty.push_back(place);
+    }
+    add_line_style(dotted, "stroke-dasharray:2 5");
+    add_line_style(faulty, "stroke:" + std::string(palette::faulty.line) + ",stroke-width:3px");
+  }
+
+  const draw::Diagram& diagram_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string graph_mermaid(const draw::Diagram& diagram) { return Writer(diagram).run(); }
+
+}  // namespace cbc

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+/// Colors that people with any kind of color blindness can tell apart (Okabe and Ito, "Color
+/// Universal Design"), and tints of them that black text stands out from, on paper, too. Nothing is
+/// told by color alone.
+namespace cbc::palette {
+
+struct Color {
+  std::string_view line;
+  std::string_view fill;
+};
+
+inline constexpr std::string_view ink = "#000000";
+inline constexpr std::string_view paper = "#FFFFFF";
+inline constexpr std::string_view faint = "#767676";
+inline constexpr std::string_view frame = "#999999";
+
+inline constexpr Color task = {ink, "#E3F2FB"};  // sky blue
+inline constexpr Color behavior = {ink, paper};
+inline constexpr std::string_view requirement = "#0072B2";  // blue
+inline constexpr std::string_view exclusion = "#B0558B";  // reddish purple, darkened for thin lines
+inline constexpr Color faulty = {"#D55E00", "#FBE5D6"};   // vermillion
+
+/// Of groups, which have the color of their number; more than these repeat.
+inline constexpr std::array<Color, 5> groups = {{{"#E69F00", "#FAE7BF"},    // orange
+                                                 {"#009E73", "#BFE7DC"},    // bluish green
+                                                 {"#CC79A7", "#F2DDE9"},    // reddish purple
+                                                 {"#B8AA00", "#FBF8D0"},    // yellow
+                                                 {"#0072B2", "#BFDCEC"}}};  // blue
+
+[[nodiscard]] constexpr const Color& of_group(std::uint32_t group) {
+  return groups[group % groups.size()];
+}
+
+}  // namespace cbc::palette

@@ -1,0 +1,89 @@
+#include "golden/graph_json_shape.h"
+
+#include <map>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+namespace cbc::golden {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Keys = std::vector<std::string>;
+
+class Checker {
+ public:
+  std::vector<std::string> run(const Json& report) {
+    expect_keys(report, {"schema", "catalog", "view", "nodes", "edges"}, "the report");
+    if (!faults_.empty()) return faults_;
+    const std::set<std::string> views{"full", "tasks", "constraints", "behaviors"};
+    expect(report["schema"] == "cbc.graph/1", "schema");
+    expect(report["catalog"].is_string(), "catalog");
+    expect(views.contains(report["view"].get<std::string>()), "view");
+    for (const Json& node : report["nodes"]) check_node(node);
+    for (const Json& edge : report["edges"]) check_edge(edge);
+    return faults_;
+  }
+
+ private:
+  void expect(bool is_right, const std::string& what) {
+    if (!is_right) faults_.push_back(what);
+  }
+
+  void expect_keys(const Json& object, const Keys& expected, const std::string& what) {
+    Keys keys;
+    for (const auto& [key, value] : object.items()) keys.push_back(key);
+    expect(keys == expected, what + " has other keys: " + object.dump());
+  }
+
+  void check_node(const Json& node) {
+    static const std::map<std::string, Keys> keys = {
+        {"task", {"id", "kind", "name", "group", "minimum_performance", "defined", "faulty"}},
+        {"behavior", {"id", "kind", "name", "group", "package", "faulty"}},
+        {"hub", {"id", "kind", "name", "group", "left_out", "faulty"}}};
+    const auto found = keys.find(node.value("kind", ""));
+    if (found == keys.end()) return faults_.push_back("kind of " + node.dump());
+    expect_keys(node, found->second, "a node");
+    expect(ids_.insert(node["id"].get<std::string>()).second, "two nodes " + node["id"].dump());
+    expect(node["name"].is_null() ? node["kind"] != "task" : node["name"].is_string(), "name");
+    expect(node["group"].is_null() || node["group"].is_number_unsigned(), "group");
+    expect(node["faulty"].is_boolean(), "faulty");
+    check_percent(node, "minimum_performance");
+  }
+
+  void check_edge(const Json& edge) {
+    static const std::map<std::string, Keys> keys = {
+        {"performed_by", {"kind", "from", "to", "suitability", "faulty"}},
+        {"requirement", {"kind", "from", "to", "minimum_performance", "faulty"}},
+        {"exclusion", {"kind", "from", "to", "faulty"}},
+        {"same_behavior", {"kind", "from", "to", "faulty"}}};
+    const auto found = keys.find(edge.value("kind", ""));
+    if (found == keys.end()) return faults_.push_back("kind of " + edge.dump());
+    expect_keys(edge, found->second, "an edge");
+    expect(ids_.contains(edge["from"].get<std::string>()), "no node " + edge["from"].dump());
+    expect(ids_.contains(edge["to"].get<std::string>()), "no node " + edge["to"].dump());
+    expect(edge["faulty"].is_boolean(), "faulty");
+    if (edge["kind"] == "performed_by") expect(edge["suitability"].is_number(), "suitability");
+    check_percent(edge, "suitability");
+    check_percent(edge, "minimum_performance");
+  }
+
+  void check_percent(const Json& object, const std::string& key) {
+    if (!object.contains(key) || object[key].is_null()) return;
+    const Json& value = object[key];
+    expect(value.is_number() && value >= 0 && value <= 100, key + " of " + object.dump());
+  }
+
+  std::set<std::string> ids_;
+  std::vector<std::string> faults_;
+};
+
+}  // namespace
+
+std::vector<std::string> find_graph_shape_faults(const std::string& text) {
+  const Json report = Json::parse(text, nullptr, false);
+  if (!report.is_object()) return {"no JSON object"};
+  return Checker().run(report);
+}
+
+}  // namespace cbc::golden

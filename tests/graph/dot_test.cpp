@@ -1,0 +1,75 @@
+// Has Graphviz read every picture, and looks at what it found in it.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "file/filter.h"
+#include "graph/samples.h"
+
+namespace cbc::graph_test {
+namespace {
+
+using nlohmann::json;
+
+bool has_graphviz() { return run_filter({"dot", "-V"}, "").is_found; }
+
+// What is written on a node or an edge, line after line.
+std::string text_of(const json& object) {
+  std::string text;
+  for (const json& operation : object.value("_ldraw_", json::array())) {
+    if (operation.at("op") == "T") text += operation.at("text").get<std::string>();
+  }
+  return text;
+}
+
+bool is_node_of_catalog(const json& object) {
+  const auto name = object.at("name").get<std::string>();
+  return name.starts_with("task:") || name.starts_with("behavior:");
+}
+
+void check(const Sample& sample) {
+  SCOPED_TRACE(sample.name);
+  const Filtered picture = run_filter({"dot", "-Tjson"}, sample.dot);
+  ASSERT_TRUE(picture.is_done) << picture.error_output;
+  EXPECT_EQ(picture.error_output, "");
+  const json graph = json::parse(picture.output);
+  std::size_t nodes = 0;
+  std::vector<std::string> labels;
+  for (const json& object : graph.value("objects", json::array())) {
+    if (object.contains("nodes") || object.contains("subgraphs")) continue;  // a cluster
+    ++nodes;
+    if (is_node_of_catalog(object)) labels.push_back(text_of(object));
+  }
+  EXPECT_EQ(nodes, sample.nodes);
+  EXPECT_EQ(graph.value("edges", json::array()).size(), sample.edges);
+  if (sample.labels.empty()) return;
+  std::sort(labels.begin(), labels.end());
+  EXPECT_EQ(labels, sample.labels);
+}
+
+TEST(Dot, ReadsThePicturesOfAllCatalogs) {
+  if (!has_graphviz()) GTEST_SKIP() << "there is no Graphviz (Debian: apt install graphviz)";
+  const std::vector<Sample> samples = samples_of_files();
+  EXPECT_GT(samples.size(), 500U);
+  for (const Sample& sample : samples) check(sample);
+}
+
+TEST(Dot, ReadsPicturesOfHostileNames) {
+  if (!has_graphviz()) GTEST_SKIP() << "there is no Graphviz (Debian: apt install graphviz)";
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    for (const Sample& sample : random_samples(seed)) check(sample);
+  }
+}
+
+TEST(Dot, OutputIsAPicture) {
+  if (!has_graphviz()) GTEST_SKIP() << "there is no Graphviz (Debian: apt install graphviz)";
+  const Filtered picture = run_filter({"dot", "-Tsvg"}, random_samples(1).front().dot);
+  ASSERT_TRUE(picture.is_done) << picture.error_output;
+  EXPECT_NE(picture.output.find("<svg"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cbc::graph_test

@@ -1,0 +1,155 @@
+#include "graph/samples.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "catalog/reader.h"
+#include "compiled/compile.h"
+#include "draw/catalog_graph.h"
+#include "draw/names.h"
+#include "draw/view.h"
+#include "graph/hostile_catalog.h"
+#include "report/graph_dot.h"
+#include "report/graph_mermaid.h"
+#include "yaml/document.h"
+
+namespace cbc::graph_test {
+namespace {
+
+namespace fs = std::filesystem;
+using draw::Clustering;
+using draw::ExclusivityStyle;
+using draw::View;
+
+struct Variant {
+  const char* name;
+  draw::ViewOptions options;
+  bool has_legend = false;
+};
+
+// The first has every task and every behavior, and nothing else.
+const std::vector<Variant>& variants() {
+  static const std::vector<Variant> all = {
+      {"pairs", {View::full, ExclusivityStyle::pairs, {}, false}, false},
+      {"hubs", {View::full, ExclusivityStyle::hubs, Clustering::packages, false}, true},
+      {"full", {View::full, {}, Clustering::groups, false}, true},
+      {"tasks", {View::tasks, {}, {}, false}, false},
+      {"tasks, reduced", {View::tasks, ExclusivityStyle::pairs, {}, true}, true},
+      {"constraints", {View::constraints, {}, {}, false}, true},
+      {"behaviors", {View::behaviors, ExclusivityStyle::pairs, Clustering::packages, false}, true},
+  };
+  return all;
+}
+
+struct Source {
+  std::unique_ptr<const yaml::Document> document;
+  CatalogReading reading;
+  CompiledCatalog compiled;
+  draw::CatalogGraph graph;
+};
+
+// Null if there is nothing to draw.
+std::unique_ptr<Source> understand(const std::string& text, const std::string& name) {
+  auto source = std::make_unique<Source>();
+  Diagnostics diagnostics;
+  source->document = yaml::parse(text, name, diagnostics);
+  if (source->document == nullptr) return nullptr;
+  source->reading = understand_catalog(*source->document, diagnostics);
+  if (diagnostics.has_errors()) {
+    source->graph = draw::to_graph(source->reading, diagnostics.all());
+  } else {
+    source->compiled = compile(source->reading.catalog);
+    source->graph = draw::to_graph(source->compiled);
+  }
+  const bool is_empty = source->graph.tasks.empty() && source->graph.behaviors.empty();
+  return is_empty ? nullptr : std::move(source);
+}
+
+std::vector<Sample> draw_all(const Source& source, const std::string& name) {
+  std::vector<Sample> samples;
+  for (const Variant& variant : variants()) {
+    draw::Diagram diagram = make_diagram(source.graph, whole(source.graph), variant.options);
+    if (variant.has_legend) add_legend(diagram);
+    samples.push_back({name + ", " + variant.name,
+                       graph_dot(diagram),
+                       graph_mermaid(diagram),
+                       diagram.nodes.size(),
+                       diagram.edges.size(),
+                       {}});
+  }
+  return samples;
+}
+
+std::string read_file(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void collect(const fs::path& folder, std::vector<fs::path>& files) {
+  if (!fs::is_directory(folder)) return;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file() && entry.path().extension() == ".yaml") {
+      files.push_back(entry.path());
+    }
+  }
+}
+
+std::vector<std::string> labels_of(const Catalog& catalog) {
+  std::vector<std::string> labels;
+  for (const Task& task : catalog.tasks) {
+    labels.push_back(draw::label_of(task.name));
+    if (task.minimum_performance > 0) labels.back() += draw::at_least(task.minimum_performance);
+  }
+  for (const Behavior& behavior : catalog.behaviors)
+    labels.push_back(draw::label_of(behavior.name));
+  std::sort(labels.begin(), labels.end());
+  return labels;
+}
+
+}  // namespace
+
+std::vector<Sample> samples_of_files() {
+  const fs::path root(CBC_SOURCE_DIR);
+  const char* const shared = std::getenv("CBC_SHARED");
+  std::vector<fs::path> files;
+  collect(root / "catalogs", files);
+  collect(root / "tests" / "golden", files);
+  collect(fs::path(shared == nullptr ? (root / ".." / "shared").string() : shared) / "catalogs",
+          files);
+  std::sort(files.begin(), files.end());
+  std::set<std::string> known;
+  std::vector<Sample> samples;
+  for (const fs::path& file : files) {
+    const std::string text = read_file(file);
+    if (!known.insert(text).second) continue;
+    const auto source = understand(text, file.string());
+    if (source == nullptr) continue;
+    std::vector<Sample> drawn = draw_all(*source, file.string());
+    // A bad catalog has nodes beside those.
+    if (!source->compiled.tasks.empty()) drawn.front().labels = labels_of(source->reading.catalog);
+    std::move(drawn.begin(), drawn.end(), std::back_inserter(samples));
+  }
+  return samples;
+}
+
+std::vector<Sample> random_samples(std::uint64_t seed) {
+  HostileCatalog catalog = hostile_catalog(seed);
+  const std::string name = "seed " + std::to_string(seed);
+  const auto source = understand(catalog.text, name);
+  if (source == nullptr) throw std::logic_error("nothing drawn of " + catalog.text);
+  std::vector<Sample> samples = draw_all(*source, name);
+  std::sort(catalog.labels.begin(), catalog.labels.end());
+  samples.front().edges = catalog.edges;
+  samples.front().nodes = catalog.labels.size();
+  samples.front().labels = std::move(catalog.labels);
+  return samples;
+}
+
+}  // namespace cbc::graph_test

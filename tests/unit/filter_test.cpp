@@ -1,0 +1,43 @@
+#include "file/filter.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace cbc {
+namespace {
+
+TEST(Filter, PassesAnyAmountThrough) {
+  std::string text;
+  for (int i = 0; i < 500'000; ++i) text += std::to_string(i) + '\n';
+  const Filtered result = run_filter({"cat"}, text);
+  EXPECT_TRUE(result.is_done);
+  EXPECT_EQ(result.output, text);
+  EXPECT_EQ(result.error_output, "");
+}
+
+TEST(Filter, SurvivesAProgramThatReadsNothing) {
+  const Filtered result = run_filter({"true"}, std::string(10'000'000, 'x'));
+  EXPECT_TRUE(result.is_done);
+  EXPECT_EQ(result.output, "");
+}
+
+TEST(Filter, TellsFailures) {
+  const Filtered failed = run_filter({"sh", "-c", "echo out; echo err >&2; exit 3"}, "");
+  EXPECT_TRUE(failed.is_found);
+  EXPECT_FALSE(failed.is_done);
+  EXPECT_EQ(failed.output, "out\n");
+  EXPECT_EQ(failed.error_output, "err\n");
+  const Filtered killed = run_filter({"sh", "-c", "kill -9 $$"}, "");
+  EXPECT_TRUE(killed.is_found);
+  EXPECT_FALSE(killed.is_done);
+}
+
+TEST(Filter, TellsThatThereIsNoProgram) {
+  const Filtered result = run_filter({"no-such-program-anywhere"}, "text");
+  EXPECT_FALSE(result.is_found);
+  EXPECT_EQ(result.error_output, "No such file or directory");
+}
+
+}  // namespace
+}  // namespace cbc
