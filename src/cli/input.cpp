@@ -91,6 +91,10 @@ bool is_folder(const std::string& path) {
   return path != "-" && fs::is_directory(path, ignored);
 }
 
-void complain(const std::string& message) { fmt::print(stderr, "cbc: {}\n", message); }
+void complain(const std::string& message) {
+  const std::string line = "cbc: " + message + "\n";
+  // Where it cannot be written, the exit status still tells; no stream ends for it.
+  static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
+}
 
 }  // namespace cbc::cli

@@ -76,26 +76,18 @@ class Replay {
       runner.begin(header->situation);
     }
     run_steps(runner);
-    if (is_over()) return status_;
-    if (!options_.stream.state_out) static_cast<void>(runner.settle());
-    if (is_over()) return status_;
-    const int status = report_end(runner, of_coordinator);
-    if (status != exit_ok) return status;
-    pass_answers();
-    if (!expected_.empty()) {
-      tell_difference(expected_.front().number, expected_.front().text, "", "the replay ends here");
-      return status_;
-    }
-    return save_state(options_.stream, catalog_, runner) && !output_.has_failed() ? exit_ok
-                                                                                  : exit_unusable;
+    if (!is_over() && runner.result().status == Coordinator::Status::ok) run_to_end(runner);
+    if (!is_over()) status_ = report_end(runner, of_coordinator);
+    if (!is_over()) look_for_rest();
+    if (!is_over() && !save_state(options_.stream, catalog_, runner)) status_ = exit_unusable;
+    return output_.has_failed() ? std::max<int>(status_, exit_unusable) : status_;
   }
 
  private:
   struct Line {
     std::string text;
     std::uint64_t number = 0;
-    bool is_event = false;
-    std::optional<Step> step;
+    EventLog::Entry entry;
   };
 
   [[nodiscard]] std::optional<EventLog::Header> read_header() {
@@ -108,10 +100,11 @@ class Replay {
       refuse(log_.error());
       return std::nullopt;
     }
-    const std::string text =
+    std::string text =
         stream_header(catalog_, header->catalog, header->reactive_delay, header->situation);
     output_.write(text);
-    if (std::string_view(text).substr(0, text.size() - 1) != input_.line()) {
+    text.pop_back();
+    if (text != input_.line()) {
       tell_difference(1, std::string(input_.line()), text, "the header differs");
     }
     return header;
@@ -120,8 +113,11 @@ class Replay {
   /// Each scripted event, when the lines up to it are read.
   void run_steps(Runner& runner) {
     while (!is_over() && read_line()) {
-      if (!expected_.back().step) continue;
-      const Step step = *expected_.back().step;
+      if (!expected_.back().entry.step) {
+        pass_answers();
+        continue;
+      }
+      const Step step = *expected_.back().entry.step;
       if (step.time && *step.time < runner.coordinator().now()) {
         refuse(fmt::format("line {}: time goes back", expected_.back().number));
         return;
@@ -129,6 +125,23 @@ class Replay {
       runner.restart_count();
       if (!runner.take(step)) return;
     }
+  }
+
+  /// What came by the clock after the last scripted event: up to an expectation, which is in no
+  /// log, or to the last instant.
+  void run_to_end(Runner& runner) {
+    const auto last = std::find_if(expected_.rbegin(), expected_.rend(),
+                                   [](const Line& line) { return line.entry.is_event; });
+    if (last != expected_.rend()) {
+      Step nothing;
+      nothing.time = std::max(last->entry.time, runner.coordinator().now());
+      nothing.expect.emplace();
+      if (!runner.take(nothing)) return;
+    } else if (options_.stream.state_out) {
+      return;
+    }
+    is_at_end_ = true;
+    static_cast<void>(runner.settle());
   }
 
   /// Adds the next line of the log to what is expected.
@@ -153,8 +166,7 @@ class Replay {
       refuse(fmt::format("line {}: {}", input_.number(), log_.error()));
       return false;
     }
-    expected_.push_back(
-        {std::string(input_.line()), input_.number(), entry->is_event, std::move(entry->step)});
+    expected_.push_back({std::string(input_.line()), input_.number(), std::move(*entry)});
     return true;
   }
 
@@ -168,18 +180,32 @@ class Replay {
     output_.write(line);
     line.remove_suffix(1);
     if (expected_.empty()) {
-      tell_difference(input_.number() + 1, "", std::string(line), "the log ends here");
+      tell_difference(input_.number() + 1, "", std::string(line),
+                      is_at_end_ ? "the log ends here, before what is due at its last instant; "
+                                   "a log made with --state-out is replayed with it"
+                                 : "the log ends here");
     } else if (expected_.front().text != line) {
+      std::string names = find_differences(expected_.front().text, line);
+      if (!options_.stream.state_in && names.starts_with("'index'")) {
+        names += "; a log that goes on from a state is replayed with --state-in";
+      }
       tell_difference(expected_.front().number, expected_.front().text, std::string(line),
-                      "they differ in " + find_differences(expected_.front().text, line));
+                      "they differ in " + names);
     } else {
       expected_.pop_front();
     }
   }
 
+  /// All of the log must have come again.
+  void look_for_rest() {
+    pass_answers();
+    if (expected_.empty()) return;
+    tell_difference(expected_.front().number, expected_.front().text, "", "the replay ends here");
+  }
+
   /// Answers to lines that were no events cannot be made again.
   void pass_answers() {
-    while (!expected_.empty() && !expected_.front().is_event) {
+    while (!expected_.empty() && !expected_.front().entry.is_event) {
       output_.write(expected_.front().text + "\n");
       expected_.pop_front();
     }
@@ -194,9 +220,11 @@ class Replay {
 
   void tell_difference(std::uint64_t number, const std::string& logged, const std::string& found,
                        const std::string& what) {
-    complain(fmt::format("{}:{}: the first difference: {}", printable(name_), number, what));
-    if (!logged.empty()) fmt::print(stderr, "  log:    {}\n", printable(logged));
-    if (!found.empty()) fmt::print(stderr, "  replay: {}\n", printable(found));
+    std::string message =
+        fmt::format("{}:{}: the first difference: {}", printable(name_), number, what);
+    if (!logged.empty()) message += "\n  log:    " + printable(logged);
+    if (!found.empty()) message += "\n  replay: " + printable(found);
+    complain(message);
     status_ = exit_no;
   }
 
@@ -207,6 +235,7 @@ class Replay {
   LineOutput output_;
   EventLog log_;
   std::deque<Line> expected_;  ///< lines of the log that no event was compared with yet
+  bool is_at_end_ = false;     ///< of the log
   int status_ = exit_ok;
 };
 
@@ -217,6 +246,7 @@ int replay_stream(const SolveOptions& options) {
     complain("--replay needs a log and its catalog: cbc solve --replay LOG CATALOG");
     return exit_unusable;
   }
+  if (!can_use_files(options)) return exit_unusable;
   const std::string& path = *options.stream.replay;
   const auto catalog = load_catalog(options.paths.front());
   std::optional<Snapshot> state;

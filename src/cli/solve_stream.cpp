@@ -66,7 +66,8 @@ class Stream {
   void run_standard_input() {
     begin({});
     LineInput input(STDIN_FILENO, signals_.descriptor(), longest_event);
-    EventLines lines(catalog_, runner_.coordinator().now());
+    EventLines lines(catalog_);
+    lines.resume(runner_.coordinator().now(), runner_.coordinator().state());
     while (!signals_.have_come() && !output_.has_failed()) {
       switch (input.next()) {
         case LineInput::Status::line:
@@ -144,7 +145,7 @@ class Stream {
 };
 
 std::optional<Script> load_script(const std::string& path, const CompiledCatalog& catalog,
-                                  Microseconds start) {
+                                  const std::optional<Snapshot>& state) {
   InputFiles files;
   std::optional<Script> script;
   const std::optional<InputFile> file = files.read(path);
@@ -152,7 +153,8 @@ std::optional<Script> load_script(const std::string& path, const CompiledCatalog
     complain(fmt::format("{} is a catalog; expected a script here", quote(display_name(path))));
   } else if (file) {
     Diagnostics diagnostics;
-    script = read_script(*file->document, catalog, Severity::warning, diagnostics, start);
+    script = read_script(*file->document, catalog, Severity::warning, diagnostics,
+                         state ? &*state : nullptr);
     if (!files.take_findings(path, *file->document, std::move(diagnostics))) script.reset();
   }
   files.print_findings();
@@ -204,7 +206,8 @@ int run_standard_input(const CompiledCatalog& catalog, const SolveOptions& optio
 
 int solve_stream(const SolveOptions& options) {
   const std::vector<std::string>& paths = options.paths;
-  if (paths.size() > 2 || std::count(paths.begin(), paths.end(), "-") > 1) {
+  if (!can_use_files(options)) return exit_unusable;
+  if (paths.size() > 2) {
     complain("--format jsonl runs one script at a time: cbc solve CATALOG SCRIPT");
     return exit_unusable;
   }
@@ -218,7 +221,7 @@ int solve_stream(const SolveOptions& options) {
   std::optional<Snapshot> state;
   if (catalog == nullptr || !load_state(options.stream, *catalog, state)) return exit_unusable;
   if (is_stream) return run_standard_input(*catalog, options, state);
-  const auto script = load_script(paths.back(), *catalog, state ? state->now : 0);
+  const auto script = load_script(paths.back(), *catalog, state);
   return script ? run_script_of(*script, *catalog, options, state) : exit_unusable;
 }
 

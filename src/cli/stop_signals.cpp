@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <ctime>
 #include <fcntl.h>
 #include <system_error>
 #include <unistd.h>
@@ -12,12 +13,25 @@ namespace {
 
 // What a signal handler may touch.
 volatile std::sig_atomic_t stop = 0;
+volatile std::sig_atomic_t asked_at = 0;  ///< in seconds
 std::array<int, 2> ends{-1, -1};
 
-extern "C" void ask_to_stop(int /*signal*/) {
+std::sig_atomic_t seconds_now() {
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<std::sig_atomic_t>(time.tv_sec);
+}
+
+extern "C" void ask_to_stop(int signal) {
   const int error = errno;
-  stop = 1;
-  static_cast<void>(!::write(ends[1], "", 1));
+  if (stop == 0) {
+    stop = 1;
+    asked_at = seconds_now();
+    static_cast<void>(!::write(ends[1], "", 1));
+  } else if (seconds_now() - asked_at > 1) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
   errno = error;
 }
 
@@ -30,16 +44,18 @@ StopSignals::StopSignals() {
   stop = 0;
   struct sigaction action = {};
   action.sa_handler = ask_to_stop;
-  // Writing goes on where it was; whoever is in a hurry sends a second one.
-  action.sa_flags = static_cast<int>(SA_RESTART | static_cast<int>(SA_RESETHAND));
+  action.sa_flags = SA_RESTART;  // writing goes on where it was
   sigemptyset(&action.sa_mask);
+  sigaddset(&action.sa_mask, SIGINT);
+  sigaddset(&action.sa_mask, SIGTERM);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
 StopSignals::~StopSignals() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  // All is done and saved; what comes now must not make it look broken off.
+  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGTERM, SIG_IGN);
   ::close(ends[0]);
   ::close(ends[1]);
 }

@@ -2,8 +2,10 @@
 
 namespace cbc::cli {
 
-/// While it exists, the first SIGINT or SIGTERM does not end the program but asks it to stop; the
-/// next one ends it. One at a time.
+/// While it exists, SIGINT and SIGTERM do not end the program but ask it to stop. Many send them
+/// twice at once, to the program and to its group (timeout of GNU, terminals), so only one that
+/// comes over a second after the first ends it. One at a time; when it is gone, the program is
+/// about to end, and no signal is heard.
 class StopSignals {
  public:
   StopSignals();

@@ -1,5 +1,6 @@
 #include "cli/stream_start.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +15,24 @@
 #include "text/quote.h"
 
 namespace cbc::cli {
+
+bool can_use_files(const SolveOptions& options) {
+  const StreamOptions& stream = options.stream;
+  const auto from_stdin = std::count(options.paths.begin(), options.paths.end(), "-") +
+                          (stream.state_in == "-" ? 1 : 0) + (stream.replay == "-" ? 1 : 0);
+  if (from_stdin > 1) {
+    complain("standard input can be read only once, but is given several times");
+    return false;
+  }
+  if (!stream.state_out) return true;
+  if (stream.state_out == "-") {
+    complain("--state-out needs a file, as standard output has the events");
+    return false;
+  }
+  const auto obstacle = find_obstacle(*stream.state_out);
+  if (obstacle) complain(fmt::format("cannot write {}: {}", quote(*stream.state_out), *obstacle));
+  return !obstacle;
+}
 
 std::shared_ptr<const CompiledCatalog> load_catalog(const std::string& path) {
   InputFiles files;
@@ -46,8 +65,7 @@ bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
 bool save_state(const StreamOptions& options, const CompiledCatalog& catalog,
                 const Runner& runner) {
   if (!options.state_out || runner.result().status != Coordinator::Status::ok) return true;
-  const auto error =
-      write_atomically(*options.state_out, write_state(catalog, runner.coordinator().snapshot()));
+  const auto error = write_atomically(*options.state_out, write_state(catalog, runner.snapshot()));
   if (error) complain(fmt::format("cannot write {}: {}", quote(*options.state_out), *error));
   return !error;
 }

@@ -12,6 +12,9 @@
 /// What streams and replays begin and end with. Problems go to standard error.
 namespace cbc::cli {
 
+/// Whether the files that the options name can be used together, and the state can be written.
+[[nodiscard]] bool can_use_files(const SolveOptions& options);
+
 /// The catalog of a path; null if it cannot be used.
 [[nodiscard]] std::shared_ptr<const CompiledCatalog> load_catalog(const std::string& path);
 

@@ -66,7 +66,7 @@ class Coordinator {
   /// Instead of begin: goes on from the state of another coordinator, which find_inconsistency
   /// accepts. The reactive delay is that of the options.
   void resume(const Snapshot& snapshot);
-  /// All that there is to go on from. The last call returned ok.
+  /// All that there is to go on from, but for the outcome. The last call returned ok.
   [[nodiscard]] Snapshot snapshot() const;
 
   /// Moves the clock to `time` (not before now), and before that through everything that falls due

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cbc/event.h"
 #include "compiled/identity.h"
 #include "text/quote.h"
 
@@ -47,6 +48,7 @@ class StateReader {
     out_.now = integer<Microseconds>(root_, "time_us");
     out_.events = integer<std::uint64_t>(root_, "events");
     out_.reactive_delay = integer<Microseconds>(root_, "reactive_delay_us");
+    out_.outcome = outcome();
     for (const Json& entry : list("running")) read_task(entry);
     for (const auto& [name, time] : mapping("active").items()) {
       out_.active.emplace_back(behavior(name), to_integer<Microseconds>(time, name));
@@ -65,6 +67,15 @@ class StateReader {
   }
 
  private:
+  [[nodiscard]] std::optional<Outcome> outcome() const {
+    const Json& value = member(root_, "outcome");
+    if (value.is_null()) return std::nullopt;
+    for (const Outcome outcome : {Outcome::accepted, Outcome::rejected, Outcome::unchanged}) {
+      if (value == name_of(outcome)) return outcome;
+    }
+    throw Refusal("'outcome' is none that there is");
+  }
+
   void read_task(const Json& entry) {
     if (!entry.is_object()) throw Refusal("an entry of 'running' is no object");
     Snapshot::RunningTask& running = out_.running.emplace_back();
@@ -176,6 +187,7 @@ std::string write_state(const CompiledCatalog& catalog, const Snapshot& snapshot
                      {"time_us", snapshot.now},
                      {"events", snapshot.events},
                      {"reactive_delay_us", snapshot.reactive_delay},
+                     {"outcome", snapshot.outcome ? Json(name_of(*snapshot.outcome)) : Json()},
                      {"running", std::move(running)},
                      {"active", std::move(active)},
                      {"unavailable", std::move(unavailable)},

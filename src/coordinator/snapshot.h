@@ -6,13 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "cbc/event.h"
 #include "cbc/units.h"
 #include "compiled/compiled_catalog.h"
 #include "coordinator/state.h"
 
 namespace cbc {
 
-/// All that a coordinator knows between two events.
+/// All that a coordinator, and whoever runs a script with it, knows between two events.
 struct Snapshot {
   struct RunningTask {
     TaskId task = 0;
@@ -24,6 +25,7 @@ struct Snapshot {
   Microseconds now = 0;
   std::uint64_t events = 0;  ///< number of the last one
   Microseconds reactive_delay = 0;
+  std::optional<Outcome> outcome;  ///< of the last scripted start, stop or finish; see Runner
   std::vector<RunningTask> running;
   std::vector<std::pair<BehaviorId, Microseconds>> active;  ///< with the time of the activation
   std::vector<BehaviorId> unavailable;

@@ -46,7 +46,10 @@ void State::set_place(TaskId task, std::uint32_t place, Microseconds now) {
 }
 
 std::vector<std::uint32_t> State::running() const {
+  std::size_t count = 0;
+  for (const std::uint64_t word : running_) count += static_cast<std::size_t>(std::popcount(word));
   std::vector<std::uint32_t> tasks;
+  tasks.reserve(count);
   for (std::uint32_t word = 0; word < running_.size(); ++word) {
     for (std::uint64_t bits = running_[word]; bits != 0; bits &= bits - 1) {
       tasks.push_back(word * 64 + static_cast<std::uint32_t>(std::countr_zero(bits)));

@@ -109,30 +109,52 @@ void sync_folder(const fs::path& folder) {
   ::close(descriptor);
 }
 
+/// Where a content is to be put.
+struct Target {
+  fs::path path;
+  fs::path folder;
+  bool exists = false;
+  struct stat existing {};
+};
+
+/// Returns why nothing can be put there, or nothing.
+std::optional<std::string> find_target(const std::string& path, Target& target) {
+  std::error_code error;
+  target.path = follow_links(path, error);
+  if (error) return error.message();
+  if (!target.path.has_filename()) return reason(EISDIR);
+  target.folder = target.path.has_parent_path() ? target.path.parent_path() : fs::path(".");
+
+  target.exists = stat(target.path.c_str(), &target.existing) == 0;
+  if (!target.exists) return errno == ENOENT ? std::nullopt : std::optional(reason());
+  if (S_ISDIR(target.existing.st_mode)) return reason(EISDIR);
+  if (!S_ISREG(target.existing.st_mode)) return "it is not a regular file";
+  // The folder would allow to replace a file that may not be changed.
+  if (faccessat(AT_FDCWD, target.path.c_str(), W_OK, AT_EACCESS) != 0) return reason();
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::string> write_atomically(const std::string& path, std::string_view content) {
-  std::error_code error;
-  const fs::path target = follow_links(path, error);
-  if (error) return error.message();
-  if (!target.has_filename()) return reason(EISDIR);
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-
-  struct stat existing {};
-  const bool exists = stat(target.c_str(), &existing) == 0;
-  if (!exists && errno != ENOENT) return reason();
-  if (exists && S_ISDIR(existing.st_mode)) return reason(EISDIR);
-  if (exists && !S_ISREG(existing.st_mode)) return "it is not a regular file";
-  // The folder would allow to replace a file that may not be changed.
-  if (exists && faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) return reason();
-
+  Target target;
+  if (auto obstacle = find_target(path, target)) return obstacle;
   const SignalsHeld signals_held;
-  TemporaryFile file(folder);
+  TemporaryFile file(target.folder);
   if (!file.exists()) return reason();
-  if (exists && !file.resemble(existing)) return reason();
+  if (target.exists && !file.resemble(target.existing)) return reason();
   if (!file.write(content)) return reason();
-  if (!file.rename_to(target)) return reason();
-  sync_folder(folder);
+  if (!file.rename_to(target.path)) return reason();
+  sync_folder(target.folder);
+  return std::nullopt;
+}
+
+std::optional<std::string> find_obstacle(const std::string& path) {
+  Target target;
+  if (auto obstacle = find_target(path, target)) return obstacle;
+  const SignalsHeld signals_held;
+  const TemporaryFile file(target.folder);
+  if (!file.exists()) return reason();
   return std::nullopt;
 }
 

@@ -16,4 +16,8 @@ namespace cbc {
 [[nodiscard]] std::optional<std::string> write_atomically(const std::string& path,
                                                           std::string_view content);
 
+/// Why write_atomically could not write there now, or nothing: for what is written only after long
+/// work. Nothing changes.
+[[nodiscard]] std::optional<std::string> find_obstacle(const std::string& path);
+
 }  // namespace cbc

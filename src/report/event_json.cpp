@@ -42,7 +42,7 @@ class EventText {
  private:
   void write_what_happened(const Step* step) {
     json_.write_integer("index", record_.index);
-    json_.write_number("time", to_seconds(record_.time));
+    json_.write_seconds("time", record_.time);
     json_.write_text("origin", name_of(record_.origin));
     json_.write_text("verb", name_of(record_.verb));
     if (record_.task != none) {
@@ -125,7 +125,7 @@ class EventText {
     std::sort(due.begin(), due.end());
     json_.open("queue", '{');
     for (const auto& [index, time] : due) {
-      json_.write_number(catalog_.task_names[index], to_seconds(time));
+      json_.write_seconds(catalog_.task_names[index], time);
     }
     json_.close('}');
   }

@@ -5,7 +5,6 @@
 #include "compiled/digest.h"
 #include "compiled/identity.h"
 #include "report/event_json.h"
-#include "report/exact_values.h"
 #include "report/json_text.h"
 #include "report/process_usage.h"
 #include "report/solve_stats.h"
@@ -19,7 +18,7 @@ std::string stream_header(const CompiledCatalog& catalog, std::string_view catal
   text += R"(,"digest":)";
   append_text(text, to_hex(identity_of(catalog)));
   text += R"(,"reactive_delay":)";
-  append_number(text, to_seconds(reactive_delay));
+  append_seconds(text, reactive_delay);
   text += R"(,"situation":{)";
   for (const Availability& entry : situation) {
     if (text.back() != '{') text += ',';

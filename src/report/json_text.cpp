@@ -1,16 +1,39 @@
 #include "report/json_text.h"
 
-#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <nlohmann/json.hpp>
 
 namespace cbc {
 namespace {
 
-/// Whether a character stands for itself in a text of JSON.
-bool is_plain(char character) {
-  return character >= ' ' && character <= '~' && character != '"' && character != '\\';
+/// A word of eight times the same character.
+constexpr std::uint64_t eight(char character) {
+  return static_cast<std::uint64_t>(character) * 0x0101010101010101;
+}
+
+/// Whether eight characters stand for themselves in a text of JSON: they are ASCII, not below the
+/// space, and neither a quote nor a backslash. Each of the others sets the highest bit of its byte.
+bool is_plain(std::uint64_t word) {
+  return ((word | (word - eight(' ')) | ((word ^ eight('"')) - eight(1)) |
+           ((word ^ eight('\\')) - eight(1))) &
+          0x8080808080808080) == 0;
+}
+
+bool is_plain(std::string_view text) {
+  std::uint64_t word = eight(' ');
+  if (text.size() < sizeof word) {
+    std::memcpy(&word, text.data(), text.size());
+    return is_plain(word);
+  }
+  const char* const last = text.data() + text.size() - sizeof word;
+  for (const char* place = text.data(); place < last; place += sizeof word) {
+    std::memcpy(&word, place, sizeof word);
+    if (!is_plain(word)) return false;
+  }
+  std::memcpy(&word, last, sizeof word);
+  return is_plain(word);
 }
 
 }  // namespace
@@ -25,7 +48,7 @@ void append_item(std::string& array, const std::string& item) {
 }
 
 void append_text(std::string& json, std::string_view text) {
-  if (!std::all_of(text.begin(), text.end(), is_plain)) {
+  if (!is_plain(text)) {
     json += to_text(text);
     return;
   }
@@ -43,6 +66,14 @@ void append_number(std::string& json, double number) {
     return;
   }
   json += to_text(number);
+}
+
+void append_seconds(std::string& json, Microseconds time) {
+  append_integer(json, time / second);
+  std::string fraction = std::to_string(second + time % second);
+  fraction.front() = '.';
+  while (fraction.size() > 2 && fraction.back() == '0') fraction.pop_back();
+  json += fraction;
 }
 
 }  // namespace cbc

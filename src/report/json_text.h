@@ -7,6 +7,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "cbc/units.h"
+
 namespace cbc {
 
 /// JSON on one line. Names may hold bytes that no JSON text can; they are replaced.
@@ -24,5 +26,9 @@ void append_integer(std::string& json, Integer number) {
   char digits[24];
   json.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
 }
+
+/// Appends a time, which is not negative, in seconds: exact, as what reads it counts microseconds.
+/// The nearest double would not do: some of them become text with more digits.
+void append_seconds(std::string& json, Microseconds time);
 
 }  // namespace cbc

@@ -51,6 +51,10 @@ class JsonWriter {
     key(name);
     append_number(text_, value);
   }
+  void write_seconds(std::string_view name, Microseconds time) {
+    key(name);
+    append_seconds(text_, time);
+  }
   void write_truth(std::string_view name, bool value) {
     key(name);
     text_ += value ? "true" : "false";

@@ -9,7 +9,8 @@ namespace cbc {
 
 EventLines::Reading EventLines::read(std::string_view line, std::uint32_t number) {
   Reading reading;
-  const std::size_t begin = line.find_first_not_of(" \t\r");
+  if (line.ends_with('\r')) line.remove_suffix(1);  // Windows ends lines so
+  const std::size_t begin = line.find_first_not_of(" \t");
   if (begin == std::string_view::npos || line[begin] == '#') return reading;
 
   Diagnostics diagnostics;

@@ -25,13 +25,13 @@ class EventLines {
     std::vector<std::string> warnings;  ///< the step may be used all the same
   };
 
-  /// The catalog must outlive this object. Time begins at `start`.
-  EventLines(const CompiledCatalog& catalog, Microseconds start)
-      : reader_(catalog, Severity::warning, start) {}
+  /// The catalog must outlive this object.
+  explicit EventLines(const CompiledCatalog& catalog) : reader_(catalog, Severity::warning) {}
 
   [[nodiscard]] Reading read(std::string_view line, std::uint32_t number);
 
-  /// Forgets what lines with errors said: goes on from the state that a coordinator has come to.
+  /// Goes on from the state that a coordinator has come to: at the beginning, or to forget what a
+  /// line with errors said.
   void resume(Microseconds now, const State& state) { reader_.resume(now, state); }
 
  private:

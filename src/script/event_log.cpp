@@ -31,6 +31,13 @@ std::string text_of(const Node& object, std::string_view key, Reporter& reporter
   return std::string(yaml::read_text(*node, key, "a text", reporter).value_or(""));
 }
 
+/// Whether a line, of an event or the last one, has what --stats adds.
+bool has_times(const Node& line) {
+  const Node* const search = line.find("search");
+  return line.find("totals") != nullptr ||
+         (search != nullptr && search->find("elapsed_us") != nullptr);
+}
+
 }  // namespace
 
 std::optional<EventLog::Header> EventLog::read_header(std::string_view line) {
@@ -68,11 +75,11 @@ std::optional<EventLog::Entry> EventLog::read_entry(std::string_view line, std::
   Reporter reporter({}, diagnostics);
   Entry entry;
   if (const Node* const root = read_object(line, number, reporter)) {
-    entry.is_event = root->find("error") == nullptr;
-    if (entry.is_event && text_of(*root, "origin", reporter) == name_of(Origin::script)) {
-      entry.step = read_step(*root, reporter);
-      entry.step->range = {{number, 1}, {number, 1}};
+    if (has_times(*root)) {
+      error_ = "it was made with --stats, and the times in it cannot be repeated";
+      return std::nullopt;
     }
+    if (root->find("error") == nullptr) entry = read_event(*root, reporter);
   }
   if (!is_good(reporter, diagnostics)) return std::nullopt;
   return entry;
@@ -96,11 +103,22 @@ std::vector<Availability> EventLog::read_situation(const Node& node, Reporter& r
   return situation;
 }
 
+EventLog::Entry EventLog::read_event(const Node& event, Reporter& reporter) {
+  Entry entry;
+  entry.is_event = true;
+  if (const Node* const time = require(event, "time", reporter)) {
+    entry.time = yaml::read_seconds(*time, "time", false, reporter).value_or(0);
+  }
+  if (text_of(event, "origin", reporter) == name_of(Origin::script)) {
+    entry.step = read_step(event, reporter);
+    entry.step->range = event.range;
+    entry.step->time = entry.time;
+  }
+  return entry;
+}
+
 Step EventLog::read_step(const Node& event, Reporter& reporter) {
   Step step;
-  if (const Node* const time = require(event, "time", reporter)) {
-    step.time = yaml::read_seconds(*time, "time", false, reporter);
-  }
   const Node* const verb = require(event, "verb", reporter);
   if (verb == nullptr) return step;
   const auto choice = yaml::read_choice(

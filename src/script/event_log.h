@@ -24,6 +24,7 @@ class EventLog {
   };
   struct Entry {
     bool is_event = false;     ///< if not, it is the answer to a line that was no event
+    Microseconds time = 0;     ///< of an event
     std::optional<Step> step;  ///< of an event of origin script
   };
 
@@ -40,6 +41,7 @@ class EventLog {
                                               Reporter& reporter);
   [[nodiscard]] std::vector<Availability> read_situation(const yaml::Node& node,
                                                          Reporter& reporter);
+  [[nodiscard]] Entry read_event(const yaml::Node& event, Reporter& reporter);
   [[nodiscard]] Step read_step(const yaml::Node& event, Reporter& reporter);
   [[nodiscard]] bool is_good(const Reporter& reporter, const Diagnostics& diagnostics);
 

@@ -1,13 +1,14 @@
 #include "script/parameters.h"
 
 #include <algorithm>
+#include <charconv>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "report/json_writer.h"
 #include "yaml/duplicates.h"
 #include "yaml/values.h"
 
@@ -84,40 +85,52 @@ std::string canonical(const Node& node) {
 
 // JSON ---------------------------------------------------------------------------------------
 
-using Json = nlohmann::ordered_json;
+bool is_digit(char character) { return character >= '0' && character <= '9'; }
 
-Json to_json_scalar(const Node& node) {
-  if (node.plain) {
-    const std::string_view text = node.text;
-    if (text == "true") return true;
-    if (text == "false") return false;
-    Json number = Json::parse(text, nullptr, false);
-    if (number.is_number() && number.dump() == text) return number;
-  }
-  return node.text;
+/// Whether a text is a number of JSON. One that no double can hold is none here, as many readers of
+/// JSON refuse it.
+bool is_number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return false;
+  // These are no numbers to JSON: .5, 05, 5., inf
+  if (text.starts_with('-')) text.remove_prefix(1);
+  if (!is_digit(text.front())) return false;
+  if (text.size() > 1 && text.front() == '0' && is_digit(text[1])) return false;
+  const std::size_t point = text.find('.');
+  return point == std::string_view::npos || (point + 1 < text.size() && is_digit(text[point + 1]));
 }
 
-Json to_json(const Node& node) {
+void append_json(std::string& json, const Node& node) {
   switch (node.kind) {
     case Kind::null:
+      json += "null";
       break;
     case Kind::scalar:
-      return to_json_scalar(node);
-    case Kind::sequence: {
-      Json list = Json::array();
-      for (const Node* item : node.items) list.push_back(to_json(*item));
-      return list;
-    }
-    case Kind::mapping: {
-      Json::object_t mapping;
-      for (const auto& [key, value] : node.entries) {
-        // Keys differ, which ordered_json would check anew for each of them.
-        static_cast<Json::object_t::Container&>(mapping).emplace_back(key->text, to_json(*value));
+      // As it was written, so that no digit is lost.
+      if (node.plain && (node.text == "true" || node.text == "false" || is_number(node.text))) {
+        json += node.text;
+      } else {
+        append_text(json, node.text);
       }
-      return mapping;
-    }
+      break;
+    case Kind::sequence:
+      json += '[';
+      for (const Node* item : node.items) {
+        if (json.back() != '[') json += ',';
+        append_json(json, *item);
+      }
+      json += ']';
+      break;
+    case Kind::mapping:
+      json += '{';
+      for (const auto& [key, value] : node.entries) {
+        JsonWriter(json).key(key->text);
+        append_json(json, *value);
+      }
+      json += '}';
+      break;
   }
-  return nullptr;
 }
 
 }  // namespace
@@ -127,8 +140,9 @@ std::optional<Parameters> read_parameters(const Node& node, Reporter& reporter) 
     return std::nullopt;
   }
   report_duplicates(node, reporter);
-  return Parameters{canonical(node),
-                    to_json(node).dump(-1, ' ', false, Json::error_handler_t::replace)};
+  Parameters parameters{canonical(node), {}};
+  append_json(parameters.json, node);
+  return parameters;
 }
 
 }  // namespace cbc

@@ -45,6 +45,12 @@ void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter
   fields.report_unknown(Severity::error);
 }
 
+void resume(StepReader& reader, const CompiledCatalog& catalog, const Snapshot& snapshot) {
+  State state(catalog);
+  for (const BehaviorId behavior : snapshot.unavailable) state.set_available(behavior, false);
+  reader.resume(snapshot.now, state);
+}
+
 }  // namespace
 
 std::optional<std::string> catalog_of_script(const yaml::Document& document) {
@@ -59,9 +65,10 @@ std::optional<std::string> catalog_of_script(const yaml::Document& document) {
 
 std::optional<Script> read_script(const yaml::Document& document, const CompiledCatalog& catalog,
                                   Severity of_parameters, Diagnostics& diagnostics,
-                                  Microseconds start) {
+                                  const Snapshot* state) {
   Reporter reporter(document.file(), diagnostics);
-  StepReader reader(catalog, of_parameters, start);
+  StepReader reader(catalog, of_parameters);
+  if (state != nullptr) resume(reader, catalog, *state);
   Script script;
   script.file = document.file();
   const Node& root = document.root();

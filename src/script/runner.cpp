@@ -6,6 +6,18 @@
 
 namespace cbc {
 
+void Runner::resume(const Snapshot& snapshot) {
+  coordinator_.resume(snapshot);
+  index_ = snapshot.events;
+  outcome_ = snapshot.outcome;
+}
+
+Snapshot Runner::snapshot() const {
+  Snapshot snapshot = coordinator_.snapshot();
+  snapshot.outcome = outcome_;
+  return snapshot;
+}
+
 bool Runner::take(const Step& step) {
   if (step.time && !note(coordinator_.advance_to(*step.time))) return false;
   if (step.expect) {

@@ -55,7 +55,9 @@ class Runner final : private EventListener {
 
   /// First of all, one of the two: see Coordinator.
   void begin(std::span<const Availability> situation) { coordinator_.begin(situation); }
-  void resume(const Snapshot& snapshot) { coordinator_.resume(snapshot); }
+  void resume(const Snapshot& snapshot);
+  /// All that there is to go on from. The last call returned true.
+  [[nodiscard]] Snapshot snapshot() const;
 
   /// Takes a step, and before it what falls due earlier. False if the run ends early: see result().
   [[nodiscard]] bool take(const Step& step);

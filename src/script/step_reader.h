@@ -18,10 +18,9 @@ namespace cbc {
 /// Reads the entries of a script one after the other, and keeps its clock and its situation.
 class StepReader {
  public:
-  /// The catalog must outlive this object; see read_script. Time begins at `start`.
-  StepReader(const CompiledCatalog& catalog, Severity of_parameters, Microseconds start = 0)
-      : clock_(start),
-        names_(catalog),
+  /// The catalog must outlive this object; see read_script.
+  StepReader(const CompiledCatalog& catalog, Severity of_parameters)
+      : names_(catalog),
         parameter_checks_(catalog, of_parameters),
         is_available_(catalog.behaviors.size(), true) {}
 
@@ -44,7 +43,7 @@ class StepReader {
   void read_verb(std::string_view verb, const yaml::Fields& fields, Step& step, Reporter& reporter);
   void check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter);
 
-  Microseconds clock_;
+  Microseconds clock_ = 0;
   NameIndex names_;
   ParameterChecks parameter_checks_;
   std::vector<bool> is_available_;  ///< by behavior, at this place of the script

@@ -5,8 +5,8 @@
 namespace cbc::yaml {
 namespace {
 
-/// Those of an unusually large text are given back.
-constexpr std::size_t most_kept_nodes = 10'000;
+/// The nodes of a longer text are given back, with all that they hold.
+constexpr std::size_t longest_kept = std::size_t{1} << 14;
 
 bool is_digit(char character) { return character >= '0' && character <= '9'; }
 
@@ -32,11 +32,11 @@ void append_utf8(std::string& text, std::uint32_t character) {
 }  // namespace
 
 const Node* JsonReader::read(std::string_view text, std::uint32_t line) {
+  if (text_.size() > longest_kept) nodes_.clear();
   text_ = text;
   at_ = 0;
   line_ = line;
   used_ = 0;
-  if (nodes_.size() > most_kept_nodes) nodes_.clear();
   if (utf8::find_invalid(text)) return nullptr;
   const Node* const root = read_value(1);
   skip_space();

@@ -34,6 +34,9 @@ void register_catalog_benchmarks();
 /// on the YAML.
 void register_compiled_benchmarks();
 
+/// stream/quadrotor: 200,000 events as JSON lines, from end to end.
+void register_stream_benchmarks();
+
 /// fleet/…, generated catalogs of up to 100,000 tasks: compiling, loading, and events of one robot.
 /// Together they take about a minute.
 void register_fleet_benchmarks();

@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
   cbc::bench::register_mission_benchmarks();
   cbc::bench::register_catalog_benchmarks();
   cbc::bench::register_compiled_benchmarks();
+  cbc::bench::register_stream_benchmarks();
   cbc::bench::register_fleet_benchmarks();
   cbc::bench::TableReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

@@ -159,7 +159,7 @@ Result run(const Call& call, const std::function<void(pid_t)>& meanwhile) {
   if (call.standard_output.empty()) {
     out = open_pipe();
   } else {
-    out.write = open_file(call.standard_output, O_WRONLY);
+    out.write = open_file(call.standard_output, O_WRONLY | call.standard_output_flags);
   }
   Ends err = open_pipe();
   const pid_t process = spawn(call, open_file(call.standard_input, O_RDONLY), out.write, err.write);

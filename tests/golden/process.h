@@ -15,6 +15,7 @@ struct Call {
   std::filesystem::path folder{};  ///< working directory
   std::filesystem::path standard_input = "/dev/null";
   std::filesystem::path standard_output{};  ///< a file, or empty: a pipe
+  int standard_output_flags = 0;            ///< of the file, as O_NONBLOCK
   /// Added to the environment of the test, from which NO_COLOR is taken.
   std::map<std::string, std::string> environment = {{"TERM", "xterm"}};
 };

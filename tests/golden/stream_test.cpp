@@ -3,13 +3,19 @@
 #include <chrono>
 #include <csignal>
 #include <cstddef>
+#include <cstdint>
+#include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <poll.h>
+#include <random>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -54,6 +60,14 @@ class StreamTest : public testing::Test {
     of_stream.standard_input = folder_ / "input";
     return run(of_stream);
   }
+  /// `more`: options and redirections.
+  [[nodiscard]] int run_in_shell(const std::string& more) const {
+    const std::string command =
+        "cd '" + folder_.path() +
+        "' && '" CBC_PROGRAM_PATH "' solve quadrotor.yaml - --format jsonl " + more;
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
   void make_pipe(std::string_view name) const {
     ASSERT_EQ(::mkfifo((folder_ / name).c_str(), 0600), 0);
   }
@@ -67,6 +81,92 @@ void write_all(int descriptor, std::string_view text) {
     ASSERT_GT(count, 0);
     text.remove_prefix(static_cast<std::size_t>(count));
   }
+}
+
+/// What can be read of a pipe, up to its end or until nothing comes for a while.
+std::string read_rest(int descriptor) {
+  std::string text;
+  std::array<char, 1 << 14> block{};
+  pollfd waiting{descriptor, POLLIN, 0};
+  while (::poll(&waiting, 1, 1000) > 0) {
+    const ssize_t count = ::read(descriptor, block.data(), block.size());
+    if (count <= 0) break;
+    text.append(block.data(), static_cast<std::size_t>(count));
+  }
+  return text;
+}
+
+std::string joined(std::span<const std::string> lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+/// Lines of all kinds, also bad ones, with times to the microsecond.
+std::vector<std::string> random_lines(std::uint64_t seed, std::size_t count) {
+  constexpr std::array tasks{"TAKE_OFF", "LAND", "HOVER", "ROTATE", "FOLLOW_PATH", "WAIT"};
+  constexpr std::array behaviors{"TAKE_OFF",
+                                 "LAND",
+                                 "HOVER_WITH_MPC_CONTROL",
+                                 "ROTATE_WITH_PID_CONTROL",
+                                 "FOLLOW_PATH_WITH_MPC_CONTROL",
+                                 "SELF_LOCALIZE_WITH_GROUND_TRUTH",
+                                 "QUADROTOR_PID_MOTION_CONTROL"};
+  std::mt19937_64 random(seed);
+  const auto below = [&random](std::uint64_t bound) { return random() % bound; };
+  std::vector<std::string> lines;
+  while (lines.size() < count) {
+    json event;
+    const std::string task = tasks[below(tasks.size())];
+    const std::string behavior = behaviors[below(behaviors.size())];
+    switch (below(12)) {
+      case 0:
+        event = {{"stop", task}};
+        if (below(2) == 0) event["priority"] = below(4);
+        break;
+      case 1:
+      case 2:
+        event = {{"finish", behavior}};
+        if (below(2) == 0) event["cause"] = "process_failure";
+        break;
+      case 3:
+        event = {{"situation", {{behavior, below(2) == 0}}}};
+        break;
+      case 4:
+        event = {{"fault", behavior}};
+        break;
+      case 5:
+        event = {{"repair", behavior}};
+        break;
+      case 6:
+        event = {{"start", "NOWHERE"}};
+        break;
+      default:
+        event = {{"start", task}, {"priority", 1 + below(3)}};
+        if (task == "ROTATE") event["parameters"] = {{"angle", double(below(720'000)) / 1000}};
+    }
+    if (below(3) > 0) event["wait"] = double(below(10'000'000)) / 1'000'000;
+    lines.push_back(event.dump());
+  }
+  return lines;
+}
+
+/// How many lines of the input a log answers.
+std::size_t answers_in(const std::vector<std::string>& log) {
+  std::size_t count = 0;
+  for (const std::string& line : log) {
+    const json object = json::parse(line);
+    if (object.contains("error") || object.value("origin", "") == "script") ++count;
+  }
+  return count;
+}
+
+/// Lines of two logs of which one counts the lines of the input anew.
+std::vector<std::string> without_line_numbers(std::vector<std::string> log) {
+  for (std::string& line : log) {
+    if (line.starts_with("{\"error\"")) line.resize(line.find(",\"line\""));
+  }
+  return log;
 }
 
 /// Events of which most are accepted.
@@ -142,9 +242,9 @@ TEST_F(StreamTest, AnswersEachEventBeforeTheNextOneComes) {
     };
     EXPECT_EQ(json::parse(read_line())["schema"], "cbc.events/1");
     for (int index = 1; index <= 3; ++index) {
-      const std::string event = "{\"wait\":1}\n";
-      write_all(in, event.substr(0, 5));
-      write_all(in, event.substr(5));
+      for (const char character : std::string_view("{\"wait\":1}\n")) {
+        write_all(in, std::string_view(&character, 1));
+      }
       EXPECT_EQ(json::parse(read_line())["index"], index);
     }
     ::kill(process, SIGTERM);
@@ -152,6 +252,30 @@ TEST_F(StreamTest, AnswersEachEventBeforeTheNextOneComes) {
   EXPECT_EQ(result.status, 0);
   ::close(in);
   ::close(out);
+}
+
+TEST_F(StreamTest, TotalsComeLast) {
+  const std::string events =
+      "{\"start\":\"HOVER\"}\nno event\n{\"stop\":\"HOVER\"}\n{\"wait\":1}\n";
+  const Result result = feed(events, {"--stats"});
+  EXPECT_EQ(result.status, 2);
+  std::vector<std::string> lines = lines_of(result.out);
+  const json last = json::parse(lines.back());
+  EXPECT_EQ(last["totals"]["events"], 2);
+  EXPECT_GT(last["process"]["peak_memory_bytes"], 0);
+  lines.pop_back();
+  std::uint64_t nodes = 0;
+  for (std::string& line : lines) {
+    json object = json::parse(line);
+    if (!object.contains("search") || object["search"].is_null()) continue;
+    nodes += object["search"]["nodes"].get<std::uint64_t>();
+    EXPECT_GE(object["search"]["elapsed_us"], 0);
+    // Without what --stats adds it is the line without --stats.
+    const std::size_t begin = line.find(",\"propagations\"");
+    line.erase(begin, line.find('}', begin) - begin);
+  }
+  EXPECT_EQ(last["totals"]["nodes"]["sum"], nodes);
+  EXPECT_EQ(joined(lines), feed(events).out);
 }
 
 TEST_F(StreamTest, SignalsEndItWithTheStateSaved) {
@@ -178,6 +302,109 @@ TEST_F(StreamTest, SignalsEndItWithTheStateSaved) {
     EXPECT_EQ(state["events"], 1);
     EXPECT_EQ(state["running"][0]["task"], "HOVER");
   }
+}
+
+bool has_ended(pid_t process) { return !fs::exists("/proc/" + std::to_string(process) + "/fd/0"); }
+
+/// Whether the first signal that was sent to a process has reached it.
+bool has_received(pid_t process, int signal) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (!line.starts_with("ShdPnd:")) continue;
+    return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) == 0;
+  }
+  return true;
+}
+
+/// A stream whose output nobody reads: it cannot go on.
+class BlockedStreamTest : public StreamTest {
+ protected:
+  /// `meanwhile` gets the process, and the end of the output to read from.
+  template <typename Meanwhile>
+  Result run_blocked(const Meanwhile& meanwhile) {
+    folder_.write("input", many_events(1000));
+    make_pipe("out");
+    const int out = ::open((folder_ / "out").c_str(), O_RDWR | O_CLOEXEC);
+    Call of_stream = stream({"--state-out", "state.json"});
+    of_stream.standard_input = folder_ / "input";
+    of_stream.standard_output = folder_ / "out";
+    const Result result = run(of_stream, [&](pid_t process) {
+      // The pipe is full when its content does not grow any more.
+      pollfd room{out, POLLOUT, 0};
+      while (::poll(&room, 1, 0) > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      meanwhile(process, out);
+    });
+    ::close(out);
+    return result;
+  }
+};
+
+TEST_F(BlockedStreamTest, SignalThatComesTwiceAtOnceEndsItWithTheStateSaved) {
+  std::string text;
+  const Result result = run_blocked([&text](pid_t process, int out) {
+    ::kill(process, SIGTERM);
+    while (!has_received(process, SIGTERM) && !has_ended(process)) std::this_thread::yield();
+    ::kill(process, SIGTERM);
+    ::kill(process, SIGINT);
+    text = read_rest(out);
+  });
+  EXPECT_EQ(result.status, 0);
+  const json state = json::parse(folder_.read("state.json"));
+  const json last = json::parse(lines_of(text).back());
+  EXPECT_EQ(state["events"], last["index"]);
+  EXPECT_LT(last["index"], 1000);
+}
+
+TEST_F(BlockedStreamTest, SignalsThatGoOnEndItAtLast) {
+  const Result result = run_blocked([](pid_t process, int /*out*/) {
+    while (!has_ended(process)) {
+      ::kill(process, SIGTERM);
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  });
+  EXPECT_EQ(result.status, 128 + SIGTERM);
+  EXPECT_FALSE(fs::exists(folder_ / "state.json"));
+}
+
+TEST_F(StreamTest, OutputThatMustNotBlockGetsAllOfIt) {
+  const std::string events = many_events(1000);
+  const std::string whole = feed(events).out;
+  make_pipe("out");
+  const int out = ::open((folder_ / "out").c_str(), O_RDWR | O_CLOEXEC);
+  Call of_stream = stream();
+  of_stream.standard_input = folder_ / "input";
+  of_stream.standard_output = folder_ / "out";
+  of_stream.standard_output_flags = O_NONBLOCK;
+  std::string text;
+  const Result result = run(of_stream, [&text, out](pid_t /*process*/) { text = read_rest(out); });
+  ::close(out);
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(text, whole);
+}
+
+TEST_F(StreamTest, MessagesThatCannotBeWrittenDoNotEndIt) {
+  folder_.write("input",
+                "{\"start\":\"ROTATE\",\"parameters\":{\"unknown\":1}}\n"
+                "{\"expect\":{\"outcome\":\"rejected\"}}\n"
+                "{\"stop\":\"ROTATE\"}\n");
+  for (const std::string to : {"2>&-", "2>/dev/full"}) {
+    fs::remove(folder_ / "state.json");
+    EXPECT_EQ(run_in_shell("--state-out state.json < input > log " + to), 1)
+        << "the expectation fails";
+    EXPECT_EQ(lines_of(folder_.read("log")).size(), 3U) << to;
+    EXPECT_EQ(json::parse(folder_.read("state.json"))["events"], 2);
+  }
+}
+
+TEST_F(StreamTest, ClosedInputOrOutputIsAnError) {
+  folder_.write("input", many_events(3));
+  EXPECT_EQ(run_in_shell("<&- > log 2> messages"), 2);
+  EXPECT_EQ(lines_of(folder_.read("log")).size(), 1U) << "the header";
+  EXPECT_EQ(folder_.read("messages"), "cbc: cannot read standard input: Bad file descriptor\n");
+  // No other file takes the place of the output.
+  EXPECT_EQ(run_in_shell("--state-out state.json < input >&- 2> messages"), 2);
+  EXPECT_EQ(folder_.read("messages"), "cbc: cannot write the output: Bad file descriptor\n");
+  EXPECT_TRUE(json::accept(folder_.read("state.json")));
 }
 
 TEST_F(StreamTest, ReaderThatGoesAwayEndsIt) {
@@ -211,6 +438,79 @@ TEST_F(StreamTest, MissionInPiecesIsTheWholeMission) {
   EXPECT_EQ(pieces, whole);
 }
 
+TEST_F(StreamTest, MissionThatSignalsCutIsTheWholeMission) {
+  constexpr std::size_t count = 400;
+  const std::vector<std::string> input = random_lines(1, count);
+  const std::vector<std::string> whole = lines_of(feed(joined(input)).out);
+  std::mt19937_64 random(1);
+  std::vector<std::string> pieces{whole.front()};
+  std::size_t done = 0;
+  for (int piece = 0; piece < 12; ++piece) {
+    fs::remove(folder_ / "in");
+    make_pipe("in");
+    const int in = ::open((folder_ / "in").c_str(), O_RDWR | O_CLOEXEC);
+    std::vector<std::string> more{"--state-out", "state.json"};
+    if (piece > 0) more.insert(more.end(), {"--state-in", "state.json"});
+    Call of_stream = stream(more);
+    of_stream.standard_input = folder_ / "in";
+    of_stream.standard_output = folder_ / "log";
+    folder_.write("log", "");
+    const std::size_t size = std::min(count - done, 1 + random() % 60);
+    const Result result = run(of_stream, [&](pid_t process) {
+      write_all(in, joined(std::span(input).subspan(done, size)));
+      // The signal comes when some of them are answered, or all.
+      const std::size_t enough = 1 + random() % size;
+      while (lines_of(folder_.read("log")).size() < enough) std::this_thread::yield();
+      ::kill(process, piece % 2 == 0 ? SIGTERM : SIGINT);
+    });
+    ::close(in);
+    ASSERT_TRUE(result.status == 0 || result.status == 2) << result.err;
+    const std::vector<std::string> log = lines_of(folder_.read("log"));
+    EXPECT_EQ(log.front(), whole.front());
+    pieces.insert(pieces.end(), log.begin() + 1, log.end());
+    done += answers_in(log);
+  }
+  ASSERT_GT(done, 12U);
+  const std::vector<std::string> rest =
+      lines_of(feed(joined(std::span(input).subspan(done)), {"--state-in", "state.json"}).out);
+  pieces.insert(pieces.end(), rest.begin() + 1, rest.end());
+  EXPECT_EQ(without_line_numbers(pieces), without_line_numbers(whole));
+}
+
+TEST_F(StreamTest, ExpectationsAndWarningsKnowWhatWasBeforeTheCut) {
+  ASSERT_EQ(feed("{\"start\":\"HOVER\"}\n"
+                 "{\"situation\":{\"SELF_LOCALIZE_WITH_GROUND_TRUTH\":false}}\n",
+                 {"--state-out", "state.json"})
+                .status,
+            0);
+  const std::string events =
+      "[{expect: {outcome: accepted}},"
+      " {finish: SELF_LOCALIZE_WITH_GROUND_TRUTH, cause: situation_change}]";
+  const Result lines = feed(
+      "{expect: {outcome: accepted}}\n"
+      "{finish: SELF_LOCALIZE_WITH_GROUND_TRUTH, cause: situation_change}\n",
+      {"--state-in", "state.json"});
+  folder_.write("script.yaml", events);
+  const Result script =
+      run(call({"quadrotor.yaml", "script.yaml", "--format", "jsonl", "--state-in", "state.json"}));
+  for (const Result& result : {lines, script}) {
+    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(result.err, "");
+  }
+  EXPECT_EQ(lines.out, script.out);
+}
+
+TEST_F(StreamTest, StateThatCannotBeSavedIsToldBeforeTheFirstEvent) {
+  for (const char* place : {"missing/state.json", "elsewhere", "-"}) {
+    fs::create_directories(folder_ / "elsewhere");
+    const Result result = feed("{\"wait\":1}\n", {"--state-out", place});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_NE(result.err, "");
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "-"));
+}
+
 TEST_F(StreamTest, StateOfAnotherCatalogIsRefused) {
   ASSERT_EQ(feed("{\"wait\":1}", {"--state-out", "state.json"}).status, 0);
   std::string text = folder_.read("quadrotor.yaml");
@@ -232,6 +532,79 @@ TEST_F(StreamTest, ReplayGivesTheLogAgain) {
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.out, log);
   }
+}
+
+TEST_F(StreamTest, ReplayGivesTheLogsOfRandomMissionsAgain) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const std::string log = feed(joined(random_lines(seed, 200))).out;
+    folder_.write("log.jsonl", log);
+    const Result result = run(call({"--replay", "log.jsonl", "quadrotor.yaml"}));
+    ASSERT_EQ(result.status, 0) << seed << "\n" << result.err;
+    ASSERT_EQ(result.out, log) << seed;
+  }
+}
+
+TEST_F(StreamTest, ReplayRepeatsTimesThatNoDoubleHas) {
+  const std::string log = feed("{\"start\":\"HOVER\",\"at\":0.000649}\n").out;
+  EXPECT_NE(log.find("\"time\":0.000649,"), std::string::npos) << log;
+  folder_.write("log.jsonl", log);
+  const Result result = run(call({"--replay", "log.jsonl", "quadrotor.yaml"}));
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out, log);
+}
+
+TEST_F(StreamTest, ReplayGoesAsFarAsAnExpectationMovedTheClock) {
+  const std::string events =
+      "{\"start\":\"TAKE_OFF\"}\n"
+      "{\"expect\":{\"stopped\":[\"TAKE_OFF\"]},\"at\":1000}\n"
+      "no event\n";
+  for (const bool has_state : {false, true}) {
+    const std::vector<std::string> more =
+        has_state ? std::vector<std::string>{"--state-out", "state.json"}
+                  : std::vector<std::string>{};
+    const std::string log = feed(events, more).out;
+    EXPECT_NE(log.find("\"origin\":\"timeout\""), std::string::npos) << log;
+    folder_.write("log.jsonl", log);
+    std::vector<std::string> arguments{"--replay", "log.jsonl", "quadrotor.yaml"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Result result = run(call(arguments));
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.out, log);
+  }
+}
+
+TEST_F(StreamTest, ReplayRefusesALogWithTimes) {
+  for (const char* events : {"{\"start\":\"HOVER\"}\n", "no event\n"}) {
+    folder_.write("log.jsonl", feed(events, {"--stats"}).out);
+    const Result result = run(call({"--replay", "log.jsonl", "quadrotor.yaml"}));
+    EXPECT_EQ(result.status, 2);
+    EXPECT_NE(result.err.find("it was made with --stats"), std::string::npos) << result.err;
+  }
+}
+
+TEST_F(StreamTest, ReplaySaysWhichOptionOfTheLogIsMissing) {
+  const auto replay = [this](const std::string& log) {
+    folder_.write("log.jsonl", log);
+    Result result = run(call({"--replay", "log.jsonl", "quadrotor.yaml"}));
+    EXPECT_EQ(result.status, 1);
+    return result.err.substr(0, result.err.find('\n'));
+  };
+  const std::string first =
+      feed("{\"start\":\"TAKE_OFF\"}\n{\"wait\":120}\n{\"start\":\"TAKE_OFF\"}\n{\"wait\":15}\n",
+           {"--state-out", "state.json"})
+          .out;
+  EXPECT_NE(replay(first).find("--state-out"), std::string::npos);
+  const std::string second = feed("{\"wait\":1}\n", {"--state-in", "state.json"}).out;
+  EXPECT_NE(replay(second).find("--state-in"), std::string::npos);
+  const std::string reasons = feed("{\"start\":\"LAND\"}\n", {"--why", "LAND"}).out;
+  EXPECT_NE(replay(reasons).find("they differ in 'why'"), std::string::npos);
+}
+
+TEST_F(StreamTest, ReplayFailsWhereItsOutputDoes) {
+  folder_.write("log.jsonl", feed(many_events(3)).out);
+  Call of_replay = call({"--replay", "log.jsonl", "quadrotor.yaml"});
+  of_replay.standard_output = "/dev/full";
+  EXPECT_EQ(run(of_replay).status, 2);
 }
 
 TEST_F(StreamTest, ReplayTellsTheFirstDifference) {
@@ -300,6 +673,32 @@ TEST_F(StreamTest, MemoryDoesNotGrowWithTheStream) {
   EXPECT_EQ(result.status, 0);
   if (early == 0) GTEST_SKIP() << "no VmHWM in /proc here";
   EXPECT_LT(late, early + 512);
+}
+
+TEST_F(StreamTest, LongLinesLeaveNothingBehind) {
+  constexpr std::size_t count = 100;
+  make_pipe("in");
+  const int in = ::open((folder_ / "in").c_str(), O_RDWR | O_CLOEXEC);
+  Call of_stream = stream();
+  of_stream.standard_input = folder_ / "in";
+  of_stream.standard_output = "/dev/null";
+  std::size_t early = 0;
+  std::size_t late = 0;
+  const Result result = run(of_stream, [&](pid_t process) {
+    for (std::size_t place = 0; place < count; ++place) {
+      // Each has its long text in another place.
+      std::string line = "{\"unknown\":[";
+      for (std::size_t item = 0; item < place; ++item) line += "\"\",";
+      write_all(in, line + "\"" + std::string(500'000, 'x') + "\"]}\n");
+      if (place == count / 10) early = peak_memory(process);
+    }
+    late = peak_memory(process);
+    ::kill(process, SIGTERM);
+  });
+  ::close(in);
+  EXPECT_EQ(result.status, 2);
+  if (early == 0) GTEST_SKIP() << "no VmHWM in /proc here";
+  EXPECT_LT(late, early + 4096);
 }
 
 }  // namespace

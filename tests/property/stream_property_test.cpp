@@ -1,6 +1,8 @@
 // Random missions, cut in pieces or recorded: a state that was saved and restored, and the log of a
 // run, must give the same events as the run in one go, byte for byte.
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +10,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "catalog/reader.h"
 #include "compiled/compile.h"
@@ -86,7 +89,7 @@ Lines run_in_pieces(const Mission& mission, Random& random, std::uint64_t one_in
   recording->runner().begin(mission.script.situation);
   for (const Step& step : mission.script.steps) {
     if (random.below(one_in) == 0) {
-      states.push_back(write_state(mission.catalog, recording->runner().coordinator().snapshot()));
+      states.push_back(write_state(mission.catalog, recording->runner().snapshot()));
       const StateReading reading = read_state(states.back(), mission.catalog);
       if (!reading.snapshot) {
         ADD_FAILURE() << reading.error << "\n" << states.back();
@@ -142,6 +145,52 @@ TEST(StreamProperty, LogGivesTheSameEventsAgain) {
   EXPECT_GT(scripted, 5 * cases);
 }
 
+/// Cuts the text off, or changes a few characters.
+std::string change_text(std::string text, int time, Random& random) {
+  if (time == 0) text.resize(random.below(text.size()));
+  for (int place = 0; place < 1 + time / 2; ++place) {
+    if (text.empty()) break;
+    constexpr std::string_view characters = "0123456789,[]{}\"-. etn";
+    text[random.below(text.size())] = characters[random.below(characters.size())];
+  }
+  return text;
+}
+
+/// Removes a member, or gives it another value: that of another member, or one that is huge, of
+/// another type, or empty.
+std::string change_member(const std::string& text, Random& random) {
+  using Json = nlohmann::ordered_json;
+  Json root = Json::parse(text);
+  const Json members = root.flatten();
+  const auto draw = [&members, &random] {
+    return Json::json_pointer(
+        std::next(members.begin(), static_cast<std::ptrdiff_t>(random.below(members.size())))
+            .key());
+  };
+  Json::json_pointer place = draw();
+  if (random.below(4) == 0 && !place.parent_pointer().empty()) place.pop_back();
+  Json& parent = root[place.parent_pointer()];
+  static const Json values = Json::parse(
+      R"([0, 1, -1, 80001, 2147483647, 2147483648, 1000000000000000, 9223372036854775807,
+          9223372036854775808, 18446744073709551615, 1e300, 0.5, "", "0", true, false, null, [], {},
+          [[]], {"": 0}])");
+  switch (random.below(3)) {
+    case 0:
+      if (parent.is_array()) {
+        parent.erase(std::stoul(place.back()));
+      } else {
+        parent.erase(place.back());
+      }
+      break;
+    case 1:
+      root[place] = values[random.below(values.size())];
+      break;
+    default:
+      root[place] = Json(root[draw()]);
+  }
+  return root.dump();
+}
+
 /// Whatever is accepted must be a state to go on from.
 TEST(StreamProperty, DamagedStatesAreRefusedOrHarmless) {
   std::size_t refused = 0;
@@ -152,14 +201,9 @@ TEST(StreamProperty, DamagedStatesAreRefusedOrHarmless) {
     std::vector<std::string> states;
     static_cast<void>(run_in_pieces(mission, random, 4, states));
     for (const std::string& state : states) {
-      for (int time = 0; time < 8; ++time) {
-        std::string text = state;
-        if (time == 0) text.resize(random.below(text.size()));
-        for (int place = 0; place < 1 + time / 2; ++place) {
-          if (text.empty()) break;
-          constexpr std::string_view characters = "0123456789,[]{}\"-. etn";
-          text[random.below(text.size())] = characters[random.below(characters.size())];
-        }
+      for (int time = 0; time < 16; ++time) {
+        const std::string text =
+            time < 8 ? change_text(state, time, random) : change_member(state, random);
         ++damaged;
         const StateReading reading = read_state(text, mission.catalog);
         if (!reading.snapshot) {

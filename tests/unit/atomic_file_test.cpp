@@ -91,6 +91,20 @@ TEST(AtomicFile, SaysWhyItCannot) {
   EXPECT_EQ(folder.names(), (Names{"a", "sub"}));
 }
 
+TEST(AtomicFile, KnowsObstaclesBefore) {
+  const test::ScratchFolder folder;
+  std::filesystem::create_directory(folder / "sub");
+  folder.write("a", "old");
+  EXPECT_EQ(find_obstacle(folder / "a"), std::nullopt);
+  EXPECT_EQ(find_obstacle(folder / "new"), std::nullopt);
+  EXPECT_EQ(find_obstacle(folder / "no/such"), "No such file or directory");
+  EXPECT_EQ(find_obstacle(folder / "sub"), "Is a directory");
+  EXPECT_EQ(find_obstacle(folder / "a/b"), "Not a directory");
+  EXPECT_EQ(find_obstacle("/dev/null"), "it is not a regular file");
+  EXPECT_EQ(folder.read("a"), "old");
+  EXPECT_EQ(folder.names(), (Names{"a", "sub"}));
+}
+
 /// Runs a check in a process of its own, which may change what is common to a process.
 template <typename Check>
 int in_child(Check check) {
@@ -111,7 +125,9 @@ TEST(AtomicFile, LeavesReadOnlyFilesAndFoldersAlone) {
     return in_child([&] {
       // The administrator may write everywhere.
       if (geteuid() == 0 && setuid(65534) != 0) return 3;
-      return write_atomically(folder / name, "new") == "Permission denied" ? 0 : 1;
+      const bool is_denied = write_atomically(folder / name, "new") == "Permission denied" &&
+                             find_obstacle(folder / name) == "Permission denied";
+      return is_denied ? 0 : 1;
     });
   };
   ASSERT_EQ(chmod(folder.path().c_str(), 0777), 0);

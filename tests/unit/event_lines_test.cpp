@@ -17,7 +17,7 @@ class EventLinesTest : public testing::Test {
   const CompiledCatalog catalog_ = test::compile_text(
       "behaviors:\n- {behavior: a, task: A}\n- {behavior: b, task: B}\n"
       "tasks:\n- {task: A}\n- {task: B}\n");
-  EventLines lines_{catalog_, 0};
+  EventLines lines_{catalog_};
 };
 
 TEST_F(EventLinesTest, ReadsJsonAndYamlAlike) {
@@ -25,8 +25,11 @@ TEST_F(EventLinesTest, ReadsJsonAndYamlAlike) {
        {R"({"start": "B", "priority": 2, "parameters": {"x": [1, "y", null]}, "wait": 0.5})",
         "{start: B, priority: 2, parameters: {x: [1, y, ~]}, wait: 0.5}",
         "{\"start\": \"B\", \"priority\": 2, \"parameters\": {\"x\": [1, \"y\"]}, \"wait\": "
-        "5e-1}\r"}) {
-    const EventLines::Reading reading = EventLines(catalog_, 1'000'000).read(line, 1);
+        "5e-1}\r",
+        "{start: B, priority: 2, parameters: {x: [1, y]}, wait: 0.5}\r"}) {
+    EventLines lines(catalog_);
+    lines.resume(1'000'000, State(catalog_));
+    const EventLines::Reading reading = lines.read(line, 1);
     ASSERT_TRUE(reading.step) << line << ": " << reading.error;
     EXPECT_EQ(reading.step->verb, Verb::start);
     EXPECT_EQ(reading.step->subject, 1U);
@@ -37,8 +40,17 @@ TEST_F(EventLinesTest, ReadsJsonAndYamlAlike) {
   }
 }
 
+TEST_F(EventLinesTest, KnowsTheSituationThatItGoesOnFrom) {
+  constexpr std::string_view line = R"({"finish": "b", "cause": "situation_change"})";
+  EXPECT_EQ(read(line).warnings.size(), 1U) << "it is still available";
+  State state(catalog_);
+  state.set_available(catalog_.behavior_ids[1], false);
+  lines_.resume(0, state);
+  EXPECT_TRUE(read(line).warnings.empty());
+}
+
 TEST_F(EventLinesTest, PassesOverEmptyLinesAndComments) {
-  for (const std::string_view line : {"", "  \t", "\r", "# a comment"}) {
+  for (const std::string_view line : {"", "  \t", "\r", " \r", "# a comment", "# a comment\r"}) {
     const EventLines::Reading reading = read(line);
     EXPECT_FALSE(reading.step);
     EXPECT_EQ(reading.error, "");

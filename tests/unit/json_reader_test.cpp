@@ -1,16 +1,23 @@
 #include "yaml/json_reader.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <random>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "yaml/document.h"
 
 namespace cbc {
 namespace {
 
+using Json = nlohmann::json;
 using yaml::Kind;
 using yaml::Node;
 
@@ -46,6 +53,80 @@ TEST(JsonReader, GivesTheTreeOfTheYamlParser) {
     ASSERT_NE(root, nullptr) << text;
     expect_alike(*root, document->root());
   }
+}
+
+/// A value of any shape, at most `depth` deep.
+Json random_value(std::mt19937_64& random, int depth) {
+  const auto below = [&random](std::uint64_t bound) { return random() % bound; };
+  static const std::vector<Json> scalars{nullptr, true, false,           0,       -7,
+                                         2.5,     1e20, 123456789012345, "",      "HOVER",
+                                         "é",     "\t", "\"\\\u0001",    "\u2028"};
+  const std::uint64_t kind = below(depth > 0 ? 4 : 2);
+  if (kind < 2) return scalars[below(scalars.size())];
+  Json value = kind == 2 ? Json::array() : Json::object();
+  for (std::uint64_t count = below(4); count > 0; --count) {
+    Json item = random_value(random, depth - 1);
+    if (kind == 2) {
+      value.push_back(std::move(item));
+    } else {
+      value[std::to_string(below(5))] = std::move(item);
+    }
+  }
+  return value;
+}
+
+/// The value that a tree stands for.
+Json value_of(const Node& node) {
+  switch (node.kind) {
+    case Kind::null:
+      return nullptr;
+    case Kind::scalar:
+      return node.plain ? Json::parse(node.text) : Json(node.text);
+    case Kind::sequence: {
+      Json list = Json::array();
+      for (const Node* item : node.items) list.push_back(value_of(*item));
+      return list;
+    }
+    case Kind::mapping:
+      break;
+  }
+  Json mapping = Json::object();
+  for (const auto& [key, value] : node.entries) mapping[key->text] = value_of(*value);
+  return mapping;
+}
+
+TEST(JsonReader, ReadsWhatAnotherReaderDoes) {
+  constexpr std::string_view characters =
+      " \t\r{}[]:,\"\\/bfnrtu0123456789.-+eE'x\x01\x7f\x80\xc3\xa9";
+  std::mt19937_64 random(1);
+  yaml::JsonReader reader;
+  std::size_t read = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    std::string text = random_value(random, 4).dump(round % 3 == 0 ? 1 : -1);
+    for (std::uint64_t changes = random() % 3; changes > 0; --changes) {
+      const char character = characters[random() % characters.size()];
+      const std::size_t place = random() % text.size();
+      if (random() % 2 == 0) {
+        text[place] = character;
+      } else {
+        text.insert(place, 1, character);
+      }
+    }
+    const Node* const root = reader.read(text, 1);
+    Json other(Json::value_t::discarded);
+    try {
+      other = Json::parse(text);
+    } catch (const Json::parse_error&) {
+    } catch (const Json::out_of_range&) {
+      continue;  // a number that no double can hold; here it is only text
+    }
+    ASSERT_EQ(root != nullptr, !other.is_discarded()) << text;
+    if (root == nullptr) continue;
+    ASSERT_EQ(value_of(*root), other) << text;
+    ++read;
+  }
+  EXPECT_GT(read, 5'000U);
+  EXPECT_LT(read, 15'000U);
 }
 
 TEST(JsonReader, UnderstandsSurrogatePairs) {

@@ -128,6 +128,34 @@ TEST(Runner, OutcomesAreThoseOfTheLastScriptedStartStopOrFinish) {
             "finish yet");
 }
 
+TEST(Runner, GoesOnWithTheOutcomeOfTheLastEvent) {
+  const CompiledCatalog catalog = test::compile_text(catalog_text);
+  struct Silent final : RunListener {
+    void on_event(const EventRecord& /*record*/, const Step* /*step*/,
+                  const State& /*state*/) override {}
+    void on_failure(const Failure& failure) override { failed_after.push_back(failure.index); }
+    void on_end(const State& /*state*/) override {}
+    std::vector<std::uint64_t> failed_after;
+  } listener;
+  Step start;
+  start.verb = Verb::start;
+  Step expectation;
+  expectation.expect.emplace().outcome = Outcome::accepted;
+  Step wrong;
+  wrong.expect.emplace().outcome = Outcome::rejected;
+
+  Runner first(catalog, {}, listener);
+  first.begin({});
+  EXPECT_EQ(first.snapshot().outcome, std::nullopt);
+  EXPECT_TRUE(first.take(start));
+  Runner second(catalog, {}, listener);
+  second.resume(first.snapshot());
+  EXPECT_TRUE(second.take(expectation));
+  EXPECT_EQ(second.result().passed, 1U);
+  EXPECT_TRUE(second.take(wrong));
+  EXPECT_EQ(listener.failed_after, std::vector<std::uint64_t>{1});
+}
+
 TEST(Runner, TakesSituationAndDelayFromTheScript) {
   EXPECT_EQ(Protocol(R"(
 reactive_delay: 2
