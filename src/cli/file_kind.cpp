@@ -48,6 +48,15 @@ bool is_script(const yaml::Document& document) {
                      [&event_keys](const yaml::Node* item) { return has_any(*item, event_keys); });
 }
 
+bool looks_like_script(const yaml::Document& document) {
+  if (is_script(document)) return true;
+  const auto& entries = document.root().entries;
+  return !is_catalog(document) &&
+         std::any_of(entries.begin(), entries.end(), [](const auto& entry) {
+           return nearest(entry.first->text, std::array<std::string_view, 1>{"events"}).has_value();
+         });
+}
+
 bool looks_like_catalog(std::string_view text) {
   if (has_line_with_key(text)) return true;
   Diagnostics ignored;

@@ -64,13 +64,14 @@ void MissionLoader::add_path(const std::string& path) {
   }
 }
 
-/// The scripts of a folder; catalogs may lie among them.
+/// The scripts of a folder; other files may lie among them, but none that is meant as a script is
+/// left out for a slip of the pen.
 void MissionLoader::add_folder(const std::string& path) {
   for (const std::string& name : list_folder(path, {".yaml", ".yml", ".json"}, has_failed_)) {
     const std::optional<InputFile> file = files_.read(name);
     if (!file) {
       has_failed_ = true;
-    } else if (file->document != nullptr && is_script(*file->document)) {
+    } else if (file->document != nullptr && looks_like_script(*file->document)) {
       add_script(name, *file->document);
     }
   }

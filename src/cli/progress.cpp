@@ -25,11 +25,15 @@ void Progress::begin(const std::string& name) {
 }
 
 void Progress::show(const std::string& detail) {
-  if (!is_wanted_ || std::chrono::steady_clock::now() - start_ < std::chrono::seconds(1)) return;
+  constexpr std::chrono::milliseconds between_updates(100);  // more often is no use to anybody
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_wanted_ || now - start_ < std::chrono::seconds(1)) return;
+  if (is_shown_ && now - shown_ < between_updates) return;
   // The line is written over: return, text, erase to the end.
   fmt::print(stderr, "\r{} {} of {}: {}{}\x1b[K", what_, begun_, total_, printable(name_), detail);
   std::fflush(stderr);
   is_shown_ = true;
+  shown_ = now;
 }
 
 void Progress::clear() {

@@ -19,7 +19,8 @@ class Progress {
 
   /// Says that the next thing is begun.
   void begin(const std::string& name);
-  /// Shows the line, also where it was taken away; `detail` goes on its end.
+  /// Shows the line, also where it was taken away; `detail` goes on its end. May be called as often
+  /// as there is something to tell.
   void show(const std::string& detail = "");
   /// Takes the line away.
   void clear();
@@ -32,6 +33,7 @@ class Progress {
   std::size_t begun_ = 0;
   std::string name_;  ///< of what was begun last
   bool is_shown_ = false;
+  std::chrono::steady_clock::time_point shown_;  ///< last
 };
 
 }  // namespace cbc::cli

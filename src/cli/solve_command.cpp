@@ -67,6 +67,12 @@ std::string find_clash(const SolveOptions& options) {
     if (has_reasons) return "--why and --alternatives are for scripts, not for a sweep";
     if (is_replay || has_state)
       return "--replay, --state-in and --state-out do not go with a sweep";
+    const bool has_search_options = options.max_solutions > 0 || options.max_nodes > 0 ||
+                                    options.tie_seed ||
+                                    options.max_clock_events != SolveOptions{}.max_clock_events;
+    if (options.sweep.merge && has_search_options) {
+      return "--merge takes the options of the search from the shards";
+    }
     if (!options.time_limit.empty()) {
       return "a sweep has no --time-limit, as its result must not depend on the machine; "
              "--max-nodes is such a limit";

@@ -101,6 +101,7 @@ std::unique_ptr<SolveReport> make_report(const SolveOptions& options) {
 
 /// CI collects what it is given: a report that is missing could be taken for one without failures.
 void report_unreadable(const SolveOptions& options, const MissionLoader& loader) {
+  if (options.format == "github") GithubReport(stdout).add_unreadable(loader.findings());
   if (options.format != "junit") return;
   JunitReport report(stdout);
   report.add_unreadable(loader.findings());

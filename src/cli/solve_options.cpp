@@ -19,7 +19,9 @@ CoordinatorOptions coordinator_options(const SolveOptions& options,
   result.tie_seed = options.tie_seed;
   result.max_clock_events = options.max_clock_events;
   result.explain = explanation_for(catalog, options.explain);
-  result.explain.displaced = options.format == "text";
+  // The others are for programs, which ask for it.
+  result.explain.displaced =
+      options.format == "text" || options.format == "junit" || options.format == "github";
   result.measure_time = options.stats;
   return result;
 }

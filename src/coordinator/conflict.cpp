@@ -12,6 +12,8 @@ namespace {
 
 /// With more possible reasons than this, finding a minimal set takes too long.
 constexpr std::size_t most_candidates = 20'000;
+/// The same for RelaxedProblem::effort, of all questions about one event: some tenths of a second.
+constexpr std::uint64_t most_effort = 50'000'000;
 
 /// All that may speak against the event.
 class Candidates {
@@ -91,6 +93,48 @@ class Candidates {
   std::vector<Reason> reasons_;
 };
 
+/// The problems of several ways, of which none may have a solution, with a limit of effort for all
+/// questions together.
+class Ways {
+ public:
+  explicit Ways(std::vector<RelaxedProblem>& problems) : problems_(problems) {}
+
+  /// Where that is not certain, the answer is yes, so that no reason is taken for needless.
+  [[nodiscard]] bool has_solution(std::span<const Reason> reasons) {
+    return std::any_of(problems_.begin(), problems_.end(), [&](RelaxedProblem& problem) {
+      if (is_exhausted()) return true;
+      const std::uint64_t before = problem.effort();
+      const Feasibility answer = problem.solve(reasons);
+      effort_left_ -= std::min(problem.effort() - before, effort_left_);
+      return answer != Feasibility::no;
+    });
+  }
+
+  /// Leaves only reasons that have a part in a proof that there is no solution. False if there is
+  /// none.
+  [[nodiscard]] bool narrow(std::vector<Reason>& reasons) {
+    for (std::size_t before = reasons.size() + 1; reasons.size() < before;) {
+      before = reasons.size();
+      if (has_solution(reasons)) return false;
+      std::vector<Reason> used;
+      for (std::size_t place = 0; place < reasons.size(); ++place) {
+        const bool is_used = std::any_of(
+            problems_.begin(), problems_.end(),
+            [place](const RelaxedProblem& problem) { return problem.is_used()[place] != 0; });
+        if (is_used) used.push_back(reasons[place]);
+      }
+      reasons = std::move(used);
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool is_exhausted() const { return effort_left_ == 0; }
+
+ private:
+  std::vector<RelaxedProblem>& problems_;
+  std::uint64_t effort_left_ = most_effort;
+};
+
 /// What the event alone asks for.
 Demands demands_of(const CompiledCatalog& catalog, const State& state, const Trigger& trigger) {
   switch (trigger.kind) {
@@ -116,7 +160,7 @@ std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
                                                 const Circumstances& circumstances,
                                                 std::span<const Demands> ways) {
   const Trigger& trigger = circumstances.trigger;
-  const std::vector<Reason> candidates = Candidates(catalog, circumstances).collect(ways);
+  std::vector<Reason> candidates = Candidates(catalog, circumstances).collect(ways);
   if (candidates.size() > most_candidates) return std::nullopt;
 
   // Keeping a behavior is no activation, unless it has just finished.
@@ -133,14 +177,13 @@ std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
     demands.insert(demands.end(), way.begin(), way.end());
     problems.emplace_back(catalog, trigger.group, present, std::move(demands));
   }
-  const HasSolution has_solution = [&problems](std::span<const Reason> reasons) {
-    return std::any_of(problems.begin(), problems.end(), [&](RelaxedProblem& problem) {
-      return problem.solve(reasons) != Feasibility::no;
-    });
-  };
-  if (!has_solution({})) return std::vector<Reason>();
-  if (has_solution(candidates)) return std::nullopt;
-  return minimal_set(candidates, has_solution);
+  Ways all(problems);
+  if (!all.has_solution({})) return std::vector<Reason>();
+  if (!all.narrow(candidates)) return std::nullopt;
+  std::vector<Reason> reasons = minimal_set(
+      candidates, [&all](std::span<const Reason> some) { return all.has_solution(some); });
+  if (all.is_exhausted()) return std::nullopt;
+  return reasons;
 }
 
 std::vector<Reason> find_conflict(const CompiledCatalog& catalog,

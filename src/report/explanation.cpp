@@ -155,7 +155,11 @@ std::string describe_alternative(const CompiledCatalog& catalog, const EventReco
     const std::uint32_t value = configuration.places[task];
     if (value == (place == 0 ? none : list.front().places[task])) continue;
     text += fmt::format(
-        "{} {} {}", is_first ? "" : ",", task_name(catalog, first + task),
+        "{} {} {}",
+        !is_first    ? ","
+        : place == 0 ? ""
+                     : " as 1, but",
+        task_name(catalog, first + task),
         value == none ? "not running" : "= " + value_name(catalog, first + task, value));
     is_first = false;
   }

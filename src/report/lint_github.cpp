@@ -24,13 +24,15 @@ std::string message_of(const Diagnostic& finding) {
 
 }  // namespace
 
+std::string github_command_of(const Diagnostic& finding) {
+  return github_command(command_of(finding.severity), {finding.file, finding.range},
+                        fmt::format("cbc {}", finding.rule), message_of(finding));
+}
+
 std::string lint_github(const std::vector<LintedFile>& files) {
   std::string text;
   for (const LintedFile& file : files) {
-    for (const Diagnostic& finding : file.findings) {
-      text += github_command(command_of(finding.severity), {finding.file, finding.range},
-                             fmt::format("cbc {}", finding.rule), message_of(finding));
-    }
+    for (const Diagnostic& finding : file.findings) text += github_command_of(finding);
   }
   return text;
 }

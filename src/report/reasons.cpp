@@ -102,4 +102,17 @@ std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const 
   return sentences;
 }
 
+std::vector<std::string> describe_rejection(const CompiledCatalog& catalog,
+                                            const EventRecord& record) {
+  if (record.search != nullptr && record.search->result.status == SearchStatus::unknown) {
+    return {"a search limit came before the first solution"};
+  }
+  std::vector<std::string> sentences = describe_reasons(catalog, record, record.conflict);
+  if (sentences.empty()) {
+    sentences.emplace_back(
+        "no consistent set of behaviors; finding the reasons would have taken too long");
+  }
+  return sentences;
+}
+
 }  // namespace cbc

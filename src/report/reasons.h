@@ -21,4 +21,8 @@ namespace cbc {
                                                         std::span<const Reason> reasons,
                                                         TaskId it = none);
 
+/// Why an event was rejected, in one sentence or more.
+[[nodiscard]] std::vector<std::string> describe_rejection(const CompiledCatalog& catalog,
+                                                          const EventRecord& record);
+
 }  // namespace cbc

@@ -4,7 +4,9 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "cbc/diagnostic.h"
 #include "report/failure_story.h"
 #include "report/solve_report.h"
 
@@ -25,6 +27,9 @@ class GithubReport final : public SolveReport {
 
   [[nodiscard]] std::unique_ptr<SolveReport> make_part(std::FILE* out) const override;
   void add_part(std::string_view text, const RunResult& result) override;
+
+  /// In place of runs: why there were none, as far as files have errors.
+  void add_unreadable(const std::vector<Diagnostic>& findings);
 
  private:
   std::FILE* const out_;

@@ -54,15 +54,16 @@ void JunitReport::begin_run(const CompiledCatalog& catalog, const Script& script
   failed_.clear();
 }
 
-void JunitReport::on_event(const EventRecord& record, const Step* step, const State& /*state*/) {
-  story_.add(record, step);
+void JunitReport::on_event(const EventRecord& record, const Step* step, const State& state) {
+  story_.add(record, step, state);
 }
 
 void JunitReport::on_failure(const Failure& failure) {
   std::string details =
       fmt::format("{}:{}:{}: {}\n", xml_text(script_->file), failure.range.begin.line,
                   failure.range.begin.column, xml_text(failure.message));
-  for (const std::string& line : story_.tell()) details += xml_text(line) + "\n";
+  for (const std::string& line : story_.tell(*failure.step->expect))
+    details += xml_text(line) + "\n";
   failed_.push_back({failure.step, failure.message, std::move(details)});
 }
 

@@ -11,6 +11,7 @@
 #include "report/reasons.h"
 #include "report/solve_stats.h"
 #include "text/quote.h"
+#include "text/utf8.h"
 
 namespace cbc {
 namespace {
@@ -19,9 +20,19 @@ constexpr std::size_t widest_column = 48;
 constexpr const char* change_indent = "          ";
 constexpr const char* text_indent = "           ";
 
+std::size_t width_of(std::string_view text) {
+  std::size_t width = 0;
+  for (std::size_t offset = 0; offset < text.size();) {
+    const utf8::Decoded decoded = utf8::decode(text, offset);
+    width += utf8::display_width(decoded.character);
+    offset += decoded.bytes;
+  }
+  return width;
+}
+
 std::size_t column_width(const Texts& names, std::size_t least) {
   std::size_t width = least;
-  for (const std::string_view name : names) width = std::max(width, name.size());
+  for (const std::string_view name : names) width = std::max(width, width_of(printable(name)));
   return std::min(width, widest_column);
 }
 
@@ -56,7 +67,11 @@ void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script)
 void TextReport::on_event(const EventRecord& record, const Step* step, const State& state) {
   fmt::print(out_, "{:>10}  {}{}{}{}\n", format_time(record.time), style_.strong,
              describe_event(*catalog_, record, step), style_.reset, describe_outcome(record));
-  if (record.outcome == Outcome::rejected) write_reason(record);
+  if (record.outcome == Outcome::rejected) {
+    for (const std::string& sentence : describe_rejection(*catalog_, record)) {
+      fmt::print(out_, "{}{}\n", text_indent, sentence);
+    }
+  }
   for (const Change& change : record.changes) write_change(record, change);
   write_stopped(record);
   write_explanation(record, state);
@@ -81,17 +96,6 @@ std::string TextReport::describe_outcome(const EventRecord& record) const {
   const bool is_cut = record.search && record.search->result.status == SearchStatus::feasible;
   return fmt::format(": {}{}{}{}", color, name_of(record.outcome), style_.reset,
                      is_cut ? " (not proven best: a search limit came first)" : "");
-}
-
-void TextReport::write_reason(const EventRecord& record) {
-  for (const std::string& sentence : describe_reasons(*catalog_, record, record.conflict)) {
-    fmt::print(out_, "{}{}\n", text_indent, sentence);
-  }
-  if (record.search && record.search->result.status == SearchStatus::unknown) {
-    fmt::print(out_, "{}a search limit came before the first solution\n", text_indent);
-  } else if (record.conflict.empty()) {
-    fmt::print(out_, "{}no consistent set of behaviors\n", text_indent);
-  }
 }
 
 void TextReport::write_change(const EventRecord& record, const Change& change) {

@@ -39,7 +39,6 @@ class TextReport final : public SolveReport {
 
  private:
   [[nodiscard]] std::string describe_outcome(const EventRecord& record) const;
-  void write_reason(const EventRecord& record);
   void write_change(const EventRecord& record, const Change& change);
   void write_stopped(const EventRecord& record);
   void write_explanation(const EventRecord& record, const State& state);

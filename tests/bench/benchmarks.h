@@ -36,6 +36,8 @@ void register_compiled_benchmarks();
 
 /// stream/quadrotor: 200,000 events as JSON lines, from end to end.
 void register_stream_benchmarks();
+/// sweep/…: random events on the reference catalog and on generated ones of one group.
+void register_sweep_benchmarks();
 
 /// fleet/…, generated catalogs of up to 100,000 tasks: compiling, loading, and events of one robot.
 /// Together they take about a minute.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstddef>
 #include <fcntl.h>
 #include <fstream>
@@ -172,12 +173,20 @@ Result run(const Call& call, const std::function<void(pid_t)>& meanwhile) {
   return result;
 }
 
-Result run_on_terminal(const Call& call) {
+Result run_on_terminal(const Call& call) { return run_on_terminal_until(call, ""); }
+
+Result run_on_terminal_until(const Call& call, const std::string& text) {
   Ends terminal = open_terminal();
   const pid_t process =
       spawn(call, open_file(call.standard_input, O_RDONLY), terminal.write, terminal.write);
   terminal.write.close();
   Result result;
+  while (!text.empty() && terminal.read.is_open()) {
+    read_some(terminal.read, result.out);
+    if (result.out.find(text) == std::string::npos) continue;
+    ::kill(process, SIGINT);
+    break;
+  }
   File none;
   read_all(terminal.read, none, result);
   result.status = wait_for(process);

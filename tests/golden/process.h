@@ -37,6 +37,9 @@ struct Result {
 /// of it in `out`, with the line ends of a terminal ("\r\n").
 [[nodiscard]] Result run_on_terminal(const Call& call);
 
+/// The same, until the output has this text: then the program is interrupted.
+[[nodiscard]] Result run_on_terminal_until(const Call& call, const std::string& text);
+
 /// The whole text of a file.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 

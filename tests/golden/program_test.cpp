@@ -1,4 +1,5 @@
 // What golden files do not show: the program on a terminal, and what differs from build to build.
+#include <csignal>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -118,6 +119,14 @@ TEST_F(Terminal, ShowsNoColorIfItIsDumb) {
     call.environment = {{"TERM", "dumb"}};
     EXPECT_FALSE(shows_color(call));
   }
+}
+
+TEST_F(Terminal, TellsHowFarALongSweepIs) {
+  const std::string catalog = CBC_SOURCE_DIR "/catalogs/quadrotor.yaml";
+  const Result result = run_on_terminal_until({{"solve", catalog, "--sweep", "1000000000"}, "/"},
+                                              "\rsweeping 1 of 1: " + catalog + " (0 %)");
+  EXPECT_EQ(result.status, 128 + SIGINT);
+  EXPECT_EQ(result.out.find("sweep of"), std::string::npos);
 }
 
 TEST_F(Terminal, IsNoPlaceForACompiledCatalog) {

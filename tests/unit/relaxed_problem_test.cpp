@@ -1,0 +1,277 @@
+// Problems with only some reasons in force, against a search through all assignments.
+
+#include "explain/relaxed_problem.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "compiled/compile.h"
+#include "explain/constraints.h"
+#include "unit/compiled_fixture.h"
+#include "unit/random_problems.h"
+
+namespace cbc {
+namespace {
+
+__extension__ using Wide = unsigned __int128;
+
+struct Low {
+  TaskId task = none;
+  Millionths minimum = 0;
+};
+
+/// A question, and its answer by trying everything. Groups have up to 6 tasks, so that products are
+/// exact.
+class Question {
+ public:
+  Question(const CompiledCatalog& catalog, test::Random& random)
+      : catalog_(catalog), group_(test::largest_group(catalog)), random_(random) {
+    for (TaskId task = first(); task < end(); ++task) {
+      tasks_.push_back(task);
+      present.push_back(random.percent(50) ? any_place(task) : none);
+    }
+    draw_demands();
+    draw_reasons();
+    if (random.percent(20)) low = Low{random.pick(tasks_), 720'000};
+  }
+
+  Feasibility solve(const std::vector<Reason>& some) {
+    RelaxedProblem problem(catalog_, group_, present, demands);
+    if (low) problem.keep_below(low->task, low->minimum);
+    const Feasibility answer = problem.solve(some);
+    used.clear();
+    for (std::size_t place = 0; place < some.size(); ++place) {
+      if (problem.is_used()[place] != 0) used.push_back(some[place]);
+    }
+    return answer;
+  }
+
+  bool has_solution(const std::vector<Reason>& some) {
+    places_.assign(tasks_.size(), none);
+    return try_from(0, some);
+  }
+
+  std::vector<std::uint32_t> present;
+  Demands demands;
+  std::vector<Reason> reasons;
+  std::vector<Reason> used;  ///< of the last answer
+  std::optional<Low> low;
+
+ private:
+  [[nodiscard]] TaskId first() const { return catalog_.group_tasks[group_]; }
+  [[nodiscard]] TaskId end() const { return catalog_.group_tasks[group_ + 1]; }
+  [[nodiscard]] std::uint32_t any_place(TaskId task) {
+    const std::size_t count = catalog_.values[task].size();
+    return count == 0 ? none : static_cast<std::uint32_t>(random_.below(count));
+  }
+
+  void draw_demands() {
+    for (std::size_t count = 1 + random_.below(5); count > 0; --count) {
+      const TaskId task = random_.pick(tasks_);
+      const std::uint32_t place = any_place(task);
+      Demand demand{Demand::Kind::run, task, none};
+      if (place != none && random_.percent(40)) {
+        demand = {random_.percent(60) ? Demand::Kind::has : Demand::Kind::has_not, task, place};
+      } else if (random_.percent(20)) {
+        demand.kind = Demand::Kind::stop;
+      }
+      demands.push_back(demand);
+    }
+  }
+
+  void draw_reasons() {
+    RelevantTasks all(catalog_, group_);
+    for (const TaskId task : tasks_) all.add(task);
+    all.close();
+    for (const TaskId task : tasks_) {
+      add_exclusions(catalog_, task, all, SIZE_MAX, reasons);
+      add_minimum(catalog_, task, reasons);
+      Reason reason;
+      reason.kind = random_.percent(40) ? Reason::Kind::is_protected : Reason::Kind::on_request;
+      reason.task = task;
+      if (random_.percent(15)) reasons.push_back(reason);
+    }
+    for (const BehaviorId behavior : all.behaviors()) {
+      add_requirements(catalog_, behavior, reasons);
+      Reason reason;
+      reason.kind = random_.percent(50) ? Reason::Kind::unavailable : Reason::Kind::faulty;
+      reason.behavior = behavior;
+      if (random_.percent(10)) reasons.push_back(reason);
+    }
+    random_.shuffle(reasons);
+  }
+
+  bool try_from(std::size_t place, const std::vector<Reason>& some) {
+    if (place == tasks_.size()) return holds(some);
+    for (std::uint32_t value = 0; value < catalog_.values[tasks_[place]].size(); ++value) {
+      places_[place] = value;
+      if (try_from(place + 1, some)) return true;
+    }
+    places_[place] = none;
+    return try_from(place + 1, some);
+  }
+
+  [[nodiscard]] std::uint32_t place_of(TaskId task) const { return places_[task - first()]; }
+  [[nodiscard]] bool runs(TaskId task) const { return place_of(task) != none; }
+  [[nodiscard]] BehaviorId behavior_of(TaskId task) const {
+    return runs(task) ? catalog_.values[task][place_of(task)].behavior : none;
+  }
+  [[nodiscard]] bool is_active(BehaviorId behavior) const {
+    return std::any_of(tasks_.begin(), tasks_.end(),
+                       [&](TaskId task) { return behavior_of(task) == behavior; });
+  }
+
+  [[nodiscard]] bool holds(const std::vector<Reason>& some) const {
+    return std::all_of(demands.begin(), demands.end(),
+                       [this](const Demand& demand) { return holds(demand); }) &&
+           std::all_of(some.begin(), some.end(),
+                       [this](const Reason& reason) { return holds(reason); }) &&
+           (!low || (runs(low->task) && !performs(low->task, low->minimum)));
+  }
+
+  [[nodiscard]] bool holds(const Demand& demand) const {
+    switch (demand.kind) {
+      case Demand::Kind::run:
+        return runs(demand.task);
+      case Demand::Kind::stop:
+        return !runs(demand.task);
+      case Demand::Kind::has:
+        return place_of(demand.task) == demand.place;
+      case Demand::Kind::has_not:
+        return place_of(demand.task) != demand.place;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool holds(const Reason& reason) const {
+    switch (reason.kind) {
+      case Reason::Kind::is_protected:
+        return runs(reason.task);
+      case Reason::Kind::on_request:
+        return !runs(reason.task);
+      case Reason::Kind::exclusive:
+        return !runs(reason.task) || !runs(reason.other_task);
+      case Reason::Kind::requires_task:
+        return !is_active(reason.behavior) || runs(reason.task);
+      case Reason::Kind::performance:
+        if (reason.behavior != none && !is_active(reason.behavior)) return true;
+        return !runs(reason.task) || performs(reason.task, reason.minimum_performance);
+      case Reason::Kind::unavailable:
+        return std::none_of(tasks_.begin(), tasks_.end(), [&](TaskId task) {
+          return behavior_of(task) == reason.behavior && place_of(task) != present[task - first()];
+        });
+      default:
+        return !is_active(reason.behavior);
+    }
+  }
+
+  [[nodiscard]] bool performs(TaskId task, Millionths minimum) const {
+    std::vector<TaskId> closure{task};
+    Wide product = 1;
+    Wide least = minimum;
+    for (std::size_t next = 0; next < closure.size(); ++next) {
+      const TaskId one = closure[next];
+      product *= catalog_.values[one][place_of(one)].suitability;
+      if (next > 0) least *= one_million;
+      for (const CompiledRequirement& requirement : catalog_.requirements[behavior_of(one)]) {
+        if (!runs(requirement.task)) continue;
+        if (std::count(closure.begin(), closure.end(), requirement.task) == 0) {
+          closure.push_back(requirement.task);
+        }
+      }
+    }
+    return product >= least;
+  }
+
+  const CompiledCatalog& catalog_;
+  const std::uint32_t group_;
+  test::Random& random_;
+  std::vector<TaskId> tasks_;
+  std::vector<std::uint32_t> places_;
+};
+
+test::Shape shape_for(test::Random& random) {
+  test::Shape shape;
+  shape.tasks = static_cast<std::uint32_t>(random.between(3, 6));
+  shape.most_behaviors = static_cast<std::uint32_t>(random.between(2, 4));
+  shape.most_requirements = 3;
+  shape.exclusivity_lists = static_cast<std::uint32_t>(random.between(0, 6));
+  shape.most_exclusive = 2;
+  return shape;
+}
+
+TEST(RelaxedProblem, AnswersAsASearchThroughAllAssignments) {
+  test::Random random(20);
+  std::size_t answers[2] = {};
+  std::size_t narrowed = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    const CompiledCatalog catalog = compile(test::random_catalog(random, shape_for(random)));
+    Question question(catalog, random);
+    const bool expected = question.has_solution(question.reasons);
+    ASSERT_EQ(question.solve(question.reasons), expected ? Feasibility::yes : Feasibility::no)
+        << round;
+    ++answers[expected ? 1 : 0];
+    if (expected) continue;
+    const std::vector<Reason> used = question.used;
+    ASSERT_FALSE(question.has_solution(used)) << round << ": not all that matters is noted";
+    ASSERT_EQ(question.solve(used), Feasibility::no);
+    if (used.size() * 2 < question.reasons.size()) ++narrowed;
+  }
+  EXPECT_GT(answers[0], 500U);
+  EXPECT_GT(answers[1], 500U);
+  EXPECT_GT(narrowed, 300U) << "what does not matter is noted";
+}
+
+/// Four tasks that need one of three places each, so that one is left over: that takes a search. Beside
+/// them stand thirty tasks that can run in two ways each, and that are decided on before.
+TEST(RelaxedProblem, DoesNotSearchWhatHasNoPartInAFailure) {
+  std::string text = "behaviors:\n";
+  const auto add = [&text](const std::string& behavior, const std::string& task,
+                           const std::string& required) {
+    text += "- {behavior: " + behavior + ", task: " + task + ", requires: [" + required + "]}\n";
+  };
+  std::string all;
+  for (int task = 0; task < 30; ++task) {
+    const std::string name = "A" + std::to_string(task);
+    for (const char* const way : {"x", "y"}) add(name + way, name, "");
+    all += "{task: " + name + "}, ";
+  }
+  std::string lists;
+  for (const std::string task : {"B0", "B1", "B2", "B3"}) {
+    for (const std::string place : {"P", "Q", "R"}) {
+      add(task + place, task, "{task: " + task + "at" + place + "}");
+      add(task + "at" + place, task + "at" + place, "");
+    }
+    all += "{task: " + task + "}, ";
+  }
+  for (const std::string place : {"P", "Q", "R"}) {
+    lists += "- mutually_exclusive: [";
+    for (const std::string task : {"B0", "B1", "B2", "B3"}) lists += task + "at" + place + ", ";
+    lists += "]\n";
+  }
+  add("all", "ALL", all);
+  const CompiledCatalog catalog = test::compile_text(text + "exclusivity_constraints:\n" + lists);
+  ASSERT_EQ(catalog.group_count(), 1U);
+
+  RelevantTasks relevant(catalog, 0);
+  const TaskId task = catalog.task_ids[*catalog.find_task("ALL")];
+  relevant.add(task);
+  relevant.close();
+  std::vector<Reason> reasons;
+  for (const TaskId one : relevant.tasks()) {
+    add_exclusions(catalog, one, relevant, SIZE_MAX, reasons);
+  }
+  for (const BehaviorId one : relevant.behaviors()) add_requirements(catalog, one, reasons);
+  const std::vector<std::uint32_t> present(catalog.tasks.size(), none);
+  RelaxedProblem problem(catalog, 0, present, {{Demand::Kind::run, task, none}});
+  EXPECT_EQ(problem.solve(reasons), Feasibility::no);
+  EXPECT_LT(problem.effort(), 100'000U);
+}
+
+}  // namespace
+}  // namespace cbc
