@@ -256,8 +256,9 @@ bool RelaxedProblem::propagate(Domains& domains, std::span<const Reason> reasons
 /// Applies exclusions and requirements until nothing changes any more.
 bool RelaxedProblem::follow_changes(Domains& domains, std::span<const Reason> reasons) {
   // In the order of the changes: that makes short proofs.
-  for (std::size_t next = 0; next < changed_.size(); ++next) {
-    const TaskId task = changed_[next];
+  std::size_t next = 0;
+  while (next < changed_.size()) {
+    const TaskId task = changed_[next++];
     has_changed_[task - first_task_] = 0;
     const std::vector<std::uint32_t>& places = reasons_of_task_[task - first_task_];
     effort_ += places.size();
@@ -348,11 +349,12 @@ void RelaxedProblem::blame(const Domains& domains, std::span<const Reason> reaso
   } else {
     blame_performance(domains);
   }
-  for (std::size_t next = 0; next < facts_.size(); ++next) {
-    const bool is_removal = facts_[next] < domains.values.size();
-    const auto of_task = static_cast<TaskId>(facts_[next] - domains.values.size());
-    const std::uint32_t cause =
-        is_removal ? domains.removed_by[facts_[next]] : domains.needed_by[of_task];
+  std::size_t next = 0;
+  while (next < facts_.size()) {
+    const std::size_t fact = facts_[next++];
+    const bool is_removal = fact < domains.values.size();
+    const auto of_task = static_cast<TaskId>(fact - domains.values.size());
+    const std::uint32_t cause = is_removal ? domains.removed_by[fact] : domains.needed_by[of_task];
     if (cause == none) continue;
     if (cause >= first_decision) {
       culprits_[cause - first_decision] = 1;
@@ -361,7 +363,7 @@ void RelaxedProblem::blame(const Domains& domains, std::span<const Reason> reaso
     is_used_[cause] = 1;
     const Reason& reason = reasons[cause];
     if (reason.kind == Reason::Kind::exclusive) {
-      const TaskId removed = catalog_.task_of(first_value_ + static_cast<ValueId>(facts_[next]));
+      const TaskId removed = catalog_.task_of(first_value_ + static_cast<ValueId>(fact));
       blame_running(removed == reason.task ? reason.other_task : reason.task);
     } else if (reason.kind == Reason::Kind::requires_task && is_removal) {
       blame_removals(reason.task, none);

@@ -201,7 +201,7 @@ TEST(StreamProperty, DamagedStatesAreRefusedOrHarmless) {
     std::vector<std::string> states;
     static_cast<void>(run_in_pieces(mission, random, 4, states));
     for (const std::string& state : states) {
-      for (int time = 0; time < 16; ++time) {
+      for (int time = 0; time < 12; ++time) {
         const std::string text =
             time < 8 ? change_text(state, time, random) : change_member(state, random);
         ++damaged;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "compiled/compile.h"
@@ -227,33 +228,33 @@ TEST(RelaxedProblem, AnswersAsASearchThroughAllAssignments) {
   EXPECT_GT(narrowed, 300U) << "what does not matter is noted";
 }
 
-/// Four tasks that need one of three places each, so that one is left over: that takes a search. Beside
-/// them stand thirty tasks that can run in two ways each, and that are decided on before.
+/// Four tasks that need one of three places each, so that one is left over: that takes a search.
+/// Beside them stand thirty tasks that can run in two ways each, and that are decided on before.
 TEST(RelaxedProblem, DoesNotSearchWhatHasNoPartInAFailure) {
   std::string text = "behaviors:\n";
   const auto add = [&text](const std::string& behavior, const std::string& task,
                            const std::string& required) {
-    text += "- {behavior: " + behavior + ", task: " + task + ", requires: [" + required + "]}\n";
+    text += fmt::format("- {{behavior: {}, task: {}, requires: [{}]}}\n", behavior, task, required);
   };
   std::string all;
   for (int task = 0; task < 30; ++task) {
-    const std::string name = "A" + std::to_string(task);
+    const std::string name = fmt::format("A{}", task);
     for (const char* const way : {"x", "y"}) add(name + way, name, "");
-    all += "{task: " + name + "}, ";
+    all += fmt::format("{{task: {}}}, ", name);
   }
   std::string lists;
-  for (const std::string task : {"B0", "B1", "B2", "B3"}) {
-    for (const std::string place : {"P", "Q", "R"}) {
-      add(task + place, task, "{task: " + task + "at" + place + "}");
-      add(task + "at" + place, task + "at" + place, "");
+  for (const char* const place : {"P", "Q", "R"}) {
+    std::string list;
+    for (const char* const task : {"B0", "B1", "B2", "B3"}) {
+      const std::string at_place = fmt::format("{}at{}", task, place);
+      add(fmt::format("{}to{}", task, place), task, fmt::format("{{task: {}}}", at_place));
+      add(at_place, at_place, "");
+      list += at_place + ", ";
     }
-    all += "{task: " + task + "}, ";
+    lists += fmt::format("- mutually_exclusive: [{}]\n", list);
   }
-  for (const std::string place : {"P", "Q", "R"}) {
-    lists += "- mutually_exclusive: [";
-    for (const std::string task : {"B0", "B1", "B2", "B3"}) lists += task + "at" + place + ", ";
-    lists += "]\n";
-  }
+  for (const char* const task : {"B0", "B1", "B2", "B3"})
+    all += fmt::format("{{task: {}}}, ", task);
   add("all", "ALL", all);
   const CompiledCatalog catalog = test::compile_text(text + "exclusivity_constraints:\n" + lists);
   ASSERT_EQ(catalog.group_count(), 1U);
