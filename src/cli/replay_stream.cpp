@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <unistd.h>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -49,10 +50,9 @@ std::string find_differences(std::string_view logged, std::string_view found) {
 
 class Replay {
  public:
-  Replay(int descriptor, std::string name, const CompiledCatalog& catalog,
-         const SolveOptions& options)
+  Replay(int descriptor, std::string name, CompiledCatalog catalog, const SolveOptions& options)
       : name_(std::move(name)),
-        catalog_(catalog),
+        catalog_(std::move(catalog)),
         options_(options),
         input_(descriptor, -1, longest_line),
         log_(catalog_) {}

@@ -71,6 +71,7 @@ class SnapshotCheck {
     places_[entry.task] = entry.place;
     if (!is_past(entry.since)) {
       refuse(fmt::format("task {} runs since a time after that of the state, or before 0", name));
+      return;
     }
     if (activated_at_[behavior] == never) {
       refuse(fmt::format("task {} runs with {}, which is not active", name,
