@@ -71,8 +71,8 @@ std::string diff_text(const CatalogDiff& diff, const Style& style) {
     std::string line = fmt::format("{} {}", sign, describe_subject(change));
     std::string_view separator = ": ";
     // Of a new task the name is news enough; what it is set to stands in the catalog.
-    const bool is_whole = change.kind != Kind::changed && (change.subject == Subject::task ||
-                                                           change.subject == Subject::behavior);
+    const bool is_whole = change.kind != Kind::changed &&
+                          (change.subject == Subject::task || change.subject == Subject::behavior);
     for (const AttributeChange& attribute : change.attributes) {
       if (is_whole) break;
       line += separator;
