@@ -12,6 +12,7 @@
 #include "cli/exit_status.h"
 #include "cli/input.h"
 #include "cli/mission.h"
+#include "cli/run_end.h"
 #include "cli/solve_runs.h"
 #include "cli/terminal.h"
 #include "file/atomic_file.h"
@@ -27,26 +28,6 @@
 namespace cbc::cli {
 namespace {
 
-/// Why a run ended early, or empty.
-std::string describe_end(const RunResult& result, const SolveOptions& options) {
-  switch (result.status) {
-    case Coordinator::Status::ok:
-      return {};
-    case Coordinator::Status::too_many_clock_events:
-      return fmt::format("the clock made more than {} events (--max-clock-events)",
-                         options.max_clock_events);
-    case Coordinator::Status::refused_answer:
-      return "the checker refuses an answer of the solver: " + result.internal_error;
-  }
-  return {};
-}
-
-int status_of(const RunResult& result) {
-  if (result.status == Coordinator::Status::refused_answer) return exit_internal;
-  if (result.status == Coordinator::Status::too_many_clock_events) return exit_unusable;
-  return result.failed > 0 ? exit_no : exit_ok;
-}
-
 /// Says on standard error why a run ended early.
 void complain(const Mission& mission, const RunResult& result, const std::string& reason) {
   fmt::print(stderr, "cbc: {}: {}\n", quote(mission.script.file), reason);
@@ -61,15 +42,15 @@ void complain(const Mission& mission, const RunResult& result, const std::string
 int run_missions(const std::vector<Mission>& missions, const SolveOptions& options,
                  SolveReport& report) {
   const auto run = [&](const Mission& mission, SolveReport& report_of_run) {
+    const CoordinatorOptions coordination = coordinator_options(options, *mission.catalog);
     report_of_run.begin_run(*mission.catalog, mission.script);
-    RunResult result = run_script(*mission.catalog, mission.script,
-                                  coordinator_options(options, *mission.catalog), report_of_run);
-    report_of_run.end_run(result, describe_end(result, options));
+    RunResult result = run_script(*mission.catalog, mission.script, coordination, report_of_run);
+    report_of_run.end_run(result, describe_end(result, coordination));
     return result;
   };
   int status = exit_ok;
   const auto after_run = [&](const Mission& mission, const RunResult& result) {
-    const std::string reason = describe_end(result, options);
+    const std::string reason = describe_end(result, coordinator_options(options, *mission.catalog));
     if (!reason.empty()) complain(mission, result, reason);
     status = std::max(status, status_of(result));
   };

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "cli/catalog_loader.h"
-#include "cli/exit_status.h"
 #include "cli/file_kind.h"
 #include "cli/input.h"
 #include "cli/input_files.h"
+#include "cli/run_end.h"
 #include "coordinator/saved_state.h"
 #include "file/atomic_file.h"
 #include "text/quote.h"
@@ -72,19 +72,12 @@ bool save_state(const StreamOptions& options, const CompiledCatalog& catalog,
 
 int report_end(const Runner& runner, const CoordinatorOptions& options) {
   const RunResult& result = runner.result();
-  switch (result.status) {
-    case Coordinator::Status::ok:
-      return result.failed > 0 ? exit_no : exit_ok;
-    case Coordinator::Status::too_many_clock_events:
-      complain(fmt::format("the clock made more than {} events (--max-clock-events)",
-                           options.max_clock_events));
-      return exit_unusable;
-    case Coordinator::Status::refused_answer:
-      complain("the checker refuses an answer of the solver: " + result.internal_error);
-      complain("this is a fault of cbc, not of the catalog; please report it");
-      return exit_internal;
+  const std::string reason = describe_end(result, options);
+  if (!reason.empty()) complain(reason);
+  if (result.status == Coordinator::Status::refused_answer) {
+    complain("this is a fault of cbc, not of the catalog; please report it");
   }
-  return exit_ok;
+  return status_of(result);
 }
 
 }  // namespace cbc::cli
