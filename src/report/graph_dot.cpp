@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "draw/cluster_members.h"
 #include "draw/names.h"
 #include "report/graph_palette.h"
 #include "text/wrap.h"
@@ -109,10 +110,7 @@ class Writer {
     for (const Node& node : diagram_.nodes) {
       if (node.cluster == none) add_node(node, "  ");
     }
-    std::vector<std::vector<const Node*>> members(diagram_.clusters.size());
-    for (const Node& node : diagram_.nodes) {
-      if (node.cluster != none) members[node.cluster].push_back(&node);
-    }
+    const auto members = draw::cluster_members(diagram_);
     for (std::size_t place = 0; place < members.size(); ++place) {
       const draw::Cluster& cluster = diagram_.clusters[place];
       dot_ += "  subgraph ";

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "draw/cluster_members.h"
 #include "report/graph_palette.h"
 
 namespace cbc {
@@ -94,10 +95,7 @@ class Writer {
     for (const Node& node : diagram_.nodes) {
       if (node.cluster == none) add_node(node, "  ");
     }
-    std::vector<std::vector<const Node*>> members(diagram_.clusters.size());
-    for (const Node& node : diagram_.nodes) {
-      if (node.cluster != none) members[node.cluster].push_back(&node);
-    }
+    const auto members = draw::cluster_members(diagram_);
     for (std::size_t place = 0; place < members.size(); ++place) {
       text_ += "  subgraph ";
       append_id(text_, diagram_.clusters[place].id);
