@@ -7,11 +7,6 @@
 namespace cbc::draw {
 namespace {
 
-Mark mark_of(bool is_faulty, bool is_faint) {
-  if (is_faulty) return Mark::faulty;
-  return is_faint ? Mark::faint : Mark::plain;
-}
-
 std::string cluster_name(const Node& node, Clustering clustering) {
   if (clustering == Clustering::packages) return std::string(node.package);
   return node.group == none ? std::string() : "group " + std::to_string(node.group);
@@ -49,9 +44,10 @@ void Builder::add_tasks() {
     node.group = from.group;
     node.minimum_performance = from.minimum_performance;
     node.label = label_of(from.name);
-    if (from.minimum_performance > 0) node.note = at_least(from.minimum_performance);
-    if (!from.is_defined) node.note = "not defined";
-    node.mark = mark_of(from.is_faulty, part_.is_beside[task]);
+    node.mark = from.mark == Mark::plain && part_.is_beside[task] ? Mark::faint : from.mark;
+    if (from.minimum_performance > 0) node.notes.push_back(at_least(from.minimum_performance));
+    if (!from.is_defined) node.notes.emplace_back("not defined");
+    node.notes.insert(node.notes.end(), from.notes.begin(), from.notes.end());
     node.is_defined = from.is_defined;
     add_node(std::move(node));
   }
@@ -68,12 +64,13 @@ void Builder::add_behaviors() {
     node.package = from.package;
     node.group = from.group;
     node.label = from.name.empty() ? "a behavior without a name" : label_of(from.name);
-    node.mark = mark_of(from.is_faulty, false);
+    node.mark = from.mark;
+    node.notes = from.notes;
     add_node(std::move(node));
   }
 }
 
-Edge& Builder::add_edge(EdgeKind kind, std::uint32_t from, std::uint32_t to) {
+Edge& Builder::add_edge(EdgeKind kind, std::uint32_t from, std::uint32_t to, Mark mark) {
   Edge& edge = diagram_.edges.emplace_back();
   edge.kind = kind;
   edge.from = from;
@@ -81,7 +78,7 @@ Edge& Builder::add_edge(EdgeKind kind, std::uint32_t from, std::uint32_t to) {
   const auto is_faint = [&](std::uint32_t node) {
     return diagram_.nodes[node].mark == Mark::faint;
   };
-  edge.mark = mark_of(false, is_faint(from) || is_faint(to));
+  edge.mark = mark == Mark::plain && (is_faint(from) || is_faint(to)) ? Mark::faint : mark;
   return edge;
 }
 

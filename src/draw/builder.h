@@ -7,6 +7,7 @@
 
 #include "draw/catalog_graph.h"
 #include "draw/diagram.h"
+#include "draw/mark.h"
 #include "draw/part.h"
 #include "draw/view.h"
 
@@ -25,8 +26,8 @@ class Builder {
   /// between their behaviors.
   void add_exclusions(ExclusivityStyle style);
 
-  /// `from` and `to` are nodes. Returns the edge.
-  Edge& add_edge(EdgeKind kind, std::uint32_t from, std::uint32_t to);
+  /// `from` and `to` are nodes. Returns the edge, which is faint beside something faint.
+  Edge& add_edge(EdgeKind kind, std::uint32_t from, std::uint32_t to, Mark mark = Mark::plain);
 
   [[nodiscard]] const CatalogGraph& graph() const { return graph_; }
   [[nodiscard]] const Part& part() const { return part_; }
@@ -41,10 +42,17 @@ class Builder {
   void add_clusters(Clustering clustering);
 
  private:
+  /// A task of a list of exclusive tasks: its node, or those of its behaviors.
+  struct Member {
+    std::vector<std::uint32_t> nodes;
+    Mark mark = Mark::plain;
+  };
+
   void add_node(Node node);
   [[nodiscard]] std::string unique_id(const std::string& id);
   [[nodiscard]] std::vector<std::uint32_t> nodes_of_exclusion(std::uint32_t task) const;
-  void add_hub(std::uint32_t list, const std::vector<std::vector<std::uint32_t>>& members);
+  [[nodiscard]] std::vector<Member> members_of(std::uint32_t list) const;
+  void add_hub(std::uint32_t list, const std::vector<Member>& members);
 
   const CatalogGraph& graph_;
   const Part& part_;

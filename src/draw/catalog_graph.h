@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "cbc/units.h"
 #include "compiled/catalog_arrays.h"
 #include "compiled/compiled_catalog.h"
+#include "draw/mark.h"
 
 namespace cbc::draw {
 
@@ -22,25 +25,29 @@ struct CatalogGraph {
     std::uint32_t group = 0;
     Millionths minimum_performance = 0;  ///< 0: none
     bool is_defined = true;
-    bool is_faulty = false;
+    Mark mark = Mark::plain;
+    std::vector<std::string> notes;  ///< what is to be said of it beside the above
   };
   struct Behavior {
     std::string_view name;  ///< may be missing in a bad catalog
     std::string_view package;
     std::uint32_t group = none;  ///< none: it has no task
-    bool is_faulty = false;
+    Mark mark = Mark::plain;
+    std::vector<std::string> notes;
   };
   struct Performance {
     std::uint32_t behavior = 0;
     std::uint32_t task = 0;
     Millionths suitability = one_million;
-    bool is_faulty = false;
+    Mark mark = Mark::plain;
+    std::optional<Millionths> before;  ///< the suitability before a change
   };
   struct Requirement {
     std::uint32_t behavior = 0;
     std::uint32_t task = 0;
     Millionths minimum_performance = 0;  ///< 0: none
-    bool is_faulty = false;
+    Mark mark = Mark::plain;
+    std::optional<Millionths> before;  ///< the minimum performance before a change
   };
 
   std::string_view file;
@@ -49,7 +56,9 @@ struct CatalogGraph {
   std::vector<Performance> performances;  ///< by behavior, then by task; pairs differ
   std::vector<Requirement> requirements;  ///< the same
   GrowingRows<std::uint32_t> exclusions;  ///< the tasks of each list, ascending; at least two
-  std::vector<bool> exclusion_is_faulty;
+  /// Of each task of each list. Tasks exclude one another unless one mark is added, the other
+  /// removed.
+  GrowingRows<Mark> exclusion_marks;
 
   // Places in the arrays above: what a task or a behavior has to do with.
   GrowingRows<std::uint32_t> performances_of_task;

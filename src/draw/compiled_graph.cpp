@@ -7,20 +7,25 @@ namespace {
 
 void add_behavior(const CompiledCatalog& catalog, std::uint32_t behavior, CatalogGraph& graph) {
   const BehaviorId id = catalog.behavior_ids[behavior];
-  graph.behaviors.push_back({catalog.behavior_names[behavior],
-                             catalog.texts[catalog.behavior_packages[behavior]],
-                             catalog.group_of(id), false});
+  CatalogGraph::Behavior& to = graph.behaviors.emplace_back();
+  to.name = catalog.behavior_names[behavior];
+  to.package = catalog.texts[catalog.behavior_packages[behavior]];
+  to.group = catalog.group_of(id);
   const auto by_task = [](const auto& a, const auto& b) { return a.task < b.task; };
   const auto first_performance = static_cast<std::ptrdiff_t>(graph.performances.size());
   for (const ValueId value : catalog.performs[id]) {
-    graph.performances.push_back({behavior, catalog.tasks[catalog.task_of(value)].catalog_index,
-                                  catalog.values.items[value].suitability, false});
+    CatalogGraph::Performance& performance = graph.performances.emplace_back();
+    performance.behavior = behavior;
+    performance.task = catalog.tasks[catalog.task_of(value)].catalog_index;
+    performance.suitability = catalog.values.items[value].suitability;
   }
   std::sort(graph.performances.begin() + first_performance, graph.performances.end(), by_task);
   const auto first_requirement = static_cast<std::ptrdiff_t>(graph.requirements.size());
   for (const CompiledRequirement& requirement : catalog.requirements[id]) {
-    graph.requirements.push_back({behavior, catalog.tasks[requirement.task].catalog_index,
-                                  requirement.minimum_performance, false});
+    CatalogGraph::Requirement& to_add = graph.requirements.emplace_back();
+    to_add.behavior = behavior;
+    to_add.task = catalog.tasks[requirement.task].catalog_index;
+    to_add.minimum_performance = requirement.minimum_performance;
   }
   std::sort(graph.requirements.begin() + first_requirement, graph.requirements.end(), by_task);
 }
@@ -33,8 +38,10 @@ CatalogGraph to_graph(const CompiledCatalog& catalog) {
   graph.tasks.reserve(catalog.tasks.size());
   for (std::uint32_t task = 0; task < catalog.tasks.size(); ++task) {
     const CompiledTask& from = catalog.tasks[catalog.task_ids[task]];
-    graph.tasks.push_back(
-        {catalog.task_names[task], from.group, from.minimum_performance, true, false});
+    CatalogGraph::Task& to = graph.tasks.emplace_back();
+    to.name = catalog.task_names[task];
+    to.group = from.group;
+    to.minimum_performance = from.minimum_performance;
   }
   graph.behaviors.reserve(catalog.behaviors.size());
   graph.performances.reserve(catalog.values.items.size());
@@ -51,7 +58,8 @@ CatalogGraph to_graph(const CompiledCatalog& catalog) {
     std::sort(tasks.begin(), tasks.end());
     graph.exclusions.add_row(tasks);
   }
-  graph.exclusion_is_faulty.resize(graph.exclusions.size());
+  graph.exclusion_marks.begin = graph.exclusions.begin;
+  graph.exclusion_marks.items.resize(graph.exclusions.items.size());
   connect(graph);
   return graph;
 }

@@ -1,4 +1,8 @@
+#include <algorithm>
+#include <cstddef>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "draw/builder.h"
 #include "draw/task_requirements.h"
@@ -6,16 +10,25 @@
 namespace cbc::draw {
 namespace {
 
-/// Tasks of one behavior are of one group; a chain of them shows it.
+/// Tasks of one behavior are of one group; a chain of them shows it. What one of two catalogs has
+/// is connected to what both have.
 void connect_tasks_of_behaviors(Builder& builder) {
   const CatalogGraph& graph = builder.graph();
   for (const std::uint32_t behavior : builder.part().behaviors) {
-    std::uint32_t before = none;
+    std::vector<std::pair<std::uint32_t, Mark>> tasks;  // their nodes
     for (const std::uint32_t link : graph.performances_of_behavior[behavior]) {
-      const std::uint32_t node = builder.node_of_task(graph.performances[link].task);
-      if (node == none) continue;
-      if (before != none) builder.add_edge(EdgeKind::same_behavior, before, node);
-      before = node;
+      const CatalogGraph::Performance& performance = graph.performances[link];
+      const std::uint32_t node = builder.node_of_task(performance.task);
+      if (node != none) tasks.emplace_back(node, presence_of(performance.mark));
+    }
+    std::stable_partition(tasks.begin(), tasks.end(),
+                          [](const auto& task) { return task.second == Mark::plain; });
+    std::size_t before = 0;
+    for (std::size_t i = 1; i < tasks.size(); ++i) {
+      if (const auto mark = join(tasks[before].second, tasks[i].second)) {
+        builder.add_edge(EdgeKind::same_behavior, tasks[before].first, tasks[i].first, *mark);
+      }
+      if (tasks[i].second == Mark::plain) before = i;
     }
   }
 }
@@ -38,9 +51,8 @@ void draw_constraint_view(Builder& builder) {
   builder.add_tasks();
   color_groups(builder.diagram().nodes);
   for (const TaskRequirement& requirement : task_requirements(builder.graph(), builder.part())) {
-    Edge& edge = builder.add_edge(EdgeKind::requirement, builder.node_of_task(requirement.from),
-                                  builder.node_of_task(requirement.to));
-    if (requirement.is_faulty) edge.mark = Mark::faulty;
+    builder.add_edge(EdgeKind::requirement, builder.node_of_task(requirement.from),
+                     builder.node_of_task(requirement.to), requirement.mark);
   }
   connect_tasks_of_behaviors(builder);
 }

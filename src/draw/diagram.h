@@ -8,6 +8,7 @@
 
 #include "cbc/units.h"
 #include "compiled/compiled_catalog.h"
+#include "draw/mark.h"
 
 /// A picture as data: what is drawn, apart from the format it is written in.
 namespace cbc::draw {
@@ -27,13 +28,6 @@ enum class EdgeKind : std::uint8_t {
   same_behavior,  ///< between tasks that one behavior performs; without a direction
 };
 
-/// How something stands out.
-enum class Mark : std::uint8_t {
-  plain,
-  faulty,
-  faint,  ///< it belongs to something else, and is here for its neighbor
-};
-
 struct Node {
   NodeKind kind = NodeKind::task;
   std::string id;         ///< unique, from the name
@@ -43,7 +37,7 @@ struct Node {
   Millionths minimum_performance = 0;  ///< 0: none
   std::uint32_t left_out = 0;          ///< of a hub: tasks of the list that are not drawn
   std::string label;                   ///< on one line, fit to be shown
-  std::string note;                    ///< on a second line
+  std::vector<std::string> notes;      ///< each on a line below
   Mark mark = Mark::plain;
   bool is_defined = true;
   std::uint32_t color = none;    ///< number of a color; none: that of the kind

@@ -51,7 +51,18 @@ Nodes Builder::nodes_of_exclusion(std::uint32_t task) const {
   return nodes;
 }
 
-void Builder::add_hub(std::uint32_t list, const std::vector<Nodes>& members) {
+std::vector<Builder::Member> Builder::members_of(std::uint32_t list) const {
+  const auto tasks = graph_.exclusions[list];
+  const auto marks = graph_.exclusion_marks[list];
+  std::vector<Member> members;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    Nodes nodes = nodes_of_exclusion(tasks[i]);
+    if (!nodes.empty()) members.push_back({std::move(nodes), marks[i]});
+  }
+  return members;
+}
+
+void Builder::add_hub(std::uint32_t list, const std::vector<Member>& members) {
   const auto tasks = graph_.exclusions[list];
   Node hub;
   hub.kind = NodeKind::hub;
@@ -59,29 +70,25 @@ void Builder::add_hub(std::uint32_t list, const std::vector<Nodes>& members) {
   hub.group = graph_.tasks[tasks.front()].group;
   hub.left_out = static_cast<std::uint32_t>(tasks.size() - members.size());
   if (hub.left_out > 0) hub.label = "and " + std::to_string(hub.left_out) + " more";
-  if (graph_.exclusion_is_faulty[list]) hub.mark = Mark::faulty;
-  const Mark mark = hub.mark;
+  hub.mark = members.front().mark;
+  for (const Member& member : members) {
+    if (member.mark != hub.mark) hub.mark = Mark::plain;
+  }
   const auto node = static_cast<std::uint32_t>(diagram_.nodes.size());
   add_node(std::move(hub));
-  for (const Nodes& member : members) {
-    for (const std::uint32_t one : member) {
-      Edge& edge = add_edge(EdgeKind::exclusion, node, one);
-      if (mark == Mark::faulty) edge.mark = mark;
+  for (const Member& member : members) {
+    for (const std::uint32_t one : member.nodes) {
+      add_edge(EdgeKind::exclusion, node, one, member.mark);
     }
   }
 }
 
 void Builder::add_exclusions(ExclusivityStyle style) {
   if (style == ExclusivityStyle::hidden) return;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, bool> pairs;  // and whether it is faulty
-  std::vector<std::pair<std::uint32_t, std::vector<Nodes>>> hubs;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Mark> pairs;
+  std::vector<std::pair<std::uint32_t, std::vector<Member>>> hubs;
   for (const std::uint32_t list : lists_of(graph_, part_)) {
-    std::vector<Nodes> members;
-    for (const std::uint32_t task : graph_.exclusions[list]) {
-      if (Nodes nodes = nodes_of_exclusion(task); !nodes.empty()) {
-        members.push_back(std::move(nodes));
-      }
-    }
+    std::vector<Member> members = members_of(list);
     if (members.size() < 2 && !has_named_task(graph_, part_, list)) continue;
     const std::size_t most = style == ExclusivityStyle::readable ? most_for_pairs : 2;
     if (members.size() == 1 || (style != ExclusivityStyle::pairs && members.size() > most)) {
@@ -90,17 +97,20 @@ void Builder::add_exclusions(ExclusivityStyle style) {
     }
     for (std::size_t a = 0; a < members.size(); ++a) {
       for (std::size_t b = a + 1; b < members.size(); ++b) {
-        for (const std::uint32_t from : members[a]) {
-          for (const std::uint32_t to : members[b]) {
-            if (from != to) pairs[std::minmax(from, to)] |= graph_.exclusion_is_faulty[list];
+        const auto mark = join(members[a].mark, members[b].mark);
+        if (!mark) continue;
+        for (const std::uint32_t from : members[a].nodes) {
+          for (const std::uint32_t to : members[b].nodes) {
+            if (from == to) continue;
+            const auto [pair, is_new] = pairs.try_emplace(std::minmax(from, to), *mark);
+            if (!is_new) pair->second = combine(pair->second, *mark);
           }
         }
       }
     }
   }
-  for (const auto& [pair, is_faulty] : pairs) {
-    Edge& edge = add_edge(EdgeKind::exclusion, pair.first, pair.second);
-    if (is_faulty) edge.mark = Mark::faulty;
+  for (const auto& [pair, mark] : pairs) {
+    add_edge(EdgeKind::exclusion, pair.first, pair.second, mark);
   }
   for (const auto& [list, members] : hubs) add_hub(list, members);
 }

@@ -1,5 +1,5 @@
 #include "draw/builder.h"
-#include "draw/names.h"
+#include "draw/labels.h"
 
 namespace cbc::draw {
 
@@ -12,11 +12,11 @@ void draw_full_view(Builder& builder) {
     for (const std::uint32_t link : graph.performances_of_task[task]) {
       const CatalogGraph::Performance& performance = graph.performances[link];
       if (!part.has_behavior[performance.behavior]) continue;
-      Edge& edge = builder.add_edge(EdgeKind::performed_by, builder.node_of_task(task),
-                                    builder.node_of_behavior(performance.behavior));
+      Edge& edge =
+          builder.add_edge(EdgeKind::performed_by, builder.node_of_task(task),
+                           builder.node_of_behavior(performance.behavior), performance.mark);
       edge.degree = performance.suitability;
-      if (performance.suitability != one_million) edge.label = percent(performance.suitability);
-      if (performance.is_faulty) edge.mark = Mark::faulty;
+      edge.label = label_of(performance);
     }
   }
   for (const std::uint32_t behavior : part.behaviors) {
@@ -24,12 +24,9 @@ void draw_full_view(Builder& builder) {
       const CatalogGraph::Requirement& requirement = graph.requirements[link];
       if (!part.has_task[requirement.task]) continue;
       Edge& edge = builder.add_edge(EdgeKind::requirement, builder.node_of_behavior(behavior),
-                                    builder.node_of_task(requirement.task));
-      if (requirement.minimum_performance > 0) {
-        edge.degree = requirement.minimum_performance;
-        edge.label = at_least(requirement.minimum_performance);
-      }
-      if (requirement.is_faulty) edge.mark = Mark::faulty;
+                                    builder.node_of_task(requirement.task), requirement.mark);
+      if (requirement.minimum_performance > 0) edge.degree = requirement.minimum_performance;
+      edge.label = label_of(requirement);
     }
   }
 }

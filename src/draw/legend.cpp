@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "draw/view.h"
@@ -13,9 +15,9 @@ class Legend {
       has_tasks_ |= node.kind == NodeKind::task;
       has_behaviors_ |= node.kind == NodeKind::behavior;
       has_hubs_ |= node.kind == NodeKind::hub;
-      has_faults_ |= node.mark == Mark::faulty;
+      marks_.insert(node.mark);
     }
-    for (const Edge& edge : diagram.edges) has_faults_ |= edge.mark == Mark::faulty;
+    for (const Edge& edge : diagram.edges) marks_.insert(edge.mark);
   }
 
   void add() {
@@ -32,9 +34,10 @@ class Legend {
                add_node(NodeKind::task, "task of the same behavior"), "");
     }
     if (has(EdgeKind::exclusion)) add_exclusion();
-    if (has_faults_) {
+    for (const Mark mark : marks_) {
+      if (draw::name_of(mark).empty()) continue;
       const NodeKind kind = has_tasks_ ? NodeKind::task : NodeKind::behavior;
-      diagram_.nodes[add_node(kind, "error")].mark = Mark::faulty;
+      diagram_.nodes[add_node(kind, std::string(draw::name_of(mark)))].mark = mark;
     }
   }
 
@@ -88,7 +91,7 @@ class Legend {
   bool has_tasks_ = false;
   bool has_behaviors_ = false;
   bool has_hubs_ = false;
-  bool has_faults_ = false;
+  std::set<Mark> marks_;
   std::uint32_t cluster_ = 0;
   std::uint32_t task_ = 0;
   std::uint32_t behavior_ = 0;

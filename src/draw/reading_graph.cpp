@@ -47,15 +47,16 @@ class Builder {
 
  private:
   [[nodiscard]] bool is_faulty(const Range& range) const { return faulty_.contains(range); }
+  static Mark mark_of(bool is_faulty) { return is_faulty ? Mark::faulty : Mark::plain; }
 
   void add_tasks() {
     for (const Task& from : catalog_.tasks) {
       CatalogGraph::Task task;
       task.name = from.name;
       task.minimum_performance = from.minimum_performance;
-      task.is_faulty = is_faulty(from.range) || is_faulty(from.minimum_performance_range) ||
-                       (from.start_on_request && from.reactive_start);
-      graph_.tasks.push_back(task);
+      task.mark = mark_of(is_faulty(from.range) || is_faulty(from.minimum_performance_range) ||
+                          (from.start_on_request && from.reactive_start));
+      graph_.tasks.push_back(std::move(task));
     }
   }
 
@@ -64,10 +65,19 @@ class Builder {
     for (const UndefinedTask& undefined : reading_.undefined_tasks) {
       const auto task = static_cast<std::uint32_t>(graph_.tasks.size());
       const auto [entry, is_new] = known.try_emplace(undefined.name, task);
-      if (is_new) graph_.tasks.push_back({undefined.name, 0, 0, false, true});
+      if (is_new) {
+        CatalogGraph::Task& added = graph_.tasks.emplace_back();
+        added.name = undefined.name;
+        added.is_defined = false;
+        added.mark = Mark::faulty;
+      }
       if (undefined.behavior) {
-        undefined_requirements_[*undefined.behavior].push_back(
-            {*undefined.behavior, entry->second, undefined.minimum_performance, true});
+        CatalogGraph::Requirement& requirement =
+            undefined_requirements_[*undefined.behavior].emplace_back();
+        requirement.behavior = *undefined.behavior;
+        requirement.task = entry->second;
+        requirement.minimum_performance = undefined.minimum_performance;
+        requirement.mark = Mark::faulty;
       } else {
         undefined_exclusions_[undefined.list].push_back(entry->second);
       }
@@ -77,14 +87,20 @@ class Builder {
   void add_behavior(std::uint32_t index) {
     const Behavior& from = catalog_.behaviors[index];
     const bool lacks_something = from.name.empty() || from.performs.empty();
-    graph_.behaviors.push_back(
-        {from.name, from.package, none, lacks_something || is_faulty(from.range)});
+    CatalogGraph::Behavior& behavior = graph_.behaviors.emplace_back();
+    behavior.name = from.name;
+    behavior.package = from.package;
+    behavior.mark = mark_of(lacks_something || is_faulty(from.range));
     std::map<std::uint32_t, CatalogGraph::Performance> performances;
     for (const Performance& performance : from.performs) {
       const bool is_wrong =
           is_faulty(performance.range) ||
           (performance.suitability_range && is_faulty(*performance.suitability_range));
-      performances[performance.task] = {index, performance.task, performance.suitability, is_wrong};
+      CatalogGraph::Performance& to = performances[performance.task];
+      to.behavior = index;
+      to.task = performance.task;
+      to.suitability = performance.suitability;
+      to.mark = mark_of(is_wrong);
     }
     for (const auto& [task, performance] : performances) graph_.performances.push_back(performance);
 
@@ -95,11 +111,16 @@ class Builder {
       CatalogGraph::Requirement& known = entry->second;
       known.minimum_performance =
           std::max(known.minimum_performance, requirement.minimum_performance);
-      known.is_faulty |= requirement.is_faulty;
+      known.mark = combine(known.mark, requirement.mark);
     };
     for (const Requirement& requirement : from.requirements) {
-      add({index, requirement.task, requirement.minimum_performance,
-           is_faulty(requirement.range) || is_faulty(requirement.minimum_performance_range)});
+      CatalogGraph::Requirement to;
+      to.behavior = index;
+      to.task = requirement.task;
+      to.minimum_performance = requirement.minimum_performance;
+      to.mark =
+          mark_of(is_faulty(requirement.range) || is_faulty(requirement.minimum_performance_range));
+      add(to);
     }
     if (const auto found = undefined_requirements_.find(index);
         found != undefined_requirements_.end()) {
@@ -125,7 +146,7 @@ class Builder {
     }
     for (const auto& [tasks, is_wrong] : lists) {
       graph_.exclusions.add_row(tasks);
-      graph_.exclusion_is_faulty.push_back(is_wrong);
+      graph_.exclusion_marks.add_row(std::vector<Mark>(tasks.size(), mark_of(is_wrong)));
     }
   }
 
@@ -174,9 +195,9 @@ class Builder {
         strong_components(graph_.tasks.size() + graph_.behaviors.size(), edges);
     const auto mark = [&](auto& link) {
       if (component[link.task] != component[vertex_of(link.behavior)]) return;
-      link.is_faulty = true;
-      graph_.tasks[link.task].is_faulty = true;
-      graph_.behaviors[link.behavior].is_faulty = true;
+      link.mark = Mark::faulty;
+      graph_.tasks[link.task].mark = Mark::faulty;
+      graph_.behaviors[link.behavior].mark = Mark::faulty;
     };
     for (auto& link : graph_.performances) mark(link);
     for (auto& link : graph_.requirements) mark(link);

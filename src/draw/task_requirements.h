@@ -13,11 +13,11 @@ namespace cbc::draw {
 struct TaskRequirement {
   std::uint32_t from = 0;
   std::uint32_t to = 0;
-  std::uint32_t behaviors = 0;  ///< of `from` in the part
+  std::uint32_t behaviors = 0;  ///< of `from` in the part; of two catalogs, of the newer one
   std::uint32_t requiring = 0;  ///< how many of these require `to`
   Millionths lowest = 0;        ///< of the minimum performances that they ask for; 0: none
   Millionths highest = 0;
-  bool is_faulty = false;
+  Mark mark = Mark::plain;
 };
 
 /// All of them between tasks of a part, by `from`, then by `to`.

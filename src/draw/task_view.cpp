@@ -1,4 +1,5 @@
 #include "draw/builder.h"
+#include "draw/labels.h"
 #include "draw/names.h"
 #include "draw/task_requirements.h"
 #include "graph/graph.h"
@@ -10,7 +11,7 @@ namespace {
 /// "1 of 2, ≥ 60 %": how many of the behaviors require the task, and the performance they ask for.
 std::string label_of(const TaskRequirement& requirement) {
   std::string label;
-  if (requirement.requiring < requirement.behaviors) {
+  if (requirement.requiring < requirement.behaviors && requirement.mark != Mark::removed) {
     label = std::to_string(requirement.requiring) + " of " + std::to_string(requirement.behaviors);
   }
   if (requirement.highest == 0) return label;
@@ -19,7 +20,7 @@ std::string label_of(const TaskRequirement& requirement) {
   return label + "≥ " + format_decimal(requirement.lowest, 4) + "–" + percent(requirement.highest);
 }
 
-/// Which of them follow from others; a fault is shown in any case.
+/// Which of them follow from others; what stands out is shown in any case.
 std::vector<bool> implied(const Builder& builder,
                           const std::vector<TaskRequirement>& requirements) {
   Edges edges;
@@ -29,7 +30,7 @@ std::vector<bool> implied(const Builder& builder,
   }
   std::vector<bool> result = transitive_edges(builder.part().tasks.size(), edges);
   for (std::size_t i = 0; i < requirements.size(); ++i) {
-    if (requirements[i].is_faulty) result[i] = false;
+    if (requirements[i].mark != Mark::plain) result[i] = false;
   }
   return result;
 }
@@ -46,10 +47,9 @@ void draw_task_view(Builder& builder, bool reduce) {
     if (is_left_out[i]) continue;
     const TaskRequirement& requirement = requirements[i];
     Edge& edge = builder.add_edge(EdgeKind::requirement, builder.node_of_task(requirement.from),
-                                  builder.node_of_task(requirement.to));
+                                  builder.node_of_task(requirement.to), requirement.mark);
     if (requirement.highest > 0) edge.degree = requirement.highest;
-    edge.label = label_of(requirement);
-    if (requirement.is_faulty) edge.mark = Mark::faulty;
+    edge.label = with_sign(requirement.mark, label_of(requirement));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "report/graph_dot.h"
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -15,7 +16,6 @@ namespace {
 
 using draw::Edge;
 using draw::EdgeKind;
-using draw::Mark;
 using draw::Node;
 using draw::NodeKind;
 
@@ -61,7 +61,7 @@ class Attributes {
   void add_label(const Node& node) {
     std::string value = "\"";
     std::vector<std::string_view> lines = wrap_name(node.label, line_length);
-    if (!node.note.empty()) lines.emplace_back(node.note);
+    lines.insert(lines.end(), node.notes.begin(), node.notes.end());
     for (const std::string_view line : lines) {
       if (value.size() > 1) value += "\\n";
       append_shown(value, line);
@@ -138,8 +138,8 @@ class Writer {
   /// A dot, unless it has something to say. (A label beside a dot, an xlabel, does not go with
   /// pack.)
   static void add_hub(const Node& node, Attributes& attributes) {
-    const bool is_faulty = node.mark == Mark::faulty;
-    const std::string_view color = is_faulty ? palette::faulty.line : palette::exclusion;
+    const std::optional<palette::Look> look = palette::look_of(node.mark);
+    const std::string_view color = look ? look->color.line : palette::exclusion;
     if (node.label.empty()) {
       attributes.add("shape", "circle");
       attributes.add("width", "0.1");
@@ -162,21 +162,25 @@ class Writer {
     const bool is_task = node.kind == NodeKind::task;
     palette::Color color = is_task ? palette::task : palette::behavior;
     if (node.color != none) color = palette::of_group(node.color);
-    if (node.mark == Mark::faulty) color = palette::faulty;
-    if (node.mark == Mark::faint) color = {palette::faint, palette::paper};
+    const std::optional<palette::Look> look = palette::look_of(node.mark);
+    if (look) color = look->color;
     attributes.add("shape", is_task ? "ellipse" : "box");
     if (is_task) attributes.add("margin", "\"0.01,0.03\"");
     attributes.add_label(node);
     attributes.add_color("color", color.line);
     attributes.add_color("fillcolor", color.fill);
-    if (node.mark == Mark::faint) attributes.add_color("fontcolor", color.line);
-    if (node.mark == Mark::faulty) attributes.add("penwidth", "2");
-    if (!node.is_defined) attributes.add("style", "\"filled,dashed\"");
+    if (look && look->text != palette::ink) attributes.add_color("fontcolor", look->text);
+    if (look && look->is_thick) attributes.add("penwidth", "2");
+    if (!node.is_defined || (look && look->is_dashed)) {
+      attributes.add("style", "\"filled,dashed\"");
+    }
   }
 
   void add_edge(const Edge& edge) {
     Attributes attributes;
     if (!edge.label.empty()) attributes.add_shown("label", edge.label);
+    const std::optional<palette::Look> look = palette::look_of(edge.mark);
+    const bool is_thick = look && look->is_thick;
     std::string_view color = palette::ink;
     switch (edge.kind) {
       case EdgeKind::performed_by:
@@ -190,16 +194,13 @@ class Writer {
       case EdgeKind::exclusion:
         attributes.add("dir", "none");
         attributes.add("style", "dotted");
-        attributes.add("penwidth", edge.mark == Mark::faulty ? "2.5" : "1.5");
+        attributes.add("penwidth", is_thick ? "2.5" : "1.5");
         if (!is_hub(edge.from)) attributes.add("constraint", "false");
         color = palette::exclusion;
         break;
     }
-    if (edge.mark == Mark::faint) color = palette::faint;
-    if (edge.mark == Mark::faulty) {
-      color = palette::faulty.line;
-      if (edge.kind != EdgeKind::exclusion) attributes.add("penwidth", "2");
-    }
+    if (look) color = look->color.line;
+    if (is_thick && edge.kind != EdgeKind::exclusion) attributes.add("penwidth", "2");
     attributes.add_color("color", color);
     if (!edge.label.empty()) attributes.add_color("fontcolor", color);
     dot_ += "  ";

@@ -65,6 +65,14 @@ void write_percent(JsonWriter& json, std::string_view name, std::optional<Millio
   }
 }
 
+void write_mark(JsonWriter& json, Mark mark) {
+  if (name_of(mark).empty()) {
+    json.write_null("mark");
+  } else {
+    json.write_text("mark", name_of(mark));
+  }
+}
+
 std::string node_to_text(const Node& node) {
   std::string text;
   JsonWriter json(text);
@@ -88,7 +96,10 @@ std::string node_to_text(const Node& node) {
     write_percent(json, "minimum_performance", minimum > 0 ? std::optional(minimum) : std::nullopt);
     json.write_truth("defined", node.is_defined);
   }
-  json.write_truth("faulty", node.mark == Mark::faulty);
+  write_mark(json, node.mark);
+  json.open("notes", '[');
+  for (const std::string& note : node.notes) json.write_text(note);
+  json.close(']');
   json.close('}');
   return text;
 }
@@ -102,7 +113,7 @@ std::string edge_to_text(const draw::Diagram& diagram, const Edge& edge) {
   json.write_text("to", diagram.nodes[edge.to].id);
   if (edge.kind == EdgeKind::performed_by) write_percent(json, "suitability", edge.degree);
   if (edge.kind == EdgeKind::requirement) write_percent(json, "minimum_performance", edge.degree);
-  json.write_truth("faulty", edge.mark == Mark::faulty);
+  write_mark(json, edge.mark);
   json.close('}');
   return text;
 }

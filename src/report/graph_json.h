@@ -20,7 +20,8 @@ namespace cbc {
 ///         "minimum_performance": 80,        of a task: percent, or null
 ///         "left_out": 12,                   of a hub: tasks of the list that are not drawn
 ///         "defined": true,                  of a task: false if it is only named
-///         "faulty": false}],                an error of the catalog
+///         "mark": null,                     how it stands out: "faulty" (an error of the catalog)
+///         "notes": ["≥ 80 %"]}],            what else the picture says of it, a line each
 ///      "edges": [
 ///        {"kind": "performed_by",           or requirement, exclusion (between two, or from a
 ///        hub),
@@ -30,7 +31,7 @@ namespace cbc {
 ///         "suitability": 90,                of performed_by: percent
 ///         "minimum_performance": null,      of requirement: percent, or null; in the view of the
 ///                                           tasks the highest of all behaviors
-///         "faulty": false}]}
+///         "mark": null}]}                   as of nodes
 ///
 /// Bytes of names that are no valid UTF-8 are replaced.
 [[nodiscard]] std::string graph_json(const draw::Diagram& diagram);

@@ -1,7 +1,10 @@
 #include "report/graph_mermaid.h"
 
+#include <array>
 #include <cstddef>
+#include <map>
 #include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +19,8 @@ using draw::EdgeKind;
 using draw::Mark;
 using draw::Node;
 using draw::NodeKind;
+
+constexpr std::array standing_out = {Mark::faulty, Mark::added, Mark::removed, Mark::changed};
 
 bool is_letter_or_digit(char byte) {
   return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') ||
@@ -70,8 +75,9 @@ std::string class_of_group(std::size_t group) {
 }
 
 std::string class_of(const Node& node) {
-  if (node.mark == Mark::faulty) return node.is_defined ? "faulty" : "undefined";
   if (node.mark == Mark::faint) return "faint";
+  if (node.mark != Mark::plain)
+    return node.is_defined ? std::string(name_of(node.mark)) : "undefined";
   if (node.color != none) return class_of_group(node.color);
   if (node.kind == NodeKind::hub) return "hub";
   return node.kind == NodeKind::task ? "task" : "behavior";
@@ -131,9 +137,9 @@ class Writer {
     } else {
       append_label(text_, node.label);
     }
-    if (!node.note.empty()) {
+    for (const std::string& note : node.notes) {
       text_ += "<br/>";
-      append_label(text_, node.note);
+      append_label(text_, note);
     }
     text_ += close;
   }
@@ -163,30 +169,33 @@ class Writer {
     text_ += '\n';
   }
 
-  void add_class(std::string_view name, const palette::Color& color, std::string_view text_color,
-                 std::string_view more) {
+  void add_class(std::string_view name, const palette::Look& look) {
     text_ += "  classDef ";
     text_ += name;
-    text_ += " fill:" + std::string(color.fill) + ",stroke:" + std::string(color.line) +
-             ",color:" + std::string(text_color) + std::string(more) + '\n';
+    text_ += " fill:" + std::string(look.color.fill) + ",stroke:" + std::string(look.color.line) +
+             ",color:" + std::string(look.text);
+    if (look.is_thick) text_ += ",stroke-width:3px";
+    if (look.is_dashed) text_ += ",stroke-dasharray:6 4";
+    text_ += '\n';
   }
 
   /// Fills, lines and texts have colors, so that the nodes look alike on light and dark pages.
   void add_classes() {
     std::set<std::string> used;
     for (const Node& node : diagram_.nodes) used.insert(class_of(node));
-    const auto add = [&](std::string_view name, const palette::Color& color,
-                         std::string_view text_color, std::string_view more = {}) {
-      if (used.contains(std::string(name))) add_class(name, color, text_color, more);
+    const auto add = [&](std::string_view name, const palette::Look& look) {
+      if (used.contains(std::string(name))) add_class(name, look);
     };
-    add("task", palette::task, palette::ink);
-    add("behavior", palette::behavior, palette::ink);
-    add("hub", {palette::exclusion, palette::exclusion}, palette::paper);
-    add("faint", {palette::faint, palette::paper}, palette::faint);
-    add("faulty", palette::faulty, palette::ink, ",stroke-width:3px");
-    add("undefined", palette::faulty, palette::ink, ",stroke-width:3px,stroke-dasharray:6 4");
+    add("task", {palette::task, palette::ink});
+    add("behavior", {palette::behavior, palette::ink});
+    add("hub", {{palette::exclusion, palette::exclusion}, palette::paper});
+    add("faint", *palette::look_of(Mark::faint));
+    for (const Mark mark : standing_out) add(name_of(mark), *palette::look_of(mark));
+    palette::Look undefined = *palette::look_of(Mark::faulty);
+    undefined.is_dashed = true;
+    add("undefined", undefined);
     for (std::uint32_t group = 0; group < palette::groups.size(); ++group) {
-      add(class_of_group(group), palette::groups[group], palette::ink);
+      add(class_of_group(group), {palette::groups[group], palette::ink});
     }
   }
 
@@ -205,13 +214,16 @@ class Writer {
   /// Plain lines keep the color of the page's theme.
   void add_line_styles() {
     std::vector<std::size_t> dotted;
-    std::vector<std::size_t> faulty;
+    std::map<Mark, std::vector<std::size_t>> by_mark;
     for (std::size_t place = 0; place < diagram_.edges.size(); ++place) {
       if (diagram_.edges[place].kind == EdgeKind::exclusion) dotted.push_back(place);
-      if (diagram_.edges[place].mark == Mark::faulty) faulty.push_back(place);
+      by_mark[diagram_.edges[place].mark].push_back(place);
     }
     add_line_style(dotted, "stroke-dasharray:2 5");
-    add_line_style(faulty, "stroke:" + std::string(palette::faulty.line) + ",stroke-width:3px");
+    for (const Mark mark : standing_out) {
+      add_line_style(by_mark[mark], "stroke:" + std::string(palette::look_of(mark)->color.line) +
+                                        ",stroke-width:3px");
+    }
   }
 
   const draw::Diagram& diagram_;

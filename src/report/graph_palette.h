@@ -2,7 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
+
+#include "draw/mark.h"
 
 /// Colors that people with any kind of color blindness can tell apart (Okabe and Ito, "Color
 /// Universal Design"), and tints of them that black text stands out from, on paper, too. Nothing is
@@ -23,7 +26,6 @@ inline constexpr Color task = {ink, "#E3F2FB"};  // sky blue
 inline constexpr Color behavior = {ink, paper};
 inline constexpr std::string_view requirement = "#0072B2";  // blue
 inline constexpr std::string_view exclusion = "#B0558B";  // reddish purple, darkened for thin lines
-inline constexpr Color faulty = {"#D55E00", "#FBE5D6"};   // vermillion
 
 /// Of groups, which have the color of their number; more than these repeat.
 inline constexpr std::array<Color, 5> groups = {{{"#E69F00", "#FAE7BF"},    // orange
@@ -34,6 +36,33 @@ inline constexpr std::array<Color, 5> groups = {{{"#E69F00", "#FAE7BF"},    // o
 
 [[nodiscard]] constexpr const Color& of_group(std::uint32_t group) {
   return groups[group % groups.size()];
+}
+
+/// What stands out.
+struct Look {
+  Color color;
+  std::string_view text;
+  bool is_thick = false;
+  bool is_dashed = false;  ///< the frame of a node
+};
+
+/// Empty if it looks like others of its kind.
+[[nodiscard]] constexpr std::optional<Look> look_of(draw::Mark mark) {
+  switch (mark) {
+    case draw::Mark::plain:
+      break;
+    case draw::Mark::faint:
+      return Look{{faint, paper}, faint};
+    case draw::Mark::faulty:
+      return Look{{"#D55E00", "#FBE5D6"}, ink, true};  // vermillion
+    case draw::Mark::added:
+      return Look{{"#007A59", "#BFE7DC"}, ink, true};  // bluish green
+    case draw::Mark::removed:
+      return Look{{"#D55E00", "#FBE5D6"}, ink, true, true};
+    case draw::Mark::changed:
+      return Look{{"#B37B00", "#FAE7BF"}, ink, true};  // orange
+  }
+  return std::nullopt;
 }
 
 }  // namespace cbc::palette

@@ -38,34 +38,42 @@ class Checker {
 
   void check_node(const Json& node) {
     static const std::map<std::string, Keys> keys = {
-        {"task", {"id", "kind", "name", "group", "minimum_performance", "defined", "faulty"}},
-        {"behavior", {"id", "kind", "name", "group", "package", "faulty"}},
-        {"hub", {"id", "kind", "name", "group", "left_out", "faulty"}}};
+        {"task",
+         {"id", "kind", "name", "group", "minimum_performance", "defined", "mark", "notes"}},
+        {"behavior", {"id", "kind", "name", "group", "package", "mark", "notes"}},
+        {"hub", {"id", "kind", "name", "group", "left_out", "mark", "notes"}}};
     const auto found = keys.find(node.value("kind", ""));
     if (found == keys.end()) return faults_.push_back("kind of " + node.dump());
     expect_keys(node, found->second, "a node");
     expect(ids_.insert(node["id"].get<std::string>()).second, "two nodes " + node["id"].dump());
     expect(node["name"].is_null() ? node["kind"] != "task" : node["name"].is_string(), "name");
     expect(node["group"].is_null() || node["group"].is_number_unsigned(), "group");
-    expect(node["faulty"].is_boolean(), "faulty");
+    check_mark(node);
+    expect(node["notes"].is_array(), "notes");
     check_percent(node, "minimum_performance");
   }
 
   void check_edge(const Json& edge) {
     static const std::map<std::string, Keys> keys = {
-        {"performed_by", {"kind", "from", "to", "suitability", "faulty"}},
-        {"requirement", {"kind", "from", "to", "minimum_performance", "faulty"}},
-        {"exclusion", {"kind", "from", "to", "faulty"}},
-        {"same_behavior", {"kind", "from", "to", "faulty"}}};
+        {"performed_by", {"kind", "from", "to", "suitability", "mark"}},
+        {"requirement", {"kind", "from", "to", "minimum_performance", "mark"}},
+        {"exclusion", {"kind", "from", "to", "mark"}},
+        {"same_behavior", {"kind", "from", "to", "mark"}}};
     const auto found = keys.find(edge.value("kind", ""));
     if (found == keys.end()) return faults_.push_back("kind of " + edge.dump());
     expect_keys(edge, found->second, "an edge");
     expect(ids_.contains(edge["from"].get<std::string>()), "no node " + edge["from"].dump());
     expect(ids_.contains(edge["to"].get<std::string>()), "no node " + edge["to"].dump());
-    expect(edge["faulty"].is_boolean(), "faulty");
+    check_mark(edge);
     if (edge["kind"] == "performed_by") expect(edge["suitability"].is_number(), "suitability");
     check_percent(edge, "suitability");
     check_percent(edge, "minimum_performance");
+  }
+
+  void check_mark(const Json& object) {
+    const std::set<std::string> marks{"faulty", "added", "removed", "changed"};
+    const Json& mark = object["mark"];
+    expect(mark.is_null() || marks.contains(mark.get<std::string>()), "mark of " + object.dump());
   }
 
   void check_percent(const Json& object, const std::string& key) {
