@@ -2,8 +2,13 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "catalog/reader.h"
+#include "cli/file_kind.h"
+#include "cli/input.h"
 #include "compiled/compile.h"
+#include "text/quote.h"
 
 namespace cbc::cli {
 
@@ -21,7 +26,12 @@ std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const InputFile& file
 std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const std::string& path) {
   const auto [entry, is_new] = known_.try_emplace(path, nullptr);
   if (is_new) {
-    if (const std::optional<InputFile> file = files_.read(path)) entry->second = load(*file);
+    const std::optional<InputFile> file = files_.read(path);
+    if (file && file->document != nullptr && is_script(*file->document)) {
+      complain(fmt::format("{} is a script; expected a catalog here", quote(display_name(path))));
+    } else if (file) {
+      entry->second = load(*file);
+    }
   }
   return entry->second;
 }
@@ -32,6 +42,13 @@ std::optional<Catalog> CatalogLoader::understand(const std::string& path,
   CatalogReading reading = understand_catalog(document, diagnostics);
   if (!files_.take_findings(path, document, std::move(diagnostics))) return std::nullopt;
   return std::move(reading.catalog);
+}
+
+std::shared_ptr<const CompiledCatalog> load_catalog(const std::string& path) {
+  InputFiles files;
+  const auto catalog = CatalogLoader(files).load(path);
+  files.print_findings();
+  return catalog;
 }
 
 }  // namespace cbc::cli

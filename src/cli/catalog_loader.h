@@ -32,4 +32,7 @@ class CatalogLoader {
   std::map<std::string, std::shared_ptr<const CompiledCatalog>> known_;  ///< by path
 };
 
+/// The one catalog of a command line. Null if it cannot be used, which is said.
+[[nodiscard]] std::shared_ptr<const CompiledCatalog> load_catalog(const std::string& path);
+
 }  // namespace cbc::cli

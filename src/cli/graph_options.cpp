@@ -43,7 +43,9 @@ std::optional<std::vector<std::uint32_t>> find_tasks(const draw::CatalogGraph& g
 
 std::uint32_t group_count(const draw::CatalogGraph& graph) {
   std::uint32_t groups = 0;
-  for (const auto& task : graph.tasks) groups = std::max(groups, task.group + 1);
+  for (const auto& task : graph.tasks) {
+    if (task.group != none) groups = std::max(groups, task.group + 1);
+  }
   return groups;
 }
 

@@ -27,6 +27,8 @@ struct DrawingOptions {
   bool down = false;
   std::optional<std::uint32_t> depth;
   std::optional<std::uint32_t> group;
+
+  [[nodiscard]] bool operator==(const DrawingOptions&) const = default;
 };
 
 void add_drawing_options(CLI::App& command, DrawingOptions& options);

@@ -15,6 +15,10 @@ inline constexpr std::size_t largest_file = std::size_t{256} << 20;
 /// Contents of a file, or of standard input for "-". Prints why not to standard error.
 [[nodiscard]] std::optional<std::string> read_input(const std::string& path);
 
+/// The complaint about a command line that gives "-" more than once.
+inline constexpr const char* stdin_only_once =
+    "standard input can be read only once, but is given several times";
+
 /// Name of an input in messages and reports.
 [[nodiscard]] std::string display_name(const std::string& path);
 

@@ -98,7 +98,7 @@ std::string find_misuse(const LintCommand& command) {
   }
   const auto stdin_count = std::count(command.paths.begin(), command.paths.end(), "-") +
                            std::count(command.scripts.begin(), command.scripts.end(), "-");
-  if (stdin_count > 1) return "standard input can be read only once, but is given several times";
+  if (stdin_count > 1) return stdin_only_once;
   if (!command.stdin_filename.empty() && stdin_count == 0) {
     return "--stdin-filename is of use with '-' only";
   }

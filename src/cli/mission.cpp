@@ -23,7 +23,7 @@ std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::s
   std::size_t first_script = 0;
   const auto from_stdin = std::count(paths.begin(), paths.end(), "-");
   if (from_stdin > 1) {
-    complain("standard input can be read only once, but is given several times");
+    complain(stdin_only_once);
     return std::nullopt;
   }
   if (!is_folder(paths.front())) {

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/catalog_loader.h"
 #include "cli/exit_status.h"
 #include "cli/input.h"
 #include "cli/line_input.h"

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/catalog_loader.h"
 #include "cli/exit_status.h"
 #include "cli/input.h"
 #include "cli/input_files.h"

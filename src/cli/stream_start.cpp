@@ -5,10 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/catalog_loader.h"
-#include "cli/file_kind.h"
 #include "cli/input.h"
-#include "cli/input_files.h"
 #include "cli/run_end.h"
 #include "coordinator/saved_state.h"
 #include "file/atomic_file.h"
@@ -21,7 +18,7 @@ bool can_use_files(const SolveOptions& options) {
   const auto from_stdin = std::count(options.paths.begin(), options.paths.end(), "-") +
                           (stream.state_in == "-" ? 1 : 0) + (stream.replay == "-" ? 1 : 0);
   if (from_stdin > 1) {
-    complain("standard input can be read only once, but is given several times");
+    complain(stdin_only_once);
     return false;
   }
   if (!stream.state_out) return true;
@@ -32,19 +29,6 @@ bool can_use_files(const SolveOptions& options) {
   const auto obstacle = find_obstacle(*stream.state_out);
   if (obstacle) complain(fmt::format("cannot write {}: {}", quote(*stream.state_out), *obstacle));
   return !obstacle;
-}
-
-std::shared_ptr<const CompiledCatalog> load_catalog(const std::string& path) {
-  InputFiles files;
-  std::shared_ptr<const CompiledCatalog> catalog;
-  const std::optional<InputFile> file = files.read(path);
-  if (file && file->document != nullptr && is_script(*file->document)) {
-    complain(fmt::format("{} is a script; expected a catalog here", quote(display_name(path))));
-  } else if (file) {
-    catalog = CatalogLoader(files).load(*file);
-  }
-  files.print_findings();
-  return catalog;
 }
 
 bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,

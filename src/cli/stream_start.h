@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -14,9 +13,6 @@ namespace cbc::cli {
 
 /// Whether the files that the options name can be used together, and the state can be written.
 [[nodiscard]] bool can_use_files(const SolveOptions& options);
-
-/// The catalog of a path; null if it cannot be used.
-[[nodiscard]] std::shared_ptr<const CompiledCatalog> load_catalog(const std::string& path);
 
 /// The state of --state-in. False if it cannot be used; without the option all is well.
 [[nodiscard]] bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,

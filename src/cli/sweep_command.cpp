@@ -11,7 +11,6 @@
 #include "cli/catalog_loader.h"
 #include "cli/exit_status.h"
 #include "cli/input.h"
-#include "cli/input_files.h"
 #include "cli/progress.h"
 #include "cli/terminal.h"
 #include "file/atomic_file.h"
@@ -35,15 +34,12 @@ SweepSettings to_settings(const SolveOptions& options) {
   return settings;
 }
 
-std::shared_ptr<const CompiledCatalog> load_catalog(const std::vector<std::string>& paths) {
+std::shared_ptr<const CompiledCatalog> load_swept(const std::vector<std::string>& paths) {
   if (paths.size() != 1) {
     complain(fmt::format("a sweep takes one catalog and no script, found {} files", paths.size()));
     return nullptr;
   }
-  InputFiles files;
-  CatalogLoader loader(files);
-  std::shared_ptr<const CompiledCatalog> catalog = loader.load(paths.front());
-  files.print_findings();
+  std::shared_ptr<const CompiledCatalog> catalog = load_catalog(paths.front());
   if (catalog != nullptr && catalog->tasks.empty()) {
     complain(fmt::format("catalog {} has no tasks to sweep", quote(display_name(paths.front()))));
     return nullptr;
@@ -131,7 +127,7 @@ int merge(const SolveOptions& options) {
 
 int run_sweep(const SolveOptions& options) {
   if (options.sweep.merge) return merge(options);
-  const std::shared_ptr<const CompiledCatalog> catalog = load_catalog(options.paths);
+  const std::shared_ptr<const CompiledCatalog> catalog = load_swept(options.paths);
   if (catalog == nullptr) return exit_unusable;
   const SweepSettings settings = to_settings(options);
   const SequenceRange range = sequences_of(settings);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "draw/labels.h"
 #include "draw/names.h"
 
 namespace cbc::draw {
@@ -78,6 +79,7 @@ Edge& Builder::add_edge(EdgeKind kind, std::uint32_t from, std::uint32_t to, Mar
   const auto is_faint = [&](std::uint32_t node) {
     return diagram_.nodes[node].mark == Mark::faint;
   };
+  edge.label = with_sign(mark, {});
   edge.mark = mark == Mark::plain && (is_faint(from) || is_faint(to)) ? Mark::faint : mark;
   return edge;
 }

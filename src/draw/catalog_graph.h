@@ -22,7 +22,7 @@ namespace cbc::draw {
 struct CatalogGraph {
   struct Task {
     std::string_view name;
-    std::uint32_t group = 0;
+    std::uint32_t group = 0;             ///< none: only an older catalog has it
     Millionths minimum_performance = 0;  ///< 0: none
     bool is_defined = true;
     Mark mark = Mark::plain;

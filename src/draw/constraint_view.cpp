@@ -33,13 +33,13 @@ void connect_tasks_of_behaviors(Builder& builder) {
   }
 }
 
-/// One color a group, but for tasks that are alone in theirs.
+/// One color a group, but for tasks that are alone in theirs, or in none.
 void color_groups(std::vector<Node>& tasks) {
   std::map<std::uint32_t, std::uint32_t> sizes;
   for (const Node& task : tasks) ++sizes[task.group];
   std::map<std::uint32_t, std::uint32_t> colors;
   for (Node& task : tasks) {
-    if (sizes[task.group] < 2) continue;
+    if (task.group == none || sizes[task.group] < 2) continue;
     const auto next = static_cast<std::uint32_t>(colors.size());
     task.color = colors.try_emplace(task.group, next).first->second;
   }

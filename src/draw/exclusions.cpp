@@ -102,8 +102,8 @@ void Builder::add_exclusions(ExclusivityStyle style) {
         for (const std::uint32_t from : members[a].nodes) {
           for (const std::uint32_t to : members[b].nodes) {
             if (from == to) continue;
-            const auto [pair, is_new] = pairs.try_emplace(std::minmax(from, to), *mark);
-            if (!is_new) pair->second = combine(pair->second, *mark);
+            Mark& known = pairs.try_emplace(std::minmax(from, to), *mark).first->second;
+            if (known == Mark::plain) known = *mark;
           }
         }
       }

@@ -11,6 +11,7 @@ std::string with_sign(Mark mark, std::string label) {
   std::string_view sign;
   if (mark == Mark::added) sign = "+";
   if (mark == Mark::removed) sign = "−";
+  if (mark == Mark::changed) sign = "~";
   if (sign.empty()) return label;
   return std::string(sign) + (label.empty() ? "" : " ") + std::move(label);
 }

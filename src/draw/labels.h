@@ -11,7 +11,8 @@ namespace cbc::draw {
 [[nodiscard]] std::string label_of(const CatalogGraph::Performance& performance);
 [[nodiscard]] std::string label_of(const CatalogGraph::Requirement& requirement);
 
-/// The label of something that one of two catalogs has: "+ 90 %", "− 90 %"; else as it is.
+/// The label of a line with a sign for its mark: "+ 90 %", "− 90 %", "~ 90 %" if it is added,
+/// removed, changed.
 [[nodiscard]] std::string with_sign(Mark mark, std::string label);
 
 }  // namespace cbc::draw

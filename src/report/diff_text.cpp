@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "text/decimal.h"
+#include "diff/attribute_text.h"
 #include "text/quote.h"
 
 namespace cbc {
@@ -12,20 +12,6 @@ namespace {
 
 using Kind = CatalogChange::Kind;
 using Subject = CatalogChange::Subject;
-
-std::string describe(const AttributeValue& value) {
-  if (const bool* const truth = std::get_if<bool>(&value)) return *truth ? "true" : "false";
-  if (const Millionths* const degree = std::get_if<Millionths>(&value)) {
-    return format_decimal(*degree, 4) + " %";
-  }
-  if (const Microseconds* const time = std::get_if<Microseconds>(&value)) {
-    return format_decimal(*time, 6) + " s";
-  }
-  if (const std::string* const text = std::get_if<std::string>(&value)) {
-    return text->empty() ? "any" : printable(*text);
-  }
-  return "none";
-}
 
 std::string describe_subject(const CatalogChange& change) {
   const std::string task = printable(change.task);
@@ -43,15 +29,6 @@ std::string describe_subject(const CatalogChange& change) {
       return task + " excludes " + printable(change.other_task);
   }
   return {};
-}
-
-std::string describe_attribute(const CatalogChange& change, const AttributeChange& attribute) {
-  const std::string name = printable(attribute.name);
-  if (change.kind == Kind::changed) {
-    return fmt::format("{} {} -> {}", name, describe(attribute.before), describe(attribute.after));
-  }
-  return fmt::format("{} {}", name,
-                     describe(change.kind == Kind::added ? attribute.after : attribute.before));
 }
 
 }  // namespace
@@ -76,7 +53,7 @@ std::string diff_text(const CatalogDiff& diff, const Style& style) {
     for (const AttributeChange& attribute : change.attributes) {
       if (is_whole) break;
       line += separator;
-      line += describe_attribute(change, attribute);
+      line += describe(change, attribute);
       separator = ", ";
     }
     text += style.paint(color, line) + "\n";

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <iterator>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -15,6 +16,8 @@
 #include "catalog/reader.h"
 #include "compiled/compile.h"
 #include "diff/catalog_diff.h"
+#include "draw/diff_graph.h"
+#include "draw/mark.h"
 #include "generator.h"
 #include "random.h"
 #include "yaml_text.h"
@@ -149,6 +152,78 @@ std::vector<std::string> lines_of(CatalogDiff diff) {
   return lines;
 }
 
+/// What both catalogs say, each statement with the sign of its mark in the picture: '=' if nothing
+/// has changed. Attributes of tasks and behaviors do not count, as above.
+std::vector<std::string> signs(const Statements& before, const Statements& after) {
+  std::set<std::string> lines;
+  const auto is_thing = [](const std::string& statement) {
+    return statement.starts_with("task ") || statement.starts_with("behavior ");
+  };
+  for (const auto& [statement, attributes] : before) {
+    const auto other = after.find(statement);
+    if (other == after.end()) {
+      lines.insert("- " + statement);
+    } else {
+      const bool is_same = is_thing(statement) || other->second == attributes;
+      lines.insert((is_same ? "= " : "~ ") + statement);
+    }
+  }
+  for (const auto& [statement, attributes] : after) {
+    if (before.count(statement) == 0) lines.insert("+ " + statement);
+  }
+  return {lines.begin(), lines.end()};
+}
+
+std::string sign_of(draw::Mark mark) {
+  switch (mark) {
+    case draw::Mark::added:
+      return "+ ";
+    case draw::Mark::removed:
+      return "- ";
+    case draw::Mark::changed:
+      return "~ ";
+    default:
+      return mark == draw::Mark::plain ? "= " : "? ";
+  }
+}
+
+std::vector<std::string> signs(const draw::CatalogGraph& graph) {
+  std::set<std::string> lines;
+  const auto sign_of_thing = [](draw::Mark mark) {
+    return mark == draw::Mark::changed ? sign_of(draw::Mark::plain) : sign_of(mark);
+  };
+  for (const auto& task : graph.tasks) {
+    lines.insert(sign_of_thing(task.mark) + "task " + std::string(task.name));
+  }
+  for (const auto& behavior : graph.behaviors) {
+    lines.insert(sign_of_thing(behavior.mark) + "behavior " + std::string(behavior.name));
+  }
+  const auto statement = [&](const auto& link, const char* verb) {
+    return sign_of(link.mark) + std::string(graph.behaviors[link.behavior].name) + verb +
+           std::string(graph.tasks[link.task].name);
+  };
+  for (const auto& link : graph.performances) lines.insert(statement(link, " performs "));
+  for (const auto& link : graph.requirements) lines.insert(statement(link, " requires "));
+  // A pair that stands in several lists is new or gone if one of them says so.
+  std::map<std::string, std::string> exclusions;
+  for (std::size_t list = 0; list < graph.exclusions.size(); ++list) {
+    const auto tasks = graph.exclusions[list];
+    const auto marks = graph.exclusion_marks[list];
+    for (std::size_t one = 0; one < tasks.size(); ++one) {
+      for (std::size_t other = 0; other < one; ++other) {
+        const auto mark = draw::join(marks[one], marks[other]);
+        if (!mark) continue;
+        const auto& [a, b] =
+            std::minmax(graph.tasks[tasks[one]].name, graph.tasks[tasks[other]].name);
+        std::string& sign = exclusions[std::string(a) + " excludes " + std::string(b)];
+        if (sign.empty() || sign == "= ") sign = sign_of(*mark);
+      }
+    }
+  }
+  for (const auto& [exclusion, sign] : exclusions) lines.insert(sign + exclusion);
+  return {lines.begin(), lines.end()};
+}
+
 /// The same meaning, otherwise written: tasks, behaviors and lists in another order, lists twice,
 /// or as pairs.
 Catalog reordered(const Catalog& catalog, Random& random) {
@@ -183,12 +258,27 @@ Catalog reordered(const Catalog& catalog, Random& random) {
   return result;
 }
 
+/// Takes a task out of a list of exclusive ones, or puts into it one that nothing requires.
+void change_list(Catalog& catalog, Random& random) {
+  if (catalog.exclusivity.empty()) return;
+  auto& list = catalog.exclusivity[random.below(catalog.exclusivity.size())];
+  if (list.size() > 2 && random.percent(50)) {
+    list.erase(list.begin() + static_cast<std::ptrdiff_t>(random.below(list.size())));
+    return;
+  }
+  const std::size_t place = catalog.tasks.size();
+  catalog.tasks.push_back({});
+  catalog.tasks.back().name = "EXCLUDED_" + std::to_string(place);
+  catalog.tasks.back().listed = true;
+  list.push_back(place);
+}
+
 /// Changes that leave a catalog valid.
 void change(Catalog& catalog, Random& random) {
   if (catalog.tasks.empty() || catalog.behaviors.empty()) return;
   const std::size_t task = random.below(catalog.tasks.size());
   const std::size_t behavior = random.below(catalog.behaviors.size());
-  switch (random.below(8)) {
+  switch (random.below(10)) {
     case 0:
       catalog.tasks[task].name += "_NEW";
       break;
@@ -217,8 +307,11 @@ void change(Catalog& catalog, Random& random) {
         catalog.behaviors[behavior].performs.back().suitability = random.between(0, 9) * 100'000;
       }
       break;
-    default:
+    case 7:
       if (!catalog.exclusivity.empty()) catalog.exclusivity.pop_back();
+      break;
+    default:
+      change_list(catalog, random);
       break;
   }
 }
@@ -231,7 +324,7 @@ CompiledCatalog compiled(const Catalog& catalog, Random& forms) {
   return compile(read.value());
 }
 
-TEST(Diff, IsThatOfPlainSets) {
+TEST(Diff, AndItsPictureAreThoseOfPlainSets) {
   const std::uint64_t first = environment("CBC_SEED", 1);
   const std::uint64_t cases = environment("CBC_PROPERTY_CASES", default_cases);
   std::size_t changes = 0;
@@ -245,9 +338,13 @@ TEST(Diff, IsThatOfPlainSets) {
     for (std::size_t count = random.below(4) + 1; count > 0; --count) change(after, random);
     const CompiledCatalog other = compiled(after, random);
     const auto expected = differences(statements_of(before), statements_of(after));
-    ASSERT_EQ(lines_of(compare_catalogs(one, other)), expected) << "CBC_SEED=" << seed;
+    const CatalogDiff diff = compare_catalogs(one, other);
+    ASSERT_EQ(lines_of(diff), expected) << "CBC_SEED=" << seed;
     ASSERT_EQ(lines_of(compare_catalogs(other, one)),
               differences(statements_of(after), statements_of(before)))
+        << "CBC_SEED=" << seed;
+    ASSERT_EQ(signs(draw::to_graph(one, other, diff)),
+              signs(statements_of(before), statements_of(after)))
         << "CBC_SEED=" << seed;
     changes += expected.size();
   }

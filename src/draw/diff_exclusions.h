@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <unordered_map>
+
+#include "compiled/compiled_catalog.h"
+#include "diff/catalog_diff.h"
+#include "draw/catalog_graph.h"
+
+namespace cbc::draw {
+
+/// Marks what has changed in the lists of exclusive tasks of `graph`, which are those of the newer
+/// catalog, and adds what the older one alone excludes. `tasks` finds the tasks of both catalogs in
+/// the graph by name.
+///
+/// A task that excludes all others of a list since, or no longer, is marked in that list. What is
+/// left are pairs, each a list of its own.
+void mark_exclusions(const CompiledCatalog& before,
+                     const std::unordered_map<std::string_view, std::uint32_t>& tasks,
+                     const CatalogDiff& diff, CatalogGraph& graph);
+
+}  // namespace cbc::draw

@@ -1,0 +1,175 @@
+#include "draw/diff_graph.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "diff/attribute_text.h"
+#include "draw/diff_exclusions.h"
+
+namespace cbc::draw {
+namespace {
+
+using Kind = CatalogChange::Kind;
+using Subject = CatalogChange::Subject;
+using Places = std::unordered_map<std::string_view, std::uint32_t>;
+
+Mark mark_of(Kind kind) {
+  switch (kind) {
+    case Kind::removed:
+      return Mark::removed;
+    case Kind::added:
+      return Mark::added;
+    case Kind::changed:
+      break;
+  }
+  return Mark::changed;
+}
+
+template <typename Link>
+std::pair<std::uint32_t, std::uint32_t> place_of(const Link& link) {
+  return {link.behavior, link.task};
+}
+
+/// 0 if there is none.
+Millionths degree_of(const AttributeValue& value) {
+  const Millionths* const degree = std::get_if<Millionths>(&value);
+  return degree == nullptr ? 0 : *degree;
+}
+
+class Union {
+ public:
+  Union(const CompiledCatalog& before, const CompiledCatalog& after, const CatalogDiff& diff)
+      : before_(before), diff_(diff), graph_(to_graph(after)) {
+    for (const auto& task : graph_.tasks) tasks_.emplace(task.name, tasks_.size());
+    for (const auto& behavior : graph_.behaviors) {
+      behaviors_.emplace(behavior.name, behaviors_.size());
+    }
+    performances_ = graph_.performances.size();
+    requirements_ = graph_.requirements.size();
+  }
+
+  CatalogGraph run() && {
+    for (const CatalogChange& change : diff_.changes) {
+      switch (change.subject) {
+        case Subject::task:
+          mark_task(change);
+          break;
+        case Subject::behavior:
+          mark_behavior(change);
+          break;
+        case Subject::performs:
+          mark_performance(change);
+          break;
+        case Subject::requirement:
+          mark_requirement(change);
+          break;
+        case Subject::exclusion:
+          break;  // all at once
+      }
+    }
+    sort(graph_.performances);
+    sort(graph_.requirements);
+    mark_exclusions(before_, tasks_, diff_, graph_);
+    connect(graph_);
+    return std::move(graph_);
+  }
+
+ private:
+  /// Of what both have: what has changed. Of others, that is said by the word.
+  static std::vector<std::string> notes_of(const CatalogChange& change) {
+    if (change.kind != Kind::changed) return {std::string(cbc::name_of(change.kind))};
+    std::vector<std::string> notes;
+    for (const AttributeChange& attribute : change.attributes) {
+      notes.push_back(describe(change, attribute));
+    }
+    return notes;
+  }
+
+  void mark_task(const CatalogChange& change) {
+    if (change.kind == Kind::removed) {
+      tasks_.emplace(change.task, graph_.tasks.size());
+      CatalogGraph::Task& task = graph_.tasks.emplace_back();
+      task.name = change.task;
+      task.group = none;
+    }
+    CatalogGraph::Task& task = graph_.tasks[tasks_.at(change.task)];
+    task.mark = mark_of(change.kind);
+    task.notes = notes_of(change);
+  }
+
+  void mark_behavior(const CatalogChange& change) {
+    if (change.kind == Kind::removed) {
+      behaviors_.emplace(change.behavior, graph_.behaviors.size());
+      graph_.behaviors.emplace_back().name = change.behavior;
+    }
+    CatalogGraph::Behavior& behavior = graph_.behaviors[behaviors_.at(change.behavior)];
+    behavior.mark = mark_of(change.kind);
+    behavior.notes = notes_of(change);
+  }
+
+  /// The link of the change, which is a new one if the newer catalog does not have it. `known` of
+  /// the links, the first ones, are in order.
+  template <typename Link>
+  Link& link_of(const CatalogChange& change, std::vector<Link>& links, std::size_t known) {
+    const std::uint32_t behavior = behaviors_.at(change.behavior);
+    const std::uint32_t task = tasks_.at(change.task);
+    if (change.kind == Kind::removed) {
+      Link& link = links.emplace_back();
+      link.behavior = behavior;
+      link.task = task;
+      link.mark = Mark::removed;
+      return link;
+    }
+    const auto end = links.begin() + static_cast<std::ptrdiff_t>(known);
+    Link& link = *std::lower_bound(
+        links.begin(), end, std::pair(behavior, task),
+        [](const Link& one, const auto& sought) { return place_of(one) < sought; });
+    link.mark = mark_of(change.kind);
+    return link;
+  }
+
+  void mark_performance(const CatalogChange& change) {
+    CatalogGraph::Performance& link = link_of(change, graph_.performances, performances_);
+    const Millionths before = degree_of(change.attributes.front().before);
+    if (change.kind == Kind::removed) link.suitability = before;
+    if (change.kind == Kind::changed) link.before = before;
+  }
+
+  /// A requirement without a minimum performance has no attribute that could differ.
+  void mark_requirement(const CatalogChange& change) {
+    CatalogGraph::Requirement& link = link_of(change, graph_.requirements, requirements_);
+    const Millionths before =
+        change.attributes.empty() ? 0 : degree_of(change.attributes.front().before);
+    if (change.kind == Kind::removed) link.minimum_performance = before;
+    if (change.kind == Kind::changed) link.before = before;
+  }
+
+  template <typename Link>
+  static void sort(std::vector<Link>& links) {
+    std::sort(links.begin(), links.end(),
+              [](const Link& a, const Link& b) { return place_of(a) < place_of(b); });
+  }
+
+  const CompiledCatalog& before_;
+  const CatalogDiff& diff_;
+  CatalogGraph graph_;
+  Places tasks_;
+  Places behaviors_;
+  std::size_t performances_ = 0;  ///< of the newer catalog
+  std::size_t requirements_ = 0;
+};
+
+}  // namespace
+
+CatalogGraph to_graph(const CompiledCatalog& before, const CompiledCatalog& after,
+                      const CatalogDiff& diff) {
+  return Union(before, after, diff).run();
+}
+
+}  // namespace cbc::draw
