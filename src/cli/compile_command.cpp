@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* footer =
+constexpr const char* compile_footer =
     "Examples:\n"
     "  cbc compile quadrotor.yaml                     writes quadrotor.cbc\n"
     "  cbc compile quadrotor.yaml -o robot/catalog.cbc\n"
@@ -55,11 +55,6 @@ struct CompileCommand {
   bool check = false;
   bool dump = false;
 };
-
-int usage_error(const std::string& message) {
-  complain(message + "\nSee 'cbc compile --help'.");
-  return exit_unusable;
-}
 
 /// What is wrong with the combination of options; empty if nothing is.
 std::string find_misuse(const CompileCommand& command) {
@@ -157,7 +152,8 @@ int compile_to_file(const CompileCommand& command) {
   const std::string output = output_of(command);
   std::error_code ignored;
   if (output != "-" && fs::equivalent(command.catalog, output, ignored)) {
-    return usage_error(fmt::format("the output {} is the catalog itself", quote(output)));
+    return usage_error("compile",
+                       fmt::format("the output {} is the catalog itself", quote(output)));
   }
   const std::optional<Compiled> compiled = compile_source(*source);
   return compiled ? write(output, compiled->content) : exit_unusable;
@@ -222,7 +218,8 @@ int dump(const CompileCommand& command) {
 }
 
 int run_compile(const CompileCommand& command) {
-  if (const std::string misuse = find_misuse(command); !misuse.empty()) return usage_error(misuse);
+  if (const std::string misuse = find_misuse(command); !misuse.empty())
+    return usage_error("compile", misuse);
   if (command.dump) return dump(command);
   return command.check ? check(command) : compile_to_file(command);
 }
@@ -233,7 +230,7 @@ void add_compile_command(CLI::App& program, int& status) {
   const auto options = std::make_shared<CompileCommand>();
   CLI::App* const command = program.add_subcommand(
       "compile", "Writes a catalog in the form that robots load in microseconds.");
-  command->footer(footer);
+  command->footer(compile_footer);
   command
       ->add_option("CATALOG", options->catalog, "The catalog: a YAML file, or - for standard input")
       ->option_text(" ")

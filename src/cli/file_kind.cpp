@@ -4,7 +4,7 @@
 #include <array>
 
 #include "text/nearest.h"
-#include "yaml/source_lines.h"
+#include "text/utf8.h"
 
 namespace cbc::cli {
 namespace {
@@ -20,7 +20,7 @@ bool has_any(const yaml::Node& node, const Keys& keys) {
 
 /// Whether a line begins with one of the keys.
 bool has_line_with_key(std::string_view text) {
-  text = yaml::without_byte_order_mark(text);
+  text = utf8::without_byte_order_mark(text);
   for (std::size_t begin = 0; begin < text.size();) {
     const std::string_view line = text.substr(begin, text.find('\n', begin) - begin);
     for (const std::string_view key : catalog_keys) {

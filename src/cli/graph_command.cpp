@@ -38,7 +38,7 @@
 namespace cbc::cli {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* graph_footer =
     "Examples:\n"
     "  cbc graph quadrotor.yaml | dot -Tx11            in a window\n"
     "  cbc graph quadrotor.yaml -o quadrotor.svg       or .png, .pdf, .mmd, .json, .dot\n"
@@ -67,11 +67,6 @@ struct GraphCommand {
   std::string format;
   DrawingOptions drawing;
 };
-
-int usage_error(const std::string& message) {
-  complain(message + "\nSee 'cbc graph --help'.");
-  return exit_unusable;
-}
 
 /// The format that the suffix of the output names.
 std::string format_of(const GraphCommand& command) {
@@ -204,7 +199,8 @@ bool can_write(const GraphCommand& command) {
   for (const std::string& catalog : command.catalogs) {
     std::error_code ignored;
     if (!std::filesystem::equivalent(catalog, *command.output, ignored)) continue;
-    usage_error(fmt::format("the output {} is the catalog itself", quote(*command.output)));
+    usage_error("graph",
+                fmt::format("the output {} is the catalog itself", quote(*command.output)));
     return false;
   }
   return true;
@@ -249,7 +245,8 @@ int draw_diff(const GraphCommand& command) {
 }
 
 int run_graph(const GraphCommand& command) {
-  if (const std::string misuse = find_misuse(command); !misuse.empty()) return usage_error(misuse);
+  if (const std::string misuse = find_misuse(command); !misuse.empty())
+    return usage_error("graph", misuse);
   if (!can_write(command)) return exit_unusable;
   return command.is_diff ? draw_diff(command) : draw_catalog(command);
 }
@@ -260,7 +257,7 @@ void add_graph_command(CLI::App& program, int& status) {
   const auto options = std::make_shared<GraphCommand>();
   CLI::App* const command =
       program.add_subcommand("graph", "Draws the tasks and behaviors of a catalog.");
-  command->footer(footer);
+  command->footer(graph_footer);
   command
       ->add_option("CATALOG", options->catalogs,
                    "The catalog: YAML or a compiled one, or - for standard input;\n"

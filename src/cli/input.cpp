@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/exit_status.h"
 #include "compiled/compiled_file.h"
 #include "text/quote.h"
 
@@ -95,6 +96,11 @@ void complain(const std::string& message) {
   const std::string line = "cbc: " + message + "\n";
   // Where it cannot be written, the exit status still tells; no stream ends for it.
   static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
+}
+
+int usage_error(std::string_view command, const std::string& message) {
+  complain(fmt::format("{}\nSee 'cbc {} --help'.", message, command));
+  return exit_unusable;
 }
 
 }  // namespace cbc::cli

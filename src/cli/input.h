@@ -34,4 +34,7 @@ inline constexpr const char* stdin_only_once =
 /// Prints a complaint to standard error.
 void complain(const std::string& message);
 
+/// The same about the command line of a command, whose help it points to. Returns the exit status.
+int usage_error(std::string_view command, const std::string& message);
+
 }  // namespace cbc::cli

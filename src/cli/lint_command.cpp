@@ -34,7 +34,7 @@
 namespace cbc::cli {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* lint_footer =
     "Examples:\n"
     "  cbc lint quadrotor.yaml                        every mistake, with its place and reason\n"
     "  cbc lint --strict catalogs/                    all catalogs of a folder; warnings fail, "
@@ -68,20 +68,15 @@ struct LintCommand {
   bool diff = false;
 };
 
-int usage_error(const std::string& message) {
-  complain(message + "\nSee 'cbc lint --help'.");
-  return exit_unusable;
-}
-
 int explain_rule(const std::string& name) {
   const Rule* rule = find_rule(name);
   if (rule == nullptr) {
     std::vector<std::string_view> names;
     for (const Rule& known : all_rules()) names.push_back(known.name);
     const auto meant = nearest(name, names);
-    return usage_error(fmt::format(
-        "there is no rule {}{}", quote(name),
-        meant ? fmt::format("; did you mean {}?", quote(*meant)) : " (--list-rules lists them)"));
+    return usage_error("lint", fmt::format("there is no rule {}{}", quote(name),
+                                           meant ? fmt::format("; did you mean {}?", quote(*meant))
+                                                 : " (--list-rules lists them)"));
   }
   fmt::print("{}", rule_text(*rule, style_for(stdout)));
   return exit_ok;
@@ -199,7 +194,8 @@ int lint(const LintCommand& command) {
     return exit_ok;
   }
   if (!command.explain.empty()) return explain_rule(command.explain);
-  if (const std::string misuse = find_misuse(command); !misuse.empty()) return usage_error(misuse);
+  if (const std::string misuse = find_misuse(command); !misuse.empty())
+    return usage_error("lint", misuse);
 
   Linter::Options options;
   options.lint.max_nodes = command.max_nodes;
@@ -227,7 +223,7 @@ void add_lint_command(CLI::App& program, int& status) {
   const auto options = std::make_shared<LintCommand>();
   CLI::App* const command = program.add_subcommand(
       "lint", "Finds every mistake in catalogs, with its place and its reason.");
-  command->footer(footer);
+  command->footer(lint_footer);
   command
       ->add_option("CATALOG", options->paths,
                    "Catalogs: files, folders (all *.yaml and *.yml in them\n"

@@ -30,7 +30,7 @@ constexpr const char* description =
     "Checks and compiles behavior catalogs, and solves them offline: which behaviors of a robot\n"
     "should be active, proven best, on every event.";
 
-constexpr const char* footer =
+constexpr const char* program_footer =
     "Examples:\n"
     "  cbc lint quadrotor.yaml\n"
     "  cbc compile quadrotor.yaml -o quadrotor.cbc\n"
@@ -72,7 +72,7 @@ int run(int argc, char** argv) {
   CLI::App program(description, "cbc");
   program.set_version_flag("--version", "cbc " + std::string(cbc::version));
   program.require_subcommand(1);
-  program.footer(footer);
+  program.footer(program_footer);
   int status = exit_ok;
   add_lint_command(program, status);
   add_compile_command(program, status);

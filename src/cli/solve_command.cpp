@@ -20,7 +20,7 @@
 namespace cbc::cli {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* solve_footer =
     "Examples:\n"
     "  cbc solve quadrotor.yaml mission.yaml          one script, for a person to read\n"
     "  cbc solve quadrotor.yaml missions/ --format json\n"
@@ -100,8 +100,7 @@ std::string find_clash(const SolveOptions& options) {
 
 int solve(const SolveOptions& options) {
   if (const std::string clash = find_clash(options); !clash.empty()) {
-    complain(clash + "\nSee 'cbc solve --help'.");
-    return exit_unusable;
+    return usage_error("solve", clash);
   }
   if (options.sweep.is_wanted()) return run_sweep(options);
   if (options.stream.replay) return replay_stream(options);
@@ -115,7 +114,7 @@ void add_solve_command(CLI::App& program, int& status) {
   const auto options = std::make_shared<SolveOptions>();
   CLI::App* const command = program.add_subcommand(
       "solve", "Runs scripted events through the coordinator, with the proven best answers.");
-  command->footer(footer);
+  command->footer(solve_footer);
   command
       ->add_option("CATALOG SCRIPT", options->paths,
                    "The catalog (YAML or compiled), then event scripts: files,\n"

@@ -11,7 +11,6 @@
 namespace cbc {
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 constexpr std::string_view replacement_character = "\xEF\xBF\xBD";
 constexpr std::string_view indentation = "  ";
 constexpr std::string_view ellipsis = "...";
@@ -97,10 +96,7 @@ std::string render_place(const std::string& file, const Range& range, Severity s
 }  // namespace
 
 void SourceTexts::add(std::string file, std::string_view text) {
-  if (text.substr(0, byte_order_mark.size()) == byte_order_mark) {
-    text.remove_prefix(byte_order_mark.size());
-  }
-  texts_.try_emplace(std::move(file), text);
+  texts_.try_emplace(std::move(file), utf8::without_byte_order_mark(text));
 }
 
 PositionMap::Excerpt SourceTexts::excerpt(std::string_view file, const Position& place,

@@ -11,7 +11,7 @@ namespace {
 std::string describe_value(const AttributeValue& value) {
   if (const bool* const truth = std::get_if<bool>(&value)) return *truth ? "true" : "false";
   if (const Millionths* const degree = std::get_if<Millionths>(&value)) {
-    return format_decimal(*degree, 4) + " %";
+    return format_percent(*degree);
   }
   if (const Microseconds* const time = std::get_if<Microseconds>(&value)) {
     return format_decimal(*time, 6) + " s";

@@ -12,8 +12,8 @@
 namespace cbc {
 namespace {
 
-using Kind = CatalogChange::Kind;
-using Subject = CatalogChange::Subject;
+using ChangeKind = CatalogChange::Kind;
+using ChangeSubject = CatalogChange::Subject;
 
 /// An attribute and its value.
 struct Attribute {
@@ -68,23 +68,23 @@ Attributes attributes_of_behavior(const CompiledCatalog& catalog, std::uint32_t 
           {"timeout", unless_zero(catalog.behaviors[catalog.behavior_ids[index]].timeout)}};
 }
 
-std::vector<Fact> facts(const CompiledCatalog& catalog, Subject subject) {
+std::vector<Fact> facts(const CompiledCatalog& catalog, ChangeSubject subject) {
   std::vector<Fact> result;
   const auto task_count = static_cast<std::uint32_t>(catalog.tasks.size());
   const auto behavior_count = static_cast<std::uint32_t>(catalog.behaviors.size());
   switch (subject) {
-    case Subject::task:
+    case ChangeSubject::task:
       for (std::uint32_t task = 0; task < task_count; ++task) {
         result.push_back({catalog.task_names[task], {}, attributes_of_task(catalog, task)});
       }
       break;
-    case Subject::behavior:
+    case ChangeSubject::behavior:
       for (std::uint32_t behavior = 0; behavior < behavior_count; ++behavior) {
         result.push_back(
             {catalog.behavior_names[behavior], {}, attributes_of_behavior(catalog, behavior)});
       }
       break;
-    case Subject::performs:
+    case ChangeSubject::performs:
       for (TaskId task = 0; task < task_count; ++task) {
         for (const Value& value : catalog.values[task]) {
           result.push_back({catalog.name_of_behavior(value.behavior),
@@ -93,7 +93,7 @@ std::vector<Fact> facts(const CompiledCatalog& catalog, Subject subject) {
         }
       }
       break;
-    case Subject::requirement:
+    case ChangeSubject::requirement:
       for (BehaviorId behavior = 0; behavior < behavior_count; ++behavior) {
         for (const CompiledRequirement& requirement : catalog.requirements[behavior]) {
           result.push_back(
@@ -103,7 +103,7 @@ std::vector<Fact> facts(const CompiledCatalog& catalog, Subject subject) {
         }
       }
       break;
-    case Subject::exclusion:
+    case ChangeSubject::exclusion:
       break;  // see compare_exclusions
   }
   std::sort(result.begin(), result.end(), [](const Fact& a, const Fact& b) {
@@ -138,20 +138,20 @@ std::vector<AttributeChange> compare(const Attributes& before, const Attributes&
   return changes;
 }
 
-CatalogChange to_change(Kind kind, Subject subject, const Fact& fact,
+CatalogChange to_change(ChangeKind kind, ChangeSubject subject, const Fact& fact,
                         std::vector<AttributeChange> attributes) {
   CatalogChange change;
   change.kind = kind;
   change.subject = subject;
-  (subject == Subject::task ? change.task : change.behavior) = fact.first;
-  if (subject != Subject::task) change.task = fact.second;
+  (subject == ChangeSubject::task ? change.task : change.behavior) = fact.first;
+  if (subject != ChangeSubject::task) change.task = fact.second;
   change.attributes = std::move(attributes);
   return change;
 }
 
 /// Walks through both in the order of names.
-void compare_facts(Subject subject, const std::vector<Fact>& before, const std::vector<Fact>& after,
-                   std::vector<CatalogChange>& changes) {
+void compare_facts(ChangeSubject subject, const std::vector<Fact>& before,
+                   const std::vector<Fact>& after, std::vector<CatalogChange>& changes) {
   auto old = before.begin();
   auto now = after.begin();
   const auto precedes = [](const Fact& a, const Fact& b) {
@@ -159,15 +159,16 @@ void compare_facts(Subject subject, const std::vector<Fact>& before, const std::
   };
   while (old != before.end() || now != after.end()) {
     if (now == after.end() || (old != before.end() && precedes(*old, *now))) {
-      changes.push_back(to_change(Kind::removed, subject, *old, compare(old->attributes, {})));
+      changes.push_back(
+          to_change(ChangeKind::removed, subject, *old, compare(old->attributes, {})));
       ++old;
     } else if (old == before.end() || precedes(*now, *old)) {
-      changes.push_back(to_change(Kind::added, subject, *now, compare({}, now->attributes)));
+      changes.push_back(to_change(ChangeKind::added, subject, *now, compare({}, now->attributes)));
       ++now;
     } else {
       std::vector<AttributeChange> attributes = compare(old->attributes, now->attributes);
       if (!attributes.empty()) {
-        changes.push_back(to_change(Kind::changed, subject, *now, std::move(attributes)));
+        changes.push_back(to_change(ChangeKind::changed, subject, *now, std::move(attributes)));
       }
       ++old;
       ++now;
@@ -177,12 +178,12 @@ void compare_facts(Subject subject, const std::vector<Fact>& before, const std::
 
 }  // namespace
 
-std::string_view name_of(Kind kind) {
+std::string_view name_of(ChangeKind kind) {
   constexpr std::array<std::string_view, 3> names{"removed", "added", "changed"};
   return names[static_cast<std::size_t>(kind)];
 }
 
-std::string_view name_of(Subject subject) {
+std::string_view name_of(ChangeSubject subject) {
   constexpr std::array<std::string_view, 5> names{"task", "behavior", "performs", "requirement",
                                                   "exclusion"};
   return names[static_cast<std::size_t>(subject)];
@@ -190,8 +191,8 @@ std::string_view name_of(Subject subject) {
 
 CatalogDiff compare_catalogs(const CompiledCatalog& before, const CompiledCatalog& after) {
   CatalogDiff diff;
-  for (const Subject subject :
-       {Subject::task, Subject::behavior, Subject::performs, Subject::requirement}) {
+  for (const ChangeSubject subject : {ChangeSubject::task, ChangeSubject::behavior,
+                                      ChangeSubject::performs, ChangeSubject::requirement}) {
     compare_facts(subject, facts(before, subject), facts(after, subject), diff.changes);
   }
   compare_exclusions(before, after, diff);

@@ -26,8 +26,8 @@ class Builder {
   /// between their behaviors.
   void add_exclusions(ExclusivityStyle style);
 
-  /// `from` and `to` are nodes. Returns the edge, whose label has the sign of the mark, and which is
-  /// faint beside something faint.
+  /// `from` and `to` are nodes. Returns the edge, whose label has the sign of the mark, and which
+  /// is faint beside something faint.
   Edge& add_edge(EdgeKind kind, std::uint32_t from, std::uint32_t to, Mark mark = Mark::plain);
 
   [[nodiscard]] const CatalogGraph& graph() const { return graph_; }

@@ -15,17 +15,17 @@
 namespace cbc::draw {
 namespace {
 
-using Kind = CatalogChange::Kind;
-using Subject = CatalogChange::Subject;
+using ChangeKind = CatalogChange::Kind;
+using ChangeSubject = CatalogChange::Subject;
 using Places = std::unordered_map<std::string_view, std::uint32_t>;
 
-Mark mark_of(Kind kind) {
+Mark mark_of(ChangeKind kind) {
   switch (kind) {
-    case Kind::removed:
+    case ChangeKind::removed:
       return Mark::removed;
-    case Kind::added:
+    case ChangeKind::added:
       return Mark::added;
-    case Kind::changed:
+    case ChangeKind::changed:
       break;
   }
   return Mark::changed;
@@ -57,19 +57,19 @@ class Union {
   CatalogGraph run() && {
     for (const CatalogChange& change : diff_.changes) {
       switch (change.subject) {
-        case Subject::task:
+        case ChangeSubject::task:
           mark_task(change);
           break;
-        case Subject::behavior:
+        case ChangeSubject::behavior:
           mark_behavior(change);
           break;
-        case Subject::performs:
+        case ChangeSubject::performs:
           mark_performance(change);
           break;
-        case Subject::requirement:
+        case ChangeSubject::requirement:
           mark_requirement(change);
           break;
-        case Subject::exclusion:
+        case ChangeSubject::exclusion:
           break;  // all at once
       }
     }
@@ -83,7 +83,7 @@ class Union {
  private:
   /// Of what both have: what has changed. Of others, that is said by the word.
   static std::vector<std::string> notes_of(const CatalogChange& change) {
-    if (change.kind != Kind::changed) return {std::string(cbc::name_of(change.kind))};
+    if (change.kind != ChangeKind::changed) return {std::string(cbc::name_of(change.kind))};
     std::vector<std::string> notes;
     for (const AttributeChange& attribute : change.attributes) {
       notes.push_back(describe(change, attribute));
@@ -92,7 +92,7 @@ class Union {
   }
 
   void mark_task(const CatalogChange& change) {
-    if (change.kind == Kind::removed) {
+    if (change.kind == ChangeKind::removed) {
       tasks_.emplace(change.task, graph_.tasks.size());
       CatalogGraph::Task& task = graph_.tasks.emplace_back();
       task.name = change.task;
@@ -104,7 +104,7 @@ class Union {
   }
 
   void mark_behavior(const CatalogChange& change) {
-    if (change.kind == Kind::removed) {
+    if (change.kind == ChangeKind::removed) {
       behaviors_.emplace(change.behavior, graph_.behaviors.size());
       graph_.behaviors.emplace_back().name = change.behavior;
     }
@@ -119,7 +119,7 @@ class Union {
   Link& link_of(const CatalogChange& change, std::vector<Link>& links, std::size_t known) {
     const std::uint32_t behavior = behaviors_.at(change.behavior);
     const std::uint32_t task = tasks_.at(change.task);
-    if (change.kind == Kind::removed) {
+    if (change.kind == ChangeKind::removed) {
       Link& link = links.emplace_back();
       link.behavior = behavior;
       link.task = task;
@@ -137,8 +137,8 @@ class Union {
   void mark_performance(const CatalogChange& change) {
     CatalogGraph::Performance& link = link_of(change, graph_.performances, performances_);
     const Millionths before = degree_of(change.attributes.front().before);
-    if (change.kind == Kind::removed) link.suitability = before;
-    if (change.kind == Kind::changed) link.before = before;
+    if (change.kind == ChangeKind::removed) link.suitability = before;
+    if (change.kind == ChangeKind::changed) link.before = before;
   }
 
   /// A requirement without a minimum performance has no attribute that could differ.
@@ -146,8 +146,8 @@ class Union {
     CatalogGraph::Requirement& link = link_of(change, graph_.requirements, requirements_);
     const Millionths before =
         change.attributes.empty() ? 0 : degree_of(change.attributes.front().before);
-    if (change.kind == Kind::removed) link.minimum_performance = before;
-    if (change.kind == Kind::changed) link.before = before;
+    if (change.kind == ChangeKind::removed) link.minimum_performance = before;
+    if (change.kind == ChangeKind::changed) link.before = before;
   }
 
   template <typename Link>

@@ -19,10 +19,10 @@ std::string with_sign(Mark mark, std::string label) {
 std::string label_of(const CatalogGraph::Performance& performance) {
   const Millionths suitability = performance.suitability;
   if (performance.before) {
-    return format_decimal(*performance.before, 4) + " → " + percent(suitability);
+    return format_decimal(*performance.before, 4) + " → " + format_percent(suitability);
   }
   return with_sign(performance.mark,
-                   suitability == one_million ? std::string() : percent(suitability));
+                   suitability == one_million ? std::string() : format_percent(suitability));
 }
 
 std::string label_of(const CatalogGraph::Requirement& requirement) {

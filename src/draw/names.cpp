@@ -48,8 +48,6 @@ std::string label_of(std::string_view name) {
   return is_blank ? quote(name) : printable(name);
 }
 
-std::string percent(Millionths degree) { return format_decimal(degree, 4) + " %"; }
-
-std::string at_least(Millionths degree) { return "≥ " + percent(degree); }
+std::string at_least(Millionths degree) { return "≥ " + format_percent(degree); }
 
 }  // namespace cbc::draw

@@ -14,9 +14,6 @@ namespace cbc::draw {
 /// A name as it is shown. One that could be overlooked stands in quotes.
 [[nodiscard]] std::string label_of(std::string_view name);
 
-/// "80 %"
-[[nodiscard]] std::string percent(Millionths degree);
-
 /// "≥ 80 %"
 [[nodiscard]] std::string at_least(Millionths degree);
 

@@ -24,9 +24,9 @@ std::set<Range> faulty_ranges(const std::vector<Diagnostic>& findings, const std
   return ranges;
 }
 
-class Builder {
+class ReadingGraph {
  public:
-  Builder(const CatalogReading& reading, const std::vector<Diagnostic>& findings)
+  ReadingGraph(const CatalogReading& reading, const std::vector<Diagnostic>& findings)
       : reading_(reading),
         catalog_(reading.catalog),
         faulty_(faulty_ranges(findings, catalog_.file)) {}
@@ -214,7 +214,7 @@ class Builder {
 }  // namespace
 
 CatalogGraph to_graph(const CatalogReading& reading, const std::vector<Diagnostic>& findings) {
-  return Builder(reading, findings).run();
+  return ReadingGraph(reading, findings).run();
 }
 
 }  // namespace cbc::draw

@@ -17,7 +17,8 @@ std::string label_of(const TaskRequirement& requirement) {
   if (requirement.highest == 0) return label;
   if (!label.empty()) label += ", ";
   if (requirement.lowest == requirement.highest) return label + at_least(requirement.highest);
-  return label + "≥ " + format_decimal(requirement.lowest, 4) + "–" + percent(requirement.highest);
+  return label + "≥ " + format_decimal(requirement.lowest, 4) + "–" +
+         format_percent(requirement.highest);
 }
 
 /// Which of them follow from others; what stands out is shown in any case.

@@ -9,32 +9,18 @@
 #include <system_error>
 #include <unistd.h>
 
+#include "file/descriptor.h"
+
 namespace cbc {
 namespace {
 
 MappedFile fail(int code) { return {nullptr, {}, std::generic_category().message(code)}; }
 
-class Descriptor {
- public:
-  // A pipe without a writer must not block.
-  explicit Descriptor(const std::string& path)
-      : number_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
-  ~Descriptor() {
-    if (number_ >= 0) close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  [[nodiscard]] int number() const { return number_; }
-
- private:
-  int number_;
-};
-
 }  // namespace
 
 MappedFile map_file(const std::string& path, std::size_t largest) {
-  const Descriptor file(path);
+  // A pipe without a writer must not block.
+  const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.number() < 0) return fail(errno);
   struct stat status {};
   if (fstat(file.number(), &status) != 0) return fail(errno);

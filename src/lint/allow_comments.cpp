@@ -13,6 +13,7 @@
 #include "text/nearest.h"
 #include "text/position_map.h"
 #include "text/quote.h"
+#include "text/utf8.h"
 #include "yaml/source_lines.h"
 
 namespace cbc {
@@ -220,7 +221,7 @@ std::vector<Diagnostic> apply_allow_comments(std::vector<Diagnostic> findings,
   Diagnostics found;
   for (Diagnostic& finding : findings) found.add(std::move(finding));
   Reporter comment_reporter(file.file, found);
-  CommentReader reader(yaml::without_byte_order_mark(file.text), comment_reporter);
+  CommentReader reader(utf8::without_byte_order_mark(file.text), comment_reporter);
   std::vector<Allow> allows = reader.read(file.document);
   Diagnostics kept;
   filter(found, allows, kept);

@@ -4,6 +4,7 @@
 
 #include "cbc/rules.h"
 #include "lint/percent.h"
+#include "text/decimal.h"
 #include "text/quote.h"
 
 namespace cbc {
@@ -18,8 +19,8 @@ void check_suitability(const Performance& performance, Reporter& reporter) {
                     "a suitability of 0 % makes the performance of all that depends on it 0");
   } else if (looks_like_fraction(suitability)) {
     reporter.report(rule::suspicious_suitability, *performance.suitability_range,
-                    "a suitability of " + show_percent(suitability) + " is next to nothing; is " +
-                        show_percent(suitability * 100) + " meant?");
+                    "a suitability of " + format_percent(suitability) + " is next to nothing; is " +
+                        format_percent(suitability * 100) + " meant?");
   }
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "lint/percent.h"
+#include "text/decimal.h"
 #include "text/quote.h"
 
 namespace cbc {
@@ -35,14 +35,14 @@ Note to_note(const Reason& reason, const Catalog& catalog, const CompiledCatalog
   if (reason.behavior == none) {
     return reporter.note(
         task.minimum_performance_range,
-        quote(task.name) + " runs with at least " + show_percent(reason.minimum_performance));
+        quote(task.name) + " runs with at least " + format_percent(reason.minimum_performance));
   }
   const Behavior& behavior = catalog.behaviors[compiled.behaviors[reason.behavior].catalog_index];
   const Requirement& requirement = strongest_requirement(behavior, task_index);
   if (reason.kind == Reason::Kind::performance) {
     return reporter.note(requirement.minimum_performance_range,
                          "behavior " + quote(behavior.name) + " requires " + quote(task.name) +
-                             " with at least " + show_percent(reason.minimum_performance));
+                             " with at least " + format_percent(reason.minimum_performance));
   }
   return reporter.note(requirement.range,
                        "behavior " + quote(behavior.name) + " requires " + quote(task.name));

@@ -9,12 +9,11 @@
 
 #include "lint/entry_spans.h"
 #include "text/position_map.h"
+#include "text/utf8.h"
 #include "yaml/document.h"
 
 namespace cbc {
 namespace {
-
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// An edit whose place in the text is known.
 struct Change {
@@ -162,11 +161,8 @@ void drop_line_break(std::string& text) {
 
 FixedText apply_fixes(std::string_view text, std::span<const Diagnostic> findings) {
   FixedText fixed;
-  std::string_view body = text;
-  if (body.starts_with(byte_order_mark)) {
-    fixed.text = byte_order_mark;
-    body.remove_prefix(byte_order_mark.size());
-  }
+  const std::string_view body = utf8::without_byte_order_mark(text);
+  fixed.text = text.substr(0, text.size() - body.size());
   const Placement placement(text, body, findings);
   std::vector<Fix> fixes;
   for (std::size_t number = 0; number < findings.size(); ++number) {

@@ -7,6 +7,7 @@
 #include "cbc/rules.h"
 #include "lint/percent.h"
 #include "solver/exact_product.h"
+#include "text/decimal.h"
 #include "text/quote.h"
 
 namespace cbc {
@@ -39,13 +40,13 @@ class MinimumCheck {
       if (best.exists == Feasibility::unknown) {
         semantics_.report_undecided(
             requirement.minimum_performance_range,
-            "whether " + name + " can reach " + show_percent(requirement.minimum_performance));
+            "whether " + name + " can reach " + format_percent(requirement.minimum_performance));
       } else if (best.exists == Feasibility::yes &&
                  is_below(best.factors, requirement.minimum_performance)) {
         semantics_.reporter().report(
             rule::unreachable_performance, requirement.minimum_performance_range,
             "behavior " + quote(behavior.name) + " requires " + name + " with at least " +
-                show_percent(requirement.minimum_performance) +
+                format_percent(requirement.minimum_performance) +
                 ", but the best that can be reached is " + show_product(best.factors));
         semantics_.explain_behavior(id);
       }
@@ -60,11 +61,11 @@ class MinimumCheck {
     if (best.exists == Feasibility::unknown) {
       semantics_.report_undecided(
           task.minimum_performance_range,
-          "whether " + quote(task.name) + " can reach " + show_percent(task.minimum_performance));
+          "whether " + quote(task.name) + " can reach " + format_percent(task.minimum_performance));
     } else if (best.exists == Feasibility::yes) {
       semantics_.reporter().report(rule::unreachable_performance, task.minimum_performance_range,
                                    "task " + quote(task.name) + " must perform with at least " +
-                                       show_percent(task.minimum_performance) +
+                                       format_percent(task.minimum_performance) +
                                        ", but the best that can be reached is " +
                                        show_product(best.factors));
       semantics_.explain_task(id);

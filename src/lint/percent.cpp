@@ -12,8 +12,6 @@ bool looks_like_fraction(Millionths degree) {
   return degree > 0 && degree <= one_percent;
 }
 
-std::string show_percent(Millionths degree) { return format_decimal(degree, 4) + " %"; }
-
 std::string show_product(const std::vector<Millionths>& factors) {
   using boost::multiprecision::cpp_int;
   cpp_int product = 1;
@@ -22,14 +20,14 @@ std::string show_product(const std::vector<Millionths>& factors) {
     product *= factor;
     divisor *= one_million;
   }
-  return show_percent(static_cast<Millionths>(product * one_million / divisor));
+  return format_percent(static_cast<Millionths>(product * one_million / divisor));
 }
 
 void check_suspicious_minimum(Millionths minimum, const Range& range, Reporter& reporter) {
   if (!looks_like_fraction(minimum)) return;
   reporter.report(rule::suspicious_minimum, range,
-                  "a minimum_performance of " + show_percent(minimum) + " is next to nothing; is " +
-                      show_percent(minimum * 100) + " meant?");
+                  "a minimum_performance of " + format_percent(minimum) +
+                      " is next to nothing; is " + format_percent(minimum * 100) + " meant?");
 }
 
 }  // namespace cbc

@@ -12,9 +12,6 @@ namespace cbc {
 /// Whether a percentage is over 0 and at most 1: probably a fraction where percent is meant.
 [[nodiscard]] bool looks_like_fraction(Millionths degree);
 
-/// A degree as people write it: "72.5 %".
-[[nodiscard]] std::string show_percent(Millionths degree);
-
 /// A product of degrees, rounded down to four places.
 [[nodiscard]] std::string show_product(const std::vector<Millionths>& factors);
 

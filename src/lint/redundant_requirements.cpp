@@ -10,7 +10,7 @@
 #include "explain/constraints.h"
 #include "explain/minimal_set.h"
 #include "lint/constraint_notes.h"
-#include "lint/percent.h"
+#include "text/decimal.h"
 #include "text/quote.h"
 
 namespace cbc {
@@ -142,7 +142,7 @@ class RedundancyCheck {
         "the requirement of " + task + " is redundant: wherever behavior " + quote(behavior.name) +
             " is active, " + task +
             (requirement.minimum_performance > 0
-                 ? " performs with at least " + show_percent(requirement.minimum_performance)
+                 ? " performs with at least " + format_percent(requirement.minimum_performance)
                  : std::string(" runs")) +
             " anyway",
         std::move(notes), std::move(edits));

@@ -14,8 +14,6 @@
 namespace cbc {
 namespace {
 
-std::string percent(Millionths degree) { return format_decimal(degree, 4) + " %"; }
-
 std::string seconds(Microseconds time) { return format_decimal(time, 6) + " s"; }
 
 class Listing {
@@ -91,14 +89,14 @@ class Listing {
     line("    reactive_start: {}", task.reactive_start != 0);
     if (task.timeout > 0) line("    timeout: {}", seconds(task.timeout));
     if (task.minimum_performance > 0) {
-      line("    minimum_performance: {}", percent(task.minimum_performance));
+      line("    minimum_performance: {}", format_percent(task.minimum_performance));
     }
     for (const Parameter& parameter : parameters_of(catalog_, task.catalog_index)) {
       add_parameter(parameter);
     }
     for (const Value& value : catalog_.values[id]) {
       line("    behavior: {}, {}", printable(catalog_.name_of_behavior(value.behavior)),
-           percent(value.suitability));
+           format_percent(value.suitability));
     }
   }
 
@@ -122,7 +120,7 @@ class Listing {
     for (const CompiledRequirement& requirement : catalog_.requirements[id]) {
       const Millionths minimum = requirement.minimum_performance;
       line("    requires: {}{}", printable(catalog_.name_of_task(requirement.task)),
-           minimum > 0 ? ", at least " + percent(minimum) : "");
+           minimum > 0 ? ", at least " + format_percent(minimum) : "");
     }
   }
 

@@ -10,22 +10,22 @@
 namespace cbc {
 namespace {
 
-using Kind = CatalogChange::Kind;
-using Subject = CatalogChange::Subject;
+using ChangeKind = CatalogChange::Kind;
+using ChangeSubject = CatalogChange::Subject;
 
 std::string describe_subject(const CatalogChange& change) {
   const std::string task = printable(change.task);
   const std::string behavior = printable(change.behavior);
   switch (change.subject) {
-    case Subject::task:
+    case ChangeSubject::task:
       return "task " + task;
-    case Subject::behavior:
+    case ChangeSubject::behavior:
       return "behavior " + behavior;
-    case Subject::performs:
+    case ChangeSubject::performs:
       return behavior + " performs " + task;
-    case Subject::requirement:
+    case ChangeSubject::requirement:
       return behavior + " requires " + task;
-    case Subject::exclusion:
+    case ChangeSubject::exclusion:
       return task + " excludes " + printable(change.other_task);
   }
   return {};
@@ -38,18 +38,19 @@ std::string diff_text(const CatalogDiff& diff, const Style& style) {
   for (const CatalogChange& change : diff.changes) {
     std::string_view color = style.warning;
     char sign = '~';
-    if (change.kind == Kind::removed) {
+    if (change.kind == ChangeKind::removed) {
       color = style.bad;
       sign = '-';
-    } else if (change.kind == Kind::added) {
+    } else if (change.kind == ChangeKind::added) {
       color = style.good;
       sign = '+';
     }
     std::string line = fmt::format("{} {}", sign, describe_subject(change));
     std::string_view separator = ": ";
     // Of a new task the name is news enough; what it is set to stands in the catalog.
-    const bool is_whole = change.kind != Kind::changed &&
-                          (change.subject == Subject::task || change.subject == Subject::behavior);
+    const bool is_whole =
+        change.kind != ChangeKind::changed &&
+        (change.subject == ChangeSubject::task || change.subject == ChangeSubject::behavior);
     for (const AttributeChange& attribute : change.attributes) {
       if (is_whole) break;
       line += separator;

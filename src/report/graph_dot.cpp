@@ -23,7 +23,7 @@ constexpr std::size_t line_length = 10;  // characters, about
 
 /// A text of DOT. Between quotes only the quote itself needs a backslash; in texts that are shown,
 /// backslashes and ampersands would begin something else as well.
-void append_id(std::string& dot, std::string_view id) {
+void append_dot_id(std::string& dot, std::string_view id) {
   dot += '"';
   for (const char character : id) {
     if (character == '"') dot += '\\';
@@ -74,13 +74,13 @@ class Attributes {
   std::string text_;
 };
 
-class Writer {
+class DotWriter {
  public:
-  explicit Writer(const draw::Diagram& diagram) : diagram_(diagram) {}
+  explicit DotWriter(const draw::Diagram& diagram) : diagram_(diagram) {}
 
   std::string run() && {
     dot_ = "digraph ";
-    append_id(dot_, draw::id_of("catalog", diagram_.file));
+    append_dot_id(dot_, draw::id_of("catalog", diagram_.file));
     dot_ += " {\n";
     // The page is white, not transparent: black lines would not be seen on a dark one.
     dot_ += "  graph [rankdir=LR, bgcolor=\"#FFFFFF\", pad=0.2, ";
@@ -114,7 +114,7 @@ class Writer {
     for (std::size_t place = 0; place < members.size(); ++place) {
       const draw::Cluster& cluster = diagram_.clusters[place];
       dot_ += "  subgraph ";
-      append_id(dot_, cluster.id);
+      append_dot_id(dot_, cluster.id);
       dot_ += " {\n    label=\"";
       append_shown(dot_, cluster.label);
       dot_ += "\"; style=rounded; color=\"" + std::string(palette::frame) + "\";\n";
@@ -131,7 +131,7 @@ class Writer {
       add_shape(node, attributes);
     }
     dot_ += indent;
-    append_id(dot_, node.id);
+    append_dot_id(dot_, node.id);
     dot_ += attributes.end();
   }
 
@@ -204,9 +204,9 @@ class Writer {
     attributes.add_color("color", color);
     if (!edge.label.empty()) attributes.add_color("fontcolor", color);
     dot_ += "  ";
-    append_id(dot_, diagram_.nodes[edge.from].id);
+    append_dot_id(dot_, diagram_.nodes[edge.from].id);
     dot_ += " -> ";
-    append_id(dot_, diagram_.nodes[edge.to].id);
+    append_dot_id(dot_, diagram_.nodes[edge.to].id);
     dot_ += attributes.end();
   }
 
@@ -220,6 +220,6 @@ class Writer {
 
 }  // namespace
 
-std::string graph_dot(const draw::Diagram& diagram) { return Writer(diagram).run(); }
+std::string graph_dot(const draw::Diagram& diagram) { return DotWriter(diagram).run(); }
 
 }  // namespace cbc

@@ -30,7 +30,7 @@ bool is_letter_or_digit(char byte) {
 bool is_ascii(char byte) { return static_cast<unsigned char>(byte) < 0x80; }
 
 /// An id of one word: "task_HOVER". ".20" stands for another byte.
-void append_id(std::string& text, std::string_view id) {
+void append_mermaid_id(std::string& text, std::string_view id) {
   constexpr std::string_view digits = "0123456789abcdef";
   bool is_in_name = false;
   for (const char byte : id) {
@@ -50,7 +50,7 @@ void append_id(std::string& text, std::string_view id) {
 
 /// A label, which Mermaid reads as Markdown with entities of its own ("#35;"). Only what has no
 /// meaning there stands for itself.
-void append_label(std::string& text, std::string_view label) {
+void append_mermaid_label(std::string& text, std::string_view label) {
   for (std::size_t i = 0; i < label.size(); ++i) {
     const char byte = label[i];
     const bool is_inside = i > 0 && i + 1 < label.size() && is_letter_or_digit(label[i - 1]) &&
@@ -83,9 +83,9 @@ std::string class_of(const Node& node) {
   return node.kind == NodeKind::task ? "task" : "behavior";
 }
 
-class Writer {
+class MermaidWriter {
  public:
-  explicit Writer(const draw::Diagram& diagram) : diagram_(diagram) {}
+  explicit MermaidWriter(const draw::Diagram& diagram) : diagram_(diagram) {}
 
   std::string run() && {
     text_ = "flowchart LR\n";
@@ -104,9 +104,9 @@ class Writer {
     const auto members = draw::cluster_members(diagram_);
     for (std::size_t place = 0; place < members.size(); ++place) {
       text_ += "  subgraph ";
-      append_id(text_, diagram_.clusters[place].id);
+      append_mermaid_id(text_, diagram_.clusters[place].id);
       text_ += "[\"";
-      append_label(text_, diagram_.clusters[place].label);
+      append_mermaid_label(text_, diagram_.clusters[place].label);
       text_ += "\"]\n";
       for (const Node* const node : members[place]) add_node(*node, "    ");
       text_ += "  end\n";
@@ -115,7 +115,7 @@ class Writer {
 
   void add_node(const Node& node, std::string_view indent) {
     text_ += indent;
-    append_id(text_, node.id);
+    append_mermaid_id(text_, node.id);
     switch (node.kind) {
       case NodeKind::task:
         add_text("([\"", node, "\"])");
@@ -135,18 +135,18 @@ class Writer {
     if (node.label.empty()) {
       text_ += ' ';
     } else {
-      append_label(text_, node.label);
+      append_mermaid_label(text_, node.label);
     }
     for (const std::string& note : node.notes) {
       text_ += "<br/>";
-      append_label(text_, note);
+      append_mermaid_label(text_, note);
     }
     text_ += close;
   }
 
   void add_edge(const Edge& edge) {
     text_ += "  ";
-    append_id(text_, diagram_.nodes[edge.from].id);
+    append_mermaid_id(text_, diagram_.nodes[edge.from].id);
     switch (edge.kind) {
       case EdgeKind::performed_by:
       case EdgeKind::same_behavior:
@@ -161,11 +161,11 @@ class Writer {
     }
     if (!edge.label.empty()) {
       text_ += "|\"";
-      append_label(text_, edge.label);
+      append_mermaid_label(text_, edge.label);
       text_ += "\"|";
     }
     text_ += ' ';
-    append_id(text_, diagram_.nodes[edge.to].id);
+    append_mermaid_id(text_, diagram_.nodes[edge.to].id);
     text_ += '\n';
   }
 
@@ -232,6 +232,6 @@ class Writer {
 
 }  // namespace
 
-std::string graph_mermaid(const draw::Diagram& diagram) { return Writer(diagram).run(); }
+std::string graph_mermaid(const draw::Diagram& diagram) { return MermaidWriter(diagram).run(); }
 
 }  // namespace cbc

@@ -9,7 +9,7 @@
 namespace cbc {
 namespace {
 
-constexpr std::size_t columns = 80;
+constexpr std::size_t line_width = 80;
 
 /// Cuts off what is before the first `separator`, and the separator; all if there is none.
 std::string_view take_until(std::string_view separator, std::string_view& rest) {
@@ -19,13 +19,13 @@ std::string_view take_until(std::string_view separator, std::string_view& rest) 
   return taken;
 }
 
-/// A paragraph in lines of at most 80 columns, if no word is longer. The texts are ASCII.
+/// A paragraph in lines of at most 80 line_width, if no word is longer. The texts are ASCII.
 std::string wrap(std::string_view paragraph) {
   std::string text;
   std::size_t used = 0;
   while (!paragraph.empty()) {
     const std::string_view word = take_until(" ", paragraph);
-    if (used > 0 && used + 1 + word.size() > columns) {
+    if (used > 0 && used + 1 + word.size() > line_width) {
       text += '\n';
       used = 0;
     }

@@ -3,7 +3,7 @@
 namespace cbc {
 namespace {
 
-constexpr Rule rules[] = {
+constexpr Rule attribute_table[] = {
     {.name = rule::on_request_and_reactive,
      .severity = Severity::error,
      .is_fixed = true,
@@ -165,6 +165,6 @@ tasks:
 
 }  // namespace
 
-std::span<const Rule> attribute_rules() { return rules; }
+std::span<const Rule> attribute_rules() { return attribute_table; }
 
 }  // namespace cbc

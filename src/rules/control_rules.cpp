@@ -3,7 +3,7 @@
 namespace cbc {
 namespace {
 
-constexpr Rule rules[] = {
+constexpr Rule control_table[] = {
     {.name = rule::unused_allow,
      .severity = Severity::warning,
      .summary = "A comment allows a rule that is not broken there.",
@@ -57,6 +57,6 @@ tasks:
 
 }  // namespace
 
-std::span<const Rule> control_rules() { return rules; }
+std::span<const Rule> control_rules() { return control_table; }
 
 }  // namespace cbc

@@ -3,7 +3,7 @@
 namespace cbc {
 namespace {
 
-constexpr Rule rules[] = {
+constexpr Rule definition_table[] = {
     {.name = rule::duplicate_behavior,
      .severity = Severity::error,
      .is_fixed = true,
@@ -164,6 +164,6 @@ tasks:
 
 }  // namespace
 
-std::span<const Rule> definition_rules() { return rules; }
+std::span<const Rule> definition_rules() { return definition_table; }
 
 }  // namespace cbc

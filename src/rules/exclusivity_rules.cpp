@@ -3,7 +3,7 @@
 namespace cbc {
 namespace {
 
-constexpr Rule rules[] = {
+constexpr Rule exclusivity_table[] = {
     {.name = rule::self_exclusion,
      .severity = Severity::warning,
      .summary = "A task stands twice in one exclusivity list.",
@@ -114,6 +114,6 @@ exclusivity_constraints:
 
 }  // namespace
 
-std::span<const Rule> exclusivity_rules() { return rules; }
+std::span<const Rule> exclusivity_rules() { return exclusivity_table; }
 
 }  // namespace cbc

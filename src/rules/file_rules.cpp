@@ -3,7 +3,7 @@
 namespace cbc {
 namespace {
 
-constexpr Rule rules[] = {
+constexpr Rule file_table[] = {
     {.name = rule::yaml_syntax,
      .severity = Severity::error,
      .is_fixed = true,
@@ -228,6 +228,6 @@ tasks:
 
 }  // namespace
 
-std::span<const Rule> file_rules() { return rules; }
+std::span<const Rule> file_rules() { return file_table; }
 
 }  // namespace cbc

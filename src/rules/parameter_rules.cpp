@@ -3,7 +3,7 @@
 namespace cbc {
 namespace {
 
-constexpr Rule rules[] = {
+constexpr Rule parameter_table[] = {
     {.name = rule::duplicate_parameter,
      .severity = Severity::warning,
      .summary = "A parameter is listed twice in one task.",
@@ -96,6 +96,6 @@ tasks:
 
 }  // namespace
 
-std::span<const Rule> parameter_rules() { return rules; }
+std::span<const Rule> parameter_rules() { return parameter_table; }
 
 }  // namespace cbc

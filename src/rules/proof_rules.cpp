@@ -3,7 +3,7 @@
 namespace cbc {
 namespace {
 
-constexpr Rule rules[] = {
+constexpr Rule proof_table[] = {
     {.name = rule::dead_behavior,
      .severity = Severity::warning,
      .summary = "A behavior can never be active, though its task can run.",
@@ -296,6 +296,6 @@ tasks:
 
 }  // namespace
 
-std::span<const Rule> proof_rules() { return rules; }
+std::span<const Rule> proof_rules() { return proof_table; }
 
 }  // namespace cbc

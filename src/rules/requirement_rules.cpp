@@ -3,7 +3,7 @@
 namespace cbc {
 namespace {
 
-constexpr Rule rules[] = {
+constexpr Rule requirement_table[] = {
     {.name = rule::requirement_cycle,
      .severity = Severity::error,
      .is_fixed = true,
@@ -276,6 +276,6 @@ tasks:
 
 }  // namespace
 
-std::span<const Rule> requirement_rules() { return rules; }
+std::span<const Rule> requirement_rules() { return requirement_table; }
 
 }  // namespace cbc

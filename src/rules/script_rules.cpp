@@ -3,7 +3,7 @@
 namespace cbc {
 namespace {
 
-constexpr std::string_view catalog = R"(behaviors:
+constexpr std::string_view catalog_text = R"(behaviors:
 - behavior: ROTATE_WITH_PID
   task: ROTATE
   requires:
@@ -23,7 +23,7 @@ tasks:
   start_on_request: FALSE
 )";
 
-constexpr Rule rules[] = {
+constexpr Rule script_table[] = {
     {.name = rule::undefined_behavior,
      .severity = Severity::error,
      .is_fixed = true,
@@ -161,8 +161,8 @@ constexpr Rule rules[] = {
 
 }  // namespace
 
-std::span<const Rule> script_rules() { return rules; }
+std::span<const Rule> script_rules() { return script_table; }
 
-std::string_view example_catalog() { return catalog; }
+std::string_view example_catalog() { return catalog_text; }
 
 }  // namespace cbc

@@ -133,4 +133,6 @@ std::string format_decimal(std::int64_t value, int decimals) {
   return negative ? "-" + text : text;
 }
 
+std::string format_percent(std::int64_t degree) { return format_decimal(degree, 4) + " %"; }
+
 }  // namespace cbc

@@ -53,4 +53,7 @@ struct Number {
 /// The shortest text of value * 10^-decimals: "1.5".
 [[nodiscard]] std::string format_decimal(std::int64_t value, int decimals);
 
+/// A degree in millionths as people write it: "72.5 %".
+[[nodiscard]] std::string format_percent(std::int64_t degree);
+
 }  // namespace cbc

@@ -28,7 +28,7 @@ Lines split(std::string_view text) {
 }
 
 /// Lines [begin, end) of each text, of which the ones take the place of the others.
-struct Change {
+struct LineChange {
   std::size_t old_begin = 0;
   std::size_t old_end = 0;
   std::size_t new_begin = 0;
@@ -37,11 +37,11 @@ struct Change {
 
 /// Finds the changes from front to back, by the greedy algorithm of Myers in pieces: a piece ends
 /// where the texts agree again for a while, or when it gets too long.
-class Comparison {
+class LineComparison {
  public:
-  Comparison(const Lines& before, const Lines& after) : before_(before), after_(after) {}
+  LineComparison(const Lines& before, const Lines& after) : before_(before), after_(after) {}
 
-  std::vector<Change> run() {
+  std::vector<LineChange> run() {
     skip_equal();
     while (x_ < before_.size() || y_ < after_.size()) {
       add_piece();
@@ -125,23 +125,23 @@ class Comparison {
   void take(int changes, int diagonal) {
     const int end = reached(changes, diagonal);
     const int end_diagonal = diagonal;
-    std::vector<Change> way;
+    std::vector<LineChange> way;
     for (; changes > 0; --changes) {
       const int to = step(changes, diagonal);
       const bool goes = diagonal > -changes + 1 && reached(changes - 1, diagonal - 1) >= 0 &&
                         reached(changes - 1, diagonal - 1) + 1 == to;
       const auto x = x_ + static_cast<std::size_t>(to);
       const auto y = y_ + static_cast<std::size_t>(to - diagonal);
-      way.push_back(goes ? Change{x - 1, x, y, y} : Change{x, x, y - 1, y});
+      way.push_back(goes ? LineChange{x - 1, x, y, y} : LineChange{x, x, y - 1, y});
       diagonal += goes ? -1 : 1;
     }
     std::reverse(way.begin(), way.end());
-    for (const Change& change : way) add(change);
+    for (const LineChange& change : way) add(change);
     x_ += static_cast<std::size_t>(end);
     y_ += static_cast<std::size_t>(end - end_diagonal);
   }
 
-  void add(const Change& change) {
+  void add(const LineChange& change) {
     if (!changes_.empty() && changes_.back().old_end == change.old_begin &&
         changes_.back().new_end == change.new_begin) {
       changes_.back().old_end = change.old_end;
@@ -156,7 +156,7 @@ class Comparison {
   std::size_t x_ = 0;  // lines that were compared
   std::size_t y_ = 0;
   std::vector<Reach> furthest_;
-  std::vector<Change> changes_;
+  std::vector<LineChange> changes_;
 };
 
 void add_line(char mark, std::string_view line, std::string& diff) {
@@ -172,7 +172,7 @@ std::string extent(std::size_t begin, std::size_t end) {
 }
 
 /// Changes [first, last), which are near to one another, with the lines around them.
-void add_hunk(const Lines& before, const Lines& after, const std::vector<Change>& changes,
+void add_hunk(const Lines& before, const Lines& after, const std::vector<LineChange>& changes,
               std::size_t first, std::size_t last, std::string& diff) {
   const std::size_t lead = std::min(context, changes[first].old_begin);
   const std::size_t tail = std::min(context, before.size() - changes[last - 1].old_end);
@@ -224,7 +224,7 @@ std::string name_in_head(std::string_view prefix, std::string_view file) {
 std::string unified_diff(std::string_view before, std::string_view after, std::string_view file) {
   const Lines old_lines = split(before);
   const Lines new_lines = split(after);
-  const std::vector<Change> changes = Comparison(old_lines, new_lines).run();
+  const std::vector<LineChange> changes = LineComparison(old_lines, new_lines).run();
   if (changes.empty()) return {};
   std::string diff = "--- " + name_in_head("a/", file) + "\n+++ " + name_in_head("b/", file) + "\n";
   for (std::size_t first = 0; first < changes.size();) {

@@ -11,6 +11,10 @@ namespace cbc::utf8 {
 /// Stands for a byte that is not part of a valid sequence.
 inline constexpr char32_t replacement = 0xFFFD;
 
+/// May stand before a text, and is no part of it.
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
+
 struct Decoded {
   char32_t character = replacement;
   std::size_t bytes = 1;

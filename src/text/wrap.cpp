@@ -10,13 +10,13 @@ namespace {
 
 bool is_lower(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
 bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
-bool is_separator(char c) { return std::string_view(" _-./").find(c) != std::string_view::npos; }
+bool joins_words(char c) { return std::string_view(" _-./").find(c) != std::string_view::npos; }
 
 /// Whether a line may end before this byte.
 bool can_break(std::string_view name, std::size_t place) {
   const char before = name[place - 1];
   const char after = name[place];
-  if (is_separator(before)) return !is_separator(after);
+  if (joins_words(before)) return !joins_words(after);
   return is_lower(before) && is_upper(after);
 }
 

@@ -30,7 +30,6 @@ const Node* Node::find(std::string_view key) const {
 namespace {
 
 constexpr std::string_view core_tag = "tag:yaml.org,2002:";
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 // Ends the parsing of a document; becomes a finding.
 struct Refusal : std::runtime_error {
@@ -497,9 +496,7 @@ void parse_document(std::string_view text, const PositionMap& positions, const s
 
 std::unique_ptr<const Document> parse(std::string_view text, std::string file,
                                       Diagnostics& diagnostics) {
-  if (text.substr(0, byte_order_mark.size()) == byte_order_mark) {
-    text.remove_prefix(byte_order_mark.size());
-  }
+  text = utf8::without_byte_order_mark(text);
   const PositionMap positions(text);
   auto document = std::make_unique<Document>();
   try {

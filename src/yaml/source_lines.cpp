@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "text/lines.h"
+
 namespace cbc::yaml {
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 constexpr std::string_view blanks = " \t";
 
 /// A stretch of text in bytes.
@@ -14,10 +15,6 @@ struct Span {
   std::size_t begin = 0;
   std::size_t end = 0;
 };
-
-std::size_t end_of_line(std::string_view text, std::size_t offset) {
-  return std::min(text.find('\n', offset), text.size());
-}
 
 std::size_t count_leading_spaces(std::string_view text) {
   return std::min(text.find_first_not_of(' '), text.size());
@@ -143,13 +140,6 @@ std::optional<std::size_t> depth_of(std::string_view content) {
 }
 
 }  // namespace
-
-std::string_view without_byte_order_mark(std::string_view text) {
-  if (text.substr(0, byte_order_mark.size()) == byte_order_mark) {
-    text.remove_prefix(byte_order_mark.size());
-  }
-  return text;
-}
 
 std::vector<SourceLine> split_lines(std::string_view text, const Document* document) {
   ScalarFilter scalars(document == nullptr ? std::vector<Span>{} : find_scalars(text, *document));

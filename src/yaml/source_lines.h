@@ -20,9 +20,6 @@ struct SourceLine {
   std::optional<std::size_t> depth;
 };
 
-/// The text as its document counts lines and columns.
-[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
-
 /// The lines of a text without byte order mark. `document` is what was read from it, and tells
 /// comments from texts with a '#'; if the text is no valid YAML it is nullptr, and every '#' that
 /// may begin a comment does.

@@ -4,6 +4,8 @@
 #include <initializer_list>
 #include <optional>
 
+#include "text/lines.h"
+
 namespace cbc::yaml {
 namespace {
 
@@ -15,10 +17,6 @@ bool is_blank_at(std::string_view text, std::size_t offset) {
 
 bool is_flow_indicator(char byte) {
   return byte == ',' || byte == '[' || byte == ']' || byte == '{' || byte == '}';
-}
-
-std::size_t end_of_line(std::string_view text, std::size_t offset) {
-  return std::min(text.find('\n', offset), text.size());
 }
 
 std::size_t begin_of_line(std::string_view text, std::size_t offset) {

@@ -15,6 +15,7 @@
 #include "report/graph_dot.h"
 #include "report/graph_json.h"
 #include "report/graph_mermaid.h"
+#include "text/decimal.h"
 #include "yaml/document.h"
 
 namespace cbc::draw {
@@ -141,7 +142,7 @@ TEST(Names, LabelsCanBeSeen) {
   EXPECT_EQ(label_of("a\nb"), "a\\nb");
   EXPECT_EQ(label_of("  "), "'  '");
   EXPECT_EQ(label_of("ä"), "ä");
-  EXPECT_EQ(percent(705'000), "70.5 %");
+  EXPECT_EQ(format_percent(705'000), "70.5 %");
   EXPECT_EQ(at_least(800'000), "≥ 80 %");
 }
 

@@ -35,8 +35,6 @@ TEST(SourceLines, TellContentCommentsAndDepth) {
             "- # one\n0 content # two\n5 content\n5 content\n6 content # three #\n-\n- # four\n");
   EXPECT_EQ(show_lines("--- # begins\na: |\n  # b\nc: 'd\n  e' # f\n...\n"),
             "- content # begins\n0 content\n- content\n0 content\n- content # f\n0 content\n");
-  EXPECT_EQ(without_byte_order_mark("\xEF\xBB\xBF# a"), "# a");
-  EXPECT_EQ(without_byte_order_mark("\xEF\xBB"), "\xEF\xBB");
 }
 
 // All that a document says, and not where.

@@ -32,6 +32,11 @@ TEST(Utf8, FindsTheFirstInvalidByte) {
   EXPECT_EQ(utf8::find_invalid("\xf4\x8f\xbf\xbf"), std::nullopt);  // the last one
 }
 
+TEST(Utf8, ByteOrderMarksAreNoPartOfATextUnlessCutOff) {
+  EXPECT_EQ(utf8::without_byte_order_mark("\xEF\xBB\xBF# a"), "# a");
+  EXPECT_EQ(utf8::without_byte_order_mark("\xEF\xBB"), "\xEF\xBB");
+}
+
 TEST(PositionMap, CountsLinesAndCharacters) {
   const PositionMap map("aé\nb\r\n\nc");
   EXPECT_EQ(map.at(0), (Position{1, 1}));
