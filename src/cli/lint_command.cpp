@@ -1,13 +1,14 @@
 #include "cli/lint_command.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
-#include <unordered_set>
+#include <unordered_map>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -115,26 +116,37 @@ std::string find_misuse(const LintCommand& command) {
 /// A file to lint.
 struct Target {
   std::string path;
-  std::string folder;  ///< that was given, if the file itself was not
+  bool is_named = false;  ///< by itself: it is linted whatever it is
+  std::string folder;     ///< that was given, if the file is in it
 };
 
 /// The files of all paths, each once. A folder that cannot be read is complained of.
 std::vector<Target> find_targets(const std::vector<std::string>& paths, bool& has_failed) {
   std::vector<Target> targets;
-  std::unordered_set<std::string> known;
-  const auto add = [&](const std::string& path, const std::string& folder) {
-    if (known.insert(path).second) targets.push_back({path, folder});
+  std::unordered_map<std::string, std::size_t> places;
+  const auto target_of = [&](const std::string& path) -> Target& {
+    const auto [known, is_new] = places.try_emplace(path, targets.size());
+    if (is_new) targets.push_back({path, false, {}});
+    return targets[known->second];
   };
   for (const std::string& path : paths) {
     if (!is_folder(path)) {
-      add(path, {});
+      target_of(path).is_named = true;
     } else {
       for (const std::string& file : list_folder(path, {".yaml", ".yml"}, has_failed)) {
-        add(file, path);
+        target_of(file).folder = path;
       }
     }
   }
   return targets;
+}
+
+/// Whether there was a catalog to lint.
+bool lint_target(const Target& target, Linter& linter) {
+  if (!target.is_named) return linter.lint_if_catalog(target.path);
+  const std::size_t before = linter.files().size();
+  linter.lint_catalog(target.path);
+  return linter.files().size() > before && !linter.files().back().is_script;
 }
 
 /// Lints all that is given. Whether there was anything to lint everywhere.
@@ -145,11 +157,7 @@ bool lint_all(const LintCommand& command, Linter& linter) {
   Progress progress("linting", targets.size() + command.scripts.size());
   for (const Target& target : targets) {
     progress.begin(target.path);
-    if (target.folder.empty()) {
-      linter.lint_catalog(target.path);
-    } else if (linter.lint_if_catalog(target.path)) {
-      folders_with_catalogs.insert(target.folder);
-    }
+    if (lint_target(target, linter)) folders_with_catalogs.insert(target.folder);
   }
   for (const std::string& script : command.scripts) {
     progress.begin(script);

@@ -19,6 +19,7 @@
 #include "cli/exit_status.h"
 #include "cli/graph_command.h"
 #include "cli/lint_command.h"
+#include "cli/schema_command.h"
 #include "cli/solve_command.h"
 #include "cli/standard_descriptors.h"
 #include "text/nearest.h"
@@ -37,6 +38,7 @@ constexpr const char* program_footer =
     "  cbc solve quadrotor.yaml mission.yaml\n"
     "  cbc solve quadrotor.yaml mission.yaml --format json | jq .\n"
     "  cbc graph quadrotor.yaml -o quadrotor.svg\n"
+    "  cbc schema catalog > catalog.json\n"
     "\n"
     "Exit status: 0 all is well, 1 lint found an error, a compiled catalog is stale, or an\n"
     "expectation failed, 2 the input or the usage is wrong, 3 an internal error.";
@@ -78,6 +80,7 @@ int run(int argc, char** argv) {
   add_compile_command(program, status);
   add_solve_command(program, status);
   add_graph_command(program, status);
+  add_schema_command(program, status);
 
   program.failure_message([](const CLI::App* app, const CLI::Error& error) {
     return "cbc: " + std::string(error.what()) + "\nSee '" + full_name(*app) + " --help'.\n";

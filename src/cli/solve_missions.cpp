@@ -29,7 +29,7 @@ namespace cbc::cli {
 namespace {
 
 /// Says on standard error why a run ended early.
-void complain(const Mission& mission, const RunResult& result, const std::string& reason) {
+void complain_of_run(const Mission& mission, const RunResult& result, const std::string& reason) {
   fmt::print(stderr, "cbc: {}: {}\n", quote(mission.script.file), reason);
   if (result.status == Coordinator::Status::refused_answer) {
     fmt::print(stderr,
@@ -51,7 +51,7 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
   int status = exit_ok;
   const auto after_run = [&](const Mission& mission, const RunResult& result) {
     const std::string reason = describe_end(result, coordinator_options(options, *mission.catalog));
-    if (!reason.empty()) complain(mission, result, reason);
+    if (!reason.empty()) complain_of_run(mission, result, reason);
     status = std::max(status, status_of(result));
   };
   run_all(missions, thread_count(options), report, run, after_run);
@@ -65,7 +65,7 @@ int draw_missions(const std::vector<Mission>& missions, const SolveOptions& opti
   ReportPair both(report, picture);
   const int status = run_missions(missions, options, both);
   if (const auto error = write_atomically(*options.html, picture.page())) {
-    cli::complain(fmt::format("cannot write {}: {}", quote(*options.html), *error));
+    complain(fmt::format("cannot write {}: {}", quote(*options.html), *error));
     return std::max<int>(status, exit_unusable);
   }
   return status;

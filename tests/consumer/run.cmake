@@ -2,7 +2,7 @@
 # with find_package and with pkg-config. Both drive a flight on a catalog that the installed program
 # compiled, and must print what expected.txt says.
 #
-# Variables: bindir, build, catalog, config, compiler, generator, libdir, pkg_config, version.
+# Variables: bindir, build, catalog, config, compiler, datadir, generator, libdir, pkg_config, version.
 cmake_minimum_required(VERSION 3.21)
 
 set(source "${CMAKE_CURRENT_LIST_DIR}")
@@ -30,6 +30,16 @@ run("${CMAKE_COMMAND}" --install "${build}" --config "${config}" --prefix "${wor
 file(RENAME "${work}/installed" "${prefix}")
 run("${prefix}/${bindir}/cbc" --version)
 run("${prefix}/${bindir}/cbc" compile "${catalog}" -o "${compiled}")
+
+# The schemas for editors are installed, and are those that the program prints.
+foreach(schema catalog script)
+  execute_process(COMMAND "${prefix}/${bindir}/cbc" schema ${schema} COMMAND_ECHO STDOUT
+                  COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE printed)
+  file(READ "${prefix}/${datadir}/cbc/schemas/${schema}.json" installed)
+  if(NOT printed STREQUAL installed)
+    message(FATAL_ERROR "the installed ${schema}.json is not what the program prints")
+  endif()
+endforeach()
 
 run("${CMAKE_COMMAND}" -S "${source}" -B "${work}/cmake" -G "${generator}"
     -D "CMAKE_BUILD_TYPE=${config}" -D "CMAKE_CXX_COMPILER=${compiler}"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "cbc/version.h"
 #include "golden/process.h"
@@ -138,18 +139,62 @@ TEST_F(Terminal, IsNoPlaceForACompiledCatalog) {
   EXPECT_EQ(run(call).status, 0);
 }
 
+/// In the folder catalogs/: NAME.yaml, each with a NAME.mission.yaml.
+std::vector<std::string> names_of_published_catalogs() {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(CBC_SOURCE_DIR "/catalogs")) {
+    const std::string file = entry.path().filename();
+    if (!file.ends_with(".mission.yaml")) names.push_back(entry.path().stem());
+  }
+  return names;
+}
+
 TEST(PublishedCatalogs, HaveNoFindings) {
-  const Result result = run({{"lint", "--strict", "catalogs"}, CBC_SOURCE_DIR});
+  const std::vector<std::string> names = names_of_published_catalogs();
+  ASSERT_GE(names.size(), 2U);
+  Call call{{"lint", "--strict", "catalogs"}, CBC_SOURCE_DIR};
+  Result result = run(call);
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.out, "no findings in 2 files\n");
+  EXPECT_EQ(result.out, "no findings in " + std::to_string(names.size()) + " files\n");
   EXPECT_EQ(result.err, "");
+  for (const std::string& name : names) {
+    const std::string path = "catalogs/" + name;
+    call.arguments = {"lint", "--strict", "--script", path + ".mission.yaml", path + ".yaml"};
+    result = run(call);
+    EXPECT_EQ(result.out, "no findings in 2 files\n") << name;
+  }
 }
 
 /// Whoever changes a published catalog or a mission finds out here whether the story still holds.
 TEST(PublishedMissions, MeetTheirExpectations) {
-  const Result result = run({{"solve", "catalogs"}, CBC_SOURCE_DIR});
+  const Result result = run({{"solve", "catalogs", "--format", "json"}, CBC_SOURCE_DIR});
   EXPECT_EQ(result.status, 0) << result.out;
   EXPECT_EQ(result.err, "");
+  const nlohmann::json report = nlohmann::json::parse(result.out);
+  EXPECT_EQ(report["runs"].size(), names_of_published_catalogs().size());
+  for (const nlohmann::json& run : report["runs"]) {
+    EXPECT_GT(run["expectations"]["passed"], 0) << run["script"];
+  }
+}
+
+/// What the comment at the beginning of a catalog says of its size.
+TEST(PublishedCatalogs, AreAsLargeAsTheySay) {
+  const Result result = run({{"lint", "--format", "json", "catalogs"}, CBC_SOURCE_DIR});
+  for (const nlohmann::json& file : nlohmann::json::parse(result.out)["files"]) {
+    const nlohmann::json& summary = file["summary"];
+    const nlohmann::json& constraints = summary["constraints"];
+    const auto count = [](const nlohmann::json& number, const std::string& what) {
+      const std::string text = number.dump() + " " + what;
+      return number == 1 ? text : text + "s";
+    };
+    const std::string said = "# " + count(summary["tasks"], "task") + ", " +
+                             count(summary["behaviors"], "behavior") + ", " +
+                             count(constraints["total"], "constraint") + " (" +
+                             count(constraints["exclusive_pairs"], "exclusive pair") + ", " +
+                             count(constraints["requirements"], "requirement") + "), ";
+    const fs::path path = fs::path(CBC_SOURCE_DIR) / file["file"];
+    EXPECT_NE(read_file(path).find(said), std::string::npos) << path << " does not say " << said;
+  }
 }
 
 /// A command that the README shows, and what it prints; "..." is left out.

@@ -1,13 +1,13 @@
 // check.js PROGRAM: validates what the program writes as JSON with the schemas; see check.sh.
 'use strict';
 
-const Ajv = require('ajv/dist/2020');
-const fs = require('fs');
+const {spawnSync} = require('child_process');
 const path = require('path');
 const {damages} = require('./damages');
 const {lies} = require('./lies');
 const {takeSamples} = require('./samples');
 const {goldenTexts, programTexts} = require('./texts');
+const {idOf, inputs, makeValidator, readSchemas} = require('./validator');
 
 const root = path.join(__dirname, '..', '..');
 const program = path.resolve(process.argv[2]);
@@ -17,26 +17,13 @@ function refuse(reason) {
   process.exit(1);
 }
 
-/** All schemas, by name. */
-function readSchemas() {
-  const folder = path.join(root, 'schemas');
-  const files = fs.readdirSync(folder).filter((file) => file.endsWith('.json'));
-  return new Map(
-    files.map((file) => [
-      path.basename(file, '.json'),
-      JSON.parse(fs.readFileSync(path.join(folder, file), 'utf8')),
-    ])
-  );
-}
-
-// Validates the schemas, too, and refuses keywords that are unknown or have no effect.
-const schemas = readSchemas();
-const ajv = new Ajv({strict: true});
-ajv.addSchema([...schemas.values()]);
+const schemas = readSchemas(root);
+const written = [...schemas.keys()].filter((name) => !inputs.has(name));
+const ajv = makeValidator(schemas.values());
 
 /** Of a schema, or of the part of it that a JSON pointer leads to. */
 function validatorOf(name, pointer = '') {
-  const id = `urn:cbc:schema:${name}:1`;
+  const id = idOf(name);
   const validate = ajv.getSchema(pointer ? `${id}#${pointer}` : id);
   return validate ?? refuse(`${name}.json has not the $id ${id}`);
 }
@@ -105,18 +92,42 @@ function checkLies(documents) {
   return count;
 }
 
+/** What `cbc schema NAME` prints needs no other schema, and accepts the same documents. */
+function checkPrinted(documents) {
+  for (const name of schemas.keys()) {
+    const {status, stdout, stderr} = spawnSync(program, ['schema', name], {encoding: 'utf8'});
+    if (status !== 0) refuse(`cbc schema ${name}: status ${status}: ${stderr}`);
+    const validate = makeValidator([JSON.parse(stdout)]).getSchema(idOf(name));
+    const ownExamples = (schemas.get(name).examples ?? []).map((document) => ({document}));
+    const own = documents.filter((item) => item.schema === name);
+    checkValid([...ownExamples, ...own].map((item) => ({...item, validate})));
+    if (validate({})) refuse(`what cbc schema ${name} prints accepts everything`);
+  }
+}
+
 const examples = [...schemas].flatMap(([name, schema]) => [...examplesIn(name, schema)]);
 checkValid(examples);
 
 const documents = [...goldenTexts(root), ...programTexts(root, program)].flatMap(documentsIn);
 checkValid(documents);
-const least = {'catalog-dump': 100, events: 500, lint: 5, solve: 60, state: 40, sweep: 10};
-for (const name of schemas.keys()) {
+const least = {
+  'catalog-dump': 100,
+  events: 500,
+  graph: 20,
+  lint: 5,
+  solve: 60,
+  state: 40,
+  sweep: 10,
+};
+for (const name of written) {
   const found = documents.filter((item) => item.schema === name).length;
   if (!(found >= least[name])) refuse(`only ${found} documents of ${name}.json were found`);
 }
 
-const damaged = checkDamages([...examples, ...takeSamples(documents)]);
+checkPrinted(documents);
+
+const ownExamples = examples.filter((item) => !inputs.has(item.schema));
+const damaged = checkDamages([...ownExamples, ...takeSamples(documents)]);
 const told = checkLies(documents);
 console.log(
   `valid: ${schemas.size} schemas, ${examples.length} examples, ${documents.length} documents; ` +

@@ -43,6 +43,8 @@ const kindOfTotals = of(lineWith('totals'), (line) => line.totals.kinds[0]);
 const exclusion = (sweep) => sweep.reasons.find((item) => item.kind === 'exclusive');
 const histogram = (sweep) => sweep.nodes.histogram;
 const request = (state) => state.running[0]?.request;
+const nodeOf = (kind) => (graph) => graph.nodes.find((item) => item.kind === kind);
+const edgeOf = (kind) => (graph) => graph.edges.find((item) => item.kind === kind);
 const finding = ({files}) => files[0].diagnostics[0];
 const summary = ({files}) => files[0].summary;
 const group = ({groups}) => groups[0];
@@ -194,6 +196,19 @@ const lies = {
     ['a search space of nothing', summary, {search_space: '0'}],
     ['a group without tasks', of(summary, group), {tasks: []}],
     ['a task twice in a group', of(summary, group), {tasks: ['A', 'A']}],
+  ],
+
+  graph: [
+    ['a task without a name', nodeOf('task'), {name: null}],
+    ['a task of a package', nodeOf('task'), {package: 'a'}],
+    ['a behavior that is not defined', nodeOf('behavior'), {defined: false}],
+    ['a hub with a name', nodeOf('hub'), {name: 'A'}],
+    ['a node of another kind', nodeOf('task'), {kind: 'behavior'}],
+    ['a suitability over 100', edgeOf('performed_by'), {suitability: 100.5}],
+    ['a performed task with a minimum', edgeOf('performed_by'), {minimum_performance: 80}],
+    ['a minimum over 100', edgeOf('requirement'), {minimum_performance: 100.5}],
+    ['an exclusion with a minimum', edgeOf('exclusion'), {minimum_performance: null}],
+    ['an edge from an edge', edgeOf('exclusion'), {from: 'edge:1'}],
   ],
 
   'catalog-dump': [

@@ -9,6 +9,7 @@ const path = require('path');
 const schemaOf = {
   'cbc.catalog/1': 'catalog-dump',
   'cbc.events/1': 'events',
+  'cbc.graph/1': 'graph',
   'cbc.lint/1': 'lint',
   'cbc.solve/1': 'solve',
   'cbc.state/1': 'state',
@@ -50,6 +51,14 @@ class Runs {
 
   *labelled(...args) {
     yield* label(`cbc ${args.join(' ')}`, this.run(...args));
+  }
+
+  *graph(catalog) {
+    for (const view of ['full', 'tasks', 'constraints', 'behaviors']) {
+      const graph = ['graph', catalog, '--format', 'json', '--view', view];
+      yield* this.labelled(...graph);
+      yield* this.labelled(...graph, '--exclusivity', 'hubs');
+    }
   }
 
   *solve(catalog, script, names) {
@@ -108,7 +117,10 @@ function* textsOfCatalog(runs, file) {
       yield* runs.solve(file, script, namesIn(dump.text));
     }
   }
-  if (swept.has(file)) yield* runs.sweep(file);
+  if (swept.has(file)) {
+    yield* runs.sweep(file);
+    yield* runs.graph(file);
+  }
 }
 
 /** What the program makes of all catalogs in the repository. */

@@ -17,14 +17,18 @@ const words = new Set([
   'severity',
   'status',
   'verb',
+  'view',
 ]);
 
 /** Texts that have a pattern. */
 const hasPattern = new Set([
   'content_digest',
   'digest',
+  'from',
+  'id',
   'search_space',
   'space',
+  'to',
   'version',
   'written_by',
 ]);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "catalog/shapes.h"
 #include "cbc/diagnostic.h"
 #include "cbc/event.h"
 #include "cbc/rules.h"
@@ -14,7 +15,9 @@
 #include "coordinator/search_totals.h"
 #include "explain/comparison.h"
 #include "explain/reason.h"
+#include "script/shapes.h"
 #include "sweep/counts.h"
+#include "yaml/fields.h"
 
 namespace cbc {
 namespace {
@@ -27,10 +30,12 @@ Json schema(const std::string& name) {
   return Json::parse(file);
 }
 
+/// Of an input null is a word, too: a key without a value.
 void add_words(const Json& part, Words& words) {
   if (part.contains("const")) words.insert(part["const"].get<std::string>());
   if (!part.contains("enum")) return;
-  for (const Json& word : part["enum"]) words.insert(word.get<std::string>());
+  for (const Json& word : part["enum"])
+    words.insert(word.is_null() ? std::string() : word.get<std::string>());
 }
 
 /// Of the part that a JSON pointer leads to.
@@ -101,6 +106,60 @@ TEST(SchemaWords, OfLint) {
   for (const Rule& rule : all_rules()) rules.emplace(rule.name);
   EXPECT_EQ(words_at(lint, diagnostic + "rule"), rules);
   EXPECT_EQ(words_at(lint, diagnostic + "severity"), names_up_to(Severity::error));
+}
+
+/// The part that a reference of this schema leads to; the part itself if it is none.
+const Json& resolve(const Json& schema, const Json& part) {
+  if (!part.contains("$ref")) return part;
+  return schema.at(Json::json_pointer(part["$ref"].get<std::string>().substr(1)));
+}
+
+/// The keys of a mapping in the schema are those that the program reads, older names and all.
+void expect_keys(const Json& schema, const std::string& pointer, const yaml::Shape& shape) {
+  const Json& properties = schema.at(Json::json_pointer(pointer + "/properties"));
+  Words expected;
+  for (const yaml::Key& key : shape.keys) {
+    expected.emplace(key.name);
+    const auto found = properties.find(key.name);
+    if (found == properties.end()) continue;
+    const bool is_older = !key.replaced_by.empty();
+    EXPECT_EQ(resolve(schema, *found).contains("deprecated"), is_older) << pointer << key.name;
+    const bool has_text =
+        found->contains("description") || resolve(schema, *found).contains("description");
+    EXPECT_TRUE(has_text) << pointer << key.name;
+  }
+  Words found;
+  for (const auto& property : properties.items()) found.insert(property.key());
+  EXPECT_EQ(found, expected) << pointer;
+}
+
+TEST(SchemaWords, OfCatalogs) {
+  const Json catalog = schema("catalog");
+  expect_keys(catalog, "", shape::catalog);
+  expect_keys(catalog, "/$defs/default_values", shape::default_values);
+  expect_keys(catalog, "/$defs/task_defaults", shape::task_defaults);
+  expect_keys(catalog, "/$defs/behavior_defaults", shape::behavior_defaults);
+  expect_keys(catalog, "/$defs/behavior", shape::behavior);
+  expect_keys(catalog, "/$defs/performance", shape::performance);
+  expect_keys(catalog, "/$defs/requirement", shape::requirement);
+  expect_keys(catalog, "/$defs/task", shape::task);
+  expect_keys(catalog, "/$defs/parameter", shape::parameter);
+  expect_keys(catalog, "/$defs/exclusivity_constraint", shape::exclusivity_list);
+}
+
+TEST(SchemaWords, OfScripts) {
+  const Json script = schema("script");
+  expect_keys(script, "", shape::script);
+  expect_keys(script, "/$defs/event", shape::event);
+  expect_keys(script, "/$defs/expectation", shape::expectation);
+  const auto or_none = [](Words words) {
+    words.emplace();
+    return words;
+  };
+  EXPECT_EQ(words_at(script, "/$defs/event/properties/cause"),
+            or_none(names_up_to(FinishCause::interrupted)));
+  EXPECT_EQ(words_at(script, "/$defs/expectation/properties/outcome"),
+            or_none(names_up_to(Outcome::unchanged)));
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ std::size_t verify_folder(const std::filesystem::path& folder) {
   return count;
 }
 
-TEST(Verify, OwnCatalogsHaveNoFault) { EXPECT_EQ(verify_folder(CBC_SOURCE_DIR "/catalogs"), 2U); }
+TEST(Verify, OwnCatalogsHaveNoFault) { EXPECT_GE(verify_folder(CBC_SOURCE_DIR "/catalogs"), 2U); }
 
 TEST(Verify, PublishedCatalogsHaveNoFault) {
   const char* const given = std::getenv("CBC_SHARED");

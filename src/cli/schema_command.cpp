@@ -1,0 +1,89 @@
+#include "cli/schema_command.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/exit_status.h"
+#include "cli/input.h"
+#include "cli/schemas.h"
+#include "cli/terminal.h"
+#include "text/nearest.h"
+#include "text/quote.h"
+#include "text/style.h"
+
+namespace cbc::cli {
+namespace {
+
+constexpr const char* footer =
+    "Examples:\n"
+    "  cbc schema                          the names of all schemas, and what they describe\n"
+    "  cbc schema catalog > catalog.json   for an editor that completes and checks YAML\n"
+    "  cbc schema solve > solve.json       for a program that reads 'cbc solve --format json'\n"
+    "\n"
+    "The schemas are JSON Schema 2020-12. An editor with the YAML language server uses one for a\n"
+    "file that begins with\n"
+    "  # yaml-language-server: $schema=catalog.json\n"
+    "\n"
+    "Exit status: 0 the schema is printed, 2 there is none of this name, or the usage is wrong.";
+
+struct SchemaCommand {
+  std::string name;
+  bool list = false;
+};
+
+int list_schemas() {
+  std::size_t width = 0;
+  for (const Schema& schema : all_schemas()) width = std::max(width, schema.name.size());
+  const Style style = style_for(stdout);
+  for (const Schema& schema : all_schemas()) {
+    fmt::print("{}{:<{}}{}  {}\n", style.strong, schema.name, width, style.reset, title_of(schema));
+  }
+  return exit_ok;
+}
+
+int usage_error(const std::string& message) {
+  complain(message + "\nSee 'cbc schema --help'.");
+  return exit_unusable;
+}
+
+int print_schema(const SchemaCommand& command) {
+  if (command.list && !command.name.empty()) {
+    return usage_error("--list lists all schemas, so NAME does not go with it");
+  }
+  if (command.name.empty()) return list_schemas();
+  std::vector<std::string_view> names;
+  for (const Schema& schema : all_schemas()) {
+    if (schema.name == command.name) {
+      fmt::print("{}", standalone(schema));
+      return exit_ok;
+    }
+    names.push_back(schema.name);
+  }
+  const auto meant = nearest(command.name, names);
+  return usage_error(fmt::format(
+      "there is no schema {}{}", quote(command.name),
+      meant ? fmt::format("; did you mean {}?", quote(*meant)) : " ('cbc schema' lists them)"));
+}
+
+}  // namespace
+
+void add_schema_command(CLI::App& program, int& status) {
+  const auto options = std::make_shared<SchemaCommand>();
+  CLI::App* const command = program.add_subcommand(
+      "schema", "Prints the JSON Schema of a file that cbc reads or writes.");
+  command->footer(footer);
+  command->add_option("NAME", options->name, "The schema to print; without it, all are listed")
+      ->option_text(" ");
+  command->add_flag("--list", options->list, "List the schemas, as without NAME");
+  command->callback([options, &status] { status = print_schema(*options); });
+}
+
+}  // namespace cbc::cli
