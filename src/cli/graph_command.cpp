@@ -16,15 +16,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "catalog/reader.h"
+#include "cli/drawable.h"
 #include "cli/exit_status.h"
 #include "cli/graph_diff.h"
 #include "cli/graph_options.h"
+#include "cli/graph_state.h"
 #include "cli/graphviz.h"
 #include "cli/input.h"
-#include "cli/input_files.h"
 #include "cli/terminal.h"
-#include "compiled/compile.h"
 #include "draw/catalog_graph.h"
 #include "draw/view.h"
 #include "file/atomic_file.h"
@@ -46,7 +45,10 @@ constexpr const char* graph_footer =
     "  cbc graph quadrotor.yaml --view tasks --reduce  which task requires which\n"
     "  cbc graph quadrotor.cbc --view constraints      what hangs together\n"
     "  cbc graph quadrotor.yaml --format mermaid       for a README file, a pull request\n"
-    "  cbc graph --diff old.yaml new.yaml --format text   what has changed\n"
+    "  cbc graph quadrotor.yaml --script mission.yaml --after 5\n"
+    "                                                  what runs after the 5th event\n"
+    "  cbc graph --diff old.yaml new.yaml --format text\n"
+    "                                                  what has changed\n"
     "\n"
     "Tasks are ellipses, behaviors are rectangles. A solid line says which behavior performs a\n"
     "task, and how well; a dashed arrow what it requires, and the minimum performance; a dotted\n"
@@ -66,6 +68,7 @@ struct GraphCommand {
   std::optional<std::string> output;
   std::string format;
   DrawingOptions drawing;
+  StateOptions state;
 };
 
 /// The format that the suffix of the output names.
@@ -98,9 +101,11 @@ std::string find_misuse(const GraphCommand& command) {
   if (command.is_diff && catalogs != 2) {
     return fmt::format("expected two catalogs to compare, found {}", catalogs);
   }
-  if (!command.is_diff && catalogs != 1) {
+  if (!command.is_diff && catalogs > 1) {
     return fmt::format("expected one catalog, found {}; two can be compared with --diff", catalogs);
   }
+  if (catalogs == 0 && !command.state.script) return "CATALOG is required";
+  if (command.is_diff && command.state.script) return "--diff and --script do not go together";
   if (std::count(command.catalogs.begin(), command.catalogs.end(), "-") > 1) return stdin_only_once;
   if (!command.is_diff && format == "text") return "the format text goes with --diff only";
   if (format == "text" || (command.is_diff && format == "json")) {
@@ -111,58 +116,8 @@ std::string find_misuse(const GraphCommand& command) {
   } else if (command.drawing.legend && format == "json") {
     return "--legend is for pictures; it does not go with json";
   }
+  if (std::string misuse = find_misuse(command.state); !misuse.empty()) return misuse;
   return find_misuse(command.drawing);
-}
-
-/// What can be drawn of a catalog, and what it was made of.
-struct Drawable {
-  CompiledCatalog compiled;  ///< of a catalog without errors
-  CatalogReading reading;    ///< of another one
-  draw::CatalogGraph graph;
-};
-
-std::unique_ptr<Drawable> from_compiled(CompiledCatalog catalog) {
-  auto drawable = std::make_unique<Drawable>();
-  drawable->compiled = std::move(catalog);
-  drawable->graph = draw::to_graph(drawable->compiled);
-  return drawable;
-}
-
-bool has_errors(const std::vector<Diagnostic>& findings) {
-  return std::any_of(findings.begin(), findings.end(),
-                     [](const Diagnostic& finding) { return finding.severity == Severity::error; });
-}
-
-/// Null if nothing can be drawn.
-std::unique_ptr<Drawable> from_text(InputFiles& files, const InputFile& file) {
-  Diagnostics diagnostics;
-  CatalogReading reading = understand_catalog(*file.document, diagnostics);
-  if (files.take_findings(file.path, *file.document, std::move(diagnostics))) {
-    return from_compiled(compile(reading.catalog));
-  }
-  // Without an error it is the settings that could not be read.
-  if (!has_errors(files.findings())) return nullptr;
-  auto drawable = std::make_unique<Drawable>();
-  drawable->reading = std::move(reading);
-  drawable->graph = draw::to_graph(drawable->reading, files.findings());
-  const draw::CatalogGraph& graph = drawable->graph;
-  if (graph.tasks.empty() && graph.behaviors.empty()) return nullptr;
-  return drawable;
-}
-
-/// Prints what is wrong with it. Null if nothing can be drawn.
-std::unique_ptr<Drawable> read(const std::string& path) {
-  InputFiles files;
-  std::unique_ptr<Drawable> drawable;
-  if (const std::optional<InputFile> file = files.read(path)) {
-    if (file->document != nullptr) {
-      drawable = from_text(files, *file);
-    } else if (std::optional<CompiledFile> compiled = load(file->compiled)) {
-      drawable = from_compiled(std::move(compiled->catalog));
-    }
-  }
-  files.print_findings();
-  return drawable;
 }
 
 /// The diagram in the format. Empty if it could not be made, which is complained of.
@@ -196,28 +151,34 @@ bool can_write(const GraphCommand& command) {
     complain(fmt::format("{} is not written to a terminal; expected -o OUT or a pipe", format));
     return false;
   }
-  for (const std::string& catalog : command.catalogs) {
+  const auto is_output = [&](const std::string& input) {
     std::error_code ignored;
-    if (!std::filesystem::equivalent(catalog, *command.output, ignored)) continue;
-    usage_error("graph",
-                fmt::format("the output {} is the catalog itself", quote(*command.output)));
-    return false;
-  }
-  return true;
+    return std::filesystem::equivalent(input, *command.output, ignored);
+  };
+  const bool is_catalog = std::any_of(command.catalogs.begin(), command.catalogs.end(), is_output);
+  if (!is_catalog && !(command.state.script && is_output(*command.state.script))) return true;
+  usage_error("graph", fmt::format("the output {} is the {} itself", quote(*command.output),
+                                   is_catalog ? "catalog" : "script"));
+  return false;
 }
 
-int draw(const draw::CatalogGraph& graph, const GraphCommand& command) {
+int draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& moment,
+         const GraphCommand& command) {
   const std::optional<draw::Part> part = find_part(graph, command.drawing);
   if (!part) return exit_unusable;
   draw::Diagram diagram = make_diagram(graph, *part, view_options(command.drawing));
+  diagram.moment = moment;
   if (command.drawing.legend) add_legend(diagram);
   const std::optional<std::string> content = write(diagram, format_of(command));
   return content ? deliver(command.output, *content) : exit_unusable;
 }
 
 int draw_catalog(const GraphCommand& command) {
-  const std::unique_ptr<Drawable> drawable = read(command.catalogs.front());
-  return drawable == nullptr ? exit_unusable : draw(drawable->graph, command);
+  const std::string catalog = command.catalogs.empty() ? std::string() : command.catalogs.front();
+  int status = exit_unusable;
+  const std::unique_ptr<Drawable> drawable =
+      command.state.script ? read_state(catalog, command.state, status) : read_drawable(catalog);
+  return drawable == nullptr ? status : draw(drawable->graph, drawable->moment, command);
 }
 
 int show_diff(const ComparedCatalogs& compared, const GraphCommand& command) {
@@ -234,7 +195,7 @@ int show_diff(const ComparedCatalogs& compared, const GraphCommand& command) {
     complain(fmt::format("{} further differences of exclusions are not marked",
                          diff.further_exclusions));
   }
-  return draw(compared.graph, command);
+  return draw(compared.graph, std::nullopt, command);
 }
 
 int draw_diff(const GraphCommand& command) {
@@ -262,8 +223,7 @@ void add_graph_command(CLI::App& program, int& status) {
       ->add_option("CATALOG", options->catalogs,
                    "The catalog: YAML or a compiled one, or - for standard input;\n"
                    "with --diff two of them, the older one first")
-      ->option_text(" ")
-      ->required();
+      ->option_text(" ");
   command->add_flag("--diff", options->is_diff,
                     "Show what two catalogs do not have in common, whatever their order\n"
                     "and layout; exit status 1 if there is anything");
@@ -278,6 +238,7 @@ void add_graph_command(CLI::App& program, int& status) {
       ->option_text("FORMAT")
       ->check(CLI::IsMember({"dot", "mermaid", "json", "svg", "png", "pdf", "text"}));
   add_drawing_options(*command, options->drawing);
+  add_state_options(*command, options->state);
   command->callback([options, &status] { status = run_graph(*options); });
 }
 

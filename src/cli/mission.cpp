@@ -32,7 +32,8 @@ std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::s
       add_script(paths.front(), *first->document);
     } else {
       if (first) given_catalog_ = catalogs_.load(*first);
-      has_failed_ = given_catalog_ == nullptr;
+      is_given_catalog_bad_ = given_catalog_ == nullptr;
+      has_failed_ = is_given_catalog_bad_;
     }
     first_script = 1;
   }
@@ -104,14 +105,11 @@ void MissionLoader::add_script(const std::string& path, const yaml::Document& do
 
 std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_of(const std::string& script_path,
                                                                  const yaml::Document& script) {
-  if (given_catalog_ != nullptr) return given_catalog_;
+  if (given_catalog_ != nullptr || is_given_catalog_bad_) return given_catalog_;
   const std::optional<std::string> named = catalog_of_script(script);
   if (!named) {
-    // A catalog that was given, but has errors, is complaint enough.
-    if (!has_failed_) {
-      complain(fmt::format("script {} names no catalog, and none is given",
-                           quote(display_name(script_path))));
-    }
+    complain(fmt::format("script {} names no catalog, and none is given",
+                         quote(display_name(script_path))));
     return nullptr;
   }
   return catalogs_.load((fs::path(script_path).parent_path() / *named).lexically_normal().string());

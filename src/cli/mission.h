@@ -41,6 +41,7 @@ class MissionLoader {
   InputFiles files_;
   CatalogLoader catalogs_{files_};
   std::shared_ptr<const CompiledCatalog> given_catalog_;
+  bool is_given_catalog_bad_ = false;
   std::vector<Mission> missions_;
   bool has_failed_ = false;
 };

@@ -10,16 +10,6 @@
 #include "text/quote.h"
 
 namespace cbc::cli {
-namespace {
-
-std::string check_seconds(const std::string& text) {
-  const Decimal time = parse_seconds(text);
-  if (time.error == DecimalError::no_error && time.value > 0) return {};
-  return fmt::format("expected seconds, from 0.000001 to 1000000000, found {}", quote(text));
-}
-
-}  // namespace
-
 CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
   const auto check = [least, most](const std::string& text) -> std::string {
     std::int64_t number = 0;
@@ -33,6 +23,14 @@ CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
   return {check, ""};
 }
 
-CLI::Validator seconds() { return {check_seconds, ""}; }
+CLI::Validator seconds(Microseconds least) {
+  const auto check = [least](const std::string& text) -> std::string {
+    const Decimal time = parse_seconds(text);
+    if (time.error == DecimalError::no_error && time.value >= least) return {};
+    return fmt::format("expected seconds, from {} to 1000000000, found {}",
+                       format_decimal(least, 6), quote(text));
+  };
+  return {check, ""};
+}
 
 }  // namespace cbc::cli

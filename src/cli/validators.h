@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cbc/units.h"
+
 /// Checks of option values that CLI11 lacks, with messages that say what was expected.
 namespace cbc::cli {
 
@@ -12,7 +14,7 @@ namespace cbc::cli {
 [[nodiscard]] CLI::Validator whole_number(
     std::int64_t least, std::int64_t most = std::numeric_limits<std::int64_t>::max());
 
-/// Accepts a time in seconds, over 0.
-[[nodiscard]] CLI::Validator seconds();
+/// Accepts a time in seconds, of so many microseconds at least.
+[[nodiscard]] CLI::Validator seconds(Microseconds least = 1);
 
 }  // namespace cbc::cli

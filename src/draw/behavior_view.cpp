@@ -19,7 +19,7 @@ std::map<std::uint32_t, Requirements> required_behaviors(const Builder& builder,
     for (const std::uint32_t link : graph.performances_of_task[requirement.task]) {
       const std::uint32_t node = builder.node_of_behavior(graph.performances[link].behavior);
       if (node == none) continue;
-      const auto mark = join(requirement.mark, presence_of(graph.performances[link].mark));
+      const auto mark = join(requirement.mark, use_of(graph.performances[link].mark));
       if (mark) required[node].emplace_back(requirement).mark = *mark;
     }
   }

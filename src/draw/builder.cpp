@@ -44,6 +44,7 @@ void Builder::add_tasks() {
     node.name = from.name;
     node.group = from.group;
     node.minimum_performance = from.minimum_performance;
+    node.priority = from.priority;
     node.label = label_of(from.name);
     node.mark = from.mark == Mark::plain && part_.is_beside[task] ? Mark::faint : from.mark;
     if (from.minimum_performance > 0) node.notes.push_back(at_least(from.minimum_performance));
@@ -77,7 +78,8 @@ Edge& Builder::add_edge(EdgeKind kind, std::uint32_t from, std::uint32_t to, Mar
   edge.from = from;
   edge.to = to;
   const auto is_faint = [&](std::uint32_t node) {
-    return diagram_.nodes[node].mark == Mark::faint;
+    const Mark of_node = diagram_.nodes[node].mark;
+    return of_node == Mark::faint || of_node == Mark::unavailable;
   };
   edge.label = with_sign(mark, {});
   edge.mark = mark == Mark::plain && (is_faint(from) || is_faint(to)) ? Mark::faint : mark;

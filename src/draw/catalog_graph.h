@@ -25,6 +25,7 @@ struct CatalogGraph {
     std::uint32_t group = 0;             ///< none: only an older catalog has it
     Millionths minimum_performance = 0;  ///< 0: none
     bool is_defined = true;
+    std::optional<std::int32_t> priority;  ///< of its request, in a state
     Mark mark = Mark::plain;
     std::vector<std::string> notes;  ///< what is to be said of it beside the above
   };

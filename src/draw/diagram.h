@@ -34,10 +34,11 @@ struct Node {
   std::string_view name;  ///< as in the catalog; empty: it has none
   std::string_view package;
   std::uint32_t group = none;
-  Millionths minimum_performance = 0;  ///< 0: none
-  std::uint32_t left_out = 0;          ///< of a hub: tasks of the list that are not drawn
-  std::string label;                   ///< on one line, fit to be shown
-  std::vector<std::string> notes;      ///< each on a line below
+  Millionths minimum_performance = 0;    ///< 0: none
+  std::optional<std::int32_t> priority;  ///< of a task: of its request, in a state
+  std::uint32_t left_out = 0;            ///< of a hub: tasks of the list that are not drawn
+  std::string label;                     ///< on one line, fit to be shown
+  std::vector<std::string> notes;        ///< each on a line below
   Mark mark = Mark::plain;
   bool is_defined = true;
   std::uint32_t color = none;    ///< number of a color; none: that of the kind
@@ -59,9 +60,18 @@ struct Cluster {
   std::string label;
 };
 
+/// When the state was that a picture shows.
+struct Moment {
+  std::string script;       ///< its file
+  std::uint64_t index = 0;  ///< of the last event; 0: none yet
+  Microseconds time = 0;    ///< of this event
+  std::string event;  ///< what it was and what came of it: "start HOVER, priority 2: accepted"
+};
+
 struct Diagram {
   View view = View::full;
   std::string_view file;
+  std::optional<Moment> moment;
   std::vector<Node> nodes;
   std::vector<Edge> edges;
   std::vector<Cluster> clusters;

@@ -16,6 +16,14 @@ std::string with_sign(Mark mark, std::string label) {
   return std::string(sign) + (label.empty() ? "" : " ") + std::move(label);
 }
 
+std::vector<std::string> caption_of(const Moment& moment) {
+  const std::string script = label_of(std::string_view(moment.script));
+  if (moment.index == 0) return {script + ", before the first event"};
+  return {script + ", after event " + std::to_string(moment.index) + " at " +
+              format_decimal(moment.time, 6) + " s",
+          moment.event};
+}
+
 std::string label_of(const CatalogGraph::Performance& performance) {
   const Millionths suitability = performance.suitability;
   if (performance.before) {

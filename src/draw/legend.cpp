@@ -35,9 +35,12 @@ class Legend {
     }
     if (has(EdgeKind::exclusion)) add_exclusion();
     for (const Mark mark : marks_) {
-      if (draw::name_of(mark).empty()) continue;
-      const NodeKind kind = has_tasks_ ? NodeKind::task : NodeKind::behavior;
-      diagram_.nodes[add_node(kind, std::string(draw::name_of(mark)))].mark = mark;
+      std::string label = describe(mark);
+      if (label.empty()) continue;
+      // Only behaviors are unavailable.
+      const bool is_task = has_tasks_ && mark != Mark::unavailable;
+      diagram_.nodes[add_node(is_task ? NodeKind::task : NodeKind::behavior, std::move(label))]
+          .mark = mark;
     }
   }
 
@@ -64,6 +67,13 @@ class Legend {
     for (int i = 0; i < 2; ++i) {
       add_edge(EdgeKind::exclusion, hub, add_node(kind, "…"), "");
     }
+  }
+
+  /// Empty for what needs no word.
+  [[nodiscard]] std::string describe(Mark mark) const {
+    if (mark == Mark::unavailable) return "unavailable or faulty";
+    if (mark == Mark::faint && diagram_.moment) return "inactive";
+    return std::string(draw::name_of(mark));
   }
 
   static std::string name_of(NodeKind kind) { return kind == NodeKind::task ? "task" : "behavior"; }

@@ -38,7 +38,7 @@ std::vector<TaskRequirement> task_requirements(const CatalogGraph& graph, const 
       const CatalogGraph::Performance& performance = graph.performances[link];
       if (!part.has_behavior[performance.behavior]) continue;
       if (performance.mark != Mark::removed) ++behaviors;
-      const Mark mark = presence_of(performance.mark);
+      const Mark mark = use_of(performance.mark);
       for (const std::uint32_t place : graph.requirements_of_behavior[performance.behavior]) {
         const CatalogGraph::Requirement& requirement = graph.requirements[place];
         if (!part.has_task[requirement.task]) continue;

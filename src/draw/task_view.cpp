@@ -31,7 +31,8 @@ std::vector<bool> implied(const Builder& builder,
   }
   std::vector<bool> result = transitive_edges(builder.part().tasks.size(), edges);
   for (std::size_t i = 0; i < requirements.size(); ++i) {
-    if (requirements[i].mark != Mark::plain) result[i] = false;
+    const Mark mark = requirements[i].mark;
+    if (mark != Mark::plain && mark != Mark::faint) result[i] = false;
   }
   return result;
 }

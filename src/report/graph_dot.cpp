@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "draw/cluster_members.h"
+#include "draw/labels.h"
 #include "draw/names.h"
 #include "report/graph_palette.h"
 #include "text/wrap.h"
@@ -92,6 +93,7 @@ class DotWriter {
         "  edge [arrowsize=0.6, fontname=\"Helvetica,Arial,sans-serif\", fontsize=9];\n";
     add_nodes();
     for (const Edge& edge : diagram_.edges) add_edge(edge);
+    if (diagram_.moment) add_caption();
     dot_ += "}\n";
     return std::move(dot_);
   }
@@ -104,6 +106,18 @@ class DotWriter {
     const bool is_large = diagram_.nodes.size() > 40;
     dot_ += is_dense && !is_large ? "ranksep=0.9, " : "ranksep=0.3, ";
     dot_ += is_dense && is_large ? "nodesep=0.02, " : "nodesep=0.15, ";
+  }
+
+  /// Stands last, as clusters would take it over.
+  void add_caption() {
+    dot_ += "  labelloc=t; label=\"";
+    std::string_view separator;
+    for (const std::string& line : draw::caption_of(*diagram_.moment)) {
+      dot_ += separator;
+      append_shown(dot_, line);
+      separator = "\\n";
+    }
+    dot_ += "\";\n";
   }
 
   void add_nodes() {

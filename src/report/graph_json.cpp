@@ -73,7 +73,21 @@ void write_mark(JsonWriter& json, Mark mark) {
   }
 }
 
-std::string node_to_text(const Node& node) {
+void write_moment(JsonWriter& json, const draw::Moment& moment) {
+  json.open("state", '{');
+  json.write_text("script", moment.script);
+  json.write_integer("index", moment.index);
+  if (moment.index == 0) {
+    json.write_null("time");
+    json.write_null("event");
+  } else {
+    json.write_seconds("time", moment.time);
+    json.write_text("event", moment.event);
+  }
+  json.close('}');
+}
+
+std::string node_to_text(const Node& node, bool has_state) {
   std::string text;
   JsonWriter json(text);
   json.open('{');
@@ -95,6 +109,11 @@ std::string node_to_text(const Node& node) {
     const Millionths minimum = node.minimum_performance;
     write_percent(json, "minimum_performance", minimum > 0 ? std::optional(minimum) : std::nullopt);
     json.write_truth("defined", node.is_defined);
+    if (node.priority) {
+      json.write_integer("priority", *node.priority);
+    } else if (has_state) {
+      json.write_null("priority");
+    }
   }
   write_mark(json, node.mark);
   json.open("notes", '[');
@@ -127,8 +146,11 @@ std::string graph_json(const draw::Diagram& diagram) {
   json.write_text("schema", "cbc.graph/1");
   json.write_text("catalog", diagram.file);
   json.write_text("view", name_of(diagram.view));
+  if (diagram.moment) write_moment(json, *diagram.moment);
   json.open("nodes", '[');
-  for (const Node& node : diagram.nodes) append_item(text, node_to_text(node));
+  for (const Node& node : diagram.nodes) {
+    append_item(text, node_to_text(node, diagram.moment.has_value()));
+  }
   json.close(']');
   json.open("edges", '[');
   for (const Edge& edge : diagram.edges) append_item(text, edge_to_text(diagram, edge));

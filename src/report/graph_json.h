@@ -11,6 +11,10 @@ namespace cbc {
 ///     {"schema": "cbc.graph/1",
 ///      "catalog": "robot.yaml",
 ///      "view": "full",                      or tasks, constraints, behaviors
+///      "state": {"script": "mission.yaml",  only of a state: what it is that of
+///                "index": 3,                as in cbc.solve/1: of the last event; 0: none yet
+///                "time": 4.5,               its time; null: none yet
+///                "event": "wait"},          what it was, and what came of it; null: none yet
 ///      "nodes": [
 ///        {"id": "task:HOVER",               unique, from the name
 ///         "kind": "task",                   or behavior, hub (an exclusivity list)
@@ -20,7 +24,10 @@ namespace cbc {
 ///         "minimum_performance": 80,        of a task: percent, or null
 ///         "left_out": 12,                   of a hub: tasks of the list that are not drawn
 ///         "defined": true,                  of a task: false if it is only named
-///         "mark": null,                     how it stands out: "faulty" (an error of the catalog)
+///         "priority": 2,                    of a task, only of a state: of its request, or null
+///         "mark": null,                     how it stands out: "faulty" (an error of the
+///                                           catalog); of a state "active", "started" and
+///                                           "stopped" (by the event), "unavailable"
 ///         "notes": ["≥ 80 %"]}],            what else the picture says of it, a line each
 ///      "edges": [
 ///        {"kind": "performed_by",           or requirement, exclusion (between two, or from a

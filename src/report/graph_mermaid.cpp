@@ -3,13 +3,16 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "draw/cluster_members.h"
+#include "draw/labels.h"
 #include "report/graph_palette.h"
+#include "report/json_text.h"
 
 namespace cbc {
 namespace {
@@ -20,7 +23,8 @@ using draw::Mark;
 using draw::Node;
 using draw::NodeKind;
 
-constexpr std::array standing_out = {Mark::faulty, Mark::added, Mark::removed, Mark::changed};
+constexpr std::array standing_out = {Mark::faulty, Mark::added,   Mark::removed, Mark::changed,
+                                     Mark::active, Mark::started, Mark::stopped, Mark::unavailable};
 
 bool is_letter_or_digit(char byte) {
   return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') ||
@@ -88,7 +92,8 @@ class MermaidWriter {
   explicit MermaidWriter(const draw::Diagram& diagram) : diagram_(diagram) {}
 
   std::string run() && {
-    text_ = "flowchart LR\n";
+    if (diagram_.moment) add_title();
+    text_ += "flowchart LR\n";
     add_nodes();
     for (const Edge& edge : diagram_.edges) add_edge(edge);
     add_classes();
@@ -97,6 +102,27 @@ class MermaidWriter {
   }
 
  private:
+  /// Between the dashes is YAML, which JSON is part of. In titles Mermaid takes "<stdin>" for a
+  /// tag, and knows no entities that could stand for it.
+  void add_title() {
+    std::string title;
+    for (const std::string& line : draw::caption_of(*diagram_.moment)) {
+      if (!title.empty()) title += ": ";
+      for (const char byte : line) {
+        if (byte == '<') {
+          title += "‹";
+        } else if (byte == '>') {
+          title += "›";
+        } else {
+          title += byte;
+        }
+      }
+    }
+    text_ += "---\ntitle: ";
+    append_text(text_, title);
+    text_ += "\n---\n";
+  }
+
   void add_nodes() {
     for (const Node& node : diagram_.nodes) {
       if (node.cluster == none) add_node(node, "  ");
@@ -199,30 +225,32 @@ class MermaidWriter {
     }
   }
 
-  void add_line_style(const std::vector<std::size_t>& edges, std::string_view style) {
-    if (edges.empty()) return;
-    text_ += "  linkStyle ";
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      if (i > 0) text_ += ',';
-      text_ += std::to_string(edges[i]);
+  /// Plain lines keep the color of the page's theme.
+  static std::string line_style(const Edge& edge) {
+    std::string style;
+    if (const std::optional<palette::Look> look = palette::look_of(edge.mark)) {
+      style = "stroke:" + std::string(look->color.line);
+      if (look->is_thick) style += ",stroke-width:3px";
     }
-    text_ += ' ';
-    text_ += style;
-    text_ += '\n';
+    if (edge.kind != EdgeKind::exclusion) return style;
+    return style + (style.empty() ? "" : ",") + "stroke-dasharray:2 5";
   }
 
-  /// Plain lines keep the color of the page's theme.
+  /// One for each line: a second one would take the place of the first.
   void add_line_styles() {
-    std::vector<std::size_t> dotted;
-    std::map<Mark, std::vector<std::size_t>> by_mark;
+    std::map<std::string, std::vector<std::size_t>> by_style;
     for (std::size_t place = 0; place < diagram_.edges.size(); ++place) {
-      if (diagram_.edges[place].kind == EdgeKind::exclusion) dotted.push_back(place);
-      by_mark[diagram_.edges[place].mark].push_back(place);
+      by_style[line_style(diagram_.edges[place])].push_back(place);
     }
-    add_line_style(dotted, "stroke-dasharray:2 5");
-    for (const Mark mark : standing_out) {
-      add_line_style(by_mark[mark], "stroke:" + std::string(palette::look_of(mark)->color.line) +
-                                        ",stroke-width:3px");
+    for (const auto& [style, edges] : by_style) {
+      if (style.empty()) continue;
+      std::string_view separator = "  linkStyle ";
+      for (const std::size_t edge : edges) {
+        text_ += separator;
+        text_ += std::to_string(edge);
+        separator = ",";
+      }
+      text_ += ' ' + style + '\n';
     }
   }
 

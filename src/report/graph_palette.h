@@ -61,6 +61,14 @@ struct Look {
       return Look{{"#D55E00", "#FBE5D6"}, ink, true, true};
     case draw::Mark::changed:
       return Look{{"#B37B00", "#FAE7BF"}, ink, true};  // orange
+    case draw::Mark::active:
+      return Look{{"#0072B2", "#BFDCEC"}, ink, true};  // blue
+    case draw::Mark::started:
+      return look_of(draw::Mark::added);
+    case draw::Mark::stopped:
+      return look_of(draw::Mark::removed);
+    case draw::Mark::unavailable:
+      return Look{{faint, "#EEEEEE"}, "#595959", false, true};
   }
   return std::nullopt;
 }

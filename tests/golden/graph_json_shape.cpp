@@ -14,8 +14,12 @@ using Keys = std::vector<std::string>;
 class Checker {
  public:
   std::vector<std::string> run(const Json& report) {
-    expect_keys(report, {"schema", "catalog", "view", "nodes", "edges"}, "the report");
+    has_state_ = report.contains("state");
+    Keys keys{"schema", "catalog", "view", "nodes", "edges"};
+    if (has_state_) keys.insert(keys.begin() + 3, "state");
+    expect_keys(report, keys, "the report");
     if (!faults_.empty()) return faults_;
+    if (has_state_) check_state(report["state"]);
     const std::set<std::string> views{"full", "tasks", "constraints", "behaviors"};
     expect(report["schema"] == "cbc.graph/1", "schema");
     expect(report["catalog"].is_string(), "catalog");
@@ -36,10 +40,25 @@ class Checker {
     expect(keys == expected, what + " has other keys: " + object.dump());
   }
 
+  void check_state(const Json& state) {
+    expect_keys(state, {"script", "index", "time", "event"}, "the state");
+    if (!faults_.empty()) return;
+    expect(state["script"].is_string(), "script");
+    expect(state["index"].is_number_unsigned(), "index");
+    const bool is_beginning = state["index"] == 0;
+    expect(is_beginning ? state["time"].is_null() : state["time"].is_number(), "time");
+    expect(is_beginning ? state["event"].is_null() : state["event"].is_string(), "event");
+  }
+
+  Keys keys_of_task() const {
+    Keys keys{"id", "kind", "name", "group", "minimum_performance", "defined", "mark", "notes"};
+    if (has_state_) keys.insert(keys.begin() + 6, "priority");
+    return keys;
+  }
+
   void check_node(const Json& node) {
-    static const std::map<std::string, Keys> keys = {
-        {"task",
-         {"id", "kind", "name", "group", "minimum_performance", "defined", "mark", "notes"}},
+    const std::map<std::string, Keys> keys = {
+        {"task", keys_of_task()},
         {"behavior", {"id", "kind", "name", "group", "package", "mark", "notes"}},
         {"hub", {"id", "kind", "name", "group", "left_out", "mark", "notes"}}};
     const auto found = keys.find(node.value("kind", ""));
@@ -49,6 +68,9 @@ class Checker {
     expect(node["name"].is_null() ? node["kind"] != "task" : node["name"].is_string(), "name");
     expect(node["group"].is_null() || node["group"].is_number_unsigned(), "group");
     check_mark(node);
+    if (node.contains("priority")) {
+      expect(node["priority"].is_null() || node["priority"].is_number_integer(), "priority");
+    }
     expect(node["notes"].is_array(), "notes");
     check_percent(node, "minimum_performance");
   }
@@ -71,7 +93,9 @@ class Checker {
   }
 
   void check_mark(const Json& object) {
-    const std::set<std::string> marks{"faulty", "added", "removed", "changed"};
+    const std::set<std::string> marks =
+        has_state_ ? std::set<std::string>{"active", "started", "stopped", "unavailable"}
+                   : std::set<std::string>{"faulty", "added", "removed", "changed"};
     const Json& mark = object["mark"];
     expect(mark.is_null() || marks.contains(mark.get<std::string>()), "mark of " + object.dump());
   }
@@ -82,6 +106,7 @@ class Checker {
     expect(value.is_number() && value >= 0 && value <= 100, key + " of " + object.dump());
   }
 
+  bool has_state_ = false;
   std::set<std::string> ids_;
   std::vector<std::string> faults_;
 };

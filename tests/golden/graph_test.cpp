@@ -1,9 +1,12 @@
 // What `cbc graph` makes of files, terminals and Graphviz; the cases have the rest.
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "file/filter.h"
 #include "golden/process.h"
@@ -14,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::ScratchFolder;
+using Json = nlohmann::json;
 
 fs::path catalog() { return fs::path(CBC_SOURCE_DIR) / "catalogs" / "quadrotor.yaml"; }
 
@@ -39,6 +43,92 @@ TEST(Graph, OfACompiledCatalogIsThatOfItsSource) {
       EXPECT_EQ(source.out, compiled.out) << format << ' ' << view;
     }
   }
+}
+
+/// The tasks that run with one of their behaviors, by the lines of a picture.
+Json running_in(const Json& picture) {
+  Json running = Json::object();
+  const auto name = [](const Json& id) {
+    const auto text = id.get<std::string>();
+    return text.substr(text.find(':') + 1);
+  };
+  for (const Json& edge : picture["edges"]) {
+    const bool is_in_use = edge["mark"] == "active" || edge["mark"] == "started";
+    if (edge["kind"] == "performed_by" && is_in_use) running[name(edge["from"])] = name(edge["to"]);
+  }
+  return running;
+}
+
+Json requests_in(const Json& picture) {
+  Json requests = Json::object();
+  for (const Json& node : picture["nodes"]) {
+    if (node["kind"] != "task" || node["priority"].is_null()) continue;
+    requests[node["name"].get<std::string>()] = node["priority"];
+  }
+  return requests;
+}
+
+/// "1. activated" and the like, with the behaviors, in order.
+std::map<std::size_t, std::string> changes_in(const Json& picture) {
+  std::map<std::size_t, std::string> changes;
+  for (const Json& node : picture["nodes"]) {
+    for (const Json& one : node["notes"]) {
+      const auto note = one.get<std::string>();
+      const std::size_t dot = note.find(". ");
+      if (dot == std::string::npos) continue;
+      changes[std::stoul(note)] = note.substr(dot + 2) + " " + node["name"].get<std::string>();
+    }
+  }
+  return changes;
+}
+
+std::map<std::size_t, std::string> changes_of(const Json& event) {
+  std::map<std::size_t, std::string> changes;
+  for (const Json& change : event["changes"]) {
+    const auto operation = change["op"].get<std::string>();
+    const std::string ending = change["success"] == true ? "d " : "";
+    changes[changes.size() + 1] =
+        (ending.empty() ? operation.substr(0, operation.size() - 1) + "ion failed " : operation) +
+        ending + change["behavior"].get<std::string>();
+  }
+  return changes;
+}
+
+// Every state of a mission, against the other command that tells it.
+TEST(Graph, StateAfterAnEventIsThatOfSolve) {
+  const ScratchFolder folder;
+  fs::copy_file(catalog(), folder / "robot.yaml");
+  ASSERT_EQ(run({.arguments = {"compile", "robot.yaml"}, .folder = folder.path()}).status, 0);
+  const std::string mission = fs::path(catalog()).replace_filename("quadrotor.mission.yaml");
+  const Result solved = run(
+      {.arguments = {"solve", "robot.yaml", mission, "--format", "json"}, .folder = folder.path()});
+  ASSERT_EQ(solved.status, 0) << solved.err;
+  const Json events = Json::parse(solved.out)["runs"][0]["events"];
+  ASSERT_GT(events.size(), 15U);
+  std::size_t failures = 0;
+  for (const Json& event : events) {
+    const std::string index = std::to_string(event["index"].get<int>());
+    SCOPED_TRACE(index);
+    const std::vector<std::string> arguments{"--script", mission,    "--after",
+                                             index,      "--format", "json"};
+    std::vector<std::string> of_source = arguments;
+    of_source.insert(of_source.begin(), "robot.yaml");
+    std::vector<std::string> of_compiled = arguments;
+    of_compiled.insert(of_compiled.begin(), "robot.cbc");
+    const Result drawn = graph(folder.path(), of_source);
+    ASSERT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_EQ(graph(folder.path(), of_compiled).out, drawn.out);
+    const Json picture = Json::parse(drawn.out);
+    EXPECT_EQ(picture["state"]["index"], event["index"]);
+    EXPECT_EQ(picture["state"]["time"], event["time"]);
+    EXPECT_EQ(running_in(picture), event["running"]);
+    EXPECT_EQ(requests_in(picture), event["requests"]);
+    EXPECT_EQ(changes_in(picture), changes_of(event));
+    for (const Json& change : event["changes"]) {
+      if (change["success"] == false) ++failures;
+    }
+  }
+  EXPECT_GT(failures, 0U);
 }
 
 TEST(Graph, SuffixOfTheOutputNamesTheFormat) {

@@ -36,6 +36,7 @@ void check(const Sample& sample) {
   ASSERT_TRUE(picture.is_done) << picture.error_output;
   EXPECT_EQ(picture.error_output, "");
   const json graph = json::parse(picture.output);
+  EXPECT_EQ(text_of(graph), sample.caption);
   std::size_t nodes = 0;
   std::vector<std::string> labels;
   for (const json& object : graph.value("objects", json::array())) {

@@ -4,7 +4,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -12,11 +14,15 @@
 #include "catalog/reader.h"
 #include "compiled/compile.h"
 #include "draw/catalog_graph.h"
+#include "draw/labels.h"
 #include "draw/names.h"
+#include "draw/state_marks.h"
 #include "draw/view.h"
 #include "graph/hostile_catalog.h"
 #include "report/graph_dot.h"
 #include "report/graph_mermaid.h"
+#include "report/state_recorder.h"
+#include "script/runner.h"
 #include "yaml/document.h"
 
 namespace cbc::graph_test {
@@ -71,18 +77,60 @@ std::unique_ptr<Source> understand(const std::string& text, const std::string& n
   return is_empty ? nullptr : std::move(source);
 }
 
+Sample draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& moment,
+            const Variant& variant, const std::string& name) {
+  draw::Diagram diagram = make_diagram(graph, whole(graph), variant.options);
+  diagram.moment = moment;
+  if (variant.has_legend) add_legend(diagram);
+  std::string caption;
+  if (moment) {
+    for (const std::string& line : caption_of(*moment)) caption += line;
+  }
+  return {name + ", " + variant.name, graph_dot(diagram),   graph_mermaid(diagram),
+          diagram.nodes.size(),       diagram.edges.size(), {},
+          std::move(caption)};
+}
+
+// Starts one task after the other, while behaviors fail.
+Script script_of(const CompiledCatalog& catalog, const std::string& name) {
+  const auto behaviors = static_cast<std::uint32_t>(catalog.behavior_ids.size());
+  Script script;
+  script.file = name;
+  for (std::uint32_t task = 0; task < catalog.tasks.size() && task < 5; ++task) {
+    for (const Verb verb : {Verb::start, Verb::fault, Verb::finish}) {
+      Step& step = script.steps.emplace_back();
+      step.verb = verb;
+      step.subject = task;
+      step.priority = 1;
+      step.cause = FinishCause::process_failure;
+      if (verb == Verb::fault) step.subject = (task + 1) % behaviors;
+      if (verb == Verb::finish) step.subject = task % behaviors;
+    }
+  }
+  return script;
+}
+
+std::vector<Sample> draw_state(const Source& source, const std::string& name) {
+  draw::CatalogGraph graph = source.graph;
+  const Script script = script_of(source.compiled, name);
+  StateRecorder recorder(source.compiled, script, {});
+  static_cast<void>(run_script(source.compiled, script, {}, recorder));
+  draw::mark_state(graph, recorder.state());
+  std::vector<Sample> samples;
+  for (const Variant& variant : {variants().front(), variants().back()}) {
+    samples.push_back(draw(graph, recorder.moment(), variant, name + ", state"));
+  }
+  return samples;
+}
+
 std::vector<Sample> draw_all(const Source& source, const std::string& name) {
   std::vector<Sample> samples;
   for (const Variant& variant : variants()) {
-    draw::Diagram diagram = make_diagram(source.graph, whole(source.graph), variant.options);
-    if (variant.has_legend) add_legend(diagram);
-    samples.push_back({name + ", " + variant.name,
-                       graph_dot(diagram),
-                       graph_mermaid(diagram),
-                       diagram.nodes.size(),
-                       diagram.edges.size(),
-                       {}});
+    samples.push_back(draw(source.graph, {}, variant, name));
   }
+  if (source.compiled.behavior_ids.empty()) return samples;
+  std::vector<Sample> states = draw_state(source, name);
+  std::move(states.begin(), states.end(), std::back_inserter(samples));
   return samples;
 }
 

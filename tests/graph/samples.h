@@ -15,10 +15,11 @@ struct Sample {
   std::size_t nodes = 0;  // those of the legend and of exclusivity lists included
   std::size_t edges = 0;
   std::vector<std::string> labels;  // of all tasks and behaviors, sorted; empty: not known
+  std::string caption;              // of a state: its lines together
 };
 
 // All catalogs of the repository, and of the folder in CBC_SHARED (default: ../shared of the
-// repository) if it is there; good and bad ones, in every view.
+// repository) if it is there; good and bad ones, in every view; of good ones a state, too.
 [[nodiscard]] std::vector<Sample> samples_of_files();
 
 // A random catalog with names that are meant to break things; half of them have errors.

@@ -1,0 +1,58 @@
+#include "cli/drawable.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "cli/input_files.h"
+#include "compiled/compile.h"
+
+namespace cbc::cli {
+namespace {
+
+std::unique_ptr<Drawable> from_compiled(CompiledCatalog catalog) {
+  auto drawable = std::make_unique<Drawable>();
+  drawable->compiled = std::make_shared<const CompiledCatalog>(std::move(catalog));
+  drawable->graph = draw::to_graph(*drawable->compiled);
+  return drawable;
+}
+
+bool has_errors(const std::vector<Diagnostic>& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Diagnostic& finding) { return finding.severity == Severity::error; });
+}
+
+/// Null if nothing can be drawn.
+std::unique_ptr<Drawable> from_text(InputFiles& files, const InputFile& file) {
+  Diagnostics diagnostics;
+  CatalogReading reading = understand_catalog(*file.document, diagnostics);
+  if (files.take_findings(file.path, *file.document, std::move(diagnostics))) {
+    return from_compiled(compile(reading.catalog));
+  }
+  // Without an error it is the settings that could not be read.
+  if (!has_errors(files.findings())) return nullptr;
+  auto drawable = std::make_unique<Drawable>();
+  drawable->reading = std::move(reading);
+  drawable->graph = draw::to_graph(drawable->reading, files.findings());
+  const draw::CatalogGraph& graph = drawable->graph;
+  if (graph.tasks.empty() && graph.behaviors.empty()) return nullptr;
+  return drawable;
+}
+
+}  // namespace
+
+std::unique_ptr<Drawable> read_drawable(const std::string& path) {
+  InputFiles files;
+  std::unique_ptr<Drawable> drawable;
+  if (const std::optional<InputFile> file = files.read(path)) {
+    if (file->document != nullptr) {
+      drawable = from_text(files, *file);
+    } else if (std::optional<CompiledFile> compiled = load(file->compiled)) {
+      drawable = from_compiled(std::move(compiled->catalog));
+    }
+  }
+  files.print_findings();
+  return drawable;
+}
+
+}  // namespace cbc::cli
