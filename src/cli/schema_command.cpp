@@ -22,7 +22,7 @@
 namespace cbc::cli {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* schema_footer =
     "Examples:\n"
     "  cbc schema                          the names of all schemas, and what they describe\n"
     "  cbc schema catalog > catalog.json   for an editor that completes and checks YAML\n"
@@ -34,11 +34,6 @@ constexpr const char* footer =
     "\n"
     "Exit status: 0 the schema is printed, 2 there is none of this name, or the usage is wrong.";
 
-struct SchemaCommand {
-  std::string name;
-  bool list = false;
-};
-
 int list_schemas() {
   std::size_t width = 0;
   for (const Schema& schema : all_schemas()) width = std::max(width, schema.name.size());
@@ -49,41 +44,32 @@ int list_schemas() {
   return exit_ok;
 }
 
-int usage_error(const std::string& message) {
-  complain(message + "\nSee 'cbc schema --help'.");
-  return exit_unusable;
-}
-
-int print_schema(const SchemaCommand& command) {
-  if (command.list && !command.name.empty()) {
-    return usage_error("--list lists all schemas, so NAME does not go with it");
-  }
-  if (command.name.empty()) return list_schemas();
+int print_schema(const std::string& name) {
+  if (name.empty()) return list_schemas();
   std::vector<std::string_view> names;
   for (const Schema& schema : all_schemas()) {
-    if (schema.name == command.name) {
+    if (schema.name == name) {
       fmt::print("{}", standalone(schema));
       return exit_ok;
     }
     names.push_back(schema.name);
   }
-  const auto meant = nearest(command.name, names);
-  return usage_error(fmt::format(
-      "there is no schema {}{}", quote(command.name),
-      meant ? fmt::format("; did you mean {}?", quote(*meant)) : " ('cbc schema' lists them)"));
+  const auto meant = nearest(name, names);
+  return usage_error("schema", fmt::format("there is no schema {}{}", quote(name),
+                                           meant ? fmt::format("; did you mean {}?", quote(*meant))
+                                                 : " ('cbc schema' lists them)"));
 }
 
 }  // namespace
 
 void add_schema_command(CLI::App& program, int& status) {
-  const auto options = std::make_shared<SchemaCommand>();
+  const auto name = std::make_shared<std::string>();
   CLI::App* const command = program.add_subcommand(
       "schema", "Prints the JSON Schema of a file that cbc reads or writes.");
-  command->footer(footer);
-  command->add_option("NAME", options->name, "The schema to print; without it, all are listed")
+  command->footer(schema_footer);
+  command->add_option("NAME", *name, "The schema to print; without it, all are listed")
       ->option_text(" ");
-  command->add_flag("--list", options->list, "List the schemas, as without NAME");
-  command->callback([options, &status] { status = print_schema(*options); });
+  command->callback([name, &status] { status = print_schema(*name); });
 }
 
 }  // namespace cbc::cli

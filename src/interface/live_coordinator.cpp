@@ -8,7 +8,7 @@
 #include "coordinator/coordinator.h"
 #include "interface/content.h"
 #include "interface/event_checks.h"
-#include "interface/event_log.h"
+#include "interface/handled_events.h"
 
 namespace cbc {
 namespace {
@@ -109,7 +109,7 @@ class LiveCoordinator::Impl {
   }
 
   const CompiledCatalog catalog_;
-  EventLog log_;
+  HandledEvents log_;
   Coordinator coordinator_;
   std::span<const HandledEvent> events_;
 };

@@ -1,6 +1,5 @@
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string_view>
 
@@ -8,6 +7,8 @@
 
 #include "bench/benchmarks.h"
 #include "bench/catalog_generator.h"
+#include "support/read_file.h"
+#include "support/shared_folder.h"
 
 namespace cbc::bench {
 namespace {
@@ -23,12 +24,6 @@ constexpr std::array<CatalogShape, 6> shapes{{{3, 2, 2, 3, 0, seed},
                                               {6, 3, 3, 3, 3, seed},
                                               {9, 3, 2, 3, 3, seed},
                                               {9, 3, 3, 3, 3, seed}}};
-
-/// Folder of the published catalogs, with a separator at its end.
-std::string published_folder() {
-  const char* const shared = std::getenv("CBC_SHARED");
-  return (shared != nullptr ? shared : std::string(CBC_SOURCE_DIR "/../shared")) + "/catalogs/";
-}
 
 void register_table_row(const std::string& name,
                         const std::shared_ptr<const CompiledCatalog>& catalog,
@@ -51,21 +46,22 @@ void register_starts(const std::string& name,
 }  // namespace
 
 void register_catalog_benchmarks() {
-  const std::string folder = published_folder();
+  const std::filesystem::path folder = test::shared_catalogs();
   const bool has_published = std::filesystem::is_directory(folder);
   if (!has_published) {
     fmt::print(stderr, "No folder {} (CBC_SHARED): generated catalogs instead of published ones.\n",
-               folder);
+               folder.string());
   }
   const std::string reference =
-      has_published ? folder + "behavior_catalog.yaml" : CBC_SOURCE_DIR "/catalogs/quadrotor.yaml";
-  register_table_row("reference", compile_text(read_file(reference), reference), "FOLLOW_PATH");
+      has_published ? folder / "behavior_catalog.yaml" : CBC_SOURCE_DIR "/catalogs/quadrotor.yaml";
+  register_table_row("reference", compile_text(test::read_file(reference), reference),
+                     "FOLLOW_PATH");
   for (const CatalogShape& shape : shapes) {
     const std::string name =
         fmt::format("{}{}{}{}{}{}", has_published ? "creator" : "generated", shape.tasks,
                     shape.behaviors, shape.requirements, shape.levels, shape.exclusions);
     const std::string text =
-        has_published ? read_file(folder + name + ".yaml") : generate_catalog(shape);
+        has_published ? test::read_file(folder / (name + ".yaml")) : generate_catalog(shape);
     const std::shared_ptr<const CompiledCatalog> catalog = compile_text(text, name);
     register_table_row(name, catalog, "task0_0");
     register_starts(name, catalog);

@@ -13,6 +13,7 @@
 #include "bench/compiled_inputs.h"
 #include "bench/inputs.h"
 #include "compiled/compiled_file.h"
+#include "support/read_file.h"
 
 extern char** environ;
 
@@ -97,8 +98,8 @@ void time_loading(benchmark::State& state, const std::string& path) {
 }
 
 void register_compiled_benchmarks() {
-  const auto compiled =
-      std::make_shared<const TemporaryFile>(compile_to_bytes(read_file(source), source).bytes);
+  const auto compiled = std::make_shared<const TemporaryFile>(
+      compile_to_bytes(test::read_file(source), source).bytes);
   benchmark::RegisterBenchmark("compiled/quadrotor/load", [compiled](benchmark::State& state) {
     time_loading(state, compiled->path());
   })->UseManualTime();

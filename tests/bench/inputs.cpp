@@ -1,8 +1,6 @@
 #include "bench/inputs.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -11,6 +9,7 @@
 #include "compiled/compile.h"
 #include "diagnostic/text.h"
 #include "script/reader.h"
+#include "support/read_file.h"
 #include "yaml/document.h"
 
 namespace cbc::bench {
@@ -18,7 +17,7 @@ namespace {
 
 Script understand_script(const std::string& path, const CompiledCatalog& catalog) {
   Diagnostics diagnostics;
-  const std::string text = read_file(path);
+  const std::string text = test::read_file(path);
   const auto document = yaml::parse(text, path, diagnostics);
   if (document == nullptr) refuse(diagnostics);
   std::optional<Script> script = read_script(*document, catalog, Severity::warning, diagnostics);
@@ -36,12 +35,6 @@ void refuse(const Diagnostics& diagnostics) {
   throw std::runtime_error(message);
 }
 
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot read " + path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 std::shared_ptr<const CompiledCatalog> compile_text(std::string_view text,
                                                     const std::string& name) {
   Diagnostics diagnostics;
@@ -53,7 +46,7 @@ std::shared_ptr<const CompiledCatalog> compile_text(std::string_view text,
 std::shared_ptr<const Mission> load_mission(const std::string& name) {
   const std::string stem = CBC_SOURCE_DIR "/catalogs/" + name;
   auto mission = std::make_shared<Mission>();
-  mission->catalog = compile_text(read_file(stem + ".yaml"), name);
+  mission->catalog = compile_text(test::read_file(stem + ".yaml"), name);
   mission->script = understand_script(stem + ".mission.yaml", *mission->catalog);
   return mission;
 }

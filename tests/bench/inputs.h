@@ -20,8 +20,6 @@ struct Mission {
 
 [[noreturn]] void refuse(const Diagnostics& diagnostics);
 
-[[nodiscard]] std::string read_file(const std::string& path);
-
 [[nodiscard]] std::shared_ptr<const CompiledCatalog> compile_text(std::string_view text,
                                                                   const std::string& name);
 

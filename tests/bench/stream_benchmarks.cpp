@@ -14,6 +14,7 @@
 #include "bench/benchmarks.h"
 #include "bench/compiled_inputs.h"
 #include "bench/inputs.h"
+#include "support/read_file.h"
 
 extern char** environ;
 
@@ -82,7 +83,7 @@ double find_share(const std::string& log) {
 void time_stream(benchmark::State& state, const TemporaryFile& input) {
   const TemporaryFile output("");
   run_stream(input.path(), output.path());
-  state.counters["share_with_changes"] = find_share(read_file(output.path()));
+  state.counters["share_with_changes"] = find_share(test::read_file(output.path()));
   std::vector<double> times;
   while (state.KeepRunning()) {
     const rusage usage = run_stream(input.path(), output.path());

@@ -1,11 +1,8 @@
 // `cbc compile --check` and `--dump`, which write nothing.
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <set>
 #include <string>
-#include <string_view>
 #include <sys/stat.h>
 #include <vector>
 
@@ -15,6 +12,7 @@
 #include "cbc/version.h"
 #include "compiled/compiled_file.h"
 #include "golden/compiled_files.h"
+#include "support/content_place.h"
 
 namespace cbc::golden {
 namespace {
@@ -71,33 +69,13 @@ TEST_F(CompileCheck, TellsWhyAFileIsStale) {
   expect_stale("it was made from another text of 'robot.yaml'");
 }
 
-struct ContentPlace {
-  std::size_t begin = 0;
-  std::size_t size = 0;
-};
-
-/// Where the content lies in a compiled file: the bytes that have the digest, after their size.
-ContentPlace find_content(const std::string& file, const Digest& digest) {
-  for (std::size_t begin = 4; begin < file.size(); begin += 4) {
-    std::uint32_t size = 0;
-    std::memcpy(&size, file.data() + begin - 4, sizeof size);
-    if (begin + size > file.size()) continue;
-    if (digest_of(std::string_view(file).substr(begin, size)) == digest) return {begin, size};
-  }
-  return {};
-}
-
 /// Replaces a text, which is as long, in a compiled file, and makes the digest fit again.
 std::string forge(std::string file, const std::string& from, const std::string& to) {
-  const Digest digest = read_compiled(file).file->content;
-  const ContentPlace content = find_content(file, digest);
-  const std::string signature(reinterpret_cast<const char*>(digest.bytes.data()),
-                              digest.bytes.size());
+  const test::ContentPlace content = test::find_content(file);
   const std::size_t place = file.find(from, content.begin);
   EXPECT_NE(place, std::string::npos);
   file.replace(place, from.size(), to);
-  const Digest anew = digest_of(std::string_view(file).substr(content.begin, content.size));
-  std::memcpy(file.data() + file.find(signature), anew.bytes.data(), anew.bytes.size());
+  test::sign_anew(file, content);
   return file;
 }
 

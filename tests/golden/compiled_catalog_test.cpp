@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "golden/compiled_files.h"
+#include "support/read_file.h"
 
 namespace cbc::golden {
 namespace {
@@ -131,7 +132,7 @@ TEST_F(CompiledCatalog, GivesLintNoText) {
 }
 
 bool has_mapped(pid_t process, std::string_view file) {
-  const std::string maps = read_file(fmt::format("/proc/{}/maps", process));
+  const std::string maps = test::read_file(fmt::format("/proc/{}/maps", process));
   return maps.find(file) != std::string::npos;
 }
 

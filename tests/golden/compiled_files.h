@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "golden/process.h"
-#include "unit/scratch_folder.h"
+#include "support/scratch_folder.h"
 
 namespace cbc::golden {
 

@@ -1,7 +1,6 @@
 // Every catalog that is at hand, compiled: the answers are those of the YAML, byte for byte.
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,7 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "golden/process.h"
-#include "unit/scratch_folder.h"
+#include "support/catalog_files.h"
+#include "support/read_file.h"
+#include "support/scratch_folder.h"
+#include "support/shared_folder.h"
 
 namespace cbc::golden {
 namespace {
@@ -18,30 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-fs::path shared_catalogs() {
-  const char* const given = std::getenv("CBC_SHARED");
-  return fs::path(given != nullptr ? given : CBC_SOURCE_DIR "/../shared") / "catalogs";
-}
-
-bool is_mission(const fs::path& file) { return file.stem().extension() == ".mission"; }
-
-/// The YAML files of all folders.
-std::vector<fs::path> find_files() {
-  std::vector<fs::path> files;
-  for (const fs::path& folder : {fs::path(CBC_SOURCE_DIR) / "catalogs", shared_catalogs()}) {
-    if (!fs::exists(folder)) continue;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-      if (entry.path().extension() == ".yaml") files.push_back(entry.path());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 std::vector<std::string> find_catalogs() {
   std::vector<std::string> catalogs;
-  for (const fs::path& file : find_files()) {
-    if (!is_mission(file)) catalogs.push_back(file.string());
+  for (const fs::path& folder : {fs::path(CBC_SOURCE_DIR "/catalogs"), test::shared_catalogs()}) {
+    for (const fs::path& file : test::catalog_files(folder)) catalogs.push_back(file.string());
   }
   return catalogs;
 }
@@ -63,7 +45,7 @@ std::string script_of(const Json& summary) {
 class RoundTrip : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    yaml.write("catalog.yaml", read_file(GetParam()));
+    yaml.write("catalog.yaml", test::read_file(GetParam()));
     const Result result =
         run({{"compile", "catalog.yaml", "-o", compiled / "catalog.yaml"}, yaml.path()});
     is_good = result.status == 0;
@@ -115,7 +97,7 @@ TEST_P(RoundTrip, GivesTheSameAnswers) {
 TEST_P(RoundTrip, GivesTheSameMission) {
   const fs::path mission = fs::path(GetParam()).replace_extension(".mission.yaml");
   if (!is_good || !fs::exists(mission)) return;
-  write_script("mission.yaml", read_file(mission));
+  write_script("mission.yaml", test::read_file(mission));
   for (const char* format : {"text", "json"}) {
     expect_same({"solve", "catalog.yaml", "mission.yaml", "--format", format});
   }
@@ -148,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogs, RoundTrip, testing::ValuesIn(find_catalogs())
                          });
 
 TEST(RoundTrips, CoverTheSharedCatalogs) {
-  if (!fs::exists(shared_catalogs())) GTEST_SKIP() << "no " << shared_catalogs();
+  if (!fs::exists(test::shared_catalogs())) GTEST_SKIP() << "no " << test::shared_catalogs();
   EXPECT_GE(find_catalogs().size(), 10U);
 }
 

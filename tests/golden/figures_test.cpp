@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -15,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "golden/process.h"
+#include "support/read_file.h"
 
 namespace cbc::golden {
 namespace {
@@ -119,7 +119,7 @@ TEST(Figures, AreWhatTheirCommandsGive) {
     ASSERT_EQ(result.status, 0) << result.err;
     const Lines lines = lines_of_dot(result.out);
     EXPECT_GT(lines.size(), 5U);
-    EXPECT_EQ(lines_of_svg(read_file(figure)), lines)
+    EXPECT_EQ(lines_of_svg(test::read_file(figure)), lines)
         << "draw it anew, by the command in README.md: " << figure;
   }
   std::set<fs::path> kept;

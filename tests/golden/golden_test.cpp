@@ -27,13 +27,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
-#include "golden/graph_json_shape.h"
-#include "golden/lint_json_shape.h"
+#include "golden/json_relations.h"
 #include "golden/process.h"
-#include "golden/solve_json_shape.h"
-#include "golden/sweep_json_shape.h"
+#include "support/read_file.h"
 
 namespace cbc::golden {
 namespace {
@@ -76,7 +73,7 @@ std::vector<std::string> split(const std::string& line) {
 Call read_call(const fs::path& folder) {
   Call call;
   call.folder = folder;
-  call.arguments = split(read_file(folder / "command"));
+  call.arguments = split(test::read_file(folder / "command"));
   const std::size_t count = call.arguments.size();
   if (count >= 2 && call.arguments[count - 2] == ">") {
     call.standard_output = call.arguments.back();
@@ -87,7 +84,7 @@ Call read_call(const fs::path& folder) {
 }
 
 std::string read_if_there(const fs::path& path) {
-  return fs::exists(path) ? read_file(path) : std::string();
+  return fs::exists(path) ? test::read_file(path) : std::string();
 }
 
 /// Writes a file, or removes it if there is nothing to write.
@@ -133,17 +130,6 @@ bool asks_for_json(const Call& call) {
          *(format + 1) == "json";
 }
 
-/// What is wrong with the shape of a report in JSON, by the schema that it names.
-std::vector<std::string> find_json_faults(const std::string& text) {
-  const nlohmann::json report = nlohmann::json::parse(text, nullptr, false);
-  const std::string schema = report.is_object() ? report.value("schema", "") : "";
-  if (schema == "cbc.diff/1") return {};  // schemas/diff.json says all
-  if (schema == "cbc.graph/1") return find_graph_shape_faults(text);
-  if (schema == "cbc.lint/1") return find_lint_shape_faults(text);
-  if (schema == "cbc.sweep/1") return find_sweep_shape_faults(text);
-  return find_shape_faults(text);
-}
-
 class Golden : public testing::TestWithParam<std::string> {};
 
 TEST_P(Golden, Matches) {
@@ -161,7 +147,7 @@ TEST_P(Golden, Matches) {
   expect_text_of(folder / "stderr", result.err);
   expect_text_of(folder / "status", status);
   if (asks_for_json(call) && !result.out.empty()) {
-    EXPECT_EQ(find_json_faults(result.out), std::vector<std::string>());
+    EXPECT_EQ(find_contradictions(result.out), std::vector<std::string>());
   }
 }
 

@@ -10,7 +10,7 @@
 
 #include "file/filter.h"
 #include "golden/process.h"
-#include "unit/scratch_folder.h"
+#include "support/scratch_folder.h"
 
 namespace cbc::golden {
 namespace {

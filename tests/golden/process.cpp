@@ -5,12 +5,9 @@
 #include <csignal>
 #include <cstddef>
 #include <fcntl.h>
-#include <fstream>
-#include <iterator>
 #include <poll.h>
 #include <pty.h>
 #include <spawn.h>
-#include <stdexcept>
 #include <string_view>
 #include <sys/wait.h>
 #include <system_error>
@@ -108,9 +105,18 @@ pid_t spawn(const Call& call, const File& in, const File& out, const File& err) 
   posix_spawn_file_actions_adddup2(&actions, out.descriptor(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, err.descriptor(), STDERR_FILENO);
   posix_spawn_file_actions_addchdir_np(&actions, call.folder.c_str());
+  // What runs in the background of a shell ignores interrupts.
+  sigset_t interrupts;
+  sigemptyset(&interrupts);
+  sigaddset(&interrupts, SIGINT);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigdefault(&attributes, &interrupts);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   pid_t process = -1;
-  const int error = ::posix_spawn(&process, CBC_PROGRAM_PATH, &actions, nullptr,
+  const int error = ::posix_spawn(&process, CBC_PROGRAM_PATH, &actions, &attributes,
                                   pointers_to(arguments).data(), pointers_to(environment).data());
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) fail(CBC_PROGRAM_PATH, error);
   return process;
@@ -191,12 +197,6 @@ Result run_on_terminal_until(const Call& call, const std::string& text) {
   read_all(terminal.read, none, result);
   result.status = wait_for(process);
   return result;
-}
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot read " + path.string());
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace cbc::golden

@@ -40,7 +40,4 @@ struct Result {
 /// The same, until the output has this text: then the program is interrupted.
 [[nodiscard]] Result run_on_terminal_until(const Call& call, const std::string& text);
 
-/// The whole text of a file.
-[[nodiscard]] std::string read_file(const std::filesystem::path& path);
-
 }  // namespace cbc::golden

@@ -1,7 +1,6 @@
 // What `cbc lint` says about catalogs published with the original tool, if they are at hand.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -12,9 +11,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "golden/lint_json_shape.h"
+#include "golden/json_relations.h"
 #include "golden/process.h"
-#include "unit/scratch_folder.h"
+#include "support/read_file.h"
+#include "support/scratch_folder.h"
+#include "support/shared_folder.h"
 
 namespace cbc::golden {
 namespace {
@@ -22,17 +23,12 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-fs::path shared_catalogs() {
-  const char* const given = std::getenv("CBC_SHARED");
-  return fs::path(given != nullptr ? given : CBC_SOURCE_DIR "/../shared") / "catalogs";
-}
-
 /// What lint reports of one file, as JSON.
 Json lint(const fs::path& file) {
   const Result result =
       run({{"lint", "--format", "json", file.filename().string()}, file.parent_path()});
   EXPECT_EQ(result.err, "");
-  EXPECT_EQ(find_lint_shape_faults(result.out), std::vector<std::string>());
+  EXPECT_EQ(find_contradictions(result.out), std::vector<std::string>());
   const Json report = Json::parse(result.out);
   EXPECT_EQ(result.status, report["errors"] == 0 ? 0 : 1);
   return report;
@@ -59,10 +55,10 @@ std::string message_at(const Json& report, std::uint64_t line, const std::string
 class PublishedLint : public testing::Test {
  protected:
   void SetUp() override {
-    if (!fs::exists(shared_catalogs())) GTEST_SKIP() << "no " << shared_catalogs();
+    if (!fs::exists(test::shared_catalogs())) GTEST_SKIP() << "no " << test::shared_catalogs();
   }
 
-  static Json lint_shared(const std::string& name) { return lint(shared_catalogs() / name); }
+  static Json lint_shared(const std::string& name) { return lint(test::shared_catalogs() / name); }
 };
 
 TEST_F(PublishedLint, FindsTheKeyOnTheWrongLevel) {
@@ -87,7 +83,7 @@ TEST_F(PublishedLint, CountsWhatACatalogHas) {
   // The search space anew, from the lines of the file: "  task: NAME" belongs to a behavior.
   std::map<std::string, std::uint64_t> behaviors_of;
   std::uint64_t behaviors = 0;
-  std::ifstream file(shared_catalogs() / "behavior_catalog.yaml");
+  std::ifstream file(test::shared_catalogs() / "behavior_catalog.yaml");
   for (std::string line; std::getline(file, line);) {
     if (line.rfind("- behavior: ", 0) == 0) ++behaviors;
     if (line.rfind("  task: ", 0) == 0)
@@ -153,10 +149,10 @@ Json solve(const test::ScratchFolder& folder) {
 class PublishedFix : public testing::TestWithParam<const char*> {};
 
 TEST_P(PublishedFix, LeavesEveryAnswerAsItIs) {
-  const fs::path file = shared_catalogs() / (std::string(GetParam()) + ".yaml");
+  const fs::path file = test::shared_catalogs() / (std::string(GetParam()) + ".yaml");
   if (!fs::exists(file)) GTEST_SKIP() << "no " << file;
   const test::ScratchFolder folder;
-  folder.write("catalog.yaml", read_file(file));
+  folder.write("catalog.yaml", test::read_file(file));
   const Json summary = lint(folder / "catalog.yaml")["files"][0]["summary"];
   ASSERT_TRUE(summary.is_object());
   folder.write("script.yaml", script_of(summary));

@@ -11,6 +11,7 @@
 
 #include "cbc/rules.h"
 #include "golden/process.h"
+#include "support/read_file.h"
 
 namespace cbc::golden {
 namespace {
@@ -42,7 +43,7 @@ TEST(RuleCases, BreakTheirRuleOnly) {
     const fs::path folder = case_of(rule);
     ASSERT_TRUE(fs::exists(folder / "command")) << "no case of rule " << rule.name;
     Call call{{}, folder};
-    std::istringstream command(read_file(folder / "command"));
+    std::istringstream command(test::read_file(folder / "command"));
     for (std::string word; command >> word;) call.arguments.push_back(word);
     ASSERT_EQ(std::count(call.arguments.begin(), call.arguments.end(), near_miss), 1) << rule.name;
     call.arguments.insert(call.arguments.end(), {"--format", "json"});

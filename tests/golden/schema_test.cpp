@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "golden/process.h"
+#include "support/read_file.h"
 
 namespace cbc::golden {
 namespace {
@@ -45,7 +46,7 @@ std::string print(const fs::path& file) {
 
 TEST(Schemas, ArePrintedAsTheyAre) {
   for (const fs::path& file : schema_files()) {
-    const std::string text = read_file(file);
+    const std::string text = test::read_file(file);
     const Json schema = Json::parse(text);
     std::set<std::string> references;
     add_references(schema, references);

@@ -1,18 +1,16 @@
 // Many scripts in one call: whatever -j says, the output is the same.
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "golden/json_relations.h"
 #include "golden/process.h"
-#include "golden/solve_json_shape.h"
+#include "support/scratch_folder.h"
 
 namespace cbc::golden {
 namespace {
@@ -41,34 +39,30 @@ exclusivity_constraints:
 class SolveRuns : public testing::Test {
  protected:
   void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "cbc-test-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder = name;
-    std::ofstream(folder / "catalog.yaml") << catalog_text;
+    folder.write("catalog.yaml", catalog_text);
     fs::create_directory(folder / "missions");
     for (std::size_t number = 0; number < scripts; ++number) {
-      std::ofstream script(folder / "missions" / ("m" + std::to_string(100 + number) + ".yaml"));
       const std::size_t rounds = number % 7 == 0 ? 300 : number % 3;
-      script << "- start: BEEP\n";
+      std::string script = "- start: BEEP\n";
       for (std::size_t round = 0; round < rounds; ++round) {
-        script << "- {start: MOVE, priority: 2}\n- {stop: MOVE, priority: 2}\n- start: BEEP\n";
+        script += "- {start: MOVE, priority: 2}\n- {stop: MOVE, priority: 2}\n- start: BEEP\n";
       }
-      script << (number % 5 == 0 ? "- expect: {outcome: rejected}\n"
-                                 : "- expect: {running: {BEEP: any}}\n");
-      if (number == endless) script << "- {stop: BEEP}\n- wait: 1000\n";
+      script += number % 5 == 0 ? "- expect: {outcome: rejected}\n"
+                                : "- expect: {running: {BEEP: any}}\n";
+      if (number == endless) script += "- {stop: BEEP}\n- wait: 1000\n";
+      folder.write("missions/m" + std::to_string(100 + number) + ".yaml", script);
     }
   }
-  void TearDown() override { fs::remove_all(folder); }
 
   [[nodiscard]] Result solve(std::vector<std::string> more) const {
-    Call call{{"solve", "catalog.yaml", "missions", "--max-clock-events", "20"}, folder};
+    Call call{{"solve", "catalog.yaml", "missions", "--max-clock-events", "20"}, folder.path()};
     call.arguments.insert(call.arguments.end(), more.begin(), more.end());
     return run(call);
   }
 
   static constexpr std::size_t scripts = 40;
   static constexpr std::size_t endless = 23;
-  fs::path folder;
+  test::ScratchFolder folder;
 };
 
 TEST_F(SolveRuns, AreTheSameWhateverTheNumberOfJobs) {
@@ -99,7 +93,7 @@ TEST_F(SolveRuns, AreAllInTheReportInOrder) {
 TEST_F(SolveRuns, MakeTheSamePageWhateverTheNumberOfJobs) {
   static_cast<void>(solve({"--html", "one.html", "-j", "1"}));
   static_cast<void>(solve({"--html", "many.html", "-j", "4"}));
-  EXPECT_EQ(read_file(folder / "one.html"), read_file(folder / "many.html"));
+  EXPECT_EQ(folder.read("one.html"), folder.read("many.html"));
 }
 
 /// Sums over events, worked out anew from the events of the report.
@@ -148,7 +142,7 @@ void expect_totals(json totals, const std::vector<json>& searches) {
 
 TEST_F(SolveRuns, HaveStatisticsThatAddUp) {
   const Result result = solve({"--format", "json", "--stats", "-j", "4"});
-  EXPECT_EQ(find_shape_faults(result.out), std::vector<std::string>());
+  EXPECT_EQ(find_contradictions(result.out), std::vector<std::string>());
   const json report = json::parse(result.out);
   std::vector<json> all;
   for (const json& run : report["runs"]) {

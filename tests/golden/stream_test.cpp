@@ -25,7 +25,7 @@
 #include <nlohmann/json.hpp>
 
 #include "golden/process.h"
-#include "unit/scratch_folder.h"
+#include "support/scratch_folder.h"
 
 namespace cbc::golden {
 namespace {

@@ -1,16 +1,15 @@
 // `cbc solve --sweep` from outside: what it writes can be used as the manual says.
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "golden/json_relations.h"
 #include "golden/process.h"
-#include "golden/sweep_json_shape.h"
+#include "support/scratch_folder.h"
 
 namespace cbc::golden {
 namespace {
@@ -22,16 +21,9 @@ const std::string catalog = CBC_SOURCE_DIR "/catalogs/quadrotor.yaml";
 
 class Sweep : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "cbc-test-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    scratch = name;
-  }
-  void TearDown() override { fs::remove_all(scratch); }
-
   /// The standard output of a call that has to succeed.
   [[nodiscard]] std::string call(const std::vector<std::string>& arguments) const {
-    Call call{arguments, scratch};
+    Call call{arguments, scratch.path()};
     call.arguments.insert(call.arguments.begin(), "solve");
     const Result result = run(call);
     EXPECT_EQ(result.status, 0);
@@ -39,11 +31,7 @@ class Sweep : public testing::Test {
     return result.out;
   }
 
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(scratch / name, std::ios::binary) << text;
-  }
-
-  fs::path scratch;
+  test::ScratchFolder scratch;
 };
 
 /// The nodes of an event in a report of `cbc solve`.
@@ -60,7 +48,7 @@ TEST_F(Sweep, WritesTheSlowestEventAsAScript) {
                                        "slowest.yaml", "--format", "json"}));
   const std::string report = call({catalog, "slowest.yaml", "--tie-seed", "4", "--format", "json"});
   EXPECT_EQ(nodes_of(report, sweep["slowest"]["event"]), sweep["slowest"]["nodes"]);
-  EXPECT_EQ(read_file(scratch / "slowest.yaml"), sweep["slowest"]["script"]);
+  EXPECT_EQ(scratch.read("slowest.yaml"), sweep["slowest"]["script"]);
 }
 
 TEST_F(Sweep, WritesTheEventThatTookLongestAsAScript) {
@@ -72,7 +60,7 @@ TEST_F(Sweep, WritesTheEventThatTookLongestAsAScript) {
 }
 
 TEST_F(Sweep, IsTheSameForACompiledCatalogElsewhere) {
-  const Result compiled = run({{"compile", catalog, "-o", "q.cbc"}, scratch});
+  const Result compiled = run({{"compile", catalog, "-o", "q.cbc"}, scratch.path()});
   ASSERT_EQ(compiled.status, 0);
   fs::copy(catalog, scratch / "moved.yaml");
   const std::string text = call({catalog, "--sweep", "20", "--format", "json", "-j", "1"});
@@ -85,15 +73,15 @@ TEST_F(Sweep, IsTheSameForACompiledCatalogElsewhere) {
 
 TEST_F(Sweep, MergesShardsWithStatistics) {
   for (const std::string shard : {"1", "2"}) {
-    write(shard,
-          call({catalog, "--sweep", "20", "--shard", shard + "/2", "--stats", "--format", "json"}));
+    scratch.write(shard, call({catalog, "--sweep", "20", "--shard", shard + "/2", "--stats",
+                               "--format", "json"}));
   }
   const std::string merged = call({"--merge", "2", "1", "--format", "json"});
-  EXPECT_EQ(find_sweep_shape_faults(merged), std::vector<std::string>());
+  EXPECT_EQ(find_contradictions(merged), std::vector<std::string>());
   Json sweep = Json::parse(merged);
   EXPECT_EQ(sweep["stats"]["elapsed_us"],
-            Json::parse(read_file(scratch / "1"))["stats"]["elapsed_us"].get<int>() +
-                Json::parse(read_file(scratch / "2"))["stats"]["elapsed_us"].get<int>());
+            Json::parse(scratch.read("1"))["stats"]["elapsed_us"].get<int>() +
+                Json::parse(scratch.read("2"))["stats"]["elapsed_us"].get<int>());
   sweep.erase("stats");
   EXPECT_EQ(sweep, Json::parse(call({catalog, "--sweep", "20", "--format", "json"})));
 }
@@ -101,12 +89,11 @@ TEST_F(Sweep, MergesShardsWithStatistics) {
 TEST_F(Sweep, RunsAsTheRecipeForParallelSays) {
   if (std::system("parallel --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no GNU parallel";
   const std::string command =
-      "cd '" + scratch.string() + "' && parallel --will-cite '" CBC_PROGRAM_PATH " solve " +
-      catalog + " --sweep 100 --shard {}/8 -j 1 --format json > shard-{}.json' ::: $(seq 8) && " +
+      "cd '" + scratch.path() + "' && parallel --will-cite '" CBC_PROGRAM_PATH " solve " + catalog +
+      " --sweep 100 --shard {}/8 -j 1 --format json > shard-{}.json' ::: $(seq 8) && " +
       CBC_PROGRAM_PATH " solve --merge shard-*.json --format json > merged.json";
   ASSERT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(read_file(scratch / "merged.json"),
-            call({catalog, "--sweep", "100", "--format", "json"}));
+  EXPECT_EQ(scratch.read("merged.json"), call({catalog, "--sweep", "100", "--format", "json"}));
 }
 
 }  // namespace

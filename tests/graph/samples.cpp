@@ -1,14 +1,11 @@
 #include "graph/samples.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "catalog/reader.h"
@@ -23,6 +20,8 @@
 #include "report/graph_mermaid.h"
 #include "report/state_recorder.h"
 #include "script/runner.h"
+#include "support/read_file.h"
+#include "support/shared_folder.h"
 #include "yaml/document.h"
 
 namespace cbc::graph_test {
@@ -134,12 +133,6 @@ std::vector<Sample> draw_all(const Source& source, const std::string& name) {
   return samples;
 }
 
-std::string read_file(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 void collect(const fs::path& folder, std::vector<fs::path>& files) {
   if (!fs::is_directory(folder)) return;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
@@ -165,17 +158,15 @@ std::vector<std::string> labels_of(const Catalog& catalog) {
 
 std::vector<Sample> samples_of_files() {
   const fs::path root(CBC_SOURCE_DIR);
-  const char* const shared = std::getenv("CBC_SHARED");
   std::vector<fs::path> files;
   collect(root / "catalogs", files);
   collect(root / "tests" / "golden", files);
-  collect(fs::path(shared == nullptr ? (root / ".." / "shared").string() : shared) / "catalogs",
-          files);
+  collect(test::shared_catalogs(), files);
   std::sort(files.begin(), files.end());
   std::set<std::string> known;
   std::vector<Sample> samples;
   for (const fs::path& file : files) {
-    const std::string text = read_file(file);
+    const std::string text = test::read_file(file);
     if (!known.insert(text).second) continue;
     const auto source = understand(text, file.string());
     if (source == nullptr) continue;

@@ -2,7 +2,6 @@
 // says. CBC_SEED sets the seed of the first case, CBC_PROPERTY_CASES their number.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <iterator>
 #include <map>
 #include <set>
@@ -18,6 +17,7 @@
 #include "diff/catalog_diff.h"
 #include "draw/diff_graph.h"
 #include "draw/mark.h"
+#include "environment.h"
 #include "generator.h"
 #include "random.h"
 #include "yaml_text.h"
@@ -26,11 +26,6 @@ namespace cbc::oracle {
 namespace {
 
 constexpr std::uint64_t default_cases = 1000;
-
-std::uint64_t environment(const char* name, std::uint64_t otherwise) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? otherwise : std::strtoull(value, nullptr, 0);
-}
 
 /// What a catalog says: "b requires t" -> {"minimum_performance": "500000"}.
 using Statements = std::map<std::string, std::map<std::string, std::string>>;

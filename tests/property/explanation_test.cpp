@@ -2,7 +2,6 @@
 // CBC_SEED sets the seed of the first case, CBC_EXPLANATION_CASES their number.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -10,11 +9,13 @@
 
 #include <gtest/gtest.h>
 
+#include "environment.h"
 #include "explanation_check.h"
 #include "generator.h"
 #include "random.h"
 #include "statistics.h"
 #include "subject.h"
+#include "support/rounds.h"
 #include "yaml_text.h"
 
 namespace cbc::oracle {
@@ -24,11 +25,6 @@ using nlohmann::ordered_json;
 
 constexpr std::uint32_t most_alternatives = 7;
 constexpr std::uint64_t cases_for_statistics = 150;  // fewer say nothing about how often
-
-std::uint64_t environment(const char* name, std::uint64_t otherwise) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? otherwise : std::strtoull(value, nullptr, 0);
-}
 
 struct Sample {
   Case inputs;
@@ -63,7 +59,7 @@ const LowerBound lower_bounds[] = {
 
 TEST(Explanation, AgreesWithBruteForce) {
   const std::uint64_t first = environment("CBC_SEED", 1);
-  const std::uint64_t cases = environment("CBC_EXPLANATION_CASES", 200);
+  const std::uint64_t cases = environment("CBC_EXPLANATION_CASES", test::rounds(200U));
   std::cout << "CBC_SEED=" << first << " CBC_EXPLANATION_CASES=" << cases << std::endl;
   Statistics statistics;
   for (std::uint64_t seed = first; seed < first + cases; ++seed) {

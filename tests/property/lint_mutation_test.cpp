@@ -4,11 +4,8 @@
 // folder above the published catalogs, if they are at hand.
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -21,9 +18,13 @@
 #include "block_text.h"
 #include "catalog_outline.h"
 #include "cbc/rules.h"
+#include "environment.h"
 #include "lint/lint.h"
 #include "lint_catalogs.h"
 #include "lint_mutations.h"
+#include "support/catalog_files.h"
+#include "support/read_file.h"
+#include "support/shared_folder.h"
 #include "yaml/document.h"
 
 namespace cbc::mutation {
@@ -34,11 +35,6 @@ constexpr std::uint64_t default_cases = 5000;
 constexpr std::size_t failures_shown = 5;
 /// Fewer cases say nothing about how often a kind of mistake was made.
 constexpr std::uint64_t cases_for_statistics = 2000;
-
-std::uint64_t environment(const char* name, std::uint64_t otherwise) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? otherwise : std::strtoull(value, nullptr, 0);
-}
 
 std::vector<Diagnostic> lint(const std::string& text) {
   Diagnostics diagnostics;
@@ -99,34 +95,22 @@ Base make_base(const std::string& name, const std::string& text) {
   return base;
 }
 
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 /// The catalogs of the project, and the published ones.
 std::vector<Base> file_bases() {
   std::vector<Base> bases;
   const std::filesystem::path source(CBC_SOURCE_DIR);
   for (const char* name : {"quadrotor.yaml", "target-following.yaml"}) {
-    bases.push_back(make_base(name, read_file(source / "catalogs" / name)));
+    bases.push_back(make_base(name, test::read_file(source / "catalogs" / name)));
     EXPECT_EQ(bases.back().errors, "") << name;
     EXPECT_NE(bases.back().outline, nullptr) << name;
   }
-  const char* const given = std::getenv("CBC_SHARED");
-  const auto folder =
-      (given == nullptr ? source / ".." / "shared" : std::filesystem::path(given)) / "catalogs";
+  const std::filesystem::path folder = test::shared_catalogs();
   if (!std::filesystem::is_directory(folder)) {
     std::cout << "Skipped: the published catalogs; there is no " << folder << "\n";
     return bases;
   }
-  std::vector<std::filesystem::path> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".yaml") paths.push_back(entry.path());
-  }
-  std::sort(paths.begin(), paths.end());
-  for (const std::filesystem::path& path : paths) {
-    Base base = make_base(path.filename().string(), read_file(path));
+  for (const std::filesystem::path& path : test::catalog_files(folder)) {
+    Base base = make_base(path.filename().string(), test::read_file(path));
     if (!base.errors.empty() || base.outline == nullptr) {
       std::cout << "Skipped: " << base.name
                 << (base.errors.empty() ? ", another style\n" : ", which has errors\n");

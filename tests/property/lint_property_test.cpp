@@ -2,17 +2,12 @@
 // force finds, and nothing else. CBC_SEED sets the seed of the first case, CBC_PROPERTY_CASES their
 // number; the seed of a fault is printed, and CBC_SEED=<that> CBC_PROPERTY_CASES=1 repeats it
 // alone.
-#include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <exception>
 #include <functional>
-#include <iostream>
 #include <map>
 #include <stdexcept>
 #include <string>
-#include <thread>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -23,32 +18,14 @@
 #include "lint_generator.h"
 #include "lint_oracle.h"
 #include "random.h"
+#include "random_cases.h"
 #include "statistics.h"
 #include "yaml_text.h"
 
 namespace cbc::oracle {
 namespace {
 
-constexpr std::uint64_t default_seed = 1;
 constexpr std::uint64_t default_cases = 5000;
-constexpr std::uint64_t cases_for_statistics = 500;  // fewer say nothing about how often
-constexpr std::size_t faults_shown = 3;
-constexpr std::uint64_t worker_count = 2;
-
-std::uint64_t environment(const char* name, std::uint64_t otherwise) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? otherwise : std::strtoull(value, nullptr, 0);
-}
-
-struct Fault {
-  std::uint64_t seed = 0;
-  std::string report;
-};
-
-struct Results {
-  Statistics statistics;
-  std::vector<Fault> faults;
-};
 
 struct Sample {
   Catalog catalog;
@@ -74,42 +51,6 @@ void run_case(std::uint64_t seed, Results& results) {
                                         sample.yaml + "--- fault\n" + error.what() + "\n"});
   }
 }
-
-// Every worker takes each worker_count-th case, and stops by itself, so the answer does not depend
-// on which is faster.
-Results run_share(std::uint64_t first_seed, std::uint64_t cases, std::uint64_t worker) {
-  Results results;
-  for (std::uint64_t i = worker; i < cases && results.faults.size() < faults_shown;
-       i += worker_count) {
-    run_case(first_seed + i, results);
-  }
-  return results;
-}
-
-Results run_all(std::uint64_t first_seed, std::uint64_t cases) {
-  std::vector<Results> shares(worker_count);
-  std::vector<std::thread> workers;
-  for (std::uint64_t worker = 0; worker < worker_count; ++worker) {
-    workers.emplace_back([&shares, first_seed, cases, worker] {
-      shares[worker] = run_share(first_seed, cases, worker);
-    });
-  }
-  Results all;
-  for (std::uint64_t worker = 0; worker < worker_count; ++worker) {
-    workers[worker].join();
-    all.statistics.merge(shares[worker].statistics);
-    for (Fault& fault : shares[worker].faults) all.faults.push_back(std::move(fault));
-  }
-  std::sort(all.faults.begin(), all.faults.end(),
-            [](const Fault& a, const Fault& b) { return a.seed < b.seed; });
-  return all;
-}
-
-// How often something has to happen in 1000 cases for the comparison to mean anything.
-struct LowerBound {
-  const char* what;
-  std::int64_t per_thousand;
-};
 
 const LowerBound lower_bounds[] = {
     {"exclusive-requirement", 150},
@@ -165,7 +106,7 @@ void expect_faults(const LintOracle& oracle, const Findings& findings,
 
 TEST(LintProperty, CheckSeesWhatIsWrong) {
   constexpr std::uint64_t cases = 150;
-  for (std::uint64_t seed = default_seed; seed < default_seed + cases; ++seed) {
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     const Sample sample = make_sample(seed);
     const CatalogFacts facts(sample.catalog);
     const LintOracle oracle(facts);
@@ -191,21 +132,7 @@ TEST(LintProperty, CheckSeesWhatIsWrong) {
 }
 
 TEST(LintProperty, SameFindingsAsBruteForce) {
-  const std::uint64_t seed = environment("CBC_SEED", default_seed);
-  const std::uint64_t cases = environment("CBC_PROPERTY_CASES", default_cases);
-  std::cout << "CBC_SEED=" << seed << " CBC_PROPERTY_CASES=" << cases << std::endl;
-
-  const Results results = run_all(seed, cases);
-  const std::size_t shown = std::min(results.faults.size(), faults_shown);
-  for (std::size_t i = 0; i < shown; ++i) ADD_FAILURE() << results.faults[i].report;
-  for (const auto& [what, times] : results.statistics.all()) {
-    std::cout << "  " << times << "  " << what << "\n";
-  }
-  if (!results.faults.empty() || cases < cases_for_statistics) return;
-  for (const LowerBound& bound : lower_bounds) {
-    const std::int64_t needed = bound.per_thousand * static_cast<std::int64_t>(cases) / 1000;
-    EXPECT_GE(results.statistics.of(bound.what), needed) << "too rare: " << bound.what;
-  }
+  run_random_cases(default_cases, run_case, lower_bounds);
 }
 
 }  // namespace

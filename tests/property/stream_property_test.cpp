@@ -21,13 +21,14 @@
 #include "script/event_log.h"
 #include "script/reader.h"
 #include "script/runner.h"
+#include "support/rounds.h"
 #include "yaml/document.h"
 #include "yaml_text.h"
 
 namespace cbc::oracle {
 namespace {
 
-constexpr std::uint64_t cases = 300;
+const std::uint64_t cases = test::rounds(300U);
 
 using Lines = std::vector<std::string>;
 

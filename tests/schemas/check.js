@@ -5,6 +5,7 @@ const {spawnSync} = require('child_process');
 const path = require('path');
 const {damages} = require('./damages');
 const {lies} = require('./lies');
+const {findDisorder, kindsIn, reversals} = require('./order');
 const {takeSamples} = require('./samples');
 const {goldenTexts, programTexts} = require('./texts');
 const {idOf, inputs, makeValidator, readSchemas} = require('./validator');
@@ -105,13 +106,38 @@ function checkPrinted(documents) {
   }
 }
 
+const kinds = written.flatMap((name) => [...kindsIn(schemas.get(name))]);
+
+/** Readers, and those who compare texts, rely on the order of members. */
+function checkOrder(items) {
+  for (const {source, document} of items) {
+    const object = findDisorder(document, kinds);
+    if (object) refuse(`members in another order: ${source}: ${JSON.stringify(object)}`);
+  }
+}
+
+/** Each object that is turned around must be refused. */
+function checkReversals(items) {
+  let count = 0;
+  for (const {source, document} of items) {
+    for (const object of reversals(document)) {
+      if (!findDisorder(document, kinds)) refuse(`${source}: no order: ${JSON.stringify(object)}`);
+      ++count;
+    }
+  }
+  return count;
+}
+
 const examples = [...schemas].flatMap(([name, schema]) => [...examplesIn(name, schema)]);
 checkValid(examples);
+const ownExamples = examples.filter((item) => !inputs.has(item.schema));
 
 const documents = [...goldenTexts(root), ...programTexts(root, program)].flatMap(documentsIn);
 checkValid(documents);
+checkOrder([...ownExamples, ...documents]);
 const least = {
   'catalog-dump': 100,
+  diff: 10,
   events: 500,
   graph: 20,
   lint: 5,
@@ -126,10 +152,11 @@ for (const name of written) {
 
 checkPrinted(documents);
 
-const ownExamples = examples.filter((item) => !inputs.has(item.schema));
-const damaged = checkDamages([...ownExamples, ...takeSamples(documents)]);
+const samples = [...ownExamples, ...takeSamples(documents)];
+const damaged = checkDamages(samples);
+const reversed = checkReversals(samples);
 const told = checkLies(documents);
 console.log(
   `valid: ${schemas.size} schemas, ${examples.length} examples, ${documents.length} documents; ` +
-    `refused: ${damaged} damaged ones, ${told} that contradict themselves`
+    `refused: ${damaged} damaged ones, ${reversed} in disorder, ${told} that contradict themselves`
 );

@@ -1,9 +1,18 @@
 // Damage that every schema must see, wherever it is.
 'use strict';
 
-const {hasPattern, isFree, isOptional, mapsByName, mayBeEmpty, words} = require('./vocabulary');
+const {
+  hasPattern,
+  isFree,
+  isOptional,
+  mapsByName,
+  mayBeEmpty,
+  mayBeOfAnyType,
+  words,
+} = require('./vocabulary');
 
 function wrongValues(name, value) {
+  if (mayBeOfAnyType.has(name) && value === null) return [];
   const wrong = [typeof value === 'boolean' ? 7 : true];
   if (typeof value === 'number') wrong.push(-1);
   if (typeof value === 'string' && !mayBeEmpty.has(name)) wrong.push('');

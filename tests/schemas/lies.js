@@ -44,6 +44,14 @@ const exclusion = (sweep) => sweep.reasons.find((item) => item.kind === 'exclusi
 const histogram = (sweep) => sweep.nodes.histogram;
 const request = (state) => state.running[0]?.request;
 const nodeOf = (kind) => (graph) => graph.nodes.find((item) => item.kind === kind);
+const changeOf =
+  (subject, kind) =>
+  ({changes}) =>
+    changes.find((item) => item.subject === subject && (kind === undefined || item.kind === kind));
+const attributeOf = (name) => ({changes}) => {
+  const attributes = changes.flatMap((change) => change.attributes);
+  return attributes.find((attribute) => attribute.name === name);
+};
 const edgeOf = (kind) => (graph) => graph.edges.find((item) => item.kind === kind);
 const finding = ({files}) => files[0].diagnostics[0];
 const summary = ({files}) => files[0].summary;
@@ -209,6 +217,18 @@ const lies = {
     ['a minimum over 100', edgeOf('requirement'), {minimum_performance: 100.5}],
     ['an exclusion with a minimum', edgeOf('exclusion'), {minimum_performance: null}],
     ['an edge from an edge', edgeOf('exclusion'), {from: 'edge:1'}],
+    ['a priority of a behavior', nodeOf('behavior'), {priority: 1}],
+    ['an event before the first', ({state}) => state, {index: -1}],
+  ],
+
+  diff: [
+    ['a task with a behavior', changeOf('task'), {behavior: 'A'}],
+    ['a behavior that is a task', changeOf('behavior'), {task: 'A'}],
+    ['a changed exclusion', changeOf('exclusion'), {kind: 'changed'}],
+    ['a change of nothing', changeOf('task', 'changed'), {attributes: []}],
+    ['a time for a truth', attributeOf('timeout'), {after: true}],
+    ['a number for a truth', attributeOf('start_on_request'), {after: 1}],
+    ['an unknown goal', attributeOf('execution_goal'), {after: 'odd'}],
   ],
 
   'catalog-dump': [

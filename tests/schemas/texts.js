@@ -8,6 +8,7 @@ const path = require('path');
 
 const schemaOf = {
   'cbc.catalog/1': 'catalog-dump',
+  'cbc.diff/1': 'diff',
   'cbc.events/1': 'events',
   'cbc.graph/1': 'graph',
   'cbc.lint/1': 'lint',
@@ -59,6 +60,13 @@ class Runs {
       yield* this.labelled(...graph);
       yield* this.labelled(...graph, '--exclusivity', 'hubs');
     }
+  }
+
+  /** A state of a mission, and what the catalog has in common with another one. */
+  *marks(catalog, script) {
+    yield* this.labelled('graph', catalog, '--format', 'json', '--script', script);
+    const other = 'catalogs/quadrotor.yaml';
+    yield* this.labelled('graph', '--diff', other, catalog, '--format', 'json');
   }
 
   *solve(catalog, script, names) {
@@ -115,6 +123,7 @@ function* textsOfCatalog(runs, file) {
   for (const script of [file.replace(/yaml$/, 'mission.yaml'), `${folder}/script.yaml`]) {
     if (fs.existsSync(path.join(runs.root, script))) {
       yield* runs.solve(file, script, namesIn(dump.text));
+      yield* runs.marks(file, script);
     }
   }
   if (swept.has(file)) {

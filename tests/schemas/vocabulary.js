@@ -9,6 +9,7 @@ const words = new Set([
   'cause',
   'execution_goal',
   'kind',
+  'mark',
   'op',
   'origin',
   'outcome',
@@ -16,6 +17,7 @@ const words = new Set([
   'schema',
   'severity',
   'status',
+  'subject',
   'verb',
   'view',
 ]);
@@ -35,13 +37,18 @@ const hasPattern = new Set([
 
 /** Texts that may be empty. */
 const mayBeEmpty = new Set([
+  'after',
   'allowed_values',
+  'before',
   'catalog',
   'file',
   'package',
   'parameters',
   'script',
 ]);
+
+/** What type the value has depends on what it is the value of. */
+const mayBeOfAnyType = new Set(['after', 'before']);
 
 /** Whether the value is what a user gave, of any form. */
 function isFree(name, value) {
@@ -52,7 +59,7 @@ function isFree(name, value) {
 function isOptional(object, name) {
   if (name === 'behavior') return object.kind === 'performance';
   if (name === 'error') return 'events' in object; // of a run; not of a line
-  return ['alternatives', 'parameters', 'stats', 'why'].includes(name);
+  return ['alternatives', 'parameters', 'priority', 'state', 'stats', 'why'].includes(name);
 }
 
-module.exports = {hasPattern, isFree, isOptional, mapsByName, mayBeEmpty, words};
+module.exports = {hasPattern, isFree, isOptional, mapsByName, mayBeEmpty, mayBeOfAnyType, words};

@@ -15,6 +15,7 @@
 #include "cbc/rules.h"
 #include "findings.h"
 #include "lint/controls.h"
+#include "support/rounds.h"
 
 namespace cbc {
 namespace {
@@ -564,7 +565,7 @@ TEST(AllowComments, RandomFilesAgreeWithTheDescription) {
   std::size_t allowed = 0;
   std::size_t kept = 0;
   std::size_t unused = 0;
-  for (std::uint32_t seed = 0; seed < 3000; ++seed) {
+  for (std::uint32_t seed = 0; seed < test::rounds(3000U); ++seed) {
     const RandomFile file = FileWriter(seed).write();
     const std::size_t none = file.lines.size();
     std::vector<std::size_t> allowed_by(file.lines.size(), none);
@@ -601,9 +602,9 @@ TEST(AllowComments, RandomFilesAgreeWithTheDescription) {
     ASSERT_EQ(control(file.text(), file.places), show(expected)) << "seed " << seed << "\n"
                                                                  << file.text();
   }
-  EXPECT_GT(allowed, 1000U);
-  EXPECT_GT(kept, 1000U);
-  EXPECT_GT(unused, 1000U);
+  EXPECT_GT(allowed, test::rounds(1000U));
+  EXPECT_GT(kept, test::rounds(1000U));
+  EXPECT_GT(unused, test::rounds(1000U));
 }
 
 // Comments and settings together --------------------------------------------------------------

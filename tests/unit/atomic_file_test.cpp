@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include "unit/scratch_folder.h"
+#include "support/scratch_folder.h"
 
 namespace cbc {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -15,6 +13,8 @@
 
 #include "catalog/reader.h"
 #include "compiled/compile.h"
+#include "support/read_file.h"
+#include "unit/compiled_bytes.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc {
@@ -22,18 +22,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The report without its line breaks, for a file with these numbers.
+/// The report without its line breaks.
 std::string report(CompiledCatalog catalog) {
-  CompiledFile file;
-  file.catalog = std::move(catalog);
-  file.catalog.file = "robot.yaml";
-  file.format = 7;
-  file.written_by = "1.2.3";
-  file.source.bytes.fill(0xab);
-  file.content.bytes.fill(0x01);
-  file.size = 4321;
   std::string text;
-  for (const char character : catalog_json(file)) {
+  for (const char character : catalog_json(test::compiled_file(std::move(catalog)))) {
     if (character != '\n') text += character;
   }
   return text;
@@ -113,10 +105,8 @@ class PublishedCatalog : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     const std::string path = CBC_SOURCE_DIR "/catalogs/" + std::string(GetParam()) + ".yaml";
-    std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
     Diagnostics diagnostics;
-    std::optional<Catalog> read = read_catalog(text, path, diagnostics);
+    std::optional<Catalog> read = read_catalog(test::read_file(path), path, diagnostics);
     ASSERT_TRUE(read);
     catalog = std::move(*read);
     json = Json::parse(report(compile(catalog)));

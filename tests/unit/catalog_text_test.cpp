@@ -5,25 +5,15 @@
 
 #include <gtest/gtest.h>
 
+#include "unit/compiled_bytes.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc {
 namespace {
 
-/// A file with these numbers, whatever the format is today.
-CompiledFile file_of(CompiledCatalog catalog) {
-  CompiledFile file;
-  file.catalog = std::move(catalog);
-  file.catalog.file = "robot.yaml";
-  file.format = 7;
-  file.written_by = "1.2.3";
-  file.source.bytes.fill(0xab);
-  file.content.bytes.fill(0x01);
-  file.size = 4321;
-  return file;
+std::string list(const char* yaml) {
+  return catalog_text(test::compiled_file(test::compile_text(yaml)));
 }
-
-std::string list(const char* yaml) { return catalog_text(file_of(test::compile_text(yaml))); }
 
 constexpr const char* head =
     "source: robot.yaml\n"

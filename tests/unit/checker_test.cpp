@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "compiled/compile.h"
+#include "support/rounds.h"
 #include "unit/brute_force.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
@@ -171,7 +172,7 @@ TEST(Checker, AgreesWithBruteForceOnChangedAnswers) {
   shape.minimum = 50;
   int right = 0;
   int wrong = 0;
-  for (int round = 0; round < 2'000; ++round) {
+  for (int round = 0; round < test::rounds(2'000); ++round) {
     shape.tasks = static_cast<std::uint32_t>(random.between(2, 6));
     const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
     const std::uint32_t group = test::largest_group(catalog);
@@ -192,8 +193,8 @@ TEST(Checker, AgreesWithBruteForceOnChangedAnswers) {
       ++(is_right ? right : wrong);
     }
   }
-  EXPECT_GT(right, 1'000);
-  EXPECT_GT(wrong, 1'000);
+  EXPECT_GT(right, test::rounds(1'000));
+  EXPECT_GT(wrong, test::rounds(1'000));
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "compiled/compile.h"
 
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <set>
 #include <string>
@@ -14,6 +12,7 @@
 #include "compiled/count_constraints.h"
 #include "compiled/log_cost.h"
 #include "compiled/parameters.h"
+#include "support/read_file.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc {
@@ -454,9 +453,8 @@ TEST(Compile, AListOfManyTasksHasAllTheirPairs) {
 }
 
 TEST(Compile, TheReferenceCatalogHasThirtyThreeConstraints) {
-  std::ifstream file(CBC_SOURCE_DIR "/catalogs/quadrotor.yaml");
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const CompiledCatalog catalog = compile_text(text);
+  const CompiledCatalog catalog =
+      compile_text(test::read_file(CBC_SOURCE_DIR "/catalogs/quadrotor.yaml"));
   EXPECT_EQ(catalog.tasks.size(), 21U);
   EXPECT_EQ(catalog.behaviors.size(), 26U);
   ConstraintCount sum;

@@ -1,11 +1,7 @@
 #include "unit/compiled_bytes.h"
 
-#include <cstdint>
-#include <cstring>
+#include <utility>
 
-#include <gtest/gtest.h>
-
-#include "compiled/compiled_file.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::test {
@@ -36,32 +32,16 @@ std::string compiled_bytes(std::string_view yaml) {
   return write_compiled(compile_text(yaml), digest_of(yaml));
 }
 
-ContentPlace find_content(const std::string& file) {
-  const CompiledFileResult result = read_compiled(file);
-  EXPECT_TRUE(result.file) << result.error;
-  if (!result.file) return {};
-  const Digest digest = result.file->content;
-  const std::string_view signature(reinterpret_cast<const char*>(digest.bytes.data()),
-                                   digest.bytes.size());
-  ContentPlace place;
-  place.digest = file.find(signature);
-  // A vector: its size in four bytes, and then the items.
-  for (place.begin = 4; place.begin < file.size(); place.begin += 4) {
-    std::uint32_t size = 0;
-    std::memcpy(&size, file.data() + place.begin - 4, sizeof size);
-    place.size = size;
-    if (place.begin + size <= file.size() &&
-        digest_of(std::string_view(file).substr(place.begin, size)) == digest) {
-      return place;
-    }
-  }
-  ADD_FAILURE() << "the content is not found";
-  return {};
-}
-
-void sign_anew(std::string& file, const ContentPlace& place) {
-  const Digest digest = digest_of(std::string_view(file).substr(place.begin, place.size));
-  std::memcpy(file.data() + place.digest, digest.bytes.data(), digest.bytes.size());
+CompiledFile compiled_file(CompiledCatalog catalog) {
+  CompiledFile file;
+  file.catalog = std::move(catalog);
+  file.catalog.file = "robot.yaml";
+  file.format = 7;
+  file.written_by = "1.2.3";
+  file.source.bytes.fill(0xab);
+  file.content.bytes.fill(0x01);
+  file.size = 4321;
+  return file;
 }
 
 }  // namespace cbc::test

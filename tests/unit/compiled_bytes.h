@@ -1,8 +1,9 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
+
+#include "compiled/compiled_file.h"
 
 namespace cbc::test {
 
@@ -13,15 +14,8 @@ extern const std::string_view rich_catalog;
 /// The file of a catalog.
 [[nodiscard]] std::string compiled_bytes(std::string_view yaml);
 
-/// Where the content lies in a compiled file.
-struct ContentPlace {
-  std::size_t digest = 0;  ///< first byte of its digest
-  std::size_t begin = 0;
-  std::size_t size = 0;
-};
-[[nodiscard]] ContentPlace find_content(const std::string& file);
-
-/// Sets the digest to that of the content, as somebody does who means to deceive.
-void sign_anew(std::string& file, const ContentPlace& place);
+/// A catalog as if it came from a file of robot.yaml, with made-up numbers whatever the format is
+/// today.
+[[nodiscard]] CompiledFile compiled_file(CompiledCatalog catalog);
 
 }  // namespace cbc::test

@@ -9,10 +9,11 @@
 #include "compiled/compile.h"
 #include "compiled/encoding.h"
 #include "property/random.h"
+#include "support/content_place.h"
+#include "support/scratch_folder.h"
 #include "unit/compiled_bytes.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
-#include "unit/scratch_folder.h"
 
 namespace cbc {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "compiled/compiled_file.h"
 #include "coordinator/coordinator.h"
+#include "support/content_place.h"
 #include "unit/compiled_bytes.h"
 
 /// Damaged compiled catalogs: cut off anywhere, or with any byte changed.

@@ -1,10 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <sstream>
 #include <string>
@@ -18,6 +15,10 @@
 #include "cbc/rules.h"
 #include "lint/fixes.h"
 #include "lint/lint.h"
+#include "support/catalog_files.h"
+#include "support/read_file.h"
+#include "support/rounds.h"
+#include "support/shared_folder.h"
 #include "unit/findings.h"
 
 // Whole catalogs, mended: published ones, if they are at hand, and random ones.
@@ -109,22 +110,6 @@ void expect_mended(const std::string& text) {
   }
 }
 
-std::vector<std::filesystem::path> catalogs_in(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
-    const std::string name = entry.path().filename().string();
-    if (name.ends_with(".yaml") && !name.ends_with(".mission.yaml")) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 /// The same text with other line breaks.
 std::string with_carriage_returns(const std::string& text) {
   std::string result;
@@ -133,9 +118,9 @@ std::string with_carriage_returns(const std::string& text) {
 }
 
 void expect_mended_in(const std::filesystem::path& folder) {
-  for (const auto& file : catalogs_in(folder)) {
+  for (const auto& file : test::catalog_files(folder)) {
     SCOPED_TRACE(file.string());
-    const std::string text = read_file(file);
+    const std::string text = test::read_file(file);
     expect_mended(text);
     expect_mended(with_carriage_returns(text));
     expect_mended("\xEF\xBB\xBF" + text.substr(0, text.find_last_not_of('\n') + 1));
@@ -144,15 +129,14 @@ void expect_mended_in(const std::filesystem::path& folder) {
 
 TEST(FixedCatalogs, OwnOnes) {
   const std::filesystem::path folder(CBC_SOURCE_DIR "/catalogs");
-  ASSERT_FALSE(catalogs_in(folder).empty());
+  ASSERT_FALSE(test::catalog_files(folder).empty());
   expect_mended_in(folder);
 }
 
 TEST(FixedCatalogs, PublishedOnes) {
-  const char* const given = std::getenv("CBC_SHARED");
-  const std::filesystem::path shared(given != nullptr ? given : CBC_SOURCE_DIR "/../shared");
-  if (catalogs_in(shared / "catalogs").empty()) GTEST_SKIP() << "no catalogs in " << shared;
-  expect_mended_in(shared / "catalogs");
+  const std::filesystem::path folder = test::shared_catalogs();
+  if (test::catalog_files(folder).empty()) GTEST_SKIP() << "no catalogs in " << folder;
+  expect_mended_in(folder);
 }
 
 /// Writes a random catalog twice, with the older keys and with the present ones. What is random
@@ -330,7 +314,7 @@ class Writer {
 
 TEST(FixedCatalogs, RandomOnesAreAsIfWrittenWithPresentKeys) {
   std::size_t mended = 0;
-  for (unsigned seed = 1; seed <= 1'000; ++seed) {
+  for (unsigned seed = 1; seed <= test::rounds(1'000U); ++seed) {
     SCOPED_TRACE(seed);
     const std::string older = Writer(seed, true).catalog();
     const Linted before = lint(older);
@@ -343,7 +327,7 @@ TEST(FixedCatalogs, RandomOnesAreAsIfWrittenWithPresentKeys) {
     EXPECT_EQ(apply_fixes(fixed.text, after.findings).text, fixed.text);
     mended += fixed.mended.size();
   }
-  EXPECT_GT(mended, 5'000U);
+  EXPECT_GT(mended, test::rounds(5'000U));
 }
 
 /// Catalogs with much to mend, damaged at random: pieces are put in, taken out and doubled.
@@ -432,7 +416,7 @@ exclusivity_constraints:
 
 TEST(FixedCatalogs, DamagedOnesKeepTheirMeaning) {
   std::size_t mended = 0;
-  for (unsigned seed = 1; seed <= 10'000; ++seed) {
+  for (unsigned seed = 1; seed <= test::rounds(10'000U); ++seed) {
     SCOPED_TRACE(seed);
     const std::string text = Mutator(seed).catalog();
     const Linted before = lint(text);
@@ -448,7 +432,7 @@ TEST(FixedCatalogs, DamagedOnesKeepTheirMeaning) {
         << fixed.text;
     mended += fixed.mended.size();
   }
-  EXPECT_GT(mended, 10'000U);
+  EXPECT_GT(mended, test::rounds(10'000U));
 }
 
 }  // namespace

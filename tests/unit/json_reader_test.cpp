@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "support/rounds.h"
 #include "yaml/document.h"
 
 namespace cbc {
@@ -101,7 +102,7 @@ TEST(JsonReader, ReadsWhatAnotherReaderDoes) {
   std::mt19937_64 random(1);
   yaml::JsonReader reader;
   std::size_t read = 0;
-  for (int round = 0; round < 20'000; ++round) {
+  for (int round = 0; round < test::rounds(20'000); ++round) {
     std::string text = random_value(random, 4).dump(round % 3 == 0 ? 1 : -1);
     for (std::uint64_t changes = random() % 3; changes > 0; --changes) {
       const char character = characters[random() % characters.size()];
@@ -125,8 +126,8 @@ TEST(JsonReader, ReadsWhatAnotherReaderDoes) {
     ASSERT_EQ(value_of(*root), other) << text;
     ++read;
   }
-  EXPECT_GT(read, 5'000U);
-  EXPECT_LT(read, 15'000U);
+  EXPECT_GT(read, test::rounds(5'000U));
+  EXPECT_LT(read, test::rounds(15'000U));
 }
 
 TEST(JsonReader, UnderstandsSurrogatePairs) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "support/rounds.h"
 #include "text/decimal.h"
 
 namespace cbc {
@@ -54,7 +55,7 @@ TEST(JsonText, NumberIsThatOfTheTree) {
     check(-number);
   }
   std::mt19937_64 random(1);
-  for (int round = 0; round < 100'000; ++round) {
+  for (int round = 0; round < test::rounds(100'000); ++round) {
     check(static_cast<double>(random() % 1'000'000) / 1'000'000);
     check(static_cast<double>(static_cast<std::int64_t>(random() >> (random() % 64))));
   }
@@ -72,7 +73,7 @@ TEST(JsonText, SecondsAreExact) {
   EXPECT_EQ(seconds_of(longest_time), "1000000000.0");
   EXPECT_EQ(seconds_of(649), "0.000649");  // the tree has 0.0006489999999999999
   std::mt19937_64 random(1);
-  for (int round = 0; round < 100'000; ++round) {
+  for (int round = 0; round < test::rounds(100'000); ++round) {
     const auto time = static_cast<Microseconds>((random() >> (random() % 64)) %
                                                 static_cast<std::uint64_t>(longest_time + 1));
     const std::string text = seconds_of(time);

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "compiled/compiled_file.h"
+#include "support/scratch_folder.h"
 #include "unit/compiled_fixture.h"
 #include "unit/loaded_fixture.h"
-#include "unit/scratch_folder.h"
 
 namespace cbc {
 namespace {

@@ -3,8 +3,8 @@
 #include <stdexcept>
 
 #include "compiled/compiled_file.h"
+#include "support/scratch_folder.h"
 #include "unit/compiled_fixture.h"
-#include "unit/scratch_folder.h"
 
 namespace cbc::test {
 

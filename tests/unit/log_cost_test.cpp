@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "property/random.h"
+#include "support/rounds.h"
 
 namespace cbc {
 namespace {
@@ -74,7 +75,7 @@ std::vector<Millionths> factor_anew(const std::vector<Millionths>& degrees,
 TEST(LogCost, EqualProductsHaveEqualSumsToTheBit) {
   oracle::Random random(2);
   int compared = 0;
-  for (int round = 0; round < 20'000; ++round) {
+  for (int round = 0; round < test::rounds(20'000); ++round) {
     std::vector<Millionths> degrees;
     const std::size_t count = 2 + random.below(4);
     for (std::size_t i = 0; i < count; ++i) {
@@ -91,7 +92,7 @@ TEST(LogCost, EqualProductsHaveEqualSumsToTheBit) {
     ASSERT_EQ(sum, other_sum);
     ++compared;
   }
-  EXPECT_GT(compared, 5'000);
+  EXPECT_GT(compared, test::rounds(5'000));
 }
 
 TEST(LogCost, SumsFurtherApartThanTheErrorAreInTheRightOrder) {

@@ -8,6 +8,7 @@
 #include "compiled/compile.h"
 #include "compiled/log_cost.h"
 #include "solver/propagator.h"
+#include "support/rounds.h"
 #include "unit/brute_force.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
@@ -214,7 +215,7 @@ TEST(Lookahead, NeverExceedsTheTrueOptimum) {
   shape.on_request = 0;
   int compared = 0;
   int exact = 0;
-  for (int round = 0; round < 4'000; ++round) {
+  for (int round = 0; round < test::rounds(4'000); ++round) {
     shape.tasks = static_cast<std::uint32_t>(random.between(2, 6));
     shape.exclusivity_lists = random.percent(20) ? 1 : 0;
     const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
@@ -245,8 +246,8 @@ TEST(Lookahead, NeverExceedsTheTrueOptimum) {
     ++compared;
     if (bound == *optimum && optimum->log > 0) ++exact;
   }
-  EXPECT_GT(compared, 1'500);
-  EXPECT_GT(exact, 300) << "a bound that never reaches the optimum is of little use";
+  EXPECT_GT(compared, test::rounds(1'500));
+  EXPECT_GT(exact, test::rounds(300)) << "a bound that never reaches the optimum is of little use";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "compiled/compile.h"
+#include "support/rounds.h"
 #include "unit/brute_force.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
@@ -209,7 +210,7 @@ TEST(Propagator, RemovesNoSolutionAndIsExactWhereAllIsDecided) {
   int inconsistent = 0;
   int decided = 0;
   int removed = 0;
-  for (int round = 0; round < 4'000; ++round) {
+  for (int round = 0; round < test::rounds(4'000); ++round) {
     shape.tasks = static_cast<std::uint32_t>(random.between(2, 6));
     const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
     const Problem problem = test::random_problem(random, catalog, test::largest_group(catalog));
@@ -246,9 +247,9 @@ TEST(Propagator, RemovesNoSolutionAndIsExactWhereAllIsDecided) {
     }
     if (domains.needed_tasks().size() > 1) ++removed;
   }
-  EXPECT_GT(inconsistent, 300);
-  EXPECT_GT(decided, 1'000);
-  EXPECT_GT(removed, 500);
+  EXPECT_GT(inconsistent, test::rounds(300));
+  EXPECT_GT(decided, test::rounds(1'000));
+  EXPECT_GT(removed, test::rounds(500));
 }
 
 }  // namespace

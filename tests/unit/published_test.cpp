@@ -1,7 +1,4 @@
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -9,22 +6,14 @@
 #include <gtest/gtest.h>
 
 #include "report/exact_values.h"
+#include "support/read_file.h"
+#include "support/shared_folder.h"
 #include "unit/stage.h"
 
 // Catalogs published with the original tool, if they are at hand.
 
 namespace cbc {
 namespace {
-
-std::filesystem::path folder() {
-  const char* const given = std::getenv("CBC_SHARED");
-  return std::filesystem::path(given != nullptr ? given : CBC_SOURCE_DIR "/../shared") / "catalogs";
-}
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 /// The best suitability at which a task can be started while nothing runs: goes through all
 /// closures of the task, that is all ways to choose a behavior for it, for what that requires, and
@@ -112,9 +101,9 @@ class Published : public testing::TestWithParam<const char*> {};
 
 TEST_P(Published, EveryStartFromIdleIsProvenOptimal) {
   const std::string name = GetParam();
-  const std::filesystem::path file = folder() / (name + ".yaml");
+  const std::filesystem::path file = test::shared_catalogs() / (name + ".yaml");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
-  const std::string yaml = read_file(file);
+  const std::string yaml = test::read_file(file);
   const bool is_artificial = name.rfind("creator", 0) == 0;
   int started = 0;
   const test::Stage model(yaml);

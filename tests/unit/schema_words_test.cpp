@@ -1,5 +1,4 @@
 // The JSON Schemas in schemas/ have the words that the program has, and no others.
-#include <fstream>
 #include <set>
 #include <string>
 #include <string_view>
@@ -16,6 +15,7 @@
 #include "explain/comparison.h"
 #include "explain/reason.h"
 #include "script/shapes.h"
+#include "support/read_file.h"
 #include "sweep/counts.h"
 #include "yaml/fields.h"
 
@@ -26,8 +26,7 @@ using Json = nlohmann::json;
 using Words = std::set<std::string, std::less<>>;
 
 Json schema(const std::string& name) {
-  std::ifstream file(CBC_SOURCE_DIR "/schemas/" + name + ".json");
-  return Json::parse(file);
+  return Json::parse(test::read_file(CBC_SOURCE_DIR "/schemas/" + name + ".json"));
 }
 
 /// Of an input null is a word, too: a key without a value.

@@ -11,6 +11,7 @@
 
 #include "cbc/rules.h"
 #include "findings.h"
+#include "support/scratch_folder.h"
 
 namespace cbc {
 namespace {
@@ -127,10 +128,7 @@ TEST(SettingsFile, ManyWrongNamesTakeNoLongTime) {
 class SettingsPlaces : public testing::Test {
  protected:
   void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "cbc-settings-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
     before_ = fs::current_path();
-    root_ = fs::canonical(name);
     fs::current_path(root_);
   }
 
@@ -138,7 +136,6 @@ class SettingsPlaces : public testing::Test {
     fs::current_path(before_);
     std::error_code ignored;
     fs::permissions(root_ / "closed", fs::perms::owner_all, ignored);
-    fs::remove_all(root_, ignored);
   }
 
   void write(const fs::path& path) const {
@@ -154,8 +151,9 @@ class SettingsPlaces : public testing::Test {
   [[nodiscard]] const fs::path& root() const { return root_; }
 
  private:
+  test::ScratchFolder folder_;
   fs::path before_;
-  fs::path root_;
+  fs::path root_ = fs::canonical(folder_.path());
 };
 
 TEST_F(SettingsPlaces, TheNearestUpwardCounts) {

@@ -11,6 +11,7 @@
 
 #include "catalog/catalog.h"
 #include "compiled/compile.h"
+#include "support/rounds.h"
 #include "unit/brute_force.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
@@ -237,7 +238,7 @@ class Agreement {
 TEST(Solver, AgreesWithBruteForceOnSmallProblems) {
   test::Random random(8);
   Agreement agreement;
-  for (int round = 0; round < 6'000; ++round) {
+  for (int round = 0; round < test::rounds(6'000); ++round) {
     test::Shape shape;
     shape.tasks = static_cast<std::uint32_t>(random.between(2, 6));
     shape.exclusivity_lists = static_cast<std::uint32_t>(random.below(3));
@@ -250,10 +251,10 @@ TEST(Solver, AgreesWithBruteForceOnSmallProblems) {
     agreement.check(catalog, problem, random);
     if (HasFatalFailure()) FAIL() << "round " << round;
   }
-  EXPECT_GT(agreement.solved, 3'000);
-  EXPECT_GT(agreement.infeasible, 300);
-  EXPECT_GT(agreement.feasible, 100);
-  EXPECT_GT(agreement.unknown, 10);
+  EXPECT_GT(agreement.solved, test::rounds(3'000));
+  EXPECT_GT(agreement.infeasible, test::rounds(300));
+  EXPECT_GT(agreement.feasible, test::rounds(100));
+  EXPECT_GT(agreement.unknown, test::rounds(10));
 }
 
 /// R requires B and C, which have a choice each, mostly apart; now and then something connects the
@@ -305,7 +306,7 @@ Catalog two_branches(test::Random& random) {
 TEST(Solver, AgreesWithBruteForceWherePartsAreNearlyIndependent) {
   test::Random random(12);
   Agreement agreement;
-  for (int round = 0; round < 2'000; ++round) {
+  for (int round = 0; round < test::rounds(2'000); ++round) {
     const CompiledCatalog catalog = compile(two_branches(random));
     Problem problem = open_problem(catalog);
     for (std::uint32_t task = 0; task < problem.present.size(); ++task) {
@@ -323,7 +324,7 @@ TEST(Solver, AgreesWithBruteForceWherePartsAreNearlyIndependent) {
     agreement.check(catalog, problem, random);
     if (HasFatalFailure()) FAIL() << "round " << round;
   }
-  EXPECT_GT(agreement.solved, 1'000);
+  EXPECT_GT(agreement.solved, test::rounds(1'000));
 }
 
 TEST(Solver, AgreesWithBruteForceOnMoreThanSixtyFourValues) {
@@ -376,7 +377,7 @@ TEST(Solver, AnswersOfLargerProblemsDoNotDependOnWhenItLooksAhead) {
   int proven = 0;
   int hard = 0;
   int infeasible = 0;
-  for (int round = 0; round < 800; ++round) {
+  for (int round = 0; round < test::rounds(800); ++round) {
     test::Shape shape;
     shape.tasks = static_cast<std::uint32_t>(random.between(20, 40));
     shape.most_behaviors = 4;
@@ -413,9 +414,9 @@ TEST(Solver, AnswersOfLargerProblemsDoNotDependOnWhenItLooksAhead) {
       }
     }
   }
-  EXPECT_GT(proven, 2'400);
-  EXPECT_GT(hard, 100);
-  EXPECT_LT(infeasible, 1'600);
+  EXPECT_GT(proven, test::rounds(2'400));
+  EXPECT_GT(hard, test::rounds(100));
+  EXPECT_LT(infeasible, test::rounds(1'600));
 }
 
 // Limits ---------------------------------------------------------------------------------------

@@ -1,9 +1,7 @@
 #include "sweep/sweep.h"
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -19,6 +17,7 @@
 #include "report/sweep_text.h"
 #include "script/reader.h"
 #include "script/runner.h"
+#include "support/read_file.h"
 #include "sweep/merge.h"
 #include "sweep/random_source.h"
 #include "sweep/sequence.h"
@@ -32,9 +31,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 CompiledCatalog quadrotor() {
-  std::ifstream file(CBC_SOURCE_DIR "/catalogs/quadrotor.yaml", std::ios::binary);
-  return test::compile_text(
-      std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()));
+  return test::compile_text(test::read_file(CBC_SOURCE_DIR "/catalogs/quadrotor.yaml"));
 }
 
 CompiledCatalog restless() {
@@ -399,11 +396,35 @@ TEST(SweepMerger, NamesTheFirstMissingShards) {
 
 // Files that are no shards -----------------------------------------------------------------------
 
+/// Of a small catalog, so that there are few values of each kind, with reasons of every kind.
 Json small_shard() {
+  const CompiledCatalog catalog = test::compile_text(R"(
+behaviors:
+- {behavior: walk, task: WALK, requires: [{task: SEE, minimum_performance: 60}]}
+- {behavior: creep, task: WALK, suitability: 70, requires: [{task: SEE}, {task: LIGHT}]}
+- {behavior: camera, task: SEE, suitability: 50}
+- {behavior: radar, task: SEE}
+- {behavior: lamp, task: LIGHT}
+- {behavior: rest, task: REST}
+tasks:
+- {task: SEE, start_on_request: false}
+- {task: FLY}
+exclusivity_constraints:
+- mutually_exclusive: [WALK, REST]
+)");
   SweepSettings settings = settings_of(6, 1);
   settings.shard = {1, 2};
-  SweepOutcome outcome = sweep(quadrotor(), settings, 1, nullptr);
-  return Json::parse(sweep_to_json(outcome.result));
+  SweepOutcome outcome = sweep(catalog, settings, 1, nullptr);
+  SweepTimes& times = outcome.result.times.value();
+  times.events = {};  // each event has a time of its own
+  for (const std::uint64_t time : {std::uint64_t{7}, std::uint64_t{8}, times.slowest->cost}) {
+    times.events.add(time);
+  }
+  Json shard = Json::parse(sweep_to_json(outcome.result));
+  std::set<std::string> kinds;
+  for (const Json& reason : shard["reasons"]) kinds.insert(reason["kind"]);
+  EXPECT_EQ(kinds.size(), 9U) << shard["reasons"];
+  return shard;
 }
 
 bool is_refused(const Json& json) {
@@ -480,7 +501,7 @@ TEST(SweepJson, NumbersThatAreTooLargeAreRefused) {
 
 TEST(SweepJson, TextThatIsCutOffIsRefused) {
   const std::string text = small_shard().dump();
-  for (std::size_t size = 0; size < text.size(); size += 97) {
+  for (std::size_t size = 0; size < text.size(); size += 31) {
     EXPECT_TRUE(std::holds_alternative<std::string>(sweep_from_json(text.substr(0, size))));
   }
   EXPECT_TRUE(std::holds_alternative<std::string>(sweep_from_json(text + "x")));

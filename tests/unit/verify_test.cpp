@@ -1,10 +1,7 @@
 #include "compiled/verify.h"
 
 #include <array>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -17,6 +14,10 @@
 #include "catalog/reader.h"
 #include "compiled/compile.h"
 #include "compiled/log_cost.h"
+#include "support/catalog_files.h"
+#include "support/read_file.h"
+#include "support/rounds.h"
+#include "support/shared_folder.h"
 #include "unit/compiled_fixture.h"
 #include "unit/editable_catalog.h"
 #include "unit/random_problems.h"
@@ -39,16 +40,11 @@ std::string fault_of(const CompiledCatalog& catalog) {
 /// Verifies the catalogs of a folder that can be compiled; their number.
 std::size_t verify_folder(const std::filesystem::path& folder) {
   std::size_t count = 0;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    const std::string path = entry.path().string();
-    if (!path.ends_with(".yaml") || path.ends_with(".mission.yaml")) continue;
-    std::ifstream stream(path);
-    const std::string text(std::istreambuf_iterator<char>(stream), {});
+  for (const std::filesystem::path& file : test::catalog_files(folder)) {
     Diagnostics diagnostics;
-    const auto catalog = read_catalog(text, path, diagnostics);
+    const auto catalog = read_catalog(test::read_file(file), file.string(), diagnostics);
     if (!catalog) continue;
-    EXPECT_EQ(fault_of(compile(*catalog)), "no fault") << path;
+    EXPECT_EQ(fault_of(compile(*catalog)), "no fault") << file;
     ++count;
   }
   return count;
@@ -57,10 +53,9 @@ std::size_t verify_folder(const std::filesystem::path& folder) {
 TEST(Verify, OwnCatalogsHaveNoFault) { EXPECT_GE(verify_folder(CBC_SOURCE_DIR "/catalogs"), 2U); }
 
 TEST(Verify, PublishedCatalogsHaveNoFault) {
-  const char* const given = std::getenv("CBC_SHARED");
-  const std::filesystem::path shared(given != nullptr ? given : CBC_SOURCE_DIR "/../shared");
-  if (verify_folder(shared / "catalogs") == 0) GTEST_SKIP() << "no catalogs in " << shared;
-  verify_folder(shared / "generated");
+  const std::filesystem::path folder = test::shared_catalogs();
+  if (verify_folder(folder) == 0) GTEST_SKIP() << "no catalogs in " << folder;
+  verify_folder(test::shared_folder() / "generated");
 }
 
 TEST(Verify, AnEmptyCatalogHasNoFault) { EXPECT_EQ(fault_of(compile(Catalog{})), "no fault"); }
@@ -681,7 +676,7 @@ TEST(Verify, RandomChangesMakeAFaultOrAnotherCatalog) {
 TEST(Verify, SeveralRandomChangesMakeAFaultOrAnotherCatalog) {
   Random random(3);
   std::size_t accepted = 0;
-  for (int i = 0; i < 5'000; ++i) {
+  for (int i = 0; i < test::rounds(5'000); ++i) {
     SCOPED_TRACE(i);
     test::Shape shape;
     shape.tasks = 3;
@@ -695,7 +690,7 @@ TEST(Verify, SeveralRandomChangesMakeAFaultOrAnotherCatalog) {
     ++accepted;
     EXPECT_EQ(difference(compile(describe_compiled(changed)), changed), "");
   }
-  EXPECT_GT(accepted, 20U);
+  EXPECT_GT(accepted, test::rounds(20U));
 }
 
 }  // namespace

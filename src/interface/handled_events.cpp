@@ -1,4 +1,4 @@
-#include "interface/event_log.h"
+#include "interface/handled_events.h"
 
 namespace cbc {
 namespace {
@@ -20,14 +20,14 @@ class Places {
 
 }  // namespace
 
-void EventLog::clear() {
+void HandledEvents::clear() {
   events_.clear();
   changes_.clear();
   stopped_tasks_.clear();
   tasks_.clear();
 }
 
-void EventLog::on_event(const EventRecord& record) {
+void HandledEvents::on_event(const EventRecord& record) {
   for (const Change& change : record.changes) add_change(record, change);
   for (const StoppedTask& task : record.stopped_tasks) {
     stopped_tasks_.push_back({catalog_.tasks[task.task].catalog_index, task.cause});
@@ -48,7 +48,7 @@ void EventLog::on_event(const EventRecord& record) {
   event.stopped_tasks = std::span(stopped_tasks_).last(record.stopped_tasks.size());
 }
 
-void EventLog::add_change(const EventRecord& record, const Change& change) {
+void HandledEvents::add_change(const EventRecord& record, const Change& change) {
   for (const TaskId task : record.tasks_of(change)) {
     tasks_.push_back(catalog_.tasks[task].catalog_index);
   }
@@ -61,13 +61,13 @@ void EventLog::add_change(const EventRecord& record, const Change& change) {
   entry.success = change.success;
 }
 
-std::uint32_t EventLog::subject_of(const EventRecord& record) const {
+std::uint32_t HandledEvents::subject_of(const EventRecord& record) const {
   if (record.task != none) return catalog_.tasks[record.task].catalog_index;
   if (record.behavior != none) return catalog_.behaviors[record.behavior].catalog_index;
   return 0;
 }
 
-std::span<const HandledEvent> EventLog::events() {
+std::span<const HandledEvent> HandledEvents::events() {
   Places changes(changes_);
   Places stopped_tasks(stopped_tasks_);
   Places tasks(tasks_);

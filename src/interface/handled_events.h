@@ -11,9 +11,9 @@
 namespace cbc {
 
 /// Keeps the events of one call, in the terms of the public interface.
-class EventLog final : public EventListener {
+class HandledEvents final : public EventListener {
  public:
-  explicit EventLog(const CompiledCatalog& catalog) : catalog_(catalog) {}
+  explicit HandledEvents(const CompiledCatalog& catalog) : catalog_(catalog) {}
 
   void clear();
   void on_event(const EventRecord& record) override;

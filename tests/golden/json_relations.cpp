@@ -1,0 +1,186 @@
+#include "golden/json_relations.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace cbc::golden {
+namespace {
+
+using Json = nlohmann::json;
+
+class Relations {
+ public:
+  void check(const Json& report) {
+    const std::string schema = report.value("schema", "");
+    if (schema == "cbc.lint/1") {
+      check_lint(report);
+    } else if (schema == "cbc.solve/1") {
+      for (const Json& run : report.at("runs")) check_run(run);
+    } else if (schema == "cbc.sweep/1") {
+      check_sweep(report);
+    } else if (schema == "cbc.graph/1") {
+      check_graph(report);
+    } else if (schema == "cbc.diff/1") {
+      check_diff(report);
+    } else {
+      faults_.push_back("the schema is '" + schema + "'");
+    }
+  }
+
+  [[nodiscard]] std::vector<std::string> take() { return std::move(faults_); }
+
+ private:
+  void expect(bool holds, const std::string& otherwise) {
+    if (!holds) faults_.push_back(otherwise);
+  }
+
+  void check_graph(const Json& report) {
+    const bool is_state = report.contains("state");
+    if (is_state) {
+      const Json& state = report.at("state");
+      const bool is_beginning = state.at("index") == 0;
+      expect(state.at("time").is_null() == is_beginning, "only the beginning has no time");
+      expect(state.at("event").is_null() == is_beginning, "only the beginning has no event");
+    }
+    std::set<std::string> ids;
+    for (const Json& node : report.at("nodes")) {
+      const std::string& id = node.at("id").get_ref<const std::string&>();
+      expect(ids.insert(id).second, "two nodes have the id " + id);
+      expect(node.contains("priority") == (is_state && node.at("kind") == "task"),
+             "only tasks of a state have a priority, unlike " + id);
+      check_mark(node, is_state);
+    }
+    for (const Json& edge : report.at("edges")) {
+      for (const char* end : {"from", "to"}) {
+        expect(ids.contains(edge.at(end)), "no node has the id " + edge.at(end).dump());
+      }
+      check_mark(edge, is_state);
+    }
+  }
+
+  void check_mark(const Json& object, bool is_state) {
+    const Json& mark = object.at("mark");
+    if (!mark.is_null()) expect((mark != "faulty") == is_state, "the mark " + mark.dump());
+  }
+
+  void check_diff(const Json& report) {
+    std::set<Json> subjects;
+    for (Json change : report.at("changes")) {
+      for (const Json& attribute : change.at("attributes")) {
+        const bool was_set = !attribute.at("before").is_null();
+        const bool is_set = !attribute.at("after").is_null();
+        expect(attribute.at("before") != attribute.at("after"), "an attribute has not changed");
+        expect(change.at("kind") != "added" || !was_set, "what is added was set before");
+        expect(change.at("kind") != "removed" || !is_set, "what is removed is still set");
+      }
+      change.erase("attributes");
+      change.erase("kind");
+      expect(subjects.insert(change).second, "two changes of one thing: " + change.dump());
+    }
+  }
+
+  void check_lint(const Json& report) {
+    std::map<std::string, std::uint64_t> found;
+    for (const Json& file : report.at("files")) {
+      const std::string& where = file.at("file").get_ref<const std::string&>();
+      check_places(file.at("diagnostics"), where);
+      for (const Json& finding : file.at("diagnostics")) ++found[finding.at("severity")];
+      if (!file.at("summary").is_null()) check_summary(file.at("summary"), where);
+    }
+    for (const std::string severity : {"error", "warning", "note"}) {
+      expect(report.at(severity + "s") == found[severity],
+             "the number of " + severity + "s is not that of the diagnostics");
+    }
+  }
+
+  void check_places(const Json& findings, const std::string& where) {
+    using Place = std::pair<std::uint64_t, std::uint64_t>;
+    Place last;
+    for (const Json& finding : findings) {
+      const Place begin(finding.at("line"), finding.at("column"));
+      const Place end(finding.at("end_line"), finding.at("end_column"));
+      expect(begin >= last,
+             "the diagnostics of " + where + " are not in the order of their places");
+      expect(end >= begin, "a diagnostic of " + where + " ends before it begins");
+      last = begin;
+    }
+  }
+
+  /// Each task is in one group, each constraint within one.
+  void check_summary(const Json& summary, const std::string& where) {
+    const Json& constraints = summary.at("constraints");
+    const std::uint64_t total = constraints.at("total");
+    std::uint64_t sum = 0;
+    for (const char* const kind : {"exclusive_pairs", "requirements", "task_minimums"}) {
+      sum += constraints.at(kind).get<std::uint64_t>();
+    }
+    expect(sum == total, "the constraints of " + where + " do not add up");
+
+    std::uint64_t tasks = 0;
+    std::uint64_t of_groups = 0;
+    std::set<std::string> names;
+    for (const Json& group : summary.at("groups")) {
+      tasks += group.at("tasks").size();
+      of_groups += group.at("constraints").get<std::uint64_t>();
+      names.insert(group.at("tasks").begin(), group.at("tasks").end());
+    }
+    expect(summary.at("tasks") == tasks && names.size() == tasks,
+           "the tasks of " + where + " are not those of its groups");
+    expect(of_groups == total, "the constraints of " + where + " are not those of its groups");
+  }
+
+  void check_run(const Json& run) {
+    std::size_t index = 0;
+    for (const Json& event : run.at("events")) {
+      ++index;
+      expect(event.at("index") == index, "event " + std::to_string(index) + " has another index");
+    }
+    const Json& expectations = run.at("expectations");
+    expect(expectations.at("failed") == expectations.at("failures").size(),
+           "the number of failures is not that of failed expectations");
+  }
+
+  void check_sweep(const Json& sweep) {
+    check_unused(sweep.at("tasks"), "task", "runs", sweep.at("never_ran"));
+    check_unused(sweep.at("behaviors"), "behavior", "activations", sweep.at("never_active"));
+    check_costs(sweep.at("nodes"), sweep.at("slowest"), "nodes");
+    if (!sweep.contains("stats")) return;
+    const Json& stats = sweep.at("stats");
+    check_costs(stats.at("event_ns"), stats.at("slowest"), "ns");
+  }
+
+  /// Named are the items that were counted 0 times.
+  void check_unused(const Json& items, const char* name, const char* count, const Json& named) {
+    Json unused = Json::array();
+    for (const Json& item : items) {
+      if (item.at(count) == 0) unused.push_back(item.at(name));
+    }
+    expect(named == unused, std::string("not every ") + name + " without " + count + " is named");
+  }
+
+  void check_costs(const Json& costs, const Json& slowest, const char* unit) {
+    if (slowest.is_null()) return expect(costs.at("histogram").empty(), "slowest is null");
+    expect(slowest.at(unit) == costs.at("max"), "slowest is not the maximum");
+    expect(costs.at("p50") <= costs.at("p99") && costs.at("p99") <= costs.at("max"),
+           "the percentiles are out of order");
+  }
+
+  std::vector<std::string> faults_;
+};
+
+}  // namespace
+
+std::vector<std::string> find_contradictions(const std::string& text) {
+  const Json report = Json::parse(text, nullptr, false);
+  if (!report.is_object()) return {"this is no JSON object"};
+  Relations relations;
+  relations.check(report);
+  return relations.take();
+}
+
+}  // namespace cbc::golden
