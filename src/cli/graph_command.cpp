@@ -62,6 +62,8 @@ constexpr const char* graph_footer =
     "--diff differ, 2 nothing could be drawn, a file could not be read or written, or the usage\n"
     "is wrong, 3 an internal error.";
 
+constexpr std::size_t most_mermaid_edges = 500;  // by default
+
 struct GraphCommand {
   std::vector<std::string> catalogs;
   bool is_diff = false;
@@ -169,7 +171,14 @@ int draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& mom
   draw::Diagram diagram = make_diagram(graph, *part, view_options(command.drawing));
   diagram.moment = moment;
   if (command.drawing.legend) add_legend(diagram);
-  const std::optional<std::string> content = write(diagram, format_of(command));
+  const std::string format = format_of(command);
+  if (format == "mermaid" && diagram.edges.size() > most_mermaid_edges) {
+    complain(
+        fmt::format("the picture has {} lines; Mermaid draws {} if it is not told otherwise "
+                    "(maxEdges); --task and --group draw less",
+                    diagram.edges.size(), most_mermaid_edges));
+  }
+  const std::optional<std::string> content = write(diagram, format);
   return content ? deliver(command.output, *content) : exit_unusable;
 }
 

@@ -39,7 +39,8 @@ void register_stream_benchmarks();
 /// sweep/…: random events on the reference catalog and on generated ones of one group.
 void register_sweep_benchmarks();
 
-/// fleet/…, generated catalogs of up to 100,000 tasks: compiling, loading, and events of one robot.
+/// fleet/…, generated catalogs of up to 100,000 tasks: compiling, loading, events of one
+/// robot, and a picture of one task.
 /// Together they take about a minute.
 void register_fleet_benchmarks();
 

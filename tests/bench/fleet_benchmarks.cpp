@@ -13,6 +13,10 @@
 #include "bench/fleet_generator.h"
 #include "compiled/compiled_file.h"
 #include "coordinator/coordinator.h"
+#include "draw/catalog_graph.h"
+#include "draw/part.h"
+#include "draw/view.h"
+#include "report/graph_dot.h"
 
 namespace cbc::bench {
 namespace {
@@ -153,6 +157,18 @@ void time_events(benchmark::State& state, bool is_busy) {
   state.counters["elsewhere_us"] = median(std::move(times_elsewhere)) * 1e6;
 }
 
+/// What `cbc graph FILE --task NAME` does, from the file to the text for Graphviz.
+void draw_neighborhood(benchmark::State& state) {
+  while (state.KeepRunning()) {
+    const CompiledCatalog catalog = load(LargestFleet::file());
+    const draw::CatalogGraph graph = draw::to_graph(catalog);
+    const std::uint32_t task = catalog.find_task(name_of_mission(robot, 0)).value();
+    const draw::Part part = part_around(graph, {task}, {});
+    const std::string dot = graph_dot(make_diagram(graph, part, {}));
+    if (dot.empty()) throw std::runtime_error("nothing is drawn");
+  }
+}
+
 }  // namespace
 
 void register_fleet_benchmarks() {
@@ -175,6 +191,9 @@ void register_fleet_benchmarks() {
       [](benchmark::State& state) { time_loading(state, LargestFleet::file().path()); })
       ->UseManualTime()
       ->Iterations(20);
+  benchmark::RegisterBenchmark((largest + "draw").c_str(), draw_neighborhood)
+      ->Iterations(20)
+      ->Unit(benchmark::kMillisecond);
   for (const bool is_busy : {false, true}) {
     benchmark::RegisterBenchmark(
         (largest + (is_busy ? "busy" : "idle")).c_str(),

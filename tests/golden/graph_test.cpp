@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -149,6 +150,21 @@ TEST(Graph, SuffixOfTheOutputNamesTheFormat) {
   begins_with("a.svg", "<?xml ");
   begins_with("a.png", "\x89PNG");
   begins_with("a.pdf", "%PDF-");
+}
+
+TEST(Graph, SaysWhereMermaidWouldNotDrawAPicture) {
+  for (const std::size_t edges : {500U, 501U}) {
+    std::string text = "behaviors:\n";
+    for (std::size_t i = 0; i < edges; ++i)
+      text += fmt::format("- {{behavior: B{}, task: A}}\n", i);
+    const ScratchFolder folder;
+    folder.write("robot.yaml", text);
+    const Result mermaid = graph(folder.path(), {"robot.yaml", "--format", "mermaid"});
+    EXPECT_EQ(mermaid.status, 0);
+    EXPECT_EQ(mermaid.err.find("Mermaid draws 500") != std::string::npos, edges > 500)
+        << mermaid.err;
+    EXPECT_EQ(graph(folder.path(), {"robot.yaml", "--format", "dot"}).err, "");
+  }
 }
 
 TEST(Graph, PicturesDoNotDependOnTheClock) {

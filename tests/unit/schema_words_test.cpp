@@ -12,6 +12,8 @@
 #include "cbc/rules.h"
 #include "coordinator/record.h"
 #include "coordinator/search_totals.h"
+#include "diff/catalog_diff.h"
+#include "draw/mark.h"
 #include "explain/comparison.h"
 #include "explain/reason.h"
 #include "script/shapes.h"
@@ -105,6 +107,17 @@ TEST(SchemaWords, OfLint) {
   for (const Rule& rule : all_rules()) rules.emplace(rule.name);
   EXPECT_EQ(words_at(lint, diagnostic + "rule"), rules);
   EXPECT_EQ(words_at(lint, diagnostic + "severity"), names_up_to(Severity::error));
+}
+
+TEST(SchemaWords, OfPictures) {
+  Words marks = names_up_to(draw::Mark::unavailable);
+  // Pictures of two catalogs are not written as JSON, but what they have not in common is.
+  for (const char* mark : {"added", "removed", "changed"}) marks.erase(mark);
+  EXPECT_EQ(words_at(schema("graph"), "/$defs/mark"), marks);
+  const Json diff = schema("diff");
+  EXPECT_EQ(words_at(diff, "/$defs/kind"), names_up_to(CatalogChange::Kind::changed));
+  EXPECT_EQ(words_in_list(diff, "/$defs/change/oneOf", "subject"),
+            names_up_to(CatalogChange::Subject::exclusion));
 }
 
 /// The part that a reference of this schema leads to; the part itself if it is none.
