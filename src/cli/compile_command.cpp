@@ -18,9 +18,9 @@
 #include "cli/exit_status.h"
 #include "cli/input.h"
 #include "cli/input_files.h"
+#include "cli/output.h"
 #include "compiled/compile.h"
 #include "compiled/compiled_file.h"
-#include "file/atomic_file.h"
 #include "file/mapped_file.h"
 #include "report/catalog_json.h"
 #include "report/catalog_text.h"
@@ -131,27 +131,18 @@ std::optional<Compiled> compile_source(const Source& source) {
 }
 
 int write(const std::string& output, const std::string& content) {
-  if (output == "-") {
-    if (isatty(STDOUT_FILENO) != 0) {
-      complain("a compiled catalog is not written to a terminal; expected a file or a pipe");
-      return exit_unusable;
-    }
-    std::fwrite(content.data(), 1, content.size(), stdout);
-    return exit_ok;
-  }
-  if (const auto error = write_atomically(output, content)) {
-    complain(fmt::format("cannot write {}: {}", quote(output), *error));
+  if (output == "-" && isatty(STDOUT_FILENO) != 0) {
+    complain("a compiled catalog is not written to a terminal; expected a file or a pipe");
     return exit_unusable;
   }
-  return exit_ok;
+  return write_output(output, content);
 }
 
 int compile_to_file(const CompileCommand& command) {
   const std::optional<Source> source = read_source(command.catalog);
   if (!source) return exit_unusable;
   const std::string output = output_of(command);
-  std::error_code ignored;
-  if (output != "-" && fs::equivalent(command.catalog, output, ignored)) {
+  if (is_same_file(command.catalog, output)) {
     return usage_error("compile",
                        fmt::format("the output {} is the catalog itself", quote(output)));
   }

@@ -23,10 +23,10 @@
 #include "cli/graph_state.h"
 #include "cli/graphviz.h"
 #include "cli/input.h"
+#include "cli/output.h"
 #include "cli/terminal.h"
 #include "draw/catalog_graph.h"
 #include "draw/view.h"
-#include "file/atomic_file.h"
 #include "report/diff_json.h"
 #include "report/diff_text.h"
 #include "report/graph_dot.h"
@@ -131,31 +131,18 @@ std::optional<std::string> write(const draw::Diagram& diagram, const std::string
   return run_graphviz(dot, format);
 }
 
-int deliver(const std::optional<std::string>& output, const std::string& content) {
-  if (!output || *output == "-") {
-    std::fwrite(content.data(), 1, content.size(), stdout);
-    return exit_ok;
-  }
-  if (const auto error = write_atomically(*output, content)) {
-    complain(fmt::format("cannot write {}: {}", quote(*output), *error));
-    return exit_unusable;
-  }
-  return exit_ok;
-}
-
-bool is_to_stdout(const GraphCommand& command) { return !command.output || *command.output == "-"; }
+std::string output_of(const GraphCommand& command) { return command.output.value_or("-"); }
 
 /// Whether the output can be written where it shall be. If not, this is complained of.
 bool can_write(const GraphCommand& command) {
   const std::string format = format_of(command);
-  if (is_to_stdout(command)) {
+  if (output_of(command) == "-") {
     if (!is_binary(format) || isatty(STDOUT_FILENO) == 0) return true;
     complain(fmt::format("{} is not written to a terminal; expected -o OUT or a pipe", format));
     return false;
   }
   const auto is_output = [&](const std::string& input) {
-    std::error_code ignored;
-    return std::filesystem::equivalent(input, *command.output, ignored);
+    return is_same_file(input, output_of(command));
   };
   const bool is_catalog = std::any_of(command.catalogs.begin(), command.catalogs.end(), is_output);
   if (!is_catalog && !(command.state.script && is_output(*command.state.script))) return true;
@@ -179,7 +166,7 @@ int draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& mom
                     diagram.edges.size(), most_mermaid_edges));
   }
   const std::optional<std::string> content = write(diagram, format);
-  return content ? deliver(command.output, *content) : exit_unusable;
+  return content ? write_output(output_of(command), *content) : exit_unusable;
 }
 
 int draw_catalog(const GraphCommand& command) {
@@ -194,11 +181,12 @@ int show_diff(const ComparedCatalogs& compared, const GraphCommand& command) {
   const CatalogDiff& diff = compared.diff;
   const std::string format = format_of(command);
   if (format == "text") {
-    const Style style = is_to_stdout(command) ? style_for(stdout) : plain_style();
-    return deliver(command.output, diff_text(diff, style));
+    const Style style = output_of(command) == "-" ? style_for(stdout) : plain_style();
+    return write_output(output_of(command), diff_text(diff, style));
   }
   if (format == "json") {
-    return deliver(command.output, diff_json(diff, compared.before->file, compared.after->file));
+    return write_output(output_of(command),
+                        diff_json(diff, compared.before->file, compared.after->file));
   }
   if (diff.further_exclusions > 0) {
     complain(fmt::format("{} further differences of exclusions are not marked",

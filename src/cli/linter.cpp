@@ -7,10 +7,11 @@
 #include <fmt/format.h>
 
 #include "catalog/same_meaning.h"
+#include "cli/exit_status.h"
 #include "cli/file_kind.h"
 #include "cli/input.h"
+#include "cli/output.h"
 #include "compiled/compile.h"
-#include "file/atomic_file.h"
 #include "lint/controls.h"
 #include "lint/fixes.h"
 #include "script/reader.h"
@@ -158,11 +159,7 @@ bool Linter::write_fixed(const std::string& path, const std::string& before,
     complain(fmt::format("{} has changed meanwhile; it is left as it is", quote(path)));
     return false;
   }
-  if (const auto error = write_atomically(path, after)) {
-    complain(fmt::format("cannot write {}: {}", quote(path), *error));
-    return false;
-  }
-  return true;
+  return write_output(path, after) == exit_ok;
 }
 
 void Linter::lint_script(const std::string& path, const std::string& catalog) {

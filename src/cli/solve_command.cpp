@@ -5,17 +5,20 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/exit_status.h"
 #include "cli/input.h"
+#include "cli/output.h"
 #include "cli/solve_missions.h"
 #include "cli/solve_options.h"
 #include "cli/solve_stream.h"
 #include "cli/sweep_command.h"
 #include "cli/validators.h"
+#include "text/quote.h"
 
 namespace cbc::cli {
 namespace {
@@ -98,9 +101,29 @@ std::string find_clash(const SolveOptions& options) {
   return {};
 }
 
+/// What is wrong with the files to write beside the report; empty if nothing is.
+std::string find_bad_output(const SolveOptions& options) {
+  std::vector<std::string> inputs = options.paths;
+  if (options.stream.replay) inputs.push_back(*options.stream.replay);
+  for (const auto& output : {options.html, options.stream.state_out, options.sweep.slowest,
+                             options.sweep.slowest_by_time}) {
+    if (!output) continue;
+    if (output == "-")
+      return "standard output has the report; expected a file for the other output";
+    for (const std::string& input : inputs) {
+      if (!is_same_file(input, *output)) continue;
+      return fmt::format("the output {} is an input, too", quote(*output));
+    }
+  }
+  return {};
+}
+
 int solve(const SolveOptions& options) {
   if (const std::string clash = find_clash(options); !clash.empty()) {
     return usage_error("solve", clash);
+  }
+  if (const std::string output = find_bad_output(options); !output.empty()) {
+    return usage_error("solve", output);
   }
   if (options.sweep.is_wanted()) return run_sweep(options);
   if (options.stream.replay) return replay_stream(options);

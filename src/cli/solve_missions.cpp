@@ -12,10 +12,10 @@
 #include "cli/exit_status.h"
 #include "cli/input.h"
 #include "cli/mission.h"
+#include "cli/output.h"
 #include "cli/run_end.h"
 #include "cli/solve_runs.h"
 #include "cli/terminal.h"
-#include "file/atomic_file.h"
 #include "report/solve_github.h"
 #include "report/solve_html.h"
 #include "report/solve_json.h"
@@ -64,11 +64,7 @@ int draw_missions(const std::vector<Mission>& missions, const SolveOptions& opti
   HtmlReport picture;
   ReportPair both(report, picture);
   const int status = run_missions(missions, options, both);
-  if (const auto error = write_atomically(*options.html, picture.page())) {
-    complain(fmt::format("cannot write {}: {}", quote(*options.html), *error));
-    return std::max<int>(status, exit_unusable);
-  }
-  return status;
+  return std::max(status, write_output(*options.html, picture.page()));
 }
 
 std::unique_ptr<SolveReport> make_report(const SolveOptions& options) {

@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "cli/exit_status.h"
 #include "cli/input.h"
+#include "cli/output.h"
 #include "cli/run_end.h"
 #include "coordinator/saved_state.h"
 #include "file/atomic_file.h"
@@ -22,10 +24,6 @@ bool can_use_files(const SolveOptions& options) {
     return false;
   }
   if (!stream.state_out) return true;
-  if (stream.state_out == "-") {
-    complain("--state-out needs a file, as standard output has the events");
-    return false;
-  }
   const auto obstacle = find_obstacle(*stream.state_out);
   if (obstacle) complain(fmt::format("cannot write {}: {}", quote(*stream.state_out), *obstacle));
   return !obstacle;
@@ -49,9 +47,7 @@ bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
 bool save_state(const StreamOptions& options, const CompiledCatalog& catalog,
                 const Runner& runner) {
   if (!options.state_out || runner.result().status != Coordinator::Status::ok) return true;
-  const auto error = write_atomically(*options.state_out, write_state(catalog, runner.snapshot()));
-  if (error) complain(fmt::format("cannot write {}: {}", quote(*options.state_out), *error));
-  return !error;
+  return write_output(*options.state_out, write_state(catalog, runner.snapshot())) == exit_ok;
 }
 
 int report_end(const Runner& runner, const CoordinatorOptions& options) {

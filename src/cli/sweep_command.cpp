@@ -11,9 +11,9 @@
 #include "cli/catalog_loader.h"
 #include "cli/exit_status.h"
 #include "cli/input.h"
+#include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/terminal.h"
-#include "file/atomic_file.h"
 #include "report/sweep_json.h"
 #include "report/sweep_text.h"
 #include "sweep/merge.h"
@@ -72,11 +72,7 @@ int write_slowest(const std::optional<std::string>& path,
     complain(fmt::format("there is no script for {}: no event took a search", quote(*path)));
     return exit_unusable;
   }
-  if (const auto error = write_atomically(*path, slowest->script)) {
-    complain(fmt::format("cannot write {}: {}", quote(*path), *error));
-    return exit_unusable;
-  }
-  return exit_ok;
+  return write_output(*path, slowest->script);
 }
 
 int report(SweepResult result, const SolveOptions& options) {
