@@ -72,7 +72,13 @@ void Explainer::explain_task(const Circumstances& circumstances, TaskId task,
   Why why;
   why.task = task;
   why.chosen = place == none ? none : catalog_.values[task][place].behavior;
-  why.why_not = why_not(circumstances, explanation.chosen, std::span(&demands, 1));
+  if (catalog_.values[task].empty()) {
+    Reason& reason = why.why_not.conflict.emplace_back();
+    reason.kind = Reason::Kind::no_behavior;
+    reason.task = task;
+  } else {
+    why.why_not = why_not(circumstances, explanation.chosen, std::span(&demands, 1));
+  }
   explanation.why.push_back(std::move(why));
 }
 

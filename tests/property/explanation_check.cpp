@@ -173,6 +173,15 @@ class Check {
     demand(why.at("task") == name_of_task(task), "not the next task");
     const std::size_t value = answer_.solution.values[task];
     demand(why.at("chosen") == name_of_value(value), "not the value of the task");
+    if (facts_.behaviors_of[task].empty()) {
+      demand(why.at("alternative").is_null(), "an alternative without a behavior");
+      demand(why.at("conflict").size() == 1, "not the one reason");
+      const ordered_json& reason = why["conflict"][0];
+      demand(reason.at("kind") == "no_behavior" && reason.at("task") == why["task"],
+             "not that no behavior performs the task");
+      statistics_.count("reason: no_behavior");
+      return;
+    }
     check_why_not(why, [&](const Assignment& values) { return values[task] != value; });
   }
 

@@ -287,7 +287,7 @@ class Run {
     if (event.search?.status === 'unknown') {
       say('a search limit came before the first solution', '', true);
     } else if (event.outcome === 'rejected' && event.conflict.length === 0) {
-      say('no consistent set of behaviors', '', true);
+      say('no consistent set of behaviors; finding the reasons would have taken too long', '', true);
     }
     for (const change of event.changes) {
       if (!change.success) say(`${change.behavior} could not be ${change.op}d`, '', true);
