@@ -98,6 +98,11 @@ class Witness {
 
 }  // namespace
 
+bool performs(const Behavior& behavior, std::size_t task) {
+  return std::any_of(behavior.performs.begin(), behavior.performs.end(),
+                     [task](const Performance& performance) { return performance.task == task; });
+}
+
 const std::vector<Shape>& all_shapes() {
   static const std::vector<Shape> shapes{
       {"catalog",
@@ -325,11 +330,6 @@ bool CatalogOutline::excludes(std::size_t task, std::size_t other) const {
 }
 
 namespace {
-
-bool performs(const Behavior& behavior, std::size_t task) {
-  return std::any_of(behavior.performs.begin(), behavior.performs.end(),
-                     [task](const Performance& performance) { return performance.task == task; });
-}
 
 /// The number of requirements from each task to `target`, which is 0 for itself.
 std::vector<std::size_t> distances_to(const CatalogOutline& catalog, std::size_t target) {

@@ -65,6 +65,8 @@ struct Behavior {
   bool has_timeout = false;
 };
 
+[[nodiscard]] bool performs(const Behavior& behavior, std::size_t task);
+
 class CatalogOutline {
  public:
   /// Nothing if the text is not in the style that is understood here, or names something undefined.

@@ -11,20 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "demand.h"
+#include "partial_performance.h"
+
 namespace cbc::oracle {
 namespace {
 
 using nlohmann::ordered_json;
-
-void demand(bool holds, const std::string& otherwise) {
-  if (!holds) {
-    throw std::runtime_error(otherwise);
-  }
-}
-
-bool contains(const std::vector<std::size_t>& items, std::size_t item) {
-  return std::find(items.begin(), items.end(), item) != items.end();
-}
 
 // Where things stand in the text of a catalog
 
@@ -201,25 +194,6 @@ struct Reason {
   std::size_t line = 0;
   Millionths minimum = 0;
 };
-
-// Performance(task), where a required task that does not run counts for nothing.
-bool reaches(const CatalogFacts& facts, const Assignment& values, std::size_t task,
-             Millionths minimum) {
-  std::vector<std::size_t> running = {task};
-  for (std::size_t i = 0; i < running.size(); ++i) {
-    for (const Requirement& requirement :
-         facts.catalog.behaviors[values[running[i]]].requirements) {
-      if (values[requirement.task] != none && !contains(running, requirement.task)) {
-        running.push_back(requirement.task);
-      }
-    }
-  }
-  Integer product = 1;
-  for (const std::size_t required : running) {
-    product *= facts.suitability(values[required], required);
-  }
-  return product >= power_of_million(running.size() - 1) * minimum;
-}
 
 class Checker {
  public:
@@ -506,7 +480,7 @@ class Checker {
         return !assigned() || runs(reason.task);
       case Kind::performance:
         return !runs(reason.task) || (reason.behavior != none && !assigned()) ||
-               reaches(facts_, values, reason.task, reason.minimum);
+               reaches_with_what_runs(facts_, values, reason.task, reason.minimum);
       case Kind::unavailable:
         for (const Performance& performed : facts_.catalog.behaviors[reason.behavior].performs) {
           if (values[performed.task] == reason.behavior &&

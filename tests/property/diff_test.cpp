@@ -25,7 +25,7 @@
 namespace cbc::oracle {
 namespace {
 
-constexpr std::uint64_t default_cases = 1000;
+constexpr std::uint64_t default_diffs = 1000;
 
 /// What a catalog says: "b requires t" -> {"minimum_performance": "500000"}.
 using Statements = std::map<std::string, std::map<std::string, std::string>>;
@@ -321,7 +321,7 @@ CompiledCatalog compiled(const Catalog& catalog, Random& forms) {
 
 TEST(Diff, AndItsPictureAreThoseOfPlainSets) {
   const std::uint64_t first = environment("CBC_SEED", 1);
-  const std::uint64_t cases = environment("CBC_PROPERTY_CASES", default_cases);
+  const std::uint64_t cases = environment("CBC_PROPERTY_CASES", default_diffs);
   std::size_t changes = 0;
   for (std::uint64_t seed = first; seed < first + cases; ++seed) {
     Random random(seed);

@@ -9,44 +9,16 @@
 #include <utility>
 #include <vector>
 
+#include "demand.h"
 #include "enumeration.h"
 #include "oracle.h"
+#include "partial_performance.h"
 
 namespace cbc::oracle {
 namespace {
 
 using nlohmann::ordered_json;
 using Holds = std::function<bool(const Assignment&)>;
-
-void demand(bool holds, const std::string& otherwise) {
-  if (!holds) {
-    throw std::runtime_error(otherwise);
-  }
-}
-
-bool contains(const std::vector<std::size_t>& items, std::size_t item) {
-  return std::find(items.begin(), items.end(), item) != items.end();
-}
-
-// Performance(task) as far as it can be told: a required task that does not run does not count.
-bool reaches(const CatalogFacts& facts, const Assignment& values, std::size_t task,
-             Millionths minimum) {
-  std::set<std::size_t> factors;
-  const std::function<void(std::size_t)> collect = [&](std::size_t at) {
-    if (values[at] == none || !factors.insert(at).second) {
-      return;
-    }
-    for (const Requirement& requirement : facts.catalog.behaviors[values[at]].requirements) {
-      collect(requirement.task);
-    }
-  };
-  collect(task);
-  Integer product = 1;
-  for (const std::size_t factor : factors) {
-    product *= facts.suitability(values[factor], factor);
-  }
-  return product >= power_of_million(factors.size() - 1) * minimum;
-}
 
 // The explanations of one event.
 class Check {
@@ -400,7 +372,7 @@ class Check {
       const Millionths minimum = facts_.catalog.tasks[task].minimum;
       demand(kind == "performance" && minimum > 0, "no minimum");
       return [=, this](const Assignment& values) {
-        return values[task] == none || reaches(facts_, values, task, minimum);
+        return values[task] == none || reaches_with_what_runs(facts_, values, task, minimum);
       };
     }
     const std::size_t behavior = behavior_of(reason.at("behavior"));
@@ -417,7 +389,7 @@ class Check {
     demand(minimum > 0, "no minimum");
     return [=, this](const Assignment& values) {
       return !contains(values, behavior) || values[task] == none ||
-             reaches(facts_, values, task, minimum);
+             reaches_with_what_runs(facts_, values, task, minimum);
     };
   }
 

@@ -47,7 +47,7 @@ struct LowerBound {
   std::int64_t per_hundred;
 };
 
-const LowerBound lower_bounds[] = {
+const LowerBound explanation_lower_bounds[] = {
     {"alternatives: all", 100},    {"alternatives: the best", 100}, {"displaced", 20},
     {"loses by: requests", 100},   {"loses by: request_order", 1},  {"loses by: suitability", 100},
     {"loses by: idle", 100},       {"loses by: changes", 20},       {"loses by: canonical", 20},
@@ -74,7 +74,7 @@ TEST(Explanation, AgreesWithBruteForce) {
   }
   for (const auto& [what, times] : statistics.all()) std::cout << times << "  " << what << "\n";
   if (cases < cases_for_statistics) return;
-  for (const LowerBound& bound : lower_bounds) {
+  for (const LowerBound& bound : explanation_lower_bounds) {
     EXPECT_GE(statistics.of(bound.what), bound.per_hundred * static_cast<std::int64_t>(cases) / 100)
         << "too rare: " << bound.what;
   }

@@ -48,7 +48,7 @@ Result drop_key(const CatalogOutline& catalog, Random& random) {
       line -= placed->field->last_line - placed->field->line + 1;
     }
   }
-  return Mutation{lines.text(), {{"missing-key", {line}, std::nullopt, "key " + quoted(key)}}};
+  return Mutation{lines.text(), {{"missing-key", {line}, std::nullopt, "key " + in_quotes(key)}}};
 }
 
 Result empty_required_key(const CatalogOutline& catalog, Random& random) {
@@ -63,7 +63,7 @@ Result empty_required_key(const CatalogOutline& catalog, Random& random) {
   set_value(lines, *placed->field, random.pick(nothings));
   return Mutation{lines.text(),
                   {at(lines, "missing-key", placed->field->line, placed->field->column,
-                      quoted(placed->field->key) + " has no value")}};
+                      in_quotes(placed->field->key) + " has no value")}};
 }
 
 std::string key_misspelling(const PlacedField& placed, Random& random) {
@@ -83,24 +83,25 @@ Result misspell_required_key(const CatalogOutline& catalog, Random& random) {
   if (wrong.empty()) return std::nullopt;
   Lines lines = catalog.lines();
   lines.replace(field.line, field.column, field.key.size(), wrong);
-  return Mutation{lines.text(),
-                  {at(lines, "missing-key", field.line, field.column,
-                      quoted(wrong) + " is unknown; did you mean " + quoted(field.key) + "?")}};
+  return Mutation{
+      lines.text(),
+      {at(lines, "missing-key", field.line, field.column,
+          in_quotes(wrong) + " is unknown; did you mean " + in_quotes(field.key) + "?")}};
 }
 
 /// What follows from the absence of a key that is not required.
-const std::set<std::string_view> changes_of_meaning{"conflicting-requirements",
-                                                    "dead-behavior",
-                                                    "dead-task",
-                                                    "implicit-task",
-                                                    "no-timeout-effect",
-                                                    "reactive-timeout",
-                                                    "redundant-requirement",
-                                                    "required-goal",
-                                                    "requires-on-request",
-                                                    "task-without-behavior",
-                                                    "unreachable-performance",
-                                                    "suspicious-suitability"};
+const std::set<std::string_view> changes_without_key{"conflicting-requirements",
+                                                     "dead-behavior",
+                                                     "dead-task",
+                                                     "implicit-task",
+                                                     "no-timeout-effect",
+                                                     "reactive-timeout",
+                                                     "redundant-requirement",
+                                                     "required-goal",
+                                                     "requires-on-request",
+                                                     "task-without-behavior",
+                                                     "unreachable-performance",
+                                                     "suspicious-suitability"};
 
 Result misspell_optional_key(const CatalogOutline& catalog, Random& random) {
   const std::vector<PlacedField> fields = all_fields(catalog);
@@ -118,8 +119,8 @@ Result misspell_optional_key(const CatalogOutline& catalog, Random& random) {
   lines.replace(field.line, field.column, field.key.size(), wrong);
   return Mutation{lines.text(),
                   {at(lines, "unknown-key", field.line, field.column,
-                      "did you mean " + quoted(field.key) + "?")},
-                  changes_of_meaning};
+                      "did you mean " + in_quotes(field.key) + "?")},
+                  changes_without_key};
 }
 
 Result strange_key(const CatalogOutline& catalog, Random& random) {
@@ -132,7 +133,7 @@ Result strange_key(const CatalogOutline& catalog, Random& random) {
   const std::size_t line = add_field(lines, *mapping->item, content);
   return Mutation{lines.text(),
                   {at(lines, "unknown-key", line, mapping->item->column,
-                      quoted(content.substr(0, content.find(':'))))}};
+                      in_quotes(content.substr(0, content.find(':'))))}};
 }
 
 /// At the very end of the file, what is left is a key without a value; elsewhere it is no YAML.
@@ -151,7 +152,7 @@ Result no_space_after_colon(const CatalogOutline& catalog, Random& random) {
   if (field.line == catalog.root().last_line && !has_comment) {
     return Mutation{lines.text(),
                     {at(lines, "unknown-key", field.line, field.column, "space missing")},
-                    changes_of_meaning};
+                    changes_without_key};
   }
   return Mutation{lines.text(),
                   {at(lines, "yaml-syntax", field.line, field.column, "the space after it")}};
@@ -169,7 +170,7 @@ Result key_twice(const CatalogOutline& catalog, Random& random) {
   lines.insert_after(placed->mapping->last_line, spaces(field.column) + content);
   return Mutation{lines.text(),
                   {at(lines, "duplicate-key", placed->mapping->last_line + 1, field.column,
-                      quoted(field.key) + " is given twice")}};
+                      in_quotes(field.key) + " is given twice")}};
 }
 
 /// A section in two parts, each under its key.
@@ -183,7 +184,7 @@ Result section_twice(const CatalogOutline& catalog, Random& random) {
   Lines lines = catalog.lines();
   const std::size_t line = entries[cut - 1].last_line + 1;
   lines.insert_after(line - 1, section->key + ":");
-  return Mutation{lines.text(), {at(lines, "duplicate-key", line, 0, quoted(section->key))}};
+  return Mutation{lines.text(), {at(lines, "duplicate-key", line, 0, in_quotes(section->key))}};
 }
 
 struct OlderName {
@@ -224,7 +225,7 @@ Result older_name(const CatalogOutline& catalog, Random& random) {
   lines.replace(field.line, field.column, field.key.size(), key);
   return Mutation{lines.text(),
                   {at(lines, "deprecated-key", field.line, field.column,
-                      quoted(key) + " is an older name: write '" + field.key)}};
+                      in_quotes(key) + " is an older name: write '" + field.key)}};
 }
 
 Result both_names(const CatalogOutline& catalog, Random& random) {
@@ -237,7 +238,7 @@ Result both_names(const CatalogOutline& catalog, Random& random) {
   Lines lines = catalog.lines();
   const std::size_t line = add_field(lines, *placed->mapping, key + ": " + value);
   return Mutation{lines.text(),
-                  {at(lines, "duplicate-key", line, placed->mapping->column, quoted(key))}};
+                  {at(lines, "duplicate-key", line, placed->mapping->column, in_quotes(key))}};
 }
 
 /// The last key of the last entry of a list, put where the list itself stands.
@@ -266,7 +267,7 @@ Result one_level_up(const CatalogOutline& catalog, Random& random) {
   lines.replace(line, 0, place.field->column, spaces(place.outer->column));
   return Mutation{lines.text(),
                   {at(lines, "unknown-key", line, place.outer->column, "one level down")},
-                  changes_of_meaning};
+                  changes_without_key};
 }
 
 Result one_level_down(const CatalogOutline& catalog, Random& random) {
@@ -294,7 +295,7 @@ Result key_of_a_task_in_a_behavior(const CatalogOutline& catalog, Random& random
   const std::size_t line = add_field(lines, *mapping->item, content);
   return Mutation{lines.text(),
                   {at(lines, "unknown-key", line, mapping->item->column,
-                      quoted(content.substr(0, content.find(':'))))}};
+                      in_quotes(content.substr(0, content.find(':'))))}};
 }
 
 Result task_and_tasks(const CatalogOutline& catalog, Random& random) {

@@ -8,12 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "demand.h"
+
 namespace cbc::oracle {
 namespace {
-
-void demand(bool holds, const std::string& otherwise) {
-  if (!holds) throw std::runtime_error(otherwise);
-}
 
 // Calls for each constraint of a set.
 void for_each(ConstraintSet set, const std::function<void(ConstraintSet)>& call) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cbc/diagnostic.h"
+#include "demand.h"
 #include "lint/lint.h"
 #include "yaml/document.h"
 
@@ -14,11 +15,7 @@ namespace {
 
 using yaml::Node;
 
-void demand(bool holds, const std::string& otherwise) {
-  if (!holds) throw std::runtime_error(otherwise);
-}
-
-std::string quoted(const std::string& name) { return "'" + name + "'"; }
+std::string in_quotes(const std::string& name) { return "'" + name + "'"; }
 
 // What is left of a text after its beginning.
 std::optional<std::string> after(const std::string& text, const std::string& beginning) {
@@ -121,14 +118,14 @@ class FindingReader {
       read_unreachable(finding);
     } else if (finding.rule == "dead-task") {
       const std::size_t dead = find(places_.task_names, finding.range);
-      expect(after(finding.message, "task " + quoted(catalog_.tasks[dead].name) +
+      expect(after(finding.message, "task " + in_quotes(catalog_.tasks[dead].name) +
                                         " can never run: together these constraints exclude all "
                                         "of its behaviors"));
       add(findings_.dead_tasks, dead, read_reason(finding, oracle_.facts().group_of[dead]));
     } else if (finding.rule == "dead-behavior") {
       const std::size_t dead = find(places_.behavior_names, finding.range);
       expect(after(finding.message,
-                   "behavior " + quoted(catalog_.behaviors[dead].name) +
+                   "behavior " + in_quotes(catalog_.behaviors[dead].name) +
                        " can never be active: together these constraints exclude it"));
       add(findings_.dead_behaviors, dead, read_reason(finding, oracle_.group_of_behavior(dead)));
     } else if (finding.rule == "redundant-requirement") {
@@ -180,10 +177,10 @@ class FindingReader {
     return catalog_.behaviors[entry.behavior].requirements[entry.place];
   }
   std::string behavior(const RequirementEntry& entry) const {
-    return quoted(catalog_.behaviors[entry.behavior].name);
+    return in_quotes(catalog_.behaviors[entry.behavior].name);
   }
   std::string task(const RequirementEntry& entry) const {
-    return quoted(catalog_.tasks[requirement(entry).task].name);
+    return in_quotes(catalog_.tasks[requirement(entry).task].name);
   }
 
   void read_conflict(const Diagnostic& finding) {
@@ -209,7 +206,7 @@ class FindingReader {
     }
     const std::size_t task = find(places_.task_minimums, finding.range);
     const std::string rest =
-        expect(after(finding.message, "task " + quoted(catalog_.tasks[task].name) +
+        expect(after(finding.message, "task " + in_quotes(catalog_.tasks[task].name) +
                                           " must perform with at least " +
                                           percent_text(catalog_.tasks[task].minimum) + middle));
     add(findings_.unreachable_minimums, task, expect(before(rest, " %")));
@@ -263,7 +260,7 @@ class FindingReader {
 
   std::size_t task_named(const std::string& name) const {
     for (std::size_t task = 0; task < catalog_.tasks.size(); ++task) {
-      if (quoted(catalog_.tasks[task].name) == name) return task;
+      if (in_quotes(catalog_.tasks[task].name) == name) return task;
     }
     throw std::runtime_error("no task: " + name);
   }
@@ -313,7 +310,7 @@ class FindingReader {
     }
     const std::size_t task = find(places_.task_minimums, note.range);
     const Millionths minimum = catalog_.tasks[task].minimum;
-    demand(note.message == quoted(catalog_.tasks[task].name) + " runs with at least " +
+    demand(note.message == in_quotes(catalog_.tasks[task].name) + " runs with at least " +
                                percent_text(minimum) + " %",
            "not the note of this place: " + note.message);
     return {Constraint::Kind::performance, task, none, none, minimum};

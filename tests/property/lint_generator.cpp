@@ -10,7 +10,7 @@ namespace cbc::oracle {
 namespace {
 
 constexpr std::size_t most_assignments = 1000;
-constexpr std::size_t most_constraints = 60;
+constexpr std::size_t most_generated_constraints = 60;
 
 std::vector<Millionths> pick_palette(Random& random) {
   static const std::vector<std::vector<Millionths>> palettes = {
@@ -101,7 +101,7 @@ class StrictGenerator {
       if (random_.percent(22)) add_another_task(block, behavior);
       add_requirements(block, behavior);
       catalog_.behaviors.push_back(behavior);
-      if (assignments(block) > most_assignments || block.constraints > most_constraints) {
+      if (assignments(block) > most_assignments || block.constraints > most_generated_constraints) {
         catalog_.behaviors.pop_back();
         return;
       }

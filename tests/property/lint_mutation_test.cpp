@@ -31,7 +31,7 @@ namespace cbc::mutation {
 namespace {
 
 constexpr std::uint64_t default_seed = 1;
-constexpr std::uint64_t default_cases = 5000;
+constexpr std::uint64_t default_mutations = 5000;
 constexpr std::size_t failures_shown = 5;
 /// Fewer cases say nothing about how often a kind of mistake was made.
 constexpr std::uint64_t cases_for_statistics = 2000;
@@ -254,7 +254,7 @@ class MutationTest {
 
 TEST(LintMutation, EachMistakeIsFoundWhereItWasMade) {
   const std::uint64_t seed = environment("CBC_SEED", default_seed);
-  const std::uint64_t cases = environment("CBC_PROPERTY_CASES", default_cases);
+  const std::uint64_t cases = environment("CBC_PROPERTY_CASES", default_mutations);
   std::cout << "CBC_SEED=" << seed << " CBC_PROPERTY_CASES=" << cases << std::endl;
 
   MutationTest test;

@@ -30,7 +30,7 @@ bool is_letter(char byte) { return (byte >= 'a' && byte <= 'z') || (byte >= 'A' 
 
 std::string spaces(std::size_t count) { return std::string(count, ' '); }
 
-std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
+std::string in_quotes(std::string_view name) { return "'" + std::string(name) + "'"; }
 
 Expected at(const Lines& lines, std::string_view rule, std::size_t line, std::size_t column,
             std::string says) {

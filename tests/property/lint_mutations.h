@@ -55,7 +55,7 @@ struct MistakeKind {
 [[nodiscard]] std::string spaces(std::size_t count);
 
 /// The name in quotes, as messages show it.
-[[nodiscard]] std::string quoted(std::string_view name);
+[[nodiscard]] std::string in_quotes(std::string_view name);
 
 /// A finding at a place of `lines`, which is a key or a value: line from 1, column from 0.
 [[nodiscard]] Expected at(const Lines& lines, std::string_view rule, std::size_t line,

@@ -25,7 +25,7 @@
 namespace cbc::oracle {
 namespace {
 
-constexpr std::uint64_t default_cases = 5000;
+constexpr std::uint64_t default_lint_cases = 5000;
 
 struct Sample {
   Catalog catalog;
@@ -40,7 +40,7 @@ Sample make_sample(std::uint64_t seed) {
   return sample;
 }
 
-void run_case(std::uint64_t seed, Results& results) {
+void run_lint_case(std::uint64_t seed, Results& results) {
   const Sample sample = make_sample(seed);
   try {
     const CatalogFacts facts(sample.catalog);
@@ -52,7 +52,7 @@ void run_case(std::uint64_t seed, Results& results) {
   }
 }
 
-const LowerBound lower_bounds[] = {
+const LowerBound lint_lower_bounds[] = {
     {"exclusive-requirement", 150},
     {"conflicting-requirements", 30},
     {"unreachable-performance", 150},
@@ -132,7 +132,7 @@ TEST(LintProperty, CheckSeesWhatIsWrong) {
 }
 
 TEST(LintProperty, SameFindingsAsBruteForce) {
-  run_random_cases(default_cases, run_case, lower_bounds);
+  run_random_cases(default_lint_cases, run_lint_case, lint_lower_bounds);
 }
 
 }  // namespace

@@ -30,11 +30,6 @@ Expected at_value(const CatalogOutline& mutated, std::string_view rule, const Fi
   return at(mutated.lines(), rule, field.value.line, field.value.column, std::move(says));
 }
 
-bool performs(const Behavior& behavior, std::size_t task) {
-  return std::any_of(behavior.performs.begin(), behavior.performs.end(),
-                     [task](const Performance& performance) { return performance.task == task; });
-}
-
 /// Whether the behavior would require one of its own tasks in the end.
 bool closes_cycle(const CatalogOutline& catalog, const Behavior& behavior, std::size_t required) {
   return std::any_of(
@@ -145,8 +140,8 @@ Result requires_what_excludes_it(const CatalogOutline& catalog, Random& random) 
     const Field& name = *mutated->behaviors()[index].requirements.back().name;
     return Mutation{mutated->lines().text(),
                     {at_value(*mutated, "exclusive-requirement", name,
-                              "behavior " + quoted(behavior.name) + " requires " +
-                                  quoted(catalog.tasks()[task].name))},
+                              "behavior " + in_quotes(behavior.name) + " requires " +
+                                  in_quotes(catalog.tasks()[task].name))},
                     also_of_requirement(catalog, task)};
   }
   return std::nullopt;
@@ -186,9 +181,10 @@ Result requires_what_conflicts(const CatalogOutline& catalog, Random& random) {
     const auto mutated = with_requirement(catalog, index, catalog.tasks()[task].name);
     if (mutated == nullptr) continue;
     const Field& name = *mutated->behaviors()[index].requirements.back().name;
-    return Mutation{mutated->lines().text(),
-                    {at_value(*mutated, "conflicting-requirements", name, quoted(behavior.name))},
-                    also_of_requirement(catalog, task)};
+    return Mutation{
+        mutated->lines().text(),
+        {at_value(*mutated, "conflicting-requirements", name, in_quotes(behavior.name))},
+        also_of_requirement(catalog, task)};
   }
   return std::nullopt;
 }
@@ -211,7 +207,7 @@ Result conflict_of_what_is_required(const CatalogOutline& catalog, Random& rando
     }
     if (!mutated->requires_task(each, one) || !mutated->requires_task(each, other)) continue;
     mutation.expected.push_back(
-        at_value(*mutated, "conflicting-requirements", *later, quoted(each.name)));
+        at_value(*mutated, "conflicting-requirements", *later, in_quotes(each.name)));
   }
   return mutation;
 }
@@ -256,12 +252,12 @@ Result conflict_further_down(const CatalogOutline& catalog, Random& random) {
     if (mutated->can_run(own)) {
       mutation.expected.push_back(at_value(*mutated, "dead-behavior",
                                            *mutated->behaviors()[index].entry->find("behavior"),
-                                           quoted(behavior.name)));
+                                           in_quotes(behavior.name)));
     } else if (others == 1) {
       mutation.expected.push_back({"dead-task",
                                    {mutated->tasks()[own].name_line},
                                    std::nullopt,
-                                   quoted(mutated->tasks()[own].name)});
+                                   in_quotes(mutated->tasks()[own].name)});
     } else {
       continue;
     }
@@ -287,7 +283,7 @@ Result on_request_and_reactive(const CatalogOutline& catalog, Random& random) {
   lines.insert_after(line - 1, spaces(task->entry->column) + "reactive_start: TRUE");
   return Mutation{
       lines.text(),
-      {at(lines, "on-request-and-reactive", line, task->entry->column, quoted(task->name))},
+      {at(lines, "on-request-and-reactive", line, task->entry->column, in_quotes(task->name))},
       {"reactive-timeout", "requires-on-request"}};
 }
 
@@ -442,9 +438,10 @@ Result requirement_twice(const CatalogOutline& catalog, Random& random) {
     mutated = with_minimum(*mutated, *mutated->behaviors()[index].requirements.back().entry,
                            minimum->value.text);
   }
-  return Mutation{mutated->lines().text(),
-                  {at_value(*mutated, "redundant-requirement",
-                            *mutated->behaviors()[index].requirements.back().name, quoted(name))}};
+  return Mutation{
+      mutated->lines().text(),
+      {at_value(*mutated, "redundant-requirement",
+                *mutated->behaviors()[index].requirements.back().name, in_quotes(name))}};
 }
 
 /// A listed task that something requires, and that fulfils a condition.
@@ -475,7 +472,7 @@ Result required_on_request(const CatalogOutline& catalog, Random& random) {
       if (requirement.task != index || !mutated->is_live(behavior)) continue;
       mutation.expected.push_back(
           at_value(*mutated, "requires-on-request", *requirement.name,
-                   quoted(behavior.name) + " requires " + quoted(task->name)));
+                   in_quotes(behavior.name) + " requires " + in_quotes(task->name)));
     }
   }
   // What behaviors of the tasks above have to request first is more now.
@@ -492,7 +489,7 @@ Result required_goal(const CatalogOutline& catalog, Random& random) {
   const auto index = static_cast<std::size_t>(task - catalog.tasks().data());
   return Mutation{mutated->lines().text(),
                   {at_value(*mutated, "required-goal", *mutated->tasks()[index].entry->find("task"),
-                            quoted(task->name))}};
+                            in_quotes(task->name))}};
 }
 
 Result starts_for_ever(const CatalogOutline& catalog, Random& random) {
@@ -509,7 +506,7 @@ Result starts_for_ever(const CatalogOutline& catalog, Random& random) {
       mutated->lines().text(),
       {at_value(
           *mutated, "reactive-timeout", *mutated->tasks()[index].entry->find("task"),
-          quoted(task->name) + " starts reactively and is ended after " + task->timeout + " s")},
+          in_quotes(task->name) + " starts reactively and is ended after " + task->timeout + " s")},
       {"requires-on-request"}};  // less has to be requested
 }
 

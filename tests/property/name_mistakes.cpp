@@ -49,11 +49,11 @@ Result rename_use(const CatalogOutline& catalog, Random& random, bool in_lists, 
   if (places.empty()) return std::nullopt;
   const Place place = random.pick(places);
   std::string wrong = "xqzwvjkqxz";
-  std::string says = quoted(wrong);
+  std::string says = in_quotes(wrong);
   if (!is_strange) {
     wrong = misspell(place.name, random);
     if (!is_clear_misspelling(wrong, place.name, task_names(catalog))) return std::nullopt;
-    says = "did you mean " + quoted(place.name) + "?";
+    says = "did you mean " + in_quotes(place.name) + "?";
   }
   Lines lines = catalog.lines();
   lines.replace(place.line, place.column, place.name.size(), wrong);
@@ -91,7 +91,7 @@ Result behavior_twice(const CatalogOutline& catalog, Random& random) {
                                : after.last_line + 1 + (name.line - entry.line);
   return Mutation{
       lines.text(),
-      {at(lines, "duplicate-behavior", line, name.value.column, quoted(name.value.text))}};
+      {at(lines, "duplicate-behavior", line, name.value.column, in_quotes(name.value.text))}};
 }
 
 Result behavior_named_as_another(const CatalogOutline& catalog, Random& random) {
@@ -106,7 +106,7 @@ Result behavior_named_as_another(const CatalogOutline& catalog, Random& random) 
   set_value(lines, renames_first ? taken : later, (renames_first ? later : taken).value.text);
   return Mutation{lines.text(),
                   {at(lines, "duplicate-behavior", later.line, later.value.column,
-                      quoted((renames_first ? later : taken).value.text))},
+                      in_quotes((renames_first ? later : taken).value.text))},
                   {"no-timeout-effect"}};  // it names the behavior
 }
 
@@ -122,10 +122,11 @@ Result task_twice(const CatalogOutline& catalog, Random& random) {
   insert(lines, list.last_line, copy_entry(lines, list, *task->entry));
   const Field& name = *task->entry->find("task");
   const std::size_t line = list.last_line + 1 + (name.line - task->entry->line);
-  return Mutation{lines.text(),
-                  {at(lines, "duplicate-task", line, name.value.column,
-                      "task " + quoted(task->name) + " is listed twice, with the same attributes")},
-                  {"deprecated-key"}};
+  return Mutation{
+      lines.text(),
+      {at(lines, "duplicate-task", line, name.value.column,
+          "task " + in_quotes(task->name) + " is listed twice, with the same attributes")},
+      {"deprecated-key"}};
 }
 
 /// Of both entries the last counts.
@@ -166,7 +167,7 @@ Result parameter_twice(const CatalogOutline& catalog, Random& random) {
   const Field& name = *entry.find("parameter");
   return Mutation{lines.text(),
                   {at(lines, "duplicate-parameter", list.last_line + 1 + (name.line - entry.line),
-                      name.value.column, quoted(name.value.text))}};
+                      name.value.column, in_quotes(name.value.text))}};
 }
 
 Result performed_twice(const CatalogOutline& catalog, Random& random) {
@@ -182,7 +183,7 @@ Result performed_twice(const CatalogOutline& catalog, Random& random) {
   const Field& name = *entry.find("task");
   return Mutation{lines.text(),
                   {at(lines, "invalid-value", list.last_line + 1 + (name.line - entry.line),
-                      name.value.column, quoted(name.value.text))},
+                      name.value.column, in_quotes(name.value.text))},
                   {"deprecated-key"}};
 }
 
@@ -212,7 +213,7 @@ Result excludes_itself(const CatalogOutline& catalog, Random& random) {
   Lines lines = catalog.lines();
   const Place place = add_name(lines, list, random.pick(list.items).text);
   return Mutation{lines.text(),
-                  {at(lines, "self-exclusion", place.line, place.column, quoted(place.name))}};
+                  {at(lines, "self-exclusion", place.line, place.column, in_quotes(place.name))}};
 }
 
 /// Appends a list of names to the exclusivity constraints. Returns its line and column.
@@ -292,7 +293,7 @@ Result task_not_listed(const CatalogOutline& catalog, Random& random) {
       const std::size_t line = name->line > task->entry->line ? name->line - removed : name->line;
       return Mutation{
           lines.text(),
-          {at(lines, "implicit-task", line, name->value.column, quoted(task->name))},
+          {at(lines, "implicit-task", line, name->value.column, in_quotes(task->name))},
           {"required-goal", "requires-on-request", "no-timeout-effect", "redundant-requirement"}};
     }
   }
@@ -315,7 +316,7 @@ Result performed_task_misspelt(const CatalogOutline& catalog, Random& random) {
   std::set<std::string_view> also = changes_of_meaning;
   also.insert({"task-without-behavior", "no-timeout-effect"});
   return Mutation{lines.text(),
-                  {at(lines, "implicit-task", field.line, field.value.column, quoted(wrong))},
+                  {at(lines, "implicit-task", field.line, field.value.column, in_quotes(wrong))},
                   also};
 }
 

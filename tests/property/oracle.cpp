@@ -5,16 +5,14 @@
 #include <string>
 #include <utility>
 
+#include "demand.h"
+
 namespace cbc::oracle {
 namespace {
 
 using nlohmann::ordered_json;
 
 constexpr Microseconds default_reactive_delay = 80'000;
-
-bool contains(const std::vector<std::size_t>& items, std::size_t item) {
-  return std::find(items.begin(), items.end(), item) != items.end();
-}
 
 double seconds(Microseconds time) { return static_cast<double>(time) / 1e6; }
 

@@ -22,7 +22,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::uint64_t default_cases = 3000;
+constexpr std::uint64_t default_event_cases = 3000;
 
 // The type that a scalar of a parameter has in JSON is free; its text is not.
 json scalars_as_text(const ordered_json& value) {
@@ -78,7 +78,7 @@ std::string event_text(const ordered_json& events, std::size_t index) {
   return index < events.size() ? events[index].dump(1) : "no such event";
 }
 
-void run_case(std::uint64_t seed, Results& results) {
+void run_event_case(std::uint64_t seed, Results& results) {
   const Case sample = generate_case(seed);
   Random forms(~seed);
   const std::string catalog = catalog_yaml(sample.catalog, forms);
@@ -109,7 +109,7 @@ void run_case(std::uint64_t seed, Results& results) {
   }
 }
 
-const LowerBound lower_bounds[] = {
+const LowerBound event_lower_bounds[] = {
     {"outcome: accepted", 5000},
     {"outcome: rejected", 1000},
     {"outcome: unchanged", 1000},
@@ -222,7 +222,9 @@ TEST(Property, ConflictCheckSeesWhatIsWrong) {
   }
 }
 
-TEST(Property, SameEventsAsTheOracle) { run_random_cases(default_cases, run_case, lower_bounds); }
+TEST(Property, SameEventsAsTheOracle) {
+  run_random_cases(default_event_cases, run_event_case, event_lower_bounds);
+}
 
 }  // namespace
 }  // namespace cbc::oracle

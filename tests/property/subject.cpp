@@ -56,7 +56,7 @@ CompiledCatalog compile_text(const std::string& catalog_yaml) {
   return compile(*catalog);
 }
 
-Script read_text(const std::string& script_yaml, const CompiledCatalog& catalog) {
+cbc::Script read_text(const std::string& script_yaml, const CompiledCatalog& catalog) {
   Diagnostics diagnostics;
   const auto document = yaml::parse(script_yaml, "script.yaml", diagnostics);
   if (!document) refuse(diagnostics);
@@ -93,7 +93,7 @@ class ExplainedEvents final : public RunListener {
 };
 
 /// `easy_nodes`: see SearchOptions; 0 puts all of the search's means to work from the start.
-nlohmann::ordered_json run(const CompiledCatalog& catalog, const Script& script,
+nlohmann::ordered_json run(const CompiledCatalog& catalog, const cbc::Script& script,
                            std::uint64_t easy_nodes) {
   Events events(catalog);
   CoordinatorOptions options;
@@ -119,7 +119,7 @@ void strip_effort(nlohmann::ordered_json& events) {
 nlohmann::ordered_json run_subject(const std::string& catalog_yaml,
                                    const std::string& script_yaml) {
   const CompiledCatalog compiled = compile_text(catalog_yaml);
-  const Script script = read_text(script_yaml, compiled);
+  const cbc::Script script = read_text(script_yaml, compiled);
   nlohmann::ordered_json easy = run(compiled, script, SearchOptions{}.easy_nodes);
   const CompiledFileResult loaded = read_compiled(write_compiled(compiled, {}));
   if (!loaded.file) throw std::runtime_error("the compiled file is refused: " + loaded.error);

@@ -109,10 +109,10 @@ Result text_for_list(const CatalogOutline& catalog, Random& random) {
   lines.insert_after(field.line - 1, before + field.key + ": " + random.pick(values));
   // Defaults may be a mapping.
   if (placed->shape->name == "default_values" || field.key == "default_values") return std::nullopt;
-  return Mutation{
-      lines.text(),
-      {at(lines, "wrong-type", field.line, field.column + field.key.size() + 2, quoted(field.key))},
-      {"duplicate-exclusion"}};  // says of which list
+  return Mutation{lines.text(),
+                  {at(lines, "wrong-type", field.line, field.column + field.key.size() + 2,
+                      in_quotes(field.key))},
+                  {"duplicate-exclusion"}};  // says of which list
 }
 
 /// A name alone where `key: name` belongs.
