@@ -1,0 +1,39 @@
+# The Debian package: one for all, as the library is small, static, and needs nothing at run time that
+# the program does not need. `./dev package` makes it.
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME "${package_name}")
+set(CPACK_PACKAGE_CONTACT "The cbc authors <cbc-authors@users.noreply.github.com>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "compiler and offline solver for behavior catalogs of robots")
+set(CPACK_PACKAGE_DESCRIPTION
+"A behavior catalog says which behaviors of a robot can perform which tasks
+and how well, which tasks exclude one another, and what a behavior requires.
+.
+The program cbc finds the mistakes in a catalog (cbc lint), computes the best
+set of active behaviors at every event of a mission (cbc solve), writes a file
+that a robot loads in microseconds (cbc compile), and draws pictures (cbc
+graph). It needs neither a robot nor ROS.
+.
+The C++ library for programs on the robot is included, with its headers and
+its packages for CMake and pkg-config.")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "graphviz") # for the pictures of `cbc graph`
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libfmt-dev, libyaml-cpp-dev") # to link with the library
+if(CBC_PROGRAM_NAME STREQUAL "cbc")
+  set(CPACK_DEBIAN_PACKAGE_CONFLICTS coinor-cbc) # has a program of the same name
+endif()
+
+set(changelog "${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian")
+configure_file(src/package/debian/changelog.in "${changelog}" @ONLY)
+configure_file(src/package/debian/finish.cmake.in finish_package.cmake @ONLY)
+set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_BINARY_DIR}/finish_package.cmake")
+
+include(CPack)

@@ -1,0 +1,20 @@
+# Installs the manual. Under another name of the program its pages are named after that, and so are
+# the references between them and the commands in them; the program calls itself cbc in what it prints.
+
+foreach(section 1 5 7)
+  file(GLOB pages CONFIGURE_DEPENDS man/*.${section})
+  foreach(page IN LISTS pages)
+    get_filename_component(name "${page}" NAME)
+    if(NOT CBC_PROGRAM_NAME STREQUAL "cbc")
+      string(TOUPPER "${CBC_PROGRAM_NAME}" title)
+      file(READ "${page}" text)
+      string(REGEX REPLACE "(\n\\.(Nm|Xr) |\n\\$ )cbc([- \n])" "\\1${CBC_PROGRAM_NAME}\\3" text "${text}")
+      string(REGEX REPLACE "(\n\\.Dt )CBC" "\\1${title}" text "${text}")
+      string(REGEX REPLACE "^cbc" "${CBC_PROGRAM_NAME}" name "${name}")
+      file(CONFIGURE OUTPUT "man/${name}" CONTENT "${text}" @ONLY)
+      set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${page}")
+      set(page "${CMAKE_CURRENT_BINARY_DIR}/man/${name}")
+    endif()
+    install(FILES "${page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man${section}")
+  endforeach()
+endforeach()

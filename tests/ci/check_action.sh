@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# check_action.sh PROGRAM: runs what action.yml runs to lint.
+set -euo pipefail
+
+source=$(realpath -- "$(dirname -- "${BASH_SOURCE[0]}")/../..")
+work=$(mktemp -d)
+trap 'rm -rf -- "$work"' EXIT
+mkdir "$work/bin" "$work/catalogs"
+ln -s -- "$(realpath -- "$1")" "$work/bin/cbc"
+export PATH="$work/bin:$PATH" RUNNER_TEMP="$work" GITHUB_OUTPUT="$work/output"
+cd -- "$work"
+cp -- "$source/catalogs/quadrotor.yaml" catalogs
+printf 'behaviors:\n- behavior: A\n  task: B\n  suitabilty: 50\n' >catalogs/typo.yaml
+
+# What action.yml names is there.
+for script in $(sed -n 's/.*GITHUB_ACTION_PATH\/\([^"]*\)".*/\1/p' "$source/action.yml"); do
+  bash -n "$source/$script"
+done
+
+# lint CATALOGS ARGUMENTS SARIF: sets `annotations`, `outputs` and `status`.
+lint() {
+  status=0
+  : >"$GITHUB_OUTPUT"
+  annotations=$(CATALOGS=$1 ARGUMENTS=$2 SARIF=$3 bash "$source/src/package/github/lint.sh" 2>errors) || status=$?
+  outputs=$(<"$GITHUB_OUTPUT")
+}
+
+fail() {
+  printf 'check_action.sh: FAILED: %s\nstatus %s\n%s\n%s\n' "$1" "$status" "$annotations" "$outputs" >&2
+  exit 1
+}
+
+lint catalogs/quadrotor.yaml --strict false
+[[ $status == 0 && -z $outputs ]] || fail "a sound catalog"
+
+lint catalogs "" false
+[[ $status == 0 && $annotations == *"::warning "*"file=catalogs/typo.yaml,line=4,"* ]] || fail "a warning"
+
+lint "catalogs/quadrotor.yaml
+catalogs/typo.yaml" "--error unknown-key" true
+[[ $status == 1 && $annotations == *"::error "*"file=catalogs/typo.yaml,line=4,"* ]] || fail "an error"
+[[ $outputs == "sarif=$work/cbc.sarif" ]] || fail "the output of the step"
+grep -q '"ruleId":"unknown-key"' "$work/cbc.sarif" || fail "SARIF: $(<"$work/cbc.sarif")"
+
+lint nowhere.yaml "" true
+[[ $status == 2 && -z $outputs && $(<errors) == *nowhere.yaml* ]] || fail "no catalog"
+echo "check_action.sh: all is well"
