@@ -16,7 +16,8 @@ struct Drawable {
   std::shared_ptr<const CompiledCatalog> compiled;  ///< of a catalog without errors
   CatalogReading reading;                           ///< of another one
   draw::CatalogGraph graph;
-  std::optional<draw::Moment> moment;  ///< of a state
+  std::optional<draw::Moment> moment;        ///< of a state
+  std::optional<std::string> named_catalog;  ///< path of the catalog that the script names
 };
 
 /// Reads a catalog, a compiled one or YAML, which may have errors, and prints what is wrong with

@@ -73,7 +73,7 @@ struct GraphCommand {
   StateOptions state;
 };
 
-/// The format that the suffix of the output names.
+/// The format that the suffix of the output names; empty if there is none of this name.
 std::string format_of(const GraphCommand& command) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 9> formats = {
       {{".dot", "dot"},
@@ -86,11 +86,15 @@ std::string format_of(const GraphCommand& command) {
        {".pdf", "pdf"},
        {".txt", "text"}}};
   if (!command.format.empty()) return command.format;
-  const std::string suffix = std::filesystem::path(command.output.value_or("")).extension();
+  std::string suffix = std::filesystem::path(command.output.value_or("")).extension();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  if (suffix.empty()) return "dot";
   for (const auto& [known, format] : formats) {
     if (suffix == known) return std::string(format);
   }
-  return "dot";
+  return {};
 }
 
 bool is_binary(std::string_view format) { return format == "png" || format == "pdf"; }
@@ -100,6 +104,11 @@ std::string find_misuse(const GraphCommand& command) {
   const std::string format = format_of(command);
   const std::size_t catalogs = command.catalogs.size();
   if (command.output == "") return "expected the name of a file after -o";
+  if (format.empty()) {
+    return fmt::format(
+        "the suffix of {} names no format; expected one like .dot or .svg, or --format",
+        quote(*command.output));
+  }
   if (command.is_diff && catalogs != 2) {
     return fmt::format("expected two catalogs to compare, found {}", catalogs);
   }
@@ -133,6 +142,15 @@ std::optional<std::string> write(const draw::Diagram& diagram, const std::string
 
 std::string output_of(const GraphCommand& command) { return command.output.value_or("-"); }
 
+bool is_output(const std::string& input, const GraphCommand& command) {
+  return is_same_file(input, output_of(command));
+}
+
+int refuse_output(const GraphCommand& command, std::string_view input) {
+  return usage_error("graph",
+                     fmt::format("the output {} is the {} itself", quote(*command.output), input));
+}
+
 /// Whether the output can be written where it shall be. If not, this is complained of.
 bool can_write(const GraphCommand& command) {
   const std::string format = format_of(command);
@@ -141,13 +159,12 @@ bool can_write(const GraphCommand& command) {
     complain(fmt::format("{} is not written to a terminal; expected -o OUT or a pipe", format));
     return false;
   }
-  const auto is_output = [&](const std::string& input) {
-    return is_same_file(input, output_of(command));
-  };
-  const bool is_catalog = std::any_of(command.catalogs.begin(), command.catalogs.end(), is_output);
-  if (!is_catalog && !(command.state.script && is_output(*command.state.script))) return true;
-  usage_error("graph", fmt::format("the output {} is the {} itself", quote(*command.output),
-                                   is_catalog ? "catalog" : "script"));
+  const bool is_catalog =
+      std::any_of(command.catalogs.begin(), command.catalogs.end(),
+                  [&](const std::string& catalog) { return is_output(catalog, command); });
+  const bool is_script = command.state.script && is_output(*command.state.script, command);
+  if (!is_catalog && !is_script) return true;
+  refuse_output(command, is_catalog ? "catalog" : "script");
   return false;
 }
 
@@ -174,7 +191,11 @@ int draw_catalog(const GraphCommand& command) {
   int status = exit_unusable;
   const std::unique_ptr<Drawable> drawable =
       command.state.script ? read_state(catalog, command.state, status) : read_drawable(catalog);
-  return drawable == nullptr ? status : draw(drawable->graph, drawable->moment, command);
+  if (drawable == nullptr) return status;
+  if (drawable->named_catalog && is_output(*drawable->named_catalog, command)) {
+    return refuse_output(command, "catalog");
+  }
+  return draw(drawable->graph, drawable->moment, command);
 }
 
 int show_diff(const ComparedCatalogs& compared, const GraphCommand& command) {
@@ -231,7 +252,7 @@ void add_graph_command(CLI::App& program, int& status) {
   command
       ->add_option("--format", options->format,
                    "dot, mermaid, json, svg, png or pdf, with --diff also text (default:\n"
-                   "by the suffix of OUT, else dot)")
+                   "by the suffix of OUT; without one dot)")
       ->option_text("FORMAT")
       ->check(CLI::IsMember({"dot", "mermaid", "json", "svg", "png", "pdf", "text"}));
   add_drawing_options(*command, options->drawing);

@@ -1,12 +1,14 @@
 #include "cli/graph_options.h"
 
 #include <algorithm>
+#include <limits>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/input.h"
+#include "cli/validators.h"
 #include "text/nearest.h"
 #include "text/quote.h"
 
@@ -49,6 +51,8 @@ std::uint32_t group_count(const draw::CatalogGraph& graph) {
   return groups;
 }
 
+CLI::Validator any_number() { return whole_number(0, std::numeric_limits<std::uint32_t>::max()); }
+
 }  // namespace
 
 void add_drawing_options(CLI::App& command, DrawingOptions& options) {
@@ -84,11 +88,14 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
       ->allow_extra_args(false);
   command.add_flag("--up", options.up, "Of --task: only what requires it");
   command.add_flag("--down", options.down, "Of --task: only what it requires");
-  command.add_option("--depth", options.depth, "Of --task: at most N tasks away")->option_text("N");
+  command.add_option("--depth", options.depth, "Of --task: at most N tasks away")
+      ->option_text("N")
+      ->check(any_number());
   command
       .add_option("--group", options.group,
                   "Draw this group only; 'cbc compile --dump' numbers them")
-      ->option_text("N");
+      ->option_text("N")
+      ->check(any_number());
   command.add_flag("--legend", options.legend, "Add a key to the kinds of shapes and lines");
 }
 
@@ -123,8 +130,9 @@ std::optional<draw::Part> find_part(const draw::CatalogGraph& graph,
   if (options.group) {
     const std::uint32_t groups = group_count(graph);
     if (*options.group >= groups) {
-      complain(fmt::format("--group: catalog {} has no group {}; they count from 0 to {}",
-                           quote(graph.file), *options.group, groups - 1));
+      complain(fmt::format(
+          "--group: catalog {} has no group {}; {}", quote(graph.file), *options.group,
+          groups == 0 ? "it has none" : fmt::format("they count from 0 to {}", groups - 1)));
       return std::nullopt;
     }
     return part_of_group(graph, *options.group);

@@ -118,6 +118,7 @@ std::unique_ptr<Drawable> read_state(const std::string& catalog, const StateOpti
   state->graph = draw::to_graph(*mission->catalog);
   draw::mark_state(state->graph, recorder.state());
   state->moment = recorder.moment();
+  state->named_catalog = std::move(mission->named_catalog);
   state->compiled = std::move(mission->catalog);
   return state;
 }

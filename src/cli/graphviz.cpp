@@ -13,7 +13,10 @@
 namespace cbc::cli {
 namespace {
 
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+std::string first_line(const std::string& text) {
+  const std::string line = text.substr(0, text.find('\n'));
+  return line.empty() ? "it does not say why" : line;
+}
 
 /// Takes the time of the run out of a PDF file, so that the same catalog gives the same bytes. The
 /// length stays, because the file has a table of the places in it.

@@ -17,6 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Empty if the script names none.
+std::optional<std::string> path_of_catalog(const std::string& script_path,
+                                           const yaml::Document& script) {
+  const std::optional<std::string> named = catalog_of_script(script);
+  if (!named) return std::nullopt;
+  return (fs::path(script_path).parent_path() / *named).lexically_normal().string();
+}
+
 }  // namespace
 
 std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::string>& paths) {
@@ -97,7 +105,7 @@ void MissionLoader::add_script(const std::string& path, const yaml::Document& do
   Diagnostics diagnostics;
   std::optional<Script> script = read_script(document, *catalog, Severity::warning, diagnostics);
   if (files_.take_findings(path, document, std::move(diagnostics)) && script) {
-    missions_.push_back({std::move(catalog), std::move(*script)});
+    missions_.push_back({std::move(catalog), path_of_catalog(path, document), std::move(*script)});
   } else {
     has_failed_ = true;
   }
@@ -106,13 +114,13 @@ void MissionLoader::add_script(const std::string& path, const yaml::Document& do
 std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_of(const std::string& script_path,
                                                                  const yaml::Document& script) {
   if (given_catalog_ != nullptr || is_given_catalog_bad_) return given_catalog_;
-  const std::optional<std::string> named = catalog_of_script(script);
+  const std::optional<std::string> named = path_of_catalog(script_path, script);
   if (!named) {
     complain(fmt::format("script {} names no catalog, and none is given",
                          quote(display_name(script_path))));
     return nullptr;
   }
-  return catalogs_.load((fs::path(script_path).parent_path() / *named).lexically_normal().string());
+  return catalogs_.load(*named);
 }
 
 }  // namespace cbc::cli

@@ -34,14 +34,27 @@ AttributeValue unless_zero(Number number) {
   return number == 0 ? AttributeValue() : AttributeValue(number);
 }
 
-/// What a parameter may be set to. Words are a set, two numbers a range.
+/// Values that could be taken for several, or for none, are quoted.
+std::string spell(const std::string& value) {
+  const bool is_clear = !value.empty() && value.find_first_of(",[]'") == std::string::npos;
+  if (is_clear) return value;
+  std::string text = "'";
+  for (const char character : value) text += character == '\'' ? "''" : std::string(1, character);
+  return text += '\'';
+}
+
+/// What a parameter may be set to. Words are a set, two numbers a range; no values allow any.
 std::string describe(Parameter parameter) {
   std::vector<std::string>& values = parameter.allowed_values;
+  if (values.empty()) return {};
   const bool is_range =
       values.size() == 2 && parse_number(values.front()) && parse_number(values.back());
-  if (!is_range) std::sort(values.begin(), values.end());
+  if (!is_range) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+  }
   std::string text;
-  for (const std::string& value : values) text += (text.empty() ? "" : ", ") + value;
+  for (const std::string& value : values) text += (text.empty() ? "" : ", ") + spell(value);
   return parameter.allowed_is_list ? "[" + text + "]" : text;
 }
 

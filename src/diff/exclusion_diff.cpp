@@ -47,12 +47,17 @@ class ExclusionDiff {
     std::vector<Place> order(names_.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [this](Place a, Place b) { return precedes(a, b); });
+    std::vector<std::span<const Place>> classes;
     for (auto first = order.begin(); first != order.end();) {
       const auto end = std::find_if(first, order.end(),
                                     [&](Place place) { return precedes(*first, place, false); });
-      compare_class({first, end});
+      classes.emplace_back(first, end);
       first = end;
     }
+    // By names, so that the order of lists does not decide which pairs are listed.
+    std::sort(classes.begin(), classes.end(),
+              [](const auto& a, const auto& b) { return a.front() < b.front(); });
+    for (const auto alike : classes) compare_class(alike);
     std::sort(pairs_.begin(), pairs_.end());
     for (const auto& [task, other, kind] : pairs_) {
       CatalogChange& change = diff.changes.emplace_back();
@@ -122,6 +127,7 @@ class ExclusionDiff {
         has_itself_ = has_itself_ || place == task;
       }
     }
+    std::sort(only_.begin(), only_.end());
   }
 
   void add_pairs(Place task, CatalogChange::Kind kind) {

@@ -57,8 +57,8 @@ struct CatalogGraph {
   std::vector<Performance> performances;  ///< by behavior, then by task; pairs differ
   std::vector<Requirement> requirements;  ///< the same
   GrowingRows<std::uint32_t> exclusions;  ///< the tasks of each list, ascending; at least two
-  /// Of each task of each list. Tasks exclude one another unless one mark is added, the other
-  /// removed.
+  /// Of each task of each list. Two tasks exclude one another as their marks, joined, say; if these
+  /// are plain in one list, other lists say nothing.
   GrowingRows<Mark> exclusion_marks;
 
   // Places in the arrays above: what a task or a behavior has to do with.

@@ -17,13 +17,24 @@ using Tasks = std::vector<std::uint32_t>;              // ascending
 /// Tasks of a list, each with a mark.
 using List = std::vector<std::pair<std::uint32_t, Mark>>;
 
-/// Pairs of one kind, and which of them are drawn.
-struct Pairs {
-  std::set<Pair> all;
-  std::set<Pair> drawn;
+/// The pairs of one kind.
+class Pairs {
+ public:
+  void add(std::uint32_t a, std::uint32_t b) {
+    pairs_.insert(std::minmax(a, b));
+    tasks_.insert({a, b});
+  }
 
   [[nodiscard]] bool contains(std::uint32_t a, std::uint32_t b) const {
-    return all.contains(std::minmax(a, b));
+    return pairs_.contains(std::minmax(a, b));
+  }
+
+  [[nodiscard]] bool has_any_of(std::span<const std::uint32_t> tasks) const {
+    return std::any_of(tasks.begin(), tasks.end(), [&](std::uint32_t task) {
+      return tasks_.contains(task) && std::any_of(tasks.begin(), tasks.end(), [&](std::uint32_t b) {
+               return contains(task, b);
+             });
+    });
   }
 
   /// Those of the tasks that are in a pair with each of the others.
@@ -38,14 +49,17 @@ struct Pairs {
     return found;
   }
 
-  void draw(std::span<const std::uint32_t> some, std::span<const std::uint32_t> others) {
-    for (const std::uint32_t a : some) {
-      for (const std::uint32_t b : others) {
-        if (contains(a, b)) drawn.insert(std::minmax(a, b));
-      }
-    }
-  }
+ private:
+  std::set<Pair> pairs_;
+  std::set<std::uint32_t> tasks_;
 };
+
+Tasks without(std::span<const std::uint32_t> tasks, const Tasks& others) {
+  Tasks rest;
+  std::set_difference(tasks.begin(), tasks.end(), others.begin(), others.end(),
+                      std::back_inserter(rest));
+  return rest;
+}
 
 class Marker {
  public:
@@ -56,17 +70,19 @@ class Marker {
     for (const CatalogChange& change : diff.changes) {
       if (change.subject != CatalogChange::Subject::exclusion) continue;
       Pairs& pairs = change.kind == CatalogChange::Kind::added ? added_ : removed_;
-      pairs.all.insert(std::minmax(tasks_.at(change.task), tasks_.at(change.other_task)));
+      pairs.add(tasks_.at(change.task), tasks_.at(change.other_task));
     }
   }
 
   void run() {
-    for (std::size_t list = 0; list < graph_.exclusions.size(); ++list) mark_added(list);
+    std::vector<std::size_t> joined;
+    for (std::size_t list = 0; list < graph_.exclusions.size(); ++list) {
+      if (!mark_added(graph_.exclusions[list])) joined.push_back(list);
+    }
     for (std::size_t clique = 0; clique < before_.cliques.size(); ++clique) {
       mark_removed(tasks_of(clique));
     }
-    add_rest(added_, Mark::added);
-    add_rest(removed_, Mark::removed);
+    for (const std::size_t list : joined) add_kept(graph_.exclusions[list]);
     write();
   }
 
@@ -80,31 +96,47 @@ class Marker {
     return tasks;
   }
 
-  void mark_added(std::size_t list) {
-    const auto tasks = graph_.exclusions[list];
+  /// False if the list is new as a whole, but some of its tasks excluded one another before.
+  bool mark_added(std::span<const std::uint32_t> tasks) {
     const Tasks since = added_.with_all_of(tasks);
-    added_.draw(since, tasks);
+    const bool is_joined = added_.has_any_of(without(tasks, since));
     List& marked = lists_.emplace_back();
     for (const std::uint32_t task : tasks) {
-      const bool is_new = std::binary_search(since.begin(), since.end(), task);
+      const bool is_new = is_joined || std::binary_search(since.begin(), since.end(), task);
       marked.emplace_back(task, is_new ? Mark::added : Mark::plain);
+    }
+    return !is_joined;
+  }
+
+  /// What tasks of an older list still exclude one another in a list that is new as a whole.
+  void add_kept(std::span<const std::uint32_t> joined) {
+    std::set<std::uint32_t> cliques;
+    for (const std::uint32_t task : joined) {
+      const auto known = before_.find_task(graph_.tasks[task].name);
+      if (!known) continue;
+      const auto of_task = before_.task_cliques[before_.task_ids[*known]];
+      cliques.insert(of_task.begin(), of_task.end());
+    }
+    for (const std::uint32_t clique : cliques) {
+      const Tasks before = tasks_of(clique);
+      Tasks kept;
+      std::set_intersection(before.begin(), before.end(), joined.begin(), joined.end(),
+                            std::back_inserter(kept));
+      if (kept.size() > 1 && find_list(kept, {}) == nullptr) add_list(kept, Mark::plain);
     }
   }
 
   void mark_removed(const Tasks& tasks) {
+    if (!removed_.has_any_of(tasks)) return;
     const Tasks gone = removed_.with_all_of(tasks);
-    if (gone.empty()) return;
-    if (gone.size() == tasks.size()) {
-      add_list(gone, Mark::removed);
+    const Tasks rest = without(tasks, gone);
+    const bool is_split = removed_.has_any_of(rest);
+    List* const list = is_split || rest.empty() ? nullptr : find_list(rest, gone);
+    if (list == nullptr) {
+      add_list(tasks, Mark::removed);  // where tasks still exclude one another, other lists say so
     } else {
-      Tasks rest;
-      std::set_difference(tasks.begin(), tasks.end(), gone.begin(), gone.end(),
-                          std::back_inserter(rest));
-      List* const list = find_list(rest, gone);
-      if (list == nullptr) return;
       for (const std::uint32_t task : gone) list->emplace_back(task, Mark::removed);
     }
-    removed_.draw(gone, tasks);
   }
 
   void add_list(const Tasks& tasks, Mark mark) {
@@ -128,12 +160,6 @@ class Marker {
       if (is_fit && present == tasks) return &lists_[place];
     }
     return nullptr;
-  }
-
-  void add_rest(const Pairs& pairs, Mark mark) {
-    for (const Pair& pair : pairs.all) {
-      if (!pairs.drawn.contains(pair)) add_list({pair.first, pair.second}, mark);
-    }
   }
 
   void write() {

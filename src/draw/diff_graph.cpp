@@ -7,6 +7,7 @@
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "diff/attribute_text.h"
@@ -40,6 +41,14 @@ std::pair<std::uint32_t, std::uint32_t> place_of(const Link& link) {
 Millionths degree_of(const AttributeValue& value) {
   const Millionths* const degree = std::get_if<Millionths>(&value);
   return degree == nullptr ? 0 : *degree;
+}
+
+/// Empty if there is none.
+std::string_view package_before(const CatalogChange& change) {
+  for (const AttributeChange& attribute : change.attributes) {
+    if (attribute.name == "package") return std::get<std::string>(attribute.before);
+  }
+  return {};
 }
 
 class Union {
@@ -76,11 +85,38 @@ class Union {
     sort(graph_.performances);
     sort(graph_.requirements);
     mark_exclusions(before_, tasks_, diff_, graph_);
+    find_groups();
     connect(graph_);
     return std::move(graph_);
   }
 
  private:
+  /// Of what the newer catalog no longer has.
+  void find_groups() {
+    const auto spread = [](std::uint32_t& a, std::uint32_t& b) {
+      if ((a == none) == (b == none)) return false;
+      a = b = std::min(a, b);  // none is the greatest
+      return true;
+    };
+    for (bool has_changed = true; has_changed;) {
+      has_changed = false;
+      const auto connect_all = [&](const auto& links) {
+        for (const auto& link : links) {
+          has_changed |=
+              spread(graph_.behaviors[link.behavior].group, graph_.tasks[link.task].group);
+        }
+      };
+      connect_all(graph_.performances);
+      connect_all(graph_.requirements);
+      for (std::size_t list = 0; list < graph_.exclusions.size(); ++list) {
+        const auto tasks = graph_.exclusions[list];
+        for (const std::uint32_t task : tasks) {
+          has_changed |= spread(graph_.tasks[tasks.front()].group, graph_.tasks[task].group);
+        }
+      }
+    }
+  }
+
   /// Of what both have: what has changed. Of others, that is said by the word.
   static std::vector<std::string> notes_of(const CatalogChange& change) {
     if (change.kind != ChangeKind::changed) return {std::string(cbc::name_of(change.kind))};
@@ -106,7 +142,9 @@ class Union {
   void mark_behavior(const CatalogChange& change) {
     if (change.kind == ChangeKind::removed) {
       behaviors_.emplace(change.behavior, graph_.behaviors.size());
-      graph_.behaviors.emplace_back().name = change.behavior;
+      CatalogGraph::Behavior& removed = graph_.behaviors.emplace_back();
+      removed.name = change.behavior;
+      removed.package = package_before(change);
     }
     CatalogGraph::Behavior& behavior = graph_.behaviors[behaviors_.at(change.behavior)];
     behavior.mark = mark_of(change.kind);

@@ -103,7 +103,9 @@ void Builder::add_exclusions(ExclusivityStyle style) {
           for (const std::uint32_t to : members[b].nodes) {
             if (from == to) continue;
             Mark& known = pairs.try_emplace(std::minmax(from, to), *mark).first->second;
-            if (known == Mark::plain) known = *mark;
+            // What one list says counts, whatever others no longer or newly say.
+            const bool is_certain = *mark == Mark::plain && known != Mark::faulty;
+            if (is_certain || *mark == Mark::faulty) known = *mark;
           }
         }
       }

@@ -9,8 +9,8 @@ namespace cbc::draw {
 
 std::string with_sign(Mark mark, std::string label) {
   std::string_view sign;
-  if (mark == Mark::added) sign = "+";
-  if (mark == Mark::removed) sign = "−";
+  if (mark == Mark::added || mark == Mark::started) sign = "+";
+  if (mark == Mark::removed || mark == Mark::stopped) sign = "−";
   if (mark == Mark::changed) sign = "~";
   if (sign.empty()) return label;
   return std::string(sign) + (label.empty() ? "" : " ") + std::move(label);

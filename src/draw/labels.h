@@ -16,8 +16,8 @@ namespace cbc::draw {
 /// The lines above a picture of a state: "mission.yaml, after event 3 at 4.5 s", and the event.
 [[nodiscard]] std::vector<std::string> caption_of(const Moment& moment);
 
-/// The label of a line with a sign for its mark: "+ 90 %", "− 90 %", "~ 90 %" if it is added,
-/// removed, changed.
+/// The label of a line with a sign for its mark: "+ 90 %" if it is added or started, "− 90 %" if it
+/// is removed or stopped, "~ 90 %" if it is changed.
 [[nodiscard]] std::string with_sign(Mark mark, std::string label);
 
 }  // namespace cbc::draw

@@ -202,6 +202,18 @@ TEST(Graph, WhatGraphvizSaysIsPassedOn) {
   EXPECT_EQ(result.err, "cbc: Graphviz cannot draw it as svg: no fonts today\n");
 }
 
+TEST(Graph, GraphvizMayFailWithoutAWord) {
+  const ScratchFolder folder;
+  const std::string dot = folder / "dot";
+  folder.write("dot", "#!/bin/sh\nexit 1\n");
+  fs::permissions(dot, fs::perms::owner_all);
+  const Result result = run({.arguments = {"graph", catalog().string(), "--format", "svg"},
+                             .folder = folder.path(),
+                             .environment = {{"PATH", folder.path()}}});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.err, "cbc: Graphviz cannot draw it as svg: it does not say why\n");
+}
+
 TEST(Graph, BinaryPicturesAreNotWrittenToATerminal) {
   for (const std::string format : {"png", "pdf"}) {
     const ScratchFolder folder;

@@ -65,6 +65,18 @@ TEST(Dot, ReadsPicturesOfHostileNames) {
   }
 }
 
+TEST(Dot, ReadsPicturesOfDifferencesWithHostileNames) {
+  if (!has_graphviz()) GTEST_SKIP() << "there is no Graphviz (Debian: apt install graphviz)";
+  std::size_t samples = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    for (const Sample& sample : random_diff_samples(seed)) {
+      check(sample);
+      ++samples;
+    }
+  }
+  EXPECT_GT(samples, 100U);
+}
+
 TEST(Dot, OutputIsAPicture) {
   if (!has_graphviz()) GTEST_SKIP() << "there is no Graphviz (Debian: apt install graphviz)";
   const Filtered picture = run_filter({"dot", "-Tsvg"}, random_samples(1).front().dot);

@@ -8,9 +8,13 @@
 #include <set>
 #include <stdexcept>
 
+#include <nlohmann/json.hpp>
+
 #include "catalog/reader.h"
 #include "compiled/compile.h"
+#include "diff/catalog_diff.h"
 #include "draw/catalog_graph.h"
+#include "draw/diff_graph.h"
 #include "draw/labels.h"
 #include "draw/names.h"
 #include "draw/state_marks.h"
@@ -122,6 +126,32 @@ std::vector<Sample> draw_state(const Source& source, const std::string& name) {
   return samples;
 }
 
+// The same with something added, removed and changed. Names go where texts are shown.
+std::string changed(const std::string& catalog) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(catalog);
+  auto& task = json["tasks"].front();
+  task["timeout"] = 5;
+  task["parameters"] = {{{"parameter", task["task"]}, {"allowed_values", {task["task"], "x"}}}};
+  auto& behavior = json["behaviors"].front();
+  behavior["suitability"] = 49;
+  behavior["package"] = behavior["behavior"];
+  json["behaviors"].push_back(
+      {{"behavior", "new " + behavior["behavior"].get<std::string>()}, {"task", task["task"]}});
+  if (json["behaviors"].size() > 2) json["behaviors"].erase(1);
+  if (!json["exclusivity_constraints"].empty()) json["exclusivity_constraints"].erase(0);
+  return json.dump();
+}
+
+std::vector<Sample> draw_diff(const Source& before, const Source& after, const std::string& name) {
+  const CatalogDiff diff = compare_catalogs(before.compiled, after.compiled);
+  const draw::CatalogGraph graph = draw::to_graph(before.compiled, after.compiled, diff);
+  std::vector<Sample> samples;
+  for (const Variant& variant : variants()) {
+    samples.push_back(draw(graph, {}, variant, name + ", diff"));
+  }
+  return samples;
+}
+
 std::vector<Sample> draw_all(const Source& source, const std::string& name) {
   std::vector<Sample> samples;
   for (const Variant& variant : variants()) {
@@ -175,6 +205,21 @@ std::vector<Sample> samples_of_files() {
     if (!source->compiled.tasks.empty()) drawn.front().labels = labels_of(source->reading.catalog);
     std::move(drawn.begin(), drawn.end(), std::back_inserter(samples));
   }
+  return samples;
+}
+
+std::vector<Sample> random_diff_samples(std::uint64_t seed) {
+  const std::string name = "seed " + std::to_string(seed);
+  const std::string text = hostile_catalog(seed).text;
+  const auto before = understand(text, name);
+  if (before == nullptr || before->compiled.tasks.empty()) return {};  // it has errors
+  const auto after = understand(changed(text), name + ", changed");
+  if (after == nullptr || after->compiled.tasks.empty()) {
+    throw std::logic_error("not a good catalog: " + changed(text));
+  }
+  std::vector<Sample> samples = draw_diff(*before, *after, name);
+  std::vector<Sample> back = draw_diff(*after, *before, name + ", back");
+  std::move(back.begin(), back.end(), std::back_inserter(samples));
   return samples;
 }
 

@@ -25,4 +25,7 @@ struct Sample {
 // A random catalog with names that are meant to break things; half of them have errors.
 [[nodiscard]] std::vector<Sample> random_samples(std::uint64_t seed);
 
+// What changes in such a catalog, there and back; nothing if it has errors.
+[[nodiscard]] std::vector<Sample> random_diff_samples(std::uint64_t seed);
+
 }  // namespace cbc::graph_test

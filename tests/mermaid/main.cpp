@@ -23,5 +23,8 @@ void print(const std::vector<cbc::graph_test::Sample>& samples) {
 
 int main() {
   print(cbc::graph_test::samples_of_files());
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) print(cbc::graph_test::random_samples(seed));
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    print(cbc::graph_test::random_samples(seed));
+    print(cbc::graph_test::random_diff_samples(seed));
+  }
 }

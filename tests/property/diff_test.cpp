@@ -199,7 +199,7 @@ std::vector<std::string> signs(const draw::CatalogGraph& graph) {
   };
   for (const auto& link : graph.performances) lines.insert(statement(link, " performs "));
   for (const auto& link : graph.requirements) lines.insert(statement(link, " requires "));
-  // A pair that stands in several lists is new or gone if one of them says so.
+  // A pair that stands in several lists is new or gone only if none has it without a mark.
   std::map<std::string, std::string> exclusions;
   for (std::size_t list = 0; list < graph.exclusions.size(); ++list) {
     const auto tasks = graph.exclusions[list];
@@ -211,7 +211,7 @@ std::vector<std::string> signs(const draw::CatalogGraph& graph) {
         const auto& [a, b] =
             std::minmax(graph.tasks[tasks[one]].name, graph.tasks[tasks[other]].name);
         std::string& sign = exclusions[std::string(a) + " excludes " + std::string(b)];
-        if (sign.empty() || sign == "= ") sign = sign_of(*mark);
+        if (sign != "= ") sign = sign_of(*mark);
       }
     }
   }
@@ -257,6 +257,14 @@ Catalog reordered(const Catalog& catalog, Random& random) {
 void change_list(Catalog& catalog, Random& random) {
   if (catalog.exclusivity.empty()) return;
   auto& list = catalog.exclusivity[random.below(catalog.exclusivity.size())];
+  if (list.size() > 3 && random.percent(50)) {
+    const auto middle =
+        list.begin() + static_cast<std::ptrdiff_t>(2 + random.below(list.size() - 3));
+    std::vector<std::size_t> half(middle, list.end());
+    list.erase(middle, list.end());
+    catalog.exclusivity.push_back(std::move(half));
+    return;
+  }
   if (list.size() > 2 && random.percent(50)) {
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(random.below(list.size())));
     return;

@@ -73,8 +73,21 @@ TEST(CatalogDiff, NamesWhatChanged) {
 TEST(CatalogDiff, WordsAreASetAndTwoNumbersARange) {
   const std::string before = replaced("[0, 30]", "[LEFT, RIGHT]");
   EXPECT_EQ(text_of(before, replaced("[0, 30]", "[RIGHT, LEFT]")), "");
+  EXPECT_EQ(text_of(before, replaced("[0, 30]", "[RIGHT, LEFT, RIGHT]")), "");
   EXPECT_EQ(text_of(robot, replaced("[0, 30]", "[-5, 30]")),
             "~ task FLY: parameter speed [0, 30] -> [-5, 30]\n");
+}
+
+TEST(CatalogDiff, ValuesThatLookAlikeDiffer) {
+  EXPECT_EQ(text_of(replaced("[0, 30]", "['LEFT, RIGHT']"), replaced("[0, 30]", "[LEFT, RIGHT]")),
+            "~ task FLY: parameter speed ['LEFT, RIGHT'] -> [LEFT, RIGHT]\n");
+  EXPECT_EQ(text_of(replaced("[0, 30]", "['A'', ''B', C]"), replaced("[0, 30]", "[A, B, C]")),
+            "~ task FLY: parameter speed ['A'', ''B', C] -> [A, B, C]\n");
+  EXPECT_EQ(text_of(replaced("[0, 30]", "point"), replaced("[0, 30]", "[point]")),
+            "~ task FLY: parameter speed point -> [point]\n");
+  EXPECT_EQ(text_of(replaced("[0, 30]", "['']"), replaced("[0, 30]", "[]")),
+            "~ task FLY: parameter speed [''] -> any\n");
+  EXPECT_EQ(text_of(replaced("[0, 30]", "[]"), replaced(", allowed_values: [0, 30]", "")), "");
 }
 
 /// A catalog of tasks T1000 up to T1000 + count - 1, of which at most one runs.
@@ -105,6 +118,26 @@ TEST(CatalogDiff, CountsExclusionsThatAreTooManyToList) {
   const CatalogDiff one_more = compare_catalogs(with, compiled(exclusive(601, true)));
   EXPECT_EQ(one_more.further_exclusions, 0U);
   EXPECT_EQ(one_more.size(), 600U + 3U);
+}
+
+TEST(CatalogDiff, ListsTheSameExclusionsWhateverTheOrder) {
+  const auto catalog = [](int first, int step) {
+    std::string behaviors = "behaviors:\n";
+    std::string lists = "exclusivity_constraints:\n";
+    for (int place = 0; place < 1000; ++place) {
+      const std::string name = "T" + std::to_string(first + step * place);
+      behaviors.append("- {behavior: ").append(name).append(", task: ").append(name).append("}\n");
+      lists += place % 500 == 0 ? "- mutually_exclusive:\n" : "";
+      lists.append("  - ").append(name).append("\n");
+    }
+    return behaviors + lists;
+  };
+  const std::string none = exclusive(1000, false);
+  const std::string up = catalog(1000, 1);
+  const std::string down = catalog(1999, -1);
+  ASSERT_GT(compare_catalogs(compiled(none), compiled(up)).further_exclusions, 0U);
+  EXPECT_TRUE(text_of(none, up) == text_of(none, down));
+  EXPECT_TRUE(text_of(up, none) == text_of(down, none));
 }
 
 TEST(CatalogDiff, IsJson) {
