@@ -16,9 +16,11 @@
 #include "cbc/version.h"
 #include "cli/catalog_loader.h"
 #include "cli/exit_status.h"
+#include "cli/help_format.h"
 #include "cli/input.h"
 #include "cli/input_files.h"
 #include "cli/output.h"
+#include "cli/value_kind.h"
 #include "compiled/compile.h"
 #include "compiled/compiled_file.h"
 #include "file/mapped_file.h"
@@ -31,13 +33,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* compile_footer =
-    "Examples:\n"
+constexpr const char* compile_examples =
     "  cbc compile quadrotor.yaml                     writes quadrotor.cbc\n"
+    "  cbc compile --check quadrotor.yaml             is quadrotor.cbc up to date?\n"
+    "  cbc compile --dump quadrotor.cbc               what a compiled catalog holds\n";
+
+constexpr const char* compile_footer =
+    "More examples:\n"
     "  cbc compile quadrotor.yaml -o robot/catalog.cbc\n"
     "                                                 writes another file\n"
-    "  cbc compile --check quadrotor.yaml             is quadrotor.cbc up to date?\n"
-    "  cbc compile --dump quadrotor.cbc               what a compiled catalog holds\n"
     "  cbc solve quadrotor.cbc mission.yaml           takes it in place of the YAML\n"
     "\n"
     "A catalog with errors is not compiled. The same catalog gives the same bytes on every "
@@ -46,7 +50,9 @@ constexpr const char* compile_footer =
     "\n"
     "Exit status: 0 all is well, 1 the file that --check looked at is stale, 2 the catalog has "
     "errors,\n"
-    "a file could not be read or written, or the usage is wrong, 3 an internal error.";
+    "a file could not be read or written, or the usage is wrong, 3 an internal error.\n"
+    "\n"
+    "Read more: man cbc-compile";
 
 struct CompileCommand {
   std::string catalog;
@@ -221,16 +227,18 @@ void add_compile_command(CLI::App& program, int& status) {
   const auto options = std::make_shared<CompileCommand>();
   CLI::App* const command = program.add_subcommand(
       "compile", "Writes a catalog in the form that robots load in microseconds.");
-  command->footer(compile_footer);
+  set_help(*command, compile_examples, compile_footer);
   command
       ->add_option("CATALOG", options->catalog, "The catalog: a YAML file, or - for standard input")
       ->option_text(" ")
+      ->check(stands_for(ValueKind::catalog))
       ->required();
   command
       ->add_option("-o,--output", options->output,
                    "The file to write, or - for standard output (default:\n"
                    "CATALOG with the suffix .cbc)")
-      ->option_text("OUT");
+      ->option_text("OUT")
+      ->check(stands_for(ValueKind::file));
   command->add_flag("--check", options->check,
                     "Write nothing; say whether the file is what would be\n"
                     "written now");
@@ -239,7 +247,7 @@ void add_compile_command(CLI::App& program, int& status) {
                     "YAML, holds when it is compiled");
   command->add_option("--format", options->format, "Of --dump: text (the default) or json")
       ->option_text("FORMAT")
-      ->check(CLI::IsMember({"text", "json"}));
+      ->check(one_of({"text", "json"}));
   command->callback([options, &status] { status = run_compile(*options); });
 }
 

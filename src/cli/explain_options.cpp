@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "cli/input.h"
+#include "cli/validators.h"
+#include "cli/value_kind.h"
 #include "text/nearest.h"
 #include "text/quote.h"
 
@@ -31,6 +33,7 @@ void add_explain_options(CLI::App& command, ExplainOptions& options) {
                   "Say of each accepted event why this task or behavior is as\n"
                   "it is: where the best alternative loses. Repeatable")
       ->option_text("NAME")
+      ->check(stands_for(ValueKind::task_or_behavior))
       ->allow_extra_args(false);
   command
       .add_option("--alternatives", options.alternatives,
@@ -38,7 +41,7 @@ void add_explain_options(CLI::App& command, ExplainOptions& options) {
                               "(at most {})",
                               most_alternatives))
       ->option_text("K")
-      ->check(CLI::Range(std::uint32_t{1}, most_alternatives));
+      ->check(whole_number(1, most_alternatives));
 }
 
 ExplanationOptions explanation_for(const CompiledCatalog& catalog, const ExplainOptions& options) {

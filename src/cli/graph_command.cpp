@@ -22,9 +22,11 @@
 #include "cli/graph_options.h"
 #include "cli/graph_state.h"
 #include "cli/graphviz.h"
+#include "cli/help_format.h"
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/terminal.h"
+#include "cli/value_kind.h"
 #include "draw/catalog_graph.h"
 #include "draw/view.h"
 #include "report/diff_json.h"
@@ -37,18 +39,20 @@
 namespace cbc::cli {
 namespace {
 
-constexpr const char* graph_footer =
-    "Examples:\n"
-    "  cbc graph quadrotor.yaml | dot -Tx11            in a window\n"
+constexpr const char* graph_examples =
     "  cbc graph quadrotor.yaml -o quadrotor.svg       or .png, .pdf, .mmd, .json, .dot\n"
     "  cbc graph quadrotor.yaml --task HOVER --down    what HOVER requires\n"
+    "  cbc graph --diff old.yaml new.yaml --format text\n"
+    "                                                  what has changed\n";
+
+constexpr const char* graph_footer =
+    "More examples:\n"
+    "  cbc graph quadrotor.yaml | dot -Tx11            in a window\n"
     "  cbc graph quadrotor.yaml --view tasks --reduce  which task requires which\n"
     "  cbc graph quadrotor.cbc --view constraints      what hangs together\n"
     "  cbc graph quadrotor.yaml --format mermaid       for a README file, a pull request\n"
     "  cbc graph quadrotor.yaml --script mission.yaml --after 5\n"
     "                                                  what runs after the 5th event\n"
-    "  cbc graph --diff old.yaml new.yaml --format text\n"
-    "                                                  what has changed\n"
     "\n"
     "Tasks are ellipses, behaviors are rectangles. A solid line says which behavior performs a\n"
     "task, and how well; a dashed arrow what it requires, and the minimum performance; a dotted\n"
@@ -60,7 +64,9 @@ constexpr const char* graph_footer =
     "\n"
     "Exit status: 0 all is well, or the catalog has errors but was drawn, 1 the catalogs of\n"
     "--diff differ, 2 nothing could be drawn, a file could not be read or written, or the usage\n"
-    "is wrong, 3 an internal error.";
+    "is wrong, 3 an internal error.\n"
+    "\n"
+    "Read more: man cbc-graph";
 
 constexpr std::size_t most_mermaid_edges = 500;  // by default
 
@@ -236,25 +242,27 @@ void add_graph_command(CLI::App& program, int& status) {
   const auto options = std::make_shared<GraphCommand>();
   CLI::App* const command =
       program.add_subcommand("graph", "Draws the tasks and behaviors of a catalog.");
-  command->footer(graph_footer);
+  set_help(*command, graph_examples, graph_footer);
   command
       ->add_option("CATALOG", options->catalogs,
                    "The catalog: YAML or a compiled one, or - for standard input;\n"
                    "with --diff two of them, the older one first")
-      ->option_text(" ");
+      ->option_text(" ")
+      ->check(stands_for(ValueKind::catalog));
   command->add_flag("--diff", options->is_diff,
                     "Show what two catalogs do not have in common, whatever their order\n"
                     "and layout; exit status 1 if there is anything");
   command
       ->add_option("-o,--output", options->output,
                    "The file to write, or - for standard output (default)")
-      ->option_text("OUT");
+      ->option_text("OUT")
+      ->check(stands_for(ValueKind::file));
   command
       ->add_option("--format", options->format,
                    "dot, mermaid, json, svg, png or pdf, with --diff also text (default:\n"
                    "by the suffix of OUT; without one dot)")
       ->option_text("FORMAT")
-      ->check(CLI::IsMember({"dot", "mermaid", "json", "svg", "png", "pdf", "text"}));
+      ->check(one_of({"dot", "mermaid", "json", "svg", "png", "pdf", "text"}));
   add_drawing_options(*command, options->drawing);
   add_state_options(*command, options->state);
   command->callback([options, &status] { status = run_graph(*options); });

@@ -1,6 +1,7 @@
 #include "cli/graph_options.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <string_view>
 
@@ -9,6 +10,7 @@
 
 #include "cli/input.h"
 #include "cli/validators.h"
+#include "cli/value_kind.h"
 #include "text/nearest.h"
 #include "text/quote.h"
 
@@ -51,32 +53,31 @@ std::uint32_t group_count(const draw::CatalogGraph& graph) {
   return groups;
 }
 
-CLI::Validator any_number() { return whole_number(0, std::numeric_limits<std::uint32_t>::max()); }
-
 }  // namespace
 
 void add_drawing_options(CLI::App& command, DrawingOptions& options) {
+  constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
   command
       .add_option("--view", options.view,
                   "What is drawn: full (default: tasks and behaviors), tasks (what\n"
                   "each requires), constraints (between tasks, one color a group),\n"
                   "behaviors (what each requires)")
       ->option_text("VIEW")
-      ->check(CLI::IsMember({"full", "tasks", "constraints", "behaviors"}));
+      ->check(one_of({"full", "tasks", "constraints", "behaviors"}));
   command
       .add_option("--exclusivity", options.exclusivity,
                   "Draw lists of exclusive tasks as pairs, as hubs (a dot with a\n"
                   "line to each task), or none (default: up to three tasks as\n"
                   "pairs, more as hubs; in the views tasks and behaviors none)")
       ->option_text("STYLE")
-      ->check(CLI::IsMember({"pairs", "hubs", "none"}));
+      ->check(one_of({"pairs", "hubs", "none"}));
   command
       .add_option("--cluster", options.cluster,
                   "Draw frames around packages (of behaviors), groups (of tasks\n"
                   "that constraints connect), or none (default: none; in the view\n"
                   "of the constraints groups)")
       ->option_text("KIND")
-      ->check(CLI::IsMember({"packages", "groups", "none"}));
+      ->check(one_of({"packages", "groups", "none"}));
   command.add_flag("--reduce", options.reduce,
                    "In the view of tasks, leave out requirements that follow from\n"
                    "others");
@@ -85,17 +86,18 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
                   "Draw this task only, with what it requires and what requires it.\n"
                   "Repeatable")
       ->option_text("NAME")
+      ->check(stands_for(ValueKind::task))
       ->allow_extra_args(false);
   command.add_flag("--up", options.up, "Of --task: only what requires it");
   command.add_flag("--down", options.down, "Of --task: only what it requires");
   command.add_option("--depth", options.depth, "Of --task: at most N tasks away")
       ->option_text("N")
-      ->check(any_number());
+      ->check(whole_number(0, most));
   command
       .add_option("--group", options.group,
                   "Draw this group only; 'cbc compile --dump' numbers them")
       ->option_text("N")
-      ->check(any_number());
+      ->check(whole_number(0, most));
   command.add_flag("--legend", options.legend, "Add a key to the kinds of shapes and lines");
 }
 

@@ -12,6 +12,7 @@
 #include "cli/mission.h"
 #include "cli/run_end.h"
 #include "cli/validators.h"
+#include "cli/value_kind.h"
 #include "draw/state_marks.h"
 #include "report/state_recorder.h"
 #include "script/runner.h"
@@ -75,7 +76,8 @@ void add_state_options(CLI::App& command, StateOptions& options) {
                   "Run this event script, and mark what runs at its end: running\n"
                   "tasks and active behaviors, and what the last event changed.\n"
                   "It may name the catalog (catalog: FILE)")
-      ->option_text("SCRIPT");
+      ->option_text("SCRIPT")
+      ->check(stands_for(ValueKind::script));
   command
       .add_option("--after", options.after,
                   "Of --script: mark what runs after the Nth event that 'cbc\n"

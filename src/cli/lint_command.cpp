@@ -16,11 +16,13 @@
 
 #include "cbc/rules.h"
 #include "cli/exit_status.h"
+#include "cli/help_format.h"
 #include "cli/input.h"
 #include "cli/linter.h"
 #include "cli/progress.h"
 #include "cli/terminal.h"
 #include "cli/validators.h"
+#include "cli/value_kind.h"
 #include "report/lint_gcc.h"
 #include "report/lint_github.h"
 #include "report/lint_json.h"
@@ -35,16 +37,18 @@
 namespace cbc::cli {
 namespace {
 
-constexpr const char* lint_footer =
-    "Examples:\n"
+constexpr const char* lint_examples =
     "  cbc lint quadrotor.yaml                        every mistake, with its place and reason\n"
+    "  cbc lint --diff quadrotor.yaml                 what --fix would change\n"
+    "  cbc lint --explain dead-behavior               what a rule is about, and how to mend it\n";
+
+constexpr const char* lint_footer =
+    "More examples:\n"
     "  cbc lint --strict catalogs/                    all catalogs of a folder; warnings fail, "
     "too\n"
     "  cbc lint --format sarif catalogs/ > lint.sarif\n"
     "                                                 for code scanning\n"
     "  cbc lint --script mission.yaml quadrotor.yaml  an event script as well\n"
-    "  cbc lint --diff quadrotor.yaml                 what --fix would change\n"
-    "  cbc lint --explain dead-behavior               what a rule is about, and how to mend it\n"
     "\n"
     "A comment '# cbc: allow RULE' at the end of a line, or above an entry, allows a finding "
     "there.\n"
@@ -53,7 +57,9 @@ constexpr const char* lint_footer =
     "\n"
     "Exit status: 0 nothing is wrong, 1 there is an error (under --strict: or a warning), 2 a "
     "file\n"
-    "could not be read or written, or the usage is wrong, 3 an internal error.";
+    "could not be read or written, or the usage is wrong, 3 an internal error.\n"
+    "\n"
+    "Read more: man cbc-lint, man cbc-rules (every rule, with examples)";
 
 struct LintCommand {
   std::vector<std::string> paths;
@@ -231,23 +237,25 @@ void add_lint_command(CLI::App& program, int& status) {
   const auto options = std::make_shared<LintCommand>();
   CLI::App* const command = program.add_subcommand(
       "lint", "Finds every mistake in catalogs, with its place and its reason.");
-  command->footer(lint_footer);
+  set_help(*command, lint_examples, lint_footer);
   command
       ->add_option("CATALOG", options->paths,
                    "Catalogs: files, folders (all *.yaml and *.yml in them\n"
                    "that look like catalogs), or - for standard input;\n"
                    "event scripts, too, if they name their catalogs")
-      ->option_text("...");
+      ->option_text("...")
+      ->check(stands_for(ValueKind::catalog));
   command
       ->add_option("--script", options->scripts,
                    "Check an event script, too, against the one catalog\n"
                    "that is given (may be repeated)")
       ->option_text("FILE")
+      ->check(stands_for(ValueKind::script))
       ->allow_extra_args(false);
   command
       ->add_option("--format", options->format, "text (the default), json, sarif, github, or gcc")
       ->option_text("FORMAT")
-      ->check(CLI::IsMember({"text", "json", "sarif", "github", "gcc"}));
+      ->check(one_of({"text", "json", "sarif", "github", "gcc"}));
   command->add_flag("--summary", options->summary,
                     "Show the catalogs in numbers: tasks, behaviors,\n"
                     "constraints, groups, search space; compiled ones, too");
@@ -259,6 +267,7 @@ void add_lint_command(CLI::App& program, int& status) {
                                    const char* text) {
     command->add_option(name, rules, text)
         ->option_text("RULE,...")
+        ->check(stands_for(ValueKind::rule))
         ->delimiter(',')
         ->allow_extra_args(false);
   };
@@ -269,14 +278,17 @@ void add_lint_command(CLI::App& program, int& status) {
   command
       ->add_option("--stdin-filename", options->stdin_filename,
                    "Name of standard input in messages and for .cbc.yaml")
-      ->option_text("NAME");
+      ->option_text("NAME")
+      ->check(stands_for(ValueKind::file));
   command
       ->add_option("--max-nodes", options->max_nodes,
                    "Decisions that the proof of one finding may take\n"
                    "(default: 100000)")
       ->option_text("N")
       ->check(whole_number(1));
-  command->add_option("--explain", options->explain, "Explain a rule")->option_text("RULE");
+  command->add_option("--explain", options->explain, "Explain a rule")
+      ->option_text("RULE")
+      ->check(stands_for(ValueKind::rule));
   command->add_flag("--list-rules", options->list_rules, "List all rules");
   command->callback([options, &status] { status = lint(*options); });
 }

@@ -4,7 +4,6 @@
 #include <exception>
 #include <iostream>
 #include <new>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -16,14 +15,17 @@
 
 #include "cbc/version.h"
 #include "cli/compile_command.h"
+#include "cli/completion_command.h"
+#include "cli/completion_reply.h"
 #include "cli/exit_status.h"
 #include "cli/graph_command.h"
+#include "cli/help_format.h"
+#include "cli/input.h"
 #include "cli/lint_command.h"
 #include "cli/schema_command.h"
 #include "cli/solve_command.h"
 #include "cli/standard_descriptors.h"
-#include "text/nearest.h"
-#include "text/quote.h"
+#include "cli/usage_errors.h"
 
 namespace {
 
@@ -31,64 +33,51 @@ constexpr const char* description =
     "Checks and compiles behavior catalogs, and solves them offline: which behaviors of a robot\n"
     "should be active, proven best, on every event.";
 
+constexpr const char* program_examples =
+    "  cbc lint robot.yaml                     every mistake in a catalog, with its reason\n"
+    "  cbc solve robot.yaml mission.yaml       what the robot would do, event by event\n"
+    "  cbc graph robot.yaml -o robot.svg       a picture of the catalog\n";
+
 constexpr const char* program_footer =
-    "Examples:\n"
-    "  cbc lint quadrotor.yaml\n"
-    "  cbc compile quadrotor.yaml -o quadrotor.cbc\n"
-    "  cbc solve quadrotor.yaml mission.yaml\n"
-    "  cbc solve quadrotor.yaml mission.yaml --format json | jq .\n"
-    "  cbc graph quadrotor.yaml -o quadrotor.svg\n"
-    "  cbc schema catalog > catalog.json\n"
+    "Exit status: 0 all is well, 1 lint found an error, a compiled catalog is stale, two catalogs\n"
+    "differ, or an expectation failed, 2 the input or the usage is wrong, 3 an internal error.\n"
     "\n"
-    "Exit status: 0 all is well, 1 lint found an error, a compiled catalog is stale, or an\n"
-    "expectation failed, 2 the input or the usage is wrong, 3 an internal error.";
-
-std::string full_name(const CLI::App& app) {
-  const CLI::App* const used = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
-  return used == &app ? "cbc" : "cbc " + used->get_name();
-}
-
-std::vector<std::string> command_names(const CLI::App& program) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
-    names.push_back(command->get_name());
-  }
-  return names;
-}
-
-bool is_command(const CLI::App& program, const std::string& name) {
-  const std::vector<std::string> names = command_names(program);
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-void complain_of_command(const CLI::App& program, const std::string& name) {
-  const std::vector<std::string> names = command_names(program);
-  const std::vector<std::string_view> views(names.begin(), names.end());
-  const std::optional<std::string_view> meant = cbc::nearest(name, views);
-  fmt::print(stderr, "cbc: unknown command {}{}\nSee 'cbc --help'.\n", cbc::quote(name),
-             meant ? fmt::format("; did you mean {}?", cbc::quote(*meant)) : "");
-}
+    "Read more: 'cbc COMMAND --help', man cbc, man cbc-catalog (how to write a catalog)";
 
 int run(int argc, char** argv) {
   using namespace cbc::cli;
   CLI::App program(description, "cbc");
   program.set_version_flag("--version", "cbc " + std::string(cbc::version));
   program.require_subcommand(1);
-  program.footer(program_footer);
   int status = exit_ok;
   add_lint_command(program, status);
   add_compile_command(program, status);
   add_solve_command(program, status);
   add_graph_command(program, status);
   add_schema_command(program, status);
+  add_completion_command(program, status);
+  set_help(program, program_examples, program_footer);  // commands would inherit it
 
-  program.failure_message([](const CLI::App* app, const CLI::Error& error) {
-    return "cbc: " + std::string(error.what()) + "\nSee '" + full_name(*app) + " --help'.\n";
+  const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  program.failure_message([&](const CLI::App*, const CLI::Error& error) {
+    const auto* const parse_error = dynamic_cast<const CLI::ParseError*>(&error);
+    return fmt::format("cbc: {}\nSee '{} --help'.\n",
+                       parse_error == nullptr
+                           ? error.what()
+                           : describe_usage_error(program, *parse_error, arguments),
+                       full_name(program));
   });
 
-  if (argc > 1 && argv[1][0] != '-' && !is_command(program, argv[1])) {
-    complain_of_command(program, argv[1]);
-    return exit_unusable;
+  if (!arguments.empty() && arguments.front() == complete_argument) {
+    reply_to_shell(program, {arguments.begin() + 1, arguments.end()});
+    return exit_ok;
+  }
+  if (!arguments.empty()) {
+    if (const std::string unknown = find_unknown_command(program, arguments.front());
+        !unknown.empty()) {
+      complain(unknown + "\nSee 'cbc --help'.");
+      return exit_unusable;
+    }
   }
   try {
     program.parse(argc, argv);

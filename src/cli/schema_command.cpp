@@ -12,9 +12,11 @@
 #include <fmt/format.h>
 
 #include "cli/exit_status.h"
+#include "cli/help_format.h"
 #include "cli/input.h"
 #include "cli/schemas.h"
 #include "cli/terminal.h"
+#include "cli/value_kind.h"
 #include "text/nearest.h"
 #include "text/quote.h"
 #include "text/style.h"
@@ -22,17 +24,19 @@
 namespace cbc::cli {
 namespace {
 
-constexpr const char* schema_footer =
-    "Examples:\n"
+constexpr const char* schema_examples =
     "  cbc schema                          the names of all schemas, and what they describe\n"
     "  cbc schema catalog > catalog.json   for an editor that completes and checks YAML\n"
-    "  cbc schema solve > solve.json       for a program that reads 'cbc solve --format json'\n"
-    "\n"
+    "  cbc schema solve > solve.json       for a program that reads 'cbc solve --format json'\n";
+
+constexpr const char* schema_footer =
     "The schemas are JSON Schema 2020-12. An editor with the YAML language server uses one for a\n"
     "file that begins with\n"
     "  # yaml-language-server: $schema=catalog.json\n"
     "\n"
-    "Exit status: 0 the schema is printed, 2 there is none of this name, or the usage is wrong.";
+    "Exit status: 0 the schema is printed, 2 there is none of this name, or the usage is wrong.\n"
+    "\n"
+    "Read more: man cbc";
 
 int list_schemas() {
   std::size_t width = 0;
@@ -66,9 +70,10 @@ void add_schema_command(CLI::App& program, int& status) {
   const auto name = std::make_shared<std::string>();
   CLI::App* const command = program.add_subcommand(
       "schema", "Prints the JSON Schema of a file that cbc reads or writes.");
-  command->footer(schema_footer);
+  set_help(*command, schema_examples, schema_footer);
   command->add_option("NAME", *name, "The schema to print; without it, all are listed")
-      ->option_text(" ");
+      ->option_text(" ")
+      ->check(stands_for(ValueKind::schema));
   command->callback([name, &status] { status = print_schema(*name); });
 }
 

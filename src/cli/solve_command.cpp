@@ -5,12 +5,14 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/exit_status.h"
+#include "cli/help_format.h"
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/solve_missions.h"
@@ -18,23 +20,26 @@
 #include "cli/solve_stream.h"
 #include "cli/sweep_command.h"
 #include "cli/validators.h"
+#include "cli/value_kind.h"
 #include "text/quote.h"
 
 namespace cbc::cli {
 namespace {
 
-constexpr const char* solve_footer =
-    "Examples:\n"
+constexpr const char* solve_examples =
     "  cbc solve quadrotor.yaml mission.yaml          one script, for a person to read\n"
-    "  cbc solve quadrotor.yaml missions/ --format json\n"
-    "                                                 all scripts of a folder, as JSON\n"
-    "  echo '[{start: TAKE_OFF}]' | cbc solve quadrotor.yaml -\n"
-    "                                                 a script from standard input\n"
     "  cbc solve quadrotor.yaml mission.yaml --html mission.html\n"
     "                                                 a picture, too, for a browser\n"
     "  cbc solve quadrotor.yaml mission.yaml --why HOVER --alternatives 3\n"
     "                                                 why HOVER is as it is, and the three\n"
-    "                                                 best configurations, of each event\n"
+    "                                                 best configurations, of each event\n";
+
+constexpr const char* solve_footer =
+    "More examples:\n"
+    "  cbc solve quadrotor.yaml missions/ --format json\n"
+    "                                                 all scripts of a folder, as JSON\n"
+    "  echo '[{start: TAKE_OFF}]' | cbc solve quadrotor.yaml -\n"
+    "                                                 a script from standard input\n"
     "  cbc solve quadrotor.yaml missions/ --format junit > results.xml\n"
     "                                                 for CI, a test suite per script\n"
     "  robot | cbc solve quadrotor.cbc - --format jsonl > log.jsonl\n"
@@ -49,7 +54,9 @@ constexpr const char* solve_footer =
     "for a deactivation, S says whether it succeeded (Y) or failed (N).\n"
     "\n"
     "Exit status: 0 all expectations hold, 1 one does not, 2 the input or the usage is wrong,\n"
-    "3 an internal error (please report it).";
+    "3 an internal error (please report it).\n"
+    "\n"
+    "Read more: man cbc-solve, man cbc-events (how to write a script)";
 
 bool is_one_of(const std::string& format, std::initializer_list<std::string_view> formats) {
   return std::find(formats.begin(), formats.end(), format) != formats.end();
@@ -62,6 +69,12 @@ std::string find_clash(const SolveOptions& options) {
   const bool is_stream = is_replay || options.format == "jsonl";
   const bool has_reasons = !options.explain.why.empty() || options.explain.alternatives > 0;
   const bool has_state = options.stream.state_in || options.stream.state_out;
+  for (const auto& [name, file] :
+       {std::pair("--html", options.html), std::pair("--state-out", options.stream.state_out),
+        std::pair("--slowest", options.sweep.slowest),
+        std::pair("--slowest-by-time", options.sweep.slowest_by_time)}) {
+    if (file == "-") return fmt::format("{} needs a file, as standard output has the report", name);
+  }
   if (is_sweep) {
     if (!is_one_of(options.format, {"text", "json"})) {
       return fmt::format("a sweep has the formats text and json, not {}", options.format);
@@ -101,15 +114,13 @@ std::string find_clash(const SolveOptions& options) {
   return {};
 }
 
-/// What is wrong with the files to write beside the report; empty if nothing is.
-std::string find_bad_output(const SolveOptions& options) {
+/// An output that would overwrite an input; empty if none does.
+std::string find_overwritten(const SolveOptions& options) {
   std::vector<std::string> inputs = options.paths;
   if (options.stream.replay) inputs.push_back(*options.stream.replay);
   for (const auto& output : {options.html, options.stream.state_out, options.sweep.slowest,
                              options.sweep.slowest_by_time}) {
     if (!output) continue;
-    if (output == "-")
-      return "standard output has the report; expected a file for the other output";
     for (const std::string& input : inputs) {
       if (!is_same_file(input, *output)) continue;
       return fmt::format("the output {} is an input, too", quote(*output));
@@ -122,7 +133,7 @@ int solve(const SolveOptions& options) {
   if (const std::string clash = find_clash(options); !clash.empty()) {
     return usage_error("solve", clash);
   }
-  if (const std::string output = find_bad_output(options); !output.empty()) {
+  if (const std::string output = find_overwritten(options); !output.empty()) {
     return usage_error("solve", output);
   }
   if (options.sweep.is_wanted()) return run_sweep(options);
@@ -137,13 +148,14 @@ void add_solve_command(CLI::App& program, int& status) {
   const auto options = std::make_shared<SolveOptions>();
   CLI::App* const command = program.add_subcommand(
       "solve", "Runs scripted events through the coordinator, with the proven best answers.");
-  command->footer(solve_footer);
+  set_help(*command, solve_examples, solve_footer);
   command
       ->add_option("CATALOG SCRIPT", options->paths,
                    "The catalog (YAML or compiled), then event scripts: files,\n"
                    "folders, or - for standard input. Without a catalog each\n"
                    "script names its own (catalog: FILE).")
       ->option_text("...")
+      ->check(stands_for(ValueKind::catalog))
       ->required();
   command
       ->add_option("--format", options->format,
@@ -152,12 +164,13 @@ void add_solve_command(CLI::App& program, int& status) {
                    "stream of events, one on a line (JSON, or a mapping in\n"
                    "braces)")
       ->option_text("FORMAT")
-      ->check(CLI::IsMember({"text", "json", "junit", "github", "jsonl"}));
+      ->check(one_of({"text", "json", "junit", "github", "jsonl"}));
   command
       ->add_option("--html", options->html,
                    "Write a page with a timeline of all runs to FILE, too: to\n"
                    "step through in a browser, or to print")
-      ->option_text("FILE");
+      ->option_text("FILE")
+      ->check(stands_for(ValueKind::file));
   command
       ->add_option("-j,--jobs", options->jobs,
                    "Run up to N scripts, or sequences of a sweep, at once\n"

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/value_kind.h"
+
 namespace cbc::cli {
 
 void add_stream_options(CLI::App& command, StreamOptions& options) {
@@ -9,17 +11,20 @@ void add_stream_options(CLI::App& command, StreamOptions& options) {
       .add_option("--state-out", options.state_out,
                   "Save the state at the end of a stream (jsonl) to FILE; what\n"
                   "is due at its last instant is left to what goes on")
-      ->option_text("FILE");
+      ->option_text("FILE")
+      ->check(stands_for(ValueKind::file));
   command
       .add_option("--state-in", options.state_in,
                   "Go on from a saved state of the same catalog, with its\n"
                   "clock, its situation and its reactive delay")
-      ->option_text("FILE");
+      ->option_text("FILE")
+      ->check(stands_for(ValueKind::file));
   command
       .add_option("--replay", options.replay,
                   "Run the scripted events of LOG, which --format jsonl wrote,\n"
                   "again, and compare, byte for byte; with the same options")
-      ->option_text("LOG");
+      ->option_text("LOG")
+      ->check(stands_for(ValueKind::file));
 }
 
 }  // namespace cbc::cli

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/validators.h"
+#include "cli/value_kind.h"
 #include "sweep/merge.h"
 #include "text/decimal.h"
 #include "text/quote.h"
@@ -89,11 +90,13 @@ void add_sweep_options(CLI::App& command, SweepOptions& options) {
       .add_option("--slowest", options.slowest,
                   "Write the event with the most nodes to FILE, as a script\n"
                   "that ends with it")
-      ->option_text("FILE");
+      ->option_text("FILE")
+      ->check(stands_for(ValueKind::file));
   command
       .add_option("--slowest-by-time", options.slowest_by_time,
                   "The same for the event that took longest")
-      ->option_text("FILE");
+      ->option_text("FILE")
+      ->check(stands_for(ValueKind::file));
   sweep->excludes(merge);
 }
 

@@ -18,6 +18,12 @@ CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
     if (error == std::errc() && stop == end && number >= least && number <= most) {
       return {};
     }
+    if (stop != end || error == std::errc::invalid_argument) {
+      return fmt::format("expected a whole number, found {}", quote(text));
+    }
+    if (error == std::errc() && most == std::numeric_limits<std::int64_t>::max()) {
+      return fmt::format("expected a whole number from {} on, found {}", least, quote(text));
+    }
     return fmt::format("expected a whole number from {} to {}, found {}", least, most, quote(text));
   };
   return {check, ""};

@@ -43,6 +43,17 @@ foreach(schema catalog script)
   endif()
 endforeach()
 
+# So are the scripts for shells.
+foreach(script bash-completion/completions/cbc zsh/site-functions/_cbc fish/vendor_completions.d/cbc.fish)
+  string(REGEX MATCH "^[a-z]+" shell "${script}")
+  execute_process(COMMAND "${prefix}/${bindir}/cbc" completion ${shell} COMMAND_ECHO STDOUT
+                  COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE printed)
+  file(READ "${prefix}/${datadir}/${script}" installed)
+  if(NOT printed STREQUAL installed)
+    message(FATAL_ERROR "the installed ${script} is not what the program prints")
+  endif()
+endforeach()
+
 file(COPY "${source}" DESTINATION "${project}/tests")
 configure_file("${catalog}" "${catalog_copy}" COPYONLY)
 file(WRITE "${project}/.cbc.yaml" "strict: false\n")

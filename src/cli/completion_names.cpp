@@ -1,0 +1,70 @@
+#include "cli/completion_names.h"
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <system_error>
+
+#include "cbc/rules.h"
+#include "cli/drawable.h"
+#include "cli/schemas.h"
+
+namespace cbc::cli {
+namespace {
+
+/// What takes longer to read than somebody who presses a key waits.
+constexpr std::uintmax_t largest_completed = std::uintmax_t{32} << 20U;
+
+std::string expand_home(const std::string& path) {
+  const char* const home = std::getenv("HOME");
+  return home != nullptr && path.starts_with("~/") ? home + path.substr(1) : path;
+}
+
+/// Nothing else is read: a pipe would never end.
+bool is_readable_file(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error) &&
+         std::filesystem::file_size(path, error) <= largest_completed && !error;
+}
+
+}  // namespace
+
+std::vector<CompletionName> rule_names_with_help() {
+  std::vector<CompletionName> names;
+  for (const Rule& rule : all_rules()) {
+    names.push_back({std::string(rule.name), std::string(rule.summary)});
+  }
+  return names;
+}
+
+std::vector<CompletionName> schema_names_with_help() {
+  std::vector<CompletionName> names;
+  for (const Schema& schema : all_schemas()) {
+    names.push_back({std::string(schema.name), title_of(schema)});
+  }
+  return names;
+}
+
+std::vector<CompletionName> names_of_catalog(const std::vector<std::string>& paths,
+                                             bool with_behaviors) {
+  if (paths.empty()) return {};
+  const std::string path = expand_home(paths.front());
+  if (!is_readable_file(path)) return {};
+  const std::unique_ptr<Drawable> drawable = read_drawable(path);
+  if (drawable == nullptr) return {};
+  std::vector<CompletionName> names;
+  std::set<std::string> known;
+  const auto add = [&](const auto& entries, const char* what) {
+    for (const auto& entry : entries) {
+      std::string name(entry.name);
+      if (known.insert(name).second) names.push_back({std::move(name), what});
+    }
+  };
+  add(drawable->graph.tasks, "task");
+  if (with_behaviors) add(drawable->graph.behaviors, "behavior");
+  return names;
+}
+
+}  // namespace cbc::cli

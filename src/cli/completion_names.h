@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// Names that completion offers.
+namespace cbc::cli {
+
+struct CompletionName {
+  std::string name;
+  std::string help;
+};
+
+[[nodiscard]] std::vector<CompletionName> rule_names_with_help();
+
+[[nodiscard]] std::vector<CompletionName> schema_names_with_help();
+
+/// The tasks, on request also the behaviors, of the first catalog of the paths: of a faulty one, as
+/// far as it is understood. Complaints go to standard error.
+[[nodiscard]] std::vector<CompletionName> names_of_catalog(const std::vector<std::string>& paths,
+                                                           bool with_behaviors);
+
+}  // namespace cbc::cli

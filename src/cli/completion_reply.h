@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace cbc::cli {
+
+/// The first argument by which the scripts of `cbc completion` call the program.
+inline constexpr const char* complete_argument = "__complete";
+
+/// Answers such a call, with what can stand at the end of a command line.
+///
+/// Arguments: the shell; of the last word, as it is typed, what the shell does not replace (bash
+/// replaces what follows '=' or ':'); the words after the name of the program. With the quotes of
+/// the shell are: the last word, for bash all of them.
+///
+/// The first line of the answer is "words", and a candidate follows on each line, with a tab before
+/// its help: for bash, which has no help, quoted as it has to be inserted. Or it is "files", with
+/// the wanted suffixes: two lines follow, with the beginning of the path, and how much of that the
+/// shell does not replace. Names that do not fit on a line, or could harm a terminal, are left out.
+void reply_to_shell(CLI::App& program, const std::vector<std::string>& arguments);
+
+}  // namespace cbc::cli

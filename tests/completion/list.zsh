@@ -1,0 +1,16 @@
+# list.zsh SCRIPT LINE: prints what the function of SCRIPT offers at the end of LINE.
+compdef() {}
+source $1
+# Takes the place of what zsh has in completion only; typing.py has zsh itself do it.
+compadd() {
+  local name
+  for name in ${(P)@[-1]}; do
+    [[ $name == "$PREFIX"* ]] && print -r -- $name
+  done
+}
+
+words=(${(z)2})
+[[ $2 == *' ' ]] && words+=('')
+CURRENT=$#words
+PREFIX=$words[-1]
+_cbc
