@@ -14,9 +14,9 @@ namespace cbc::draw {
 /// catalog, and adds what the older one alone excludes. `tasks` finds the tasks of both catalogs in
 /// the graph by name.
 ///
-/// A task that excludes all others of a list since, or no longer, is marked in that list. Where lists
-/// were joined or split, the new or the old one is marked as a whole, beside those that have been
-/// there all the time: tasks exclude one another if any list says so without a mark.
+/// A task that excludes all others of a list since, or no longer, is marked in that list. Where
+/// lists were joined or split, the new or the old one is marked as a whole, beside those that have
+/// been there all the time: tasks exclude one another if any list says so without a mark.
 void mark_exclusions(const CompiledCatalog& before,
                      const std::unordered_map<std::string_view, std::uint32_t>& tasks,
                      const CatalogDiff& diff, CatalogGraph& graph);

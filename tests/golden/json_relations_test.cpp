@@ -73,36 +73,33 @@ TEST(JsonRelations, OfSweep) {
 }
 
 TEST(JsonRelations, OfGraph) {
-  expect_faults(
-      R"({"schema":"cbc.graph/1","nodes":[{"id":"task:A","kind":"task","mark":"faulty"},)"
-      R"({"id":"behavior:a","kind":"behavior","mark":null}],)"
-      R"("edges":[{"from":"task:A","to":"behavior:a","mark":null}]})",
-      {{R"("id":"behavior:a")", R"("id":"behavior:b")"},
-       {R"("from":"task:A")", R"("from":"task:B")"},
-       {R"("kind":"task")", R"("kind":"task","priority":1)"},
-       {R"("mark":"faulty")", R"("mark":"active")"}});
-  expect_faults(
-      R"({"schema":"cbc.graph/1","state":{"index":1,"time":0,"event":"wait"},"nodes":[)"
-      R"({"id":"task:A","kind":"task","priority":null,"mark":"active"},)"
-      R"({"id":"task:B","kind":"task","priority":null,"mark":null}],"edges":[]})",
-      {{R"("time":0)", R"("time":null)"},
-       {R"("event":"wait")", R"("event":null)"},
-       {R"("priority":null,)", ""},
-       {R"("id":"task:B")", R"("id":"task:A")"},
-       {R"("mark":"active")", R"("mark":"faulty")"}});
+  expect_faults(R"({"schema":"cbc.graph/1","nodes":[{"id":"task:A","kind":"task","mark":"faulty"},)"
+                R"({"id":"behavior:a","kind":"behavior","mark":null}],)"
+                R"("edges":[{"from":"task:A","to":"behavior:a","mark":null}]})",
+                {{R"("id":"behavior:a")", R"("id":"behavior:b")"},
+                 {R"("from":"task:A")", R"("from":"task:B")"},
+                 {R"("kind":"task")", R"("kind":"task","priority":1)"},
+                 {R"("mark":"faulty")", R"("mark":"active")"}});
+  expect_faults(R"({"schema":"cbc.graph/1","state":{"index":1,"time":0,"event":"wait"},"nodes":[)"
+                R"({"id":"task:A","kind":"task","priority":null,"mark":"active"},)"
+                R"({"id":"task:B","kind":"task","priority":null,"mark":null}],"edges":[]})",
+                {{R"("time":0)", R"("time":null)"},
+                 {R"("event":"wait")", R"("event":null)"},
+                 {R"("priority":null,)", ""},
+                 {R"("id":"task:B")", R"("id":"task:A")"},
+                 {R"("mark":"active")", R"("mark":"faulty")"}});
 }
 
 TEST(JsonRelations, OfDiff) {
-  expect_faults(
-      R"({"schema":"cbc.diff/1","changes":[)"
-      R"({"kind":"added","subject":"task","task":"A",)"
-      R"("attributes":[{"name":"timeout","before":null,"after":5}]},)"
-      R"({"kind":"removed","subject":"task","task":"B",)"
-      R"("attributes":[{"name":"timeout","before":6,"after":null}]}]})",
-      {{R"("before":null)", R"("before":7)"},
-       {R"("after":null)", R"("after":7)"},
-       {R"("after":5)", R"("after":null)"},
-       {R"("task":"B")", R"("task":"A")"}});
+  expect_faults(R"({"schema":"cbc.diff/1","changes":[)"
+                R"({"kind":"added","subject":"task","task":"A",)"
+                R"("attributes":[{"name":"timeout","before":null,"after":5}]},)"
+                R"({"kind":"removed","subject":"task","task":"B",)"
+                R"("attributes":[{"name":"timeout","before":6,"after":null}]}]})",
+                {{R"("before":null)", R"("before":7)"},
+                 {R"("after":null)", R"("after":7)"},
+                 {R"("after":5)", R"("after":null)"},
+                 {R"("task":"B")", R"("task":"A")"}});
 }
 
 }  // namespace

@@ -194,7 +194,8 @@ TEST(PublishedCatalogs, AreAsLargeAsTheySay) {
                              count(constraints["exclusive_pairs"], "exclusive pair") + ", " +
                              count(constraints["requirements"], "requirement") + "), ";
     const fs::path path = fs::path(CBC_SOURCE_DIR) / file["file"];
-    EXPECT_NE(test::read_file(path).find(said), std::string::npos) << path << " does not say " << said;
+    EXPECT_NE(test::read_file(path).find(said), std::string::npos)
+        << path << " does not say " << said;
   }
 }
 
