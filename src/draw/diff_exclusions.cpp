@@ -144,6 +144,11 @@ class Marker {
     for (const std::uint32_t task : tasks) list.emplace_back(task, mark);
   }
 
+  [[nodiscard]] bool was_in_pairs_with(std::uint32_t task, const Tasks& others) const {
+    return std::all_of(others.begin(), others.end(),
+                       [&](std::uint32_t other) { return removed_.contains(task, other); });
+  }
+
   /// The list that has just these tasks and what came to them, if those that are gone from it may
   /// stand there side by side.
   [[nodiscard]] List* find_list(const Tasks& tasks, const Tasks& gone) {
@@ -152,10 +157,7 @@ class Marker {
       bool is_fit = true;
       for (const auto& [task, mark] : lists_[place]) {
         if (mark == Mark::plain) present.push_back(task);
-        if (mark != Mark::removed) continue;
-        is_fit = is_fit && std::all_of(gone.begin(), gone.end(), [&](std::uint32_t other) {
-                   return removed_.contains(task, other);
-                 });
+        if (mark == Mark::removed) is_fit = is_fit && was_in_pairs_with(task, gone);
       }
       if (is_fit && present == tasks) return &lists_[place];
     }
