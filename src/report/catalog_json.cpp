@@ -8,7 +8,7 @@
 #include "compiled/parameters.h"
 #include "report/catalog_numbers.h"
 #include "report/exact_values.h"
-#include "report/json_text.h"
+#include "text/json_text.h"
 
 namespace cbc {
 namespace {

@@ -1,6 +1,6 @@
 #include "report/diff_json.h"
 
-#include "report/json_writer.h"
+#include "text/json_writer.h"
 
 namespace cbc {
 namespace {

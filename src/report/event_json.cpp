@@ -9,9 +9,9 @@
 #include "compiled/search_space.h"
 #include "report/exact_values.h"
 #include "report/explanation_json.h"
-#include "report/json_writer.h"
 #include "report/reasons_json.h"
 #include "report/solve_stats.h"
+#include "text/json_writer.h"
 
 namespace cbc {
 namespace {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string_view>
 
-#include "report/json_text.h"
-#include "report/json_writer.h"
+#include "text/json_text.h"
+#include "text/json_writer.h"
 
 namespace cbc {
 namespace {

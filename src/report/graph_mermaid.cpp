@@ -12,7 +12,7 @@
 #include "draw/cluster_members.h"
 #include "draw/labels.h"
 #include "report/graph_palette.h"
-#include "report/json_text.h"
+#include "text/json_text.h"
 
 namespace cbc {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/json_text.h"
+#include "text/json_text.h"
 
 namespace cbc {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "cbc/rules.h"
 #include "cbc/version.h"
-#include "report/json_text.h"
 #include "report/rule_markdown.h"
 #include "report/rule_text.h"
 #include "text/fingerprint.h"
+#include "text/json_text.h"
 #include "text/uri.h"
 
 namespace cbc {

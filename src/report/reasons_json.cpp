@@ -1,7 +1,7 @@
 #include "report/reasons_json.h"
 
-#include "report/json_writer.h"
 #include "report/reasons.h"
+#include "text/json_writer.h"
 
 namespace cbc {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "page_files.h"
-#include "report/json_text.h"
+#include "text/json_text.h"
 
 namespace cbc {
 namespace {

@@ -1,9 +1,9 @@
 #include "report/solve_json.h"
 
 #include "report/event_json.h"
-#include "report/json_text.h"
 #include "report/process_usage.h"
 #include "report/solve_stats.h"
+#include "text/json_text.h"
 
 namespace cbc {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "report/json_writer.h"
+#include "text/json_writer.h"
 #include "yaml/duplicates.h"
 #include "yaml/values.h"
 

@@ -497,6 +497,16 @@ class Page(unittest.TestCase):
         self.browser.set_size(420, 900)
         self.browser.screenshot(OUT / "narrow.png", whole=True)
 
+    def test_picture_of_the_readme(self):
+        """docs/figures/timeline.png is this one, with fewer colors; see CONTRIBUTING.md."""
+        self.browser.set_scheme("light")
+        self.open(solve("timeline", "catalogs/target-following.yaml",
+                        "catalogs/target-following.mission.yaml"))
+        for _ in range(9):
+            self.browser.key("ArrowRight")
+        self.browser.set_size(1200, 640, scale=1.5)
+        self.browser.screenshot(OUT / "timeline.png")
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -1,6 +1,6 @@
-// The figures of the README are kept as Graphviz drew them. Its versions draw differently, so they
-// are compared with the DOT that the commands beside them give: names, texts and colors of all
-// nodes and edges.
+// The figures are kept as Graphviz drew them. Its versions draw differently, so they are compared
+// with the DOT they come from: names, texts and colors of all nodes and edges. The DOT is that of
+// the command beside a figure in the README, or a file beside the figure.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -95,7 +95,7 @@ Lines lines_of_svg(std::string svg) {
     for (std::sregex_iterator word(body.begin(), body.end(), text); word != end; ++word) {
       label += (*word)[1];
     }
-    if (title.starts_with("catalog:")) {
+    if (at == std::sregex_iterator(svg.begin(), svg.end(), item)) {  // the picture itself
       if (!label.empty()) lines.push_back(label);
       continue;
     }
@@ -108,7 +108,15 @@ Lines lines_of_svg(std::string svg) {
   return lines;
 }
 
-TEST(Figures, AreWhatTheirCommandsGive) {
+fs::path figures_folder() { return fs::path(CBC_SOURCE_DIR) / "docs" / "figures"; }
+
+void expect_drawn_from(const std::string& dot, const fs::path& figure) {
+  const Lines lines = lines_of_dot(dot);
+  EXPECT_GT(lines.size(), 5U);
+  EXPECT_EQ(lines_of_svg(test::read_file(figure)), lines) << "draw it anew: " << figure;
+}
+
+TEST(Figures, AreWhatTheyAreDrawnFrom) {
   std::set<fs::path> drawn;
   for (Words command : commands_of_readme()) {
     const fs::path figure = fs::path(CBC_SOURCE_DIR) / command.back();
@@ -117,16 +125,29 @@ TEST(Figures, AreWhatTheirCommandsGive) {
     command.resize(command.size() - 2);
     const Result result = run({command, CBC_SOURCE_DIR});
     ASSERT_EQ(result.status, 0) << result.err;
-    const Lines lines = lines_of_dot(result.out);
-    EXPECT_GT(lines.size(), 5U);
-    EXPECT_EQ(lines_of_svg(test::read_file(figure)), lines)
-        << "draw it anew, by the command in README.md: " << figure;
+    expect_drawn_from(result.out, figure);
   }
   std::set<fs::path> kept;
-  for (const auto& entry : fs::directory_iterator(fs::path(CBC_SOURCE_DIR) / "docs" / "figures")) {
-    kept.insert(entry.path().filename());
+  for (const auto& entry : fs::directory_iterator(figures_folder())) {
+    fs::path figure = entry.path();
+    if (figure.extension() == ".svg") kept.insert(figure.filename());
+    if (figure.extension() != ".dot") continue;
+    const std::string dot = test::read_file(figure);
+    figure.replace_extension(".svg");
+    drawn.insert(figure.filename());
+    expect_drawn_from(dot, figure);
   }
   EXPECT_EQ(kept, drawn);
+}
+
+TEST(Figures, AreShown) {
+  const std::string pages = test::read_file(fs::path(CBC_SOURCE_DIR) / "README.md") +
+                            test::read_file(fs::path(CBC_SOURCE_DIR) / "docs" / "architecture.md");
+  for (const auto& entry : fs::directory_iterator(figures_folder())) {
+    if (entry.path().extension() == ".dot") continue;
+    EXPECT_NE(pages.find("figures/" + entry.path().filename().string() + ")"), std::string::npos)
+        << entry.path();
+  }
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "report/json_text.h"
+#include "text/json_text.h"
 
 namespace cbc {
 
