@@ -77,6 +77,10 @@ struct CatalogGraph {
 [[nodiscard]] CatalogGraph to_graph(const CatalogReading& reading,
                                     const std::vector<Diagnostic>& findings);
 
+/// Which tasks and behaviors constraints connect: the number of the component of each task, then of
+/// each behavior, counted by the first task of each. Needs no more than the links and the lists.
+[[nodiscard]] std::vector<std::uint32_t> components_of(const CatalogGraph& graph);
+
 /// Fills in what is next to what. The other arrays are complete.
 void connect(CatalogGraph& graph);
 

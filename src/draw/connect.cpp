@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "draw/catalog_graph.h"
+#include "graph/graph.h"
 
 namespace cbc::draw {
 namespace {
@@ -22,6 +23,22 @@ GrowingRows<std::uint32_t> places_by(const Items& items, std::size_t keys, const
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> components_of(const CatalogGraph& graph) {
+  const auto tasks = static_cast<std::uint32_t>(graph.tasks.size());
+  Edges edges;
+  const auto add = [&](const auto& links) {
+    for (const auto& link : links) edges.emplace_back(tasks + link.behavior, link.task);
+  };
+  add(graph.performances);
+  add(graph.requirements);
+  for (std::size_t list = 0; list < graph.exclusions.size(); ++list) {
+    for (const std::uint32_t task : graph.exclusions[list]) {
+      edges.emplace_back(graph.exclusions[list].front(), task);
+    }
+  }
+  return connected_components(tasks + graph.behaviors.size(), edges);
+}
 
 void connect(CatalogGraph& graph) {
   const auto task_of = [](const auto& link) { return link.task; };

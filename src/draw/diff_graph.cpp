@@ -91,30 +91,22 @@ class Union {
   }
 
  private:
-  /// Of what the newer catalog no longer has.
+  /// Of what the newer catalog no longer has: the first group of what it was connected with.
   void find_groups() {
-    const auto spread = [](std::uint32_t& a, std::uint32_t& b) {
-      if ((a == none) == (b == none)) return false;
-      a = b = std::min(a, b);  // none is the greatest
-      return true;
-    };
-    for (bool has_changed = true; has_changed;) {
-      has_changed = false;
-      const auto connect_all = [&](const auto& links) {
-        for (const auto& link : links) {
-          has_changed |=
-              spread(graph_.behaviors[link.behavior].group, graph_.tasks[link.task].group);
-        }
-      };
-      connect_all(graph_.performances);
-      connect_all(graph_.requirements);
-      for (std::size_t list = 0; list < graph_.exclusions.size(); ++list) {
-        const auto tasks = graph_.exclusions[list];
-        for (const std::uint32_t task : tasks) {
-          has_changed |= spread(graph_.tasks[tasks.front()].group, graph_.tasks[task].group);
-        }
-      }
+    const std::vector<std::uint32_t> components = components_of(graph_);
+    std::vector<std::uint32_t> groups(components.size(),
+                                      none);  // by component; none is the greatest
+    for (std::size_t task = 0; task < graph_.tasks.size(); ++task) {
+      std::uint32_t& group = groups[components[task]];
+      group = std::min(group, graph_.tasks[task].group);
     }
+    const auto fill_in = [&](auto& things, std::size_t first) {
+      for (std::size_t i = 0; i < things.size(); ++i) {
+        if (things[i].group == none) things[i].group = groups[components[first + i]];
+      }
+    };
+    fill_in(graph_.tasks, 0);
+    fill_in(graph_.behaviors, graph_.tasks.size());
   }
 
   /// Of what both have: what has changed. Of others, that is said by the word.

@@ -154,22 +154,8 @@ class ReadingGraph {
     return static_cast<std::uint32_t>(graph_.tasks.size()) + behavior;
   }
 
-  /// As the compiler counts them: by the first task of each.
   void add_groups() {
-    Edges edges;
-    for (const auto& link : graph_.performances) {
-      edges.emplace_back(vertex_of(link.behavior), link.task);
-    }
-    for (const auto& link : graph_.requirements) {
-      edges.emplace_back(vertex_of(link.behavior), link.task);
-    }
-    for (std::size_t list = 0; list < graph_.exclusions.size(); ++list) {
-      for (const std::uint32_t task : graph_.exclusions[list]) {
-        edges.emplace_back(graph_.exclusions[list].front(), task);
-      }
-    }
-    const std::size_t vertices = graph_.tasks.size() + graph_.behaviors.size();
-    const std::vector<std::uint32_t> component = connected_components(vertices, edges);
+    const std::vector<std::uint32_t> component = components_of(graph_);
     std::uint32_t groups = 0;
     for (std::uint32_t task = 0; task < graph_.tasks.size(); ++task) {
       graph_.tasks[task].group = component[task];
