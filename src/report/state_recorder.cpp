@@ -73,7 +73,12 @@ void StateRecorder::on_event(const EventRecord& record, const Step* /*step*/, co
                               change.is_activation, change.success,
                               change.cause == ChangeCause::undone});
   }
-  note_behaviors(state);
+  // It goes through the whole catalog: for a state that may be the wanted one only.
+  if (has_passed_ || wanted_.time) note_behaviors(state);
+}
+
+void StateRecorder::on_end(const State& state) {
+  if (!has_passed_) note_behaviors(state);
 }
 
 }  // namespace cbc

@@ -26,7 +26,7 @@ class StateRecorder final : public RunListener {
 
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
   void on_failure(const Failure& /*failure*/) override {}
-  void on_end(const State& /*state*/) override {}
+  void on_end(const State& state) override;
 
   /// Whether the run has come to the state, however it goes on. A run that came to its end has
   /// passed all of its times.
