@@ -192,19 +192,6 @@ std::optional<ValueFault> check_type(const Node& node, const Type& type) {
 
 // Ranges and choices -------------------------------------------------------------------------
 
-struct NumberRange {
-  Number lowest;
-  Number highest;
-};
-
-std::optional<NumberRange> range_of(const Parameter& parameter) {
-  if (!parameter.allowed_is_list || parameter.allowed_values.size() != 2) return std::nullopt;
-  auto lowest = parse_number(parameter.allowed_values[0]);
-  auto highest = parse_number(parameter.allowed_values[1]);
-  if (!lowest || !highest) return std::nullopt;
-  return NumberRange{std::move(*lowest), std::move(*highest)};
-}
-
 bool has_type_name(const Parameter& parameter) {
   return !parameter.allowed_is_list && !parameter.allowed_values.empty();
 }
@@ -233,6 +220,14 @@ std::string describe_choice(const std::vector<std::string>& values) {
 }
 
 }  // namespace
+
+std::optional<NumberRange> range_of(const Parameter& parameter) {
+  if (!parameter.allowed_is_list || parameter.allowed_values.size() != 2) return std::nullopt;
+  auto lowest = parse_number(parameter.allowed_values[0]);
+  auto highest = parse_number(parameter.allowed_values[1]);
+  if (!lowest || !highest) return std::nullopt;
+  return NumberRange{std::move(*lowest), std::move(*highest)};
+}
 
 bool is_empty_range(const Parameter& parameter) {
   const auto range = range_of(parameter);
@@ -296,9 +291,7 @@ std::optional<ValueFault> AllowedValues::check_choice(const Node& value) {
     if (number && numbers_.contains(value_text(*number))) return std::nullopt;
   }
   ValueFault fault = unexpected(value, expected_);
-  if (const auto suggestion = suggestions_.nearest(value.text)) {
-    fault.message += "; did you mean " + quote(*suggestion) + "?";
-  }
+  fault.message += did_you_mean(suggestions_.nearest(value.text));
   return fault;
 }
 

@@ -19,6 +19,14 @@
 /// as well: bool, int, float, text.
 namespace cbc {
 
+struct NumberRange {
+  Number lowest;
+  Number highest;
+};
+
+/// The range of numbers that the allowed values are, if they are one.
+[[nodiscard]] std::optional<NumberRange> range_of(const Parameter& parameter);
+
 /// Whether the allowed values are a range that goes down, so that it contains nothing.
 [[nodiscard]] bool is_empty_range(const Parameter& parameter);
 

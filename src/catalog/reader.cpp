@@ -202,7 +202,7 @@ class Resolver {
       std::string message =
           "task " + quote(undefined.name.text) + ", " + undefined.where + ", is not defined";
       if (suggestion) {
-        message += "; did you mean " + quote(*suggestion) + "?";
+        message += did_you_mean(suggestion);
       } else if (behaviors_.contains(undefined.name.text)) {
         message += ": there is a behavior of this name, but no task";
       }

@@ -21,8 +21,7 @@ std::string suggest(const CompiledCatalog& catalog, const std::string& name) {
   std::vector<std::string_view> names;
   for (const std::string_view task : catalog.task_names) names.push_back(task);
   for (const std::string_view behavior : catalog.behavior_names) names.push_back(behavior);
-  const std::optional<std::string_view> found = nearest(name, names);
-  return found ? fmt::format("; did you mean {}?", quote(*found)) : std::string();
+  return did_you_mean(nearest(name, names));
 }
 
 }  // namespace

@@ -25,8 +25,7 @@ std::string suggest(const draw::CatalogGraph& graph, const std::string& name) {
   }
   std::vector<std::string_view> names;
   for (const auto& task : graph.tasks) names.push_back(task.name);
-  const std::optional<std::string_view> found = nearest(name, names);
-  return found ? fmt::format("; did you mean {}?", quote(*found)) : std::string();
+  return did_you_mean(nearest(name, names));
 }
 
 std::optional<std::vector<std::uint32_t>> find_tasks(const draw::CatalogGraph& graph,

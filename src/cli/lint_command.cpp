@@ -80,10 +80,9 @@ int explain_rule(const std::string& name) {
   if (rule == nullptr) {
     std::vector<std::string_view> names;
     for (const Rule& known : all_rules()) names.push_back(known.name);
-    const auto meant = nearest(name, names);
+    const std::string meant = did_you_mean(nearest(name, names));
     return usage_error("lint", fmt::format("there is no rule {}{}", quote(name),
-                                           meant ? fmt::format("; did you mean {}?", quote(*meant))
-                                                 : " (--list-rules lists them)"));
+                                           meant.empty() ? " (--list-rules lists them)" : meant));
   }
   fmt::print("{}", rule_text(*rule, style_for(stdout)));
   return exit_ok;

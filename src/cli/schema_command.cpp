@@ -58,10 +58,9 @@ int print_schema(const std::string& name) {
     }
     names.push_back(schema.name);
   }
-  const auto meant = nearest(name, names);
+  const std::string meant = did_you_mean(nearest(name, names));
   return usage_error("schema", fmt::format("there is no schema {}{}", quote(name),
-                                           meant ? fmt::format("; did you mean {}?", quote(*meant))
-                                                 : " ('cbc schema' lists them)"));
+                                           meant.empty() ? " ('cbc schema' lists them)" : meant));
 }
 
 }  // namespace

@@ -19,8 +19,7 @@ namespace {
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& known) {
   const std::vector<std::string_view> names(known.begin(), known.end());
-  const std::optional<std::string_view> meant = nearest(name, names);
-  return meant ? fmt::format("; did you mean {}?", quote(*meant)) : std::string();
+  return did_you_mean(nearest(name, names));
 }
 
 std::vector<std::string> command_names(CLI::App& program) {

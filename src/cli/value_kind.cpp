@@ -55,9 +55,8 @@ CLI::Validator one_of(const std::vector<std::string>& choices) {
   const auto check = [choices](const std::string& text) -> std::string {
     if (std::find(choices.begin(), choices.end(), text) != choices.end()) return {};
     const std::vector<std::string_view> names(choices.begin(), choices.end());
-    const auto meant = nearest(text, names);
     return fmt::format("expected {}, found {}{}", list_choices(choices), quote(text),
-                       meant ? fmt::format("; did you mean {}?", quote(*meant)) : "");
+                       did_you_mean(nearest(text, names)));
   };
   return {check, fmt::format("{}", fmt::join(choices, ",")), choice_name};
 }

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <utility>
 
+#include "catalog/allowed_values.h"
 #include "compiled/parameters.h"
 #include "diff/exclusion_diff.h"
-#include "text/decimal.h"
 
 namespace cbc {
 namespace {
@@ -46,29 +46,27 @@ std::string spell(const std::string& value) {
 }
 
 /// The same for all spellings of a number of usual size: "30" for "3e1" and "30.0".
-std::string spell_number(const std::string& text) {
+std::string spell_number(const std::string& text, const Number& number) {
   constexpr std::int64_t most_places = 30;
-  const std::optional<Number> number = parse_number(text);
-  const auto digits = static_cast<std::int64_t>(number->digits.size());
-  const std::int64_t point = number->exponent;  // the place of the point among the digits
+  const auto digits = static_cast<std::int64_t>(number.digits.size());
+  const std::int64_t point = number.exponent;  // the place of the point among the digits
   if (digits > most_places || point > most_places || point < -most_places) return text;
   if (digits == 0) return "0";
-  std::string spelt = number->digits;
+  std::string spelt = number.digits;
   if (point <= 0) spelt.insert(0, static_cast<std::size_t>(-point), '0');
   if (point > digits) spelt.append(static_cast<std::size_t>(point - digits), '0');
   if (point < digits) spelt.insert(static_cast<std::size_t>(std::max<std::int64_t>(point, 0)), ".");
   if (point <= 0) spelt.insert(0, "0");
-  return number->negative ? "-" + spelt : spelt;
+  return number.negative ? "-" + spelt : spelt;
 }
 
-/// What a parameter may be set to. Words are a set, two numbers a range; no values allow any.
+/// What a parameter may be set to. Words are a set; no values allow any.
 std::string describe(Parameter parameter) {
   std::vector<std::string>& values = parameter.allowed_values;
   if (values.empty()) return {};
-  const bool is_range =
-      values.size() == 2 && parse_number(values.front()) && parse_number(values.back());
-  if (is_range) {
-    for (std::string& value : values) value = spell_number(value);
+  if (const std::optional<NumberRange> range = range_of(parameter)) {
+    values.front() = spell_number(values.front(), range->lowest);
+    values.back() = spell_number(values.back(), range->highest);
   } else {
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());

@@ -20,9 +20,7 @@ RuleNames::RuleNames() : suggestions_(names_of_rules()) {}
 
 std::string RuleNames::describe_unknown(std::string_view name) {
   std::string message = "there is no rule " + quote(name);
-  if (const std::optional<std::string_view> suggestion = suggestions_.nearest(name)) {
-    message += "; did you mean " + quote(*suggestion) + "?";
-  }
+  message += did_you_mean(suggestions_.nearest(name));
   return message;
 }
 

@@ -85,9 +85,7 @@ void check_allowed_values(const Task& task, const Parameter& parameter, Reporter
   } else if (is_unknown_type(parameter)) {
     std::string message = name + " has a type that is not known, " +
                           quote(parameter.allowed_values[0]) + ", so its values are not checked";
-    if (const auto type = nearest_type(parameter.allowed_values[0])) {
-      message += "; did you mean " + quote(*type) + "?";
-    }
+    message += did_you_mean(nearest_type(parameter.allowed_values[0]));
     reporter.report(rule::unknown_type, parameter.allowed_range, std::move(message));
   }
 }
@@ -165,9 +163,7 @@ void check_implicit_tasks(const Catalog& catalog, Reporter& reporter) {
     }
     std::string message =
         "task " + quote(task.name) + " is named by a behavior only, and has the default attributes";
-    if (const auto meant = suggestions.nearest(task.name)) {
-      message += "; did you mean " + quote(*meant) + "?";
-    }
+    message += did_you_mean(suggestions.nearest(task.name));
     reporter.report(rule::implicit_task, task.range, std::move(message));
   }
 }

@@ -26,9 +26,7 @@ std::string describe_unknown(std::string_view name, std::string_view kind, bool 
                              std::string_view other, Suggestions& suggestions) {
   std::string message = "there is no " + std::string(kind) + " " + quote(name);
   if (is_other) message += ": it is a " + std::string(other);
-  if (const auto suggestion = suggestions.nearest(name)) {
-    message += "; did you mean " + quote(*suggestion) + "?";
-  }
+  message += did_you_mean(suggestions.nearest(name));
   return message;
 }
 

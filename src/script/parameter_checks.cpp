@@ -68,7 +68,7 @@ void ParameterChecks::report_undeclared(std::uint32_t task, const yaml::Node& na
   } else {
     message += " declares no parameter " + quote(name.text);
     if (const auto suggestion = declared.suggestions.nearest(name.text)) {
-      message += "; did you mean " + quote(*suggestion) + "?";
+      message += did_you_mean(suggestion);
     } else {
       message += ", only " + declared.all;
     }

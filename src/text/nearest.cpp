@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "text/quote.h"
+
 namespace cbc {
 namespace {
 
@@ -144,6 +146,10 @@ std::optional<std::string_view> nearest(std::string_view name,
                                         std::span<const std::string_view> names) {
   std::size_t work_left = std::numeric_limits<std::size_t>::max();
   return search(name, names, work_left);
+}
+
+std::string did_you_mean(std::optional<std::string_view> suggestion) {
+  return suggestion ? "; did you mean " + quote(*suggestion) + "?" : std::string();
 }
 
 }  // namespace cbc

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -31,5 +32,8 @@ class Suggestions {
 /// One search in a few names.
 [[nodiscard]] std::optional<std::string_view> nearest(std::string_view name,
                                                       std::span<const std::string_view> names);
+
+/// How a message about an unknown name ends: "; did you mean 'HOVER'?", or nothing.
+[[nodiscard]] std::string did_you_mean(std::optional<std::string_view> suggestion);
 
 }  // namespace cbc

@@ -148,7 +148,7 @@ const Node* Fields::adopt(std::string_view key) {
     if (field->value->kind == Kind::null || suggestion_for(field->key->text) != key) continue;
     reporter_.report(rule::missing_key, field->key->range,
                      "missing key " + quote(key) + " in " + what_ + ": " + quote(field->key->text) +
-                         " is unknown; did you mean " + quote(key) + "?");
+                         " is unknown" + did_you_mean(key));
     fields_[place_of(key)] = *field;
     unknown_.erase(field);
     return find(key);
@@ -181,7 +181,7 @@ void Fields::report_unknown(Severity severity) {
     } else if (field.value->kind == Kind::null && key.find(':') != std::string::npos) {
       message += ": is a space missing after ':'?";
     } else if (!suggestion.empty()) {
-      message += "; did you mean " + quote(suggestion) + "?";
+      message += did_you_mean(suggestion);
     }
     reporter_.report_as(severity, rule::unknown_key, field.key->range, std::move(message));
   }

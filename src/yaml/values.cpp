@@ -195,9 +195,7 @@ std::optional<std::size_t> read_choice(const Node& node, std::string_view what,
 
   std::string message = must_be(what, expected) + ", found " + describe(node);
   const std::vector<std::string_view> names(choices);
-  if (const auto suggestion = nearest(*text, names)) {
-    message += "; did you mean " + quote(*suggestion) + "?";
-  }
+  message += did_you_mean(nearest(*text, names));
   reporter.report(rule::invalid_value, node.range, std::move(message));
   return std::nullopt;
 }
