@@ -33,26 +33,21 @@ run("${CMAKE_COMMAND}" --install "${build}" --config "${config}" --prefix "${wor
 file(RENAME "${work}/installed" "${prefix}")
 run("${prefix}/${bindir}/cbc" --version)
 
-# The schemas for editors are installed, and are those that the program prints.
-foreach(schema catalog script)
-  execute_process(COMMAND "${prefix}/${bindir}/cbc" schema ${schema} COMMAND_ECHO STDOUT
+# Checks that an installed file is what the program prints; further arguments are those of the program.
+function(expect_printed file)
+  execute_process(COMMAND "${prefix}/${bindir}/cbc" ${ARGN} COMMAND_ECHO STDOUT
                   COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE printed)
-  file(READ "${prefix}/${datadir}/cbc/schemas/${schema}.json" installed)
+  file(READ "${prefix}/${datadir}/${file}" installed)
   if(NOT printed STREQUAL installed)
-    message(FATAL_ERROR "the installed ${schema}.json is not what the program prints")
+    message(FATAL_ERROR "the installed ${file} is not what the program prints")
   endif()
-endforeach()
+endfunction()
 
-# So are the scripts for shells.
-foreach(script bash-completion/completions/cbc zsh/site-functions/_cbc fish/vendor_completions.d/cbc.fish)
-  string(REGEX MATCH "^[a-z]+" shell "${script}")
-  execute_process(COMMAND "${prefix}/${bindir}/cbc" completion ${shell} COMMAND_ECHO STDOUT
-                  COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE printed)
-  file(READ "${prefix}/${datadir}/${script}" installed)
-  if(NOT printed STREQUAL installed)
-    message(FATAL_ERROR "the installed ${script} is not what the program prints")
-  endif()
-endforeach()
+expect_printed(cbc/schemas/catalog.json schema catalog)
+expect_printed(cbc/schemas/script.json schema script)
+expect_printed(bash-completion/completions/cbc completion bash)
+expect_printed(zsh/site-functions/_cbc completion zsh)
+expect_printed(fish/vendor_completions.d/cbc.fish completion fish)
 
 file(COPY "${source}" DESTINATION "${project}/tests")
 configure_file("${catalog}" "${catalog_copy}" COPYONLY)

@@ -189,27 +189,25 @@ TEST(Graph, WithoutGraphvizAPictureIsRefused) {
   EXPECT_EQ(folder.read("a.svg"), "before");
 }
 
-TEST(Graph, WhatGraphvizSaysIsPassedOn) {
+/// A picture where Graphviz is this shell script.
+Result draw_with(const std::string& script) {
   const ScratchFolder folder;
-  const std::string dot = folder / "dot";
-  folder.write("dot", "#!/bin/sh\necho 'no fonts today' >&2\nexit 1\n");
-  fs::permissions(dot, fs::perms::owner_all);
-  const Result result = run({.arguments = {"graph", catalog().string(), "--format", "svg"},
-                             .folder = folder.path(),
-                             .environment = {{"PATH", folder.path()}}});
+  folder.write("dot", "#!/bin/sh\n" + script);
+  fs::permissions(folder / "dot", fs::perms::owner_all);
+  return run({.arguments = {"graph", catalog().string(), "--format", "svg"},
+              .folder = folder.path(),
+              .environment = {{"PATH", folder.path()}}});
+}
+
+TEST(Graph, WhatGraphvizSaysIsPassedOn) {
+  const Result result = draw_with("echo 'no fonts today' >&2\nexit 1\n");
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err, "cbc: Graphviz cannot draw it as svg: no fonts today\n");
 }
 
 TEST(Graph, GraphvizMayFailWithoutAWord) {
-  const ScratchFolder folder;
-  const std::string dot = folder / "dot";
-  folder.write("dot", "#!/bin/sh\nexit 1\n");
-  fs::permissions(dot, fs::perms::owner_all);
-  const Result result = run({.arguments = {"graph", catalog().string(), "--format", "svg"},
-                             .folder = folder.path(),
-                             .environment = {{"PATH", folder.path()}}});
+  const Result result = draw_with("exit 1\n");
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.err, "cbc: Graphviz cannot draw it as svg: it does not say why\n");
 }
