@@ -2,13 +2,8 @@
 
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "catalog/reader.h"
-#include "cli/file_kind.h"
-#include "cli/input.h"
 #include "compiled/compile.h"
-#include "text/quote.h"
 
 namespace cbc::cli {
 
@@ -26,12 +21,7 @@ std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const InputFile& file
 std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const std::string& path) {
   const auto [entry, is_new] = known_.try_emplace(path, nullptr);
   if (is_new) {
-    const std::optional<InputFile> file = files_.read(path);
-    if (file && file->document != nullptr && is_script(*file->document)) {
-      complain(fmt::format("{} is a script; expected a catalog here", quote(display_name(path))));
-    } else if (file) {
-      entry->second = load(*file);
-    }
+    if (const std::optional<InputFile> file = files_.read_catalog(path)) entry->second = load(*file);
   }
   return entry->second;
 }

@@ -101,7 +101,7 @@ std::optional<Source> understand(InputFiles& files, const InputFile& file) {
 
 std::optional<Source> read_source(const std::string& path) {
   InputFiles files;
-  const std::optional<InputFile> file = files.read(path);
+  const std::optional<InputFile> file = files.read_catalog(path);
   if (!file) {
     files.print_findings();
     return std::nullopt;
@@ -194,7 +194,7 @@ int check(const CompileCommand& command) {
 /// The compiled form of a catalog, of which there may be no file.
 std::optional<CompiledFile> read_for_dump(const std::string& path) {
   InputFiles files;
-  const std::optional<InputFile> file = files.read(path);
+  const std::optional<InputFile> file = files.read_catalog(path);
   if (!file) {
     files.print_findings();
     return std::nullopt;

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -41,16 +42,9 @@ constexpr const char* completion_footer =
     "\n"
     "Read more: man cbc";
 
-int print_script(const std::string& shell) {
-  fmt::print("{}", shell == "bash"  ? bash_completion()
-                   : shell == "zsh" ? zsh_completion()
-                                    : fish_completion());
-  return exit_ok;
-}
-
 }  // namespace
 
-void add_completion_command(CLI::App& program, int& status) {
+void add_completion_command(CLI::App& program, std::string_view called_as, int& status) {
   const auto shell = std::make_shared<std::string>();
   CLI::App* const command = program.add_subcommand(
       "completion", "Prints a script that completes command lines of cbc in a shell.");
@@ -59,7 +53,10 @@ void add_completion_command(CLI::App& program, int& status) {
       ->option_text(" ")
       ->required()
       ->check(one_of({"bash", "zsh", "fish"}));
-  command->callback([shell, &status] { status = print_script(*shell); });
+  command->callback([shell, name = name_to_complete(called_as), &status] {
+    fmt::print("{}", completion_script(*shell, name));
+    status = exit_ok;
+  });
 }
 
 }  // namespace cbc::cli

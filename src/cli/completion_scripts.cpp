@@ -1,12 +1,18 @@
 #include "cli/completion_scripts.h"
 
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+
 namespace cbc::cli {
+namespace {
 
 // What the program answers is data for all of them: no line of it is ever evaluated.
+// PROGRAM stands for the name of the program.
 
-std::string_view bash_completion() {
-  return R"script(# Completion of cbc for bash, printed by 'cbc completion bash'.
-_cbc() {
+constexpr std::string_view bash_script =
+    R"script(# Completion of PROGRAM for bash, printed by 'PROGRAM completion bash'.
+_PROGRAM() {
   local program=${1:-${COMP_WORDS[0]}} line=${COMP_LINE-} part='' gap kept='' suffix i
   local IFS=$' \t\n'
   local -a words=() answer=() suffixes=()
@@ -54,14 +60,13 @@ _cbc() {
   esac
   return 0
 }
-complete -F _cbc cbc
+complete -F _PROGRAM PROGRAM
 )script";
-}
 
-std::string_view zsh_completion() {
-  return R"script(#compdef cbc
-# Completion of cbc for zsh, printed by 'cbc completion zsh'.
-_cbc() {
+constexpr std::string_view zsh_script =
+    R"script(#compdef PROGRAM
+# Completion of PROGRAM for zsh, printed by 'PROGRAM completion zsh'.
+_PROGRAM() {
   local program=${(Q)words[1]} line
   local -a answer names lines
   program=${program/#\~\//$HOME/}
@@ -89,17 +94,16 @@ _cbc() {
       ;;
   esac
 }
-if [[ $funcstack[1] == _cbc ]]; then
-  _cbc "$@"
+if [[ $funcstack[1] == _PROGRAM ]]; then
+  _PROGRAM "$@"
 else
-  compdef _cbc cbc
+  compdef _PROGRAM PROGRAM
 fi
 )script";
-}
 
-std::string_view fish_completion() {
-  return R"script(# Completion of cbc for fish, printed by 'cbc completion fish'.
-function __cbc_complete
+constexpr std::string_view fish_script =
+    R"script(# Completion of PROGRAM for fish, printed by 'PROGRAM completion fish'.
+function __PROGRAM_complete
     set -l words (commandline -opc)
     set -l current (commandline -ct)
     set -l program (string replace -r '^~/' "$HOME/" -- $words[1])
@@ -121,8 +125,27 @@ function __cbc_complete
             set -q wanted[1]; and printf '%s\n' "$prefix"$wanted
     end
 end
-complete -c cbc -f -a '(__cbc_complete)'
+complete -c PROGRAM -f -a '(__PROGRAM_complete)'
 )script";
+
+}  // namespace
+
+std::string name_to_complete(std::string_view called_as) {
+  const std::string_view name = called_as.substr(called_as.rfind('/') + 1);
+  const bool is_plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.' || c == '+';
+  });
+  return std::string(is_plain && !name.empty() ? name : "cbc");
+}
+
+std::string completion_script(std::string_view shell, std::string_view program) {
+  constexpr std::string_view placeholder = "PROGRAM";
+  std::string script(shell == "bash" ? bash_script : shell == "zsh" ? zsh_script : fish_script);
+  for (std::size_t at = 0; (at = script.find(placeholder, at)) != std::string::npos;) {
+    script.replace(at, placeholder.size(), program);
+    at += program.size();
+  }
+  return script;
 }
 
 }  // namespace cbc::cli

@@ -44,7 +44,7 @@ std::unique_ptr<Drawable> from_text(InputFiles& files, const InputFile& file) {
 std::unique_ptr<Drawable> read_drawable(const std::string& path) {
   InputFiles files;
   std::unique_ptr<Drawable> drawable;
-  if (const std::optional<InputFile> file = files.read(path)) {
+  if (const std::optional<InputFile> file = files.read_catalog(path)) {
     if (file->document != nullptr) {
       drawable = from_text(files, *file);
     } else if (std::optional<CompiledFile> compiled = load(file->compiled)) {

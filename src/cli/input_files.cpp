@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "cli/file_kind.h"
 #include "cli/findings.h"
 #include "cli/input.h"
 #include "lint/controls.h"
+#include "text/quote.h"
 
 namespace cbc::cli {
 
@@ -20,6 +24,15 @@ std::optional<InputFile> InputFiles::read(const std::string& path) {
   for (Diagnostic& finding : diagnostics.release()) findings_.push_back(std::move(finding));
   if (document == nullptr) return std::nullopt;
   return InputFile{path, std::move(document), {}};
+}
+
+std::optional<InputFile> InputFiles::read_catalog(const std::string& path) {
+  std::optional<InputFile> file = read(path);
+  if (file && file->document != nullptr && is_script(*file->document)) {
+    complain(fmt::format("{} is a script; expected a catalog here", quote(display_name(path))));
+    return std::nullopt;
+  }
+  return file;
 }
 
 bool InputFiles::take_findings(const std::string& path, const yaml::Document& document,

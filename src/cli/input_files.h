@@ -30,6 +30,9 @@ class InputFiles {
   /// Empty if it cannot be read, which is complained of, or is no YAML, which is a finding.
   [[nodiscard]] std::optional<InputFile> read(const std::string& path);
 
+  /// The same of a file that has to be a catalog: a script is complained of.
+  [[nodiscard]] std::optional<InputFile> read_catalog(const std::string& path);
+
   /// The text of a YAML file.
   [[nodiscard]] const std::string& text_of(const yaml::Document& document) const {
     return texts_.at(document.file());

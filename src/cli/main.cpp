@@ -47,6 +47,7 @@ constexpr const char* program_footer =
 int run(int argc, char** argv) {
   using namespace cbc::cli;
   CLI::App program(description, "cbc");
+  program.option_defaults()->disable_flag_override();  // else --strict=0 would be a way to say no
   program.set_version_flag("--version", "cbc " + std::string(cbc::version));
   program.require_subcommand(1);
   int status = exit_ok;
@@ -55,7 +56,7 @@ int run(int argc, char** argv) {
   add_solve_command(program, status);
   add_graph_command(program, status);
   add_schema_command(program, status);
-  add_completion_command(program, status);
+  add_completion_command(program, argc > 0 ? argv[0] : "", status);
   set_help(program, program_examples, program_footer);  // commands would inherit it
 
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);

@@ -117,7 +117,10 @@ std::optional<std::pair<std::string, std::string>> split_at(const std::string& m
 CLI::Option* find_subject(CLI::App& app, const std::string& message) {
   constexpr std::string_view conversion = "Could not convert: ";
   const std::size_t first = message.starts_with(conversion) ? conversion.size() : 0;
-  return app.get_option_no_throw(message.substr(first, message.find_first_of(": ", first) - first));
+  const std::string name = message.substr(first, message.find_first_of(": ", first) - first);
+  CLI::Option* const option = app.get_option_no_throw(name);
+  if (option != nullptr) return option;
+  return app.get_option_no_throw("--" + name);  // it names flags without their dashes
 }
 
 }  // namespace

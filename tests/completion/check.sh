@@ -34,6 +34,15 @@ done >"$folder/offered.txt"
 diff -u -- "$here/expected.txt" "$folder/offered.txt"
 python3 -B "$here/typing.py" "$shell" "$folder"
 
+# Under another name its script completes that name.
+ln -s -- "$program" "$folder/bin/other-name"
+other-name completion "$shell" >"$folder/_other-name"
+offered=$("$shell" "$here/list.$shell" "$folder/_other-name" 'other-name lint --expl')
+if [ "$offered" != --explain ]; then
+  echo "check.sh: for other-name, $shell offers: $offered" >&2
+  exit 1
+fi
+
 if [ -e pwned ]; then
   echo "check.sh: a name was executed" >&2
   exit 1

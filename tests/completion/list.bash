@@ -15,9 +15,10 @@ COMP_CWORD=$((${#COMP_WORDS[@]} - 1))
 
 before=''
 [[ $COMP_LINE =~ [^\ ]*=[^\ ]*$ ]] && before=${BASH_REMATCH[0]%"${COMP_WORDS[-1]}"}
-_cbc cbc "${COMP_WORDS[-1]}" "${COMP_WORDS[-2]}"
+program=${COMP_WORDS[0]}
+"_$program" "$program" "${COMP_WORDS[-1]}" "${COMP_WORDS[-2]}"
 for candidate in "${COMPREPLY[@]}"; do
   eval "candidate=$candidate" # a trap that is not quoted goes off here
   printf '%s\n' "$before$candidate"
 done
-complete -p cbc >/dev/null
+complete -p "$program" >/dev/null

@@ -13,4 +13,4 @@ words=(${(z)2})
 [[ $2 == *' ' ]] && words+=('')
 CURRENT=$#words
 PREFIX=$words[-1]
-_cbc
+_$words[1]
