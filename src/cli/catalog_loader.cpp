@@ -21,7 +21,8 @@ std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const InputFile& file
 std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const std::string& path) {
   const auto [entry, is_new] = known_.try_emplace(path, nullptr);
   if (is_new) {
-    if (const std::optional<InputFile> file = files_.read_catalog(path)) entry->second = load(*file);
+    if (const std::optional<InputFile> file = files_.read_catalog(path))
+      entry->second = load(*file);
   }
   return entry->second;
 }

@@ -83,6 +83,12 @@ for page in "$source"/man/*.[1-9]; do
   [[ $(man -M "$root/usr/share/man" "${page##*.}" "${page%.*}") == *$'\nNAME\n'* ]] || fail "man ${page%.*}"
 done
 
+say "completion"
+for installed in bash:bash-completion/completions/cbc zsh:zsh/vendor-completions/_cbc \
+  fish:fish/vendor_completions.d/cbc.fish; do
+  use cbc completion "${installed%%:*}" | diff - "$root/usr/share/${installed#*:}" || fail "${installed#*:}"
+done
+
 say "a project in C++, with CMake and with pkg-config"
 cmake -S "$source/tests/consumer" -B "$work/consumer" -D CMAKE_PREFIX_PATH="$root/usr" >"$work/consumer.log"
 cmake --build "$work/consumer" >>"$work/consumer.log"
