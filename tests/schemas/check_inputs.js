@@ -21,6 +21,7 @@ const expressible = new Set([
   'duplicate-key',
   'invalid-value',
   'missing-key',
+  'on-request-and-reactive',
   'unknown-key',
   'wrong-type',
   'yaml-syntax',
@@ -28,10 +29,13 @@ const expressible = new Set([
 
 /** Mistakes that break these rules, by sample or file, and why a schema may not see them. */
 const unseen = {
+  'on request and reactive by default': 'the task says only one of the two',
+  'tests/golden/cases/catalog_both_flags_by_default/catalog.yaml': 'the task says only one of the two',
   'tests/golden/cases/catalog_deep_nesting/catalog.yaml': 'a reader may bear more',
   'bad value': 'readers of YAML differ in what they refuse',
   'percentage too precise': 'a fraction has no exact value in binary',
   'performed twice': 'two entries with one name need not be equal',
+  'tests/golden/cases/lint_rule_on_request_and_reactive/catalog.yaml': 'the task says only one of the two',
   'timeout out of range': 'one that is too precise is reported as such',
 };
 

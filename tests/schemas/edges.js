@@ -139,6 +139,10 @@ const catalogs = {
     lists('[{mutually_exclusive: [~]}]'),
     lists('[{mutualy_exclusive: [A]}]'),
     lists('[[A, B]]'),
+    task('start_on_request: true, reactive_start: true'),
+    task('start_on_request: on, default: YES'),
+    task('automatic_activation: false, reactive_start: y'),
+    task('automatic_activation: No, default: true'),
     'behaviors: []\nbehaviors: []',
     'behaviors: []\n---\nbehaviors: []',
     'behaviors: [',
@@ -149,7 +153,7 @@ const catalogs = {
     behavior('suitability: 33.33333'), // too precise
     behavior('timeout: 0.0000001'),
     task('start_on_request: "yes"'), // a text, as yes without quotes is to YAML 1.2
-    task('start_on_request: true, reactive_start: true'), // the defaults have a say in it, too
+    'default_values: {tasks: {reactive_start: true}}\n' + task('start_on_request: true'),
     'behaviors: [{behavior: GPS, tasks: [{task: A}, {task: A}]}]',
     'behaviors: [{behavior: GPS, task: A}, {behavior: GPS, task: B}]',
     behavior('requires: [{task: HOVER}]'), // not defined

@@ -1,4 +1,5 @@
 // The JSON Schemas in schemas/ have the words that the program has, and no others.
+#include <filesystem>
 #include <set>
 #include <string>
 #include <string_view>
@@ -62,6 +63,15 @@ Words names_up_to(Enumeration last) {
     names.emplace(name_of(static_cast<Enumeration>(value)));
   }
   return names;
+}
+
+TEST(SchemaFiles, AreInTheirReadme) {
+  const std::string readme = test::read_file(CBC_SOURCE_DIR "/schemas/README.md");
+  for (const auto& file : std::filesystem::directory_iterator(CBC_SOURCE_DIR "/schemas")) {
+    if (file.path().extension() != ".json") continue;
+    const std::string name = file.path().filename().string();
+    EXPECT_NE(readme.find("| `" + name + "` |"), std::string::npos) << name;
+  }
 }
 
 TEST(SchemaWords, OfEvents) {
