@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# check_dev.sh FOLDER: the last line of ./dev says how it ended. What it calls is replaced by programs in
+# FOLDER: nothing is installed or built.
+set -euo pipefail
+
+source=$(realpath -- "$(dirname -- "${BASH_SOURCE[0]}")/../..")
+rm -rf -- "$1"
+mkdir -p -- "$1"
+bin=$(realpath -- "$1")
+
+# replace PROGRAM: by a script on standard input
+replace() {
+  { echo '#!/bin/sh' && cat; } >"$bin/$1"
+  chmod +x -- "$bin/$1"
+}
+
+# expect STATUS LINE: of ./dev format, and its last line
+expect() {
+  local status=0 output
+  output=$(PATH=$bin:$PATH "$source/dev" format 2>&1) || status=$?
+  output=$(sed 's/ \[[0-9]* s\]$//' <<<"$output" | tail -n 1)
+  if [[ $status != "$1" || $output != "$2" ]]; then
+    echo "check_dev.sh: FAILED: expected status $1 and '$2', found status $status and '$output'"
+    exit 1
+  fi
+}
+
+replace dpkg-query <<<'for package; do echo "install ok installed $package"; done'
+replace xargs <<<'cat >/dev/null; exit 0'
+expect 0 'dev format: passed'
+replace xargs <<<'cat >/dev/null; exit 3'
+expect 3 'dev format: FAILED at: format (exit status 3)'
+replace xargs <<<'cat >/dev/null; kill -TERM $PPID; sleep 0.1'
+expect 143 'dev format: INTERRUPTED at: format'
+replace xargs <<<'cat >/dev/null; kill -INT $PPID; kill -INT $$; sleep 0.1'
+expect 130 'dev format: INTERRUPTED at: format'
