@@ -34,23 +34,22 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* compile_examples =
-    "  cbc compile quadrotor.yaml                     writes quadrotor.cbc\n"
-    "  cbc compile --check quadrotor.yaml             is quadrotor.cbc up to date?\n"
-    "  cbc compile --dump quadrotor.cbc               what a compiled catalog holds\n";
+    "  cbc compile robot.yaml                    writes robot.cbc\n"
+    "  cbc compile --check robot.yaml            is robot.cbc up to date?\n"
+    "  cbc compile --dump robot.cbc              what a compiled catalog holds\n";
 
 constexpr const char* compile_footer =
     "More examples:\n"
-    "  cbc compile quadrotor.yaml -o robot/catalog.cbc\n"
-    "                                                 writes another file\n"
-    "  cbc solve quadrotor.cbc mission.yaml           takes it in place of the YAML\n"
+    "  cbc compile robot.yaml -o robot/catalog.cbc\n"
+    "                                            writes another file\n"
+    "  cbc solve robot.cbc mission.yaml          takes it in place of the YAML\n"
     "\n"
     "A catalog with errors is not compiled. The same catalog gives the same bytes on every "
-    "machine,\n"
-    "and the file is replaced as a whole or not at all. Nothing is printed if all is well.\n"
+    "machine, and the file is replaced as a whole or not at all. Nothing is printed if all is "
+    "well.\n"
     "\n"
     "Exit status: 0 all is well, 1 the file that --check looked at is stale, 2 the catalog has "
-    "errors,\n"
-    "a file could not be read or written, or the usage is wrong, 3 an internal error.\n"
+    "errors, a file could not be read or written, or the usage is wrong, 3 an internal error.\n"
     "\n"
     "Read more: man cbc-compile";
 
@@ -227,7 +226,10 @@ void add_compile_command(CLI::App& program, int& status) {
   const auto options = std::make_shared<CompileCommand>();
   CLI::App* const command = program.add_subcommand(
       "compile", "Writes a catalog in the form that robots load in microseconds.");
-  set_help(*command, compile_examples, compile_footer);
+  set_help(*command,
+           {{"[OPTION...] CATALOG", "--check [OPTION...] CATALOG", "--dump [OPTION...] CATALOG"},
+            compile_examples,
+            compile_footer});
   command
       ->add_option("CATALOG", options->catalog, "The catalog: a YAML file, or - for standard input")
       ->option_text(" ")
@@ -235,16 +237,15 @@ void add_compile_command(CLI::App& program, int& status) {
       ->required();
   command
       ->add_option("-o,--output", options->output,
-                   "The file to write, or - for standard output (default:\n"
-                   "CATALOG with the suffix .cbc)")
+                   "The file to write, or - for standard output (default: CATALOG with the suffix "
+                   ".cbc)")
       ->option_text("OUT")
       ->check(stands_for(ValueKind::file));
   command->add_flag("--check", options->check,
-                    "Write nothing; say whether the file is what would be\n"
-                    "written now");
+                    "Write nothing; say whether the file is what would be written now");
   command->add_flag("--dump", options->dump,
-                    "Write nothing; list what the catalog, a compiled one or\n"
-                    "YAML, holds when it is compiled");
+                    "Write nothing; list what the catalog, a compiled one or YAML, holds when it "
+                    "is compiled");
   command->add_option("--format", options->format, "Of --dump: text (the default) or json")
       ->option_text("FORMAT")
       ->check(one_of({"text", "json"}));

@@ -17,9 +17,9 @@ namespace cbc::cli {
 namespace {
 
 constexpr const char* completion_examples =
-    "  source <(cbc completion bash)                  try it in this bash\n"
-    "  cbc completion zsh > ~/.zfunc/_cbc             install it for zsh\n"
-    "  cbc completion fish | source                   try it in this fish\n";
+    "  source <(cbc completion bash)             try it in this bash\n"
+    "  cbc completion zsh > ~/.zfunc/_cbc        install it for zsh\n"
+    "  cbc completion fish | source              try it in this fish\n";
 
 constexpr const char* completion_footer =
     "To install it for yourself:\n"
@@ -35,8 +35,7 @@ constexpr const char* completion_footer =
     "    cbc completion fish > ~/.config/fish/completions/cbc.fish\n"
     "\n"
     "The script asks cbc itself what can follow: commands, options and their values, files, "
-    "rules,\n"
-    "schemas, and the tasks and behaviors of the catalog on the line.\n"
+    "rules, schemas, and the tasks and behaviors of the catalog on the line.\n"
     "\n"
     "Exit status: 0 the script is printed, 2 the usage is wrong.\n"
     "\n"
@@ -48,7 +47,7 @@ void add_completion_command(CLI::App& program, std::string_view called_as, int& 
   const auto shell = std::make_shared<std::string>();
   CLI::App* const command = program.add_subcommand(
       "completion", "Prints a script that completes command lines of cbc in a shell.");
-  set_help(*command, completion_examples, completion_footer);
+  set_help(*command, {{"bash|zsh|fish"}, completion_examples, completion_footer});
   command->add_option("SHELL", *shell, "The shell: bash, zsh or fish")
       ->option_text(" ")
       ->required()

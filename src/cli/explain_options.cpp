@@ -29,15 +29,14 @@ std::string suggest(const CompiledCatalog& catalog, const std::string& name) {
 void add_explain_options(CLI::App& command, ExplainOptions& options) {
   command
       .add_option("--why", options.why,
-                  "Say of each accepted event why this task or behavior is as\n"
-                  "it is: where the best alternative loses. Repeatable")
+                  "Say of each accepted event why this task or behavior is as it is: where the "
+                  "best alternative loses. Repeatable")
       ->option_text("NAME")
       ->check(stands_for(ValueKind::task_or_behavior))
       ->allow_extra_args(false);
   command
       .add_option("--alternatives", options.alternatives,
-                  fmt::format("List the K best configurations of each accepted event\n"
-                              "(at most {})",
+                  fmt::format("List the K best configurations of each accepted event (at most {})",
                               most_alternatives))
       ->option_text("K")
       ->check(whole_number(1, most_alternatives));

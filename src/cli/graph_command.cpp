@@ -40,30 +40,30 @@ namespace cbc::cli {
 namespace {
 
 constexpr const char* graph_examples =
-    "  cbc graph quadrotor.yaml -o quadrotor.svg       or .png, .pdf, .mmd, .json, .dot\n"
-    "  cbc graph quadrotor.yaml --task HOVER --down    what HOVER requires\n"
+    "  cbc graph robot.yaml -o robot.svg         or .png, .pdf, .mmd, .json, .dot\n"
+    "  cbc graph robot.yaml --task HOVER --down  what HOVER requires\n"
     "  cbc graph --diff old.yaml new.yaml --format text\n"
-    "                                                  what has changed\n";
+    "                                            what has changed\n";
 
 constexpr const char* graph_footer =
     "More examples:\n"
-    "  cbc graph quadrotor.yaml | dot -Tx11            in a window\n"
-    "  cbc graph quadrotor.yaml --view tasks --reduce  which task requires which\n"
-    "  cbc graph quadrotor.cbc --view constraints      what hangs together\n"
-    "  cbc graph quadrotor.yaml --format mermaid       for a README file, a pull request\n"
-    "  cbc graph quadrotor.yaml --script mission.yaml --after 5\n"
-    "                                                  what runs after the 5th event\n"
+    "  cbc graph robot.yaml | dot -Tx11          in a window\n"
+    "  cbc graph robot.yaml --view tasks --reduce  which task requires which\n"
+    "  cbc graph robot.cbc --view constraints    what hangs together\n"
+    "  cbc graph robot.yaml --format mermaid     for a README file, a pull request\n"
+    "  cbc graph robot.yaml --script mission.yaml --after 5\n"
+    "                                            what runs after the 5th event\n"
     "\n"
-    "Tasks are ellipses, behaviors are rectangles. A solid line says which behavior performs a\n"
-    "task, and how well; a dashed arrow what it requires, and the minimum performance; a dotted\n"
-    "line that tasks exclude one another. A catalog with errors is drawn as far as it is\n"
+    "Tasks are ellipses, behaviors are rectangles. A solid line says which behavior performs a "
+    "task, and how well; a dashed arrow what it requires, and the minimum performance; a dotted "
+    "line that tasks exclude one another. A catalog with errors is drawn as far as it is "
     "understood, with the faults in red. svg, png and pdf need Graphviz.\n"
     "\n"
-    "With --diff, what is new is green (+), what is gone red and dashed (-), what has changed\n"
+    "With --diff, what is new is green (+), what is gone red and dashed (-), what has changed "
     "orange. In the format text a line says what; json is for programs (schema cbc.diff/1).\n"
     "\n"
-    "Exit status: 0 all is well, or the catalog has errors but was drawn, 1 the catalogs of\n"
-    "--diff differ, 2 nothing could be drawn, a file could not be read or written, or the usage\n"
+    "Exit status: 0 all is well, or the catalog has errors but was drawn, 1 the catalogs of "
+    "--diff differ, 2 nothing could be drawn, a file could not be read or written, or the usage "
     "is wrong, 3 an internal error.\n"
     "\n"
     "Read more: man cbc-graph";
@@ -121,7 +121,7 @@ std::string find_misuse(const GraphCommand& command) {
   if (!command.is_diff && catalogs > 1) {
     return fmt::format("expected one catalog, found {}; two can be compared with --diff", catalogs);
   }
-  if (catalogs == 0 && !command.state.script) return "CATALOG is required";
+  if (catalogs == 0 && !command.state.script) return "expected a catalog";
   if (command.is_diff && command.state.script) return "--diff and --script do not go together";
   if (std::count(command.catalogs.begin(), command.catalogs.end(), "-") > 1) return stdin_only_once;
   if (!command.is_diff && format == "text") return "the format text goes with --diff only";
@@ -242,16 +242,17 @@ void add_graph_command(CLI::App& program, int& status) {
   const auto options = std::make_shared<GraphCommand>();
   CLI::App* const command =
       program.add_subcommand("graph", "Draws the tasks and behaviors of a catalog.");
-  set_help(*command, graph_examples, graph_footer);
+  set_help(*command,
+           {{"[OPTION...] [CATALOG]", "--diff [OPTION...] OLD NEW"}, graph_examples, graph_footer});
   command
       ->add_option("CATALOG", options->catalogs,
-                   "The catalog: YAML or a compiled one, or - for standard input;\n"
-                   "with --diff two of them, the older one first")
+                   "The catalog: YAML or a compiled one, or - for standard input; with --diff two "
+                   "of them, the older one first")
       ->option_text(" ")
       ->check(stands_for(ValueKind::catalog));
   command->add_flag("--diff", options->is_diff,
-                    "Show what two catalogs do not have in common, whatever their order\n"
-                    "and layout; exit status 1 if there is anything");
+                    "Show what two catalogs do not have in common, whatever their order and "
+                    "layout; exit status 1 if there is anything");
   command
       ->add_option("-o,--output", options->output,
                    "The file to write, or - for standard output (default)")
@@ -259,8 +260,8 @@ void add_graph_command(CLI::App& program, int& status) {
       ->check(stands_for(ValueKind::file));
   command
       ->add_option("--format", options->format,
-                   "dot, mermaid, json, svg, png or pdf, with --diff also text (default:\n"
-                   "by the suffix of OUT; without one dot)")
+                   "dot, mermaid, json, svg, png or pdf, with --diff also text (default: by the "
+                   "suffix of OUT; without one dot)")
       ->option_text("FORMAT")
       ->check(one_of({"dot", "mermaid", "json", "svg", "png", "pdf", "text"}));
   add_drawing_options(*command, options->drawing);

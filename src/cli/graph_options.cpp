@@ -58,32 +58,28 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
   constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
   command
       .add_option("--view", options.view,
-                  "What is drawn: full (default: tasks and behaviors), tasks (what\n"
-                  "each requires), constraints (between tasks, one color a group),\n"
-                  "behaviors (what each requires)")
+                  "What is drawn: full (default: tasks and behaviors), tasks (what each requires), "
+                  "constraints (between tasks, one color a group), behaviors (what each requires)")
       ->option_text("VIEW")
       ->check(one_of({"full", "tasks", "constraints", "behaviors"}));
   command
       .add_option("--exclusivity", options.exclusivity,
-                  "Draw lists of exclusive tasks as pairs, as hubs (a dot with a\n"
-                  "line to each task), or none (default: up to three tasks as\n"
-                  "pairs, more as hubs; in the views tasks and behaviors none)")
+                  "Draw lists of exclusive tasks as pairs, as hubs (a dot with a line to each "
+                  "task), or none (default: up to three tasks as pairs, more as hubs; in the views "
+                  "tasks and behaviors none)")
       ->option_text("STYLE")
       ->check(one_of({"pairs", "hubs", "none"}));
   command
       .add_option("--cluster", options.cluster,
-                  "Draw frames around packages (of behaviors), groups (of tasks\n"
-                  "that constraints connect), or none (default: none; in the view\n"
-                  "of the constraints groups)")
+                  "Draw frames around packages (of behaviors), groups (of tasks that constraints "
+                  "connect), or none (default: none; in the view of the constraints groups)")
       ->option_text("KIND")
       ->check(one_of({"packages", "groups", "none"}));
   command.add_flag("--reduce", options.reduce,
-                   "In the view of tasks, leave out requirements that follow from\n"
-                   "others");
+                   "In the view of tasks, leave out requirements that follow from others");
   command
       .add_option("--task", options.tasks,
-                  "Draw this task only, with what it requires and what requires it.\n"
-                  "Repeatable")
+                  "Draw this task only, with what it requires and what requires it. Repeatable")
       ->option_text("NAME")
       ->check(stands_for(ValueKind::task))
       ->allow_extra_args(false);

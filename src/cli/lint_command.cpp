@@ -38,26 +38,25 @@ namespace cbc::cli {
 namespace {
 
 constexpr const char* lint_examples =
-    "  cbc lint quadrotor.yaml                        every mistake, with its place and reason\n"
-    "  cbc lint --diff quadrotor.yaml                 what --fix would change\n"
-    "  cbc lint --explain dead-behavior               what a rule is about, and how to mend it\n";
+    "  cbc lint robot.yaml                       every mistake, with place and reason\n"
+    "  cbc lint --diff robot.yaml                what --fix would change\n"
+    "  cbc lint --explain dead-behavior          what a rule is about; how to mend it\n";
 
 constexpr const char* lint_footer =
     "More examples:\n"
-    "  cbc lint --strict catalogs/                    all catalogs of a folder; warnings fail, "
+    "  cbc lint --strict catalogs/               a folder; warnings fail, too\n"
     "too\n"
     "  cbc lint --format sarif catalogs/ > lint.sarif\n"
-    "                                                 for code scanning\n"
-    "  cbc lint --script mission.yaml quadrotor.yaml  an event script as well\n"
+    "                                            for code scanning\n"
+    "  cbc lint --script mission.yaml robot.yaml  an event script as well\n"
     "\n"
     "A comment '# cbc: allow RULE' at the end of a line, or above an entry, allows a finding "
-    "there.\n"
-    "A file .cbc.yaml in the folder of a catalog, or above it, has settings for all of them:\n"
+    "there. A file .cbc.yaml in the folder of a catalog, or above it, has settings for all of "
+    "them:\n"
     "  error: [RULE, ...]   warn: [RULE, ...]   allow: [RULE, ...]   strict: true\n"
     "\n"
     "Exit status: 0 nothing is wrong, 1 there is an error (under --strict: or a warning), 2 a "
-    "file\n"
-    "could not be read or written, or the usage is wrong, 3 an internal error.\n"
+    "file could not be read or written, or the usage is wrong, 3 an internal error.\n"
     "\n"
     "Read more: man cbc-lint, man cbc-rules (every rule, with examples)";
 
@@ -90,6 +89,11 @@ int explain_rule(const std::string& name) {
 
 /// What is wrong with the combination of options; empty if nothing is.
 std::string find_misuse(const LintCommand& command) {
+  if (command.list_rules || !command.explain.empty()) {
+    const bool is_alone =
+        command.paths.empty() && command.scripts.empty() && command.format == "text";
+    return is_alone ? "" : "--explain and --list-rules print a text about rules, and lint nothing";
+  }
   if (command.paths.empty() && command.scripts.empty()) {
     return "no catalog given to lint";
   }
@@ -158,10 +162,12 @@ bool lint_target(const Target& target, Linter& linter) {
 bool lint_all(const LintCommand& command, Linter& linter) {
   bool has_failed = false;
   const std::vector<Target> targets = find_targets(command.paths, has_failed);
+  std::set<std::string> folders_with_files;
   std::set<std::string> folders_with_catalogs;
   Progress progress("linting", targets.size() + command.scripts.size());
   for (const Target& target : targets) {
     progress.begin(target.path);
+    folders_with_files.insert(target.folder);
     if (lint_target(target, linter)) folders_with_catalogs.insert(target.folder);
   }
   for (const std::string& script : command.scripts) {
@@ -171,7 +177,10 @@ bool lint_all(const LintCommand& command, Linter& linter) {
   progress.clear();
   for (const std::string& path : command.paths) {
     if (!is_folder(path) || folders_with_catalogs.contains(path)) continue;
-    complain(fmt::format("found no catalog in {}", quote(path)));
+    complain(fmt::format("found no catalog in {}{}", quote(path),
+                         folders_with_files.contains(path)
+                             ? "; an event script is checked if it is named itself"
+                             : ""));
     has_failed = true;
   }
   return !has_failed;
@@ -202,13 +211,13 @@ void print_report(const LintCommand& command, const Linter& linter, bool is_comp
 }
 
 int lint(const LintCommand& command) {
+  if (const std::string misuse = find_misuse(command); !misuse.empty())
+    return usage_error("lint", misuse);
   if (command.list_rules) {
     fmt::print("{}", rule_list(style_for(stdout)));
     return exit_ok;
   }
   if (!command.explain.empty()) return explain_rule(command.explain);
-  if (const std::string misuse = find_misuse(command); !misuse.empty())
-    return usage_error("lint", misuse);
 
   Linter::Options options;
   options.lint.max_nodes = command.max_nodes;
@@ -219,8 +228,7 @@ int lint(const LintCommand& command) {
   options.has_scripts = !command.scripts.empty();
   std::vector<std::string> errors;
   options.settings = settings_of_options(command.severities, errors);
-  for (const std::string& error : errors) complain(error);
-  if (!errors.empty()) return exit_unusable;
+  if (!errors.empty()) return usage_error("lint", fmt::format("{}", fmt::join(errors, "\ncbc: ")));
 
   Linter linter(std::move(options));
   const bool has_all = lint_all(command, linter);
@@ -236,18 +244,21 @@ void add_lint_command(CLI::App& program, int& status) {
   const auto options = std::make_shared<LintCommand>();
   CLI::App* const command = program.add_subcommand(
       "lint", "Finds every mistake in catalogs, with its place and its reason.");
-  set_help(*command, lint_examples, lint_footer);
+  set_help(*command, {{"[OPTION...] [CATALOG...]", "--fix|--diff [OPTION...] CATALOG...",
+                       "--explain RULE", "--list-rules"},
+                      lint_examples,
+                      lint_footer});
   command
       ->add_option("CATALOG", options->paths,
-                   "Catalogs: files, folders (all *.yaml and *.yml in them\n"
-                   "that look like catalogs), or - for standard input;\n"
-                   "event scripts, too, if they name their catalogs")
+                   "Catalogs: files, folders (all *.yaml and *.yml in them that look like "
+                   "catalogs), or - for standard input; event scripts, too, if they name their "
+                   "catalogs")
       ->option_text("...")
       ->check(stands_for(ValueKind::catalog));
   command
       ->add_option("--script", options->scripts,
-                   "Check an event script, too, against the one catalog\n"
-                   "that is given (may be repeated)")
+                   "Check an event script, too, against the one catalog that is given (may be "
+                   "repeated)")
       ->option_text("FILE")
       ->check(stands_for(ValueKind::script))
       ->allow_extra_args(false);
@@ -256,11 +267,10 @@ void add_lint_command(CLI::App& program, int& status) {
       ->option_text("FORMAT")
       ->check(one_of({"text", "json", "sarif", "github", "gcc"}));
   command->add_flag("--summary", options->summary,
-                    "Show the catalogs in numbers: tasks, behaviors,\n"
-                    "constraints, groups, search space; compiled ones, too");
+                    "Show the catalogs in numbers: tasks, behaviors, constraints, groups, search "
+                    "space; compiled ones, too");
   command->add_flag("--fix", options->fix,
-                    "Mend in place what can be mended without changing what\n"
-                    "a catalog means");
+                    "Mend in place what can be mended without changing what a catalog means");
   command->add_flag("--diff", options->diff, "Show what --fix would change, as a diff");
   const auto add_rules = [command](const char* name, std::vector<std::string>& rules,
                                    const char* text) {
@@ -281,8 +291,7 @@ void add_lint_command(CLI::App& program, int& status) {
       ->check(stands_for(ValueKind::file));
   command
       ->add_option("--max-nodes", options->max_nodes,
-                   "Decisions that the proof of one finding may take\n"
-                   "(default: 100000)")
+                   "Decisions that the proof of one finding may take (default: 100000)")
       ->option_text("N")
       ->check(whole_number(1));
   command->add_option("--explain", options->explain, "Explain a rule")

@@ -130,7 +130,12 @@ void Linter::fix(const std::string& path, Linted& linted, const SeveritySettings
     mended += text.mended.size();
     fixed = lint_text(linted.file.file, std::move(text.text), settings);
   }
-  if (mended == 0) return;
+  if (mended == 0) {
+    if (!options_.is_to_show_fixes && !linted.file.findings.empty()) {
+      complain(fmt::format("{}: nothing here can be mended in place", printable(linted.file.file)));
+    }
+    return;
+  }
   if (!same_meaning(linted.catalog, fixed.catalog) || fixed.errors > linted.errors) {
     complain(
         fmt::format("internal error: mending {} would change its meaning, so nothing is "
@@ -215,8 +220,8 @@ Linter::CatalogPointer Linter::catalog_of(const yaml::Document& script, const st
   if (catalog.empty()) {
     complain(
         fmt::format("{} is an event script that names no catalog; give one: "
-                    "cbc lint --script SCRIPT CATALOG",
-                    quote(script.file())));
+                    "cbc lint --script {} CATALOG",
+                    quote(script.file()), printable(script.file())));
     has_failed_ = true;
     return nullptr;
   }

@@ -30,17 +30,18 @@
 namespace {
 
 constexpr const char* description =
-    "Checks and compiles behavior catalogs, and solves them offline: which behaviors of a robot\n"
+    "Checks and compiles behavior catalogs, and solves them offline: which behaviors of a robot "
     "should be active, proven best, on every event.";
 
 constexpr const char* program_examples =
-    "  cbc lint robot.yaml                     every mistake in a catalog, with its reason\n"
-    "  cbc solve robot.yaml mission.yaml       what the robot would do, event by event\n"
-    "  cbc graph robot.yaml -o robot.svg       a picture of the catalog\n";
+    "  cbc lint robot.yaml                 every mistake, with its reason\n"
+    "  cbc solve robot.yaml mission.yaml   what the robot would do, event by event\n"
+    "  cbc graph robot.yaml -o robot.svg   a picture of the catalog\n";
 
 constexpr const char* program_footer =
-    "Exit status: 0 all is well, 1 lint found an error, a compiled catalog is stale, two catalogs\n"
-    "differ, or an expectation failed, 2 the input or the usage is wrong, 3 an internal error.\n"
+    "Exit status: 0 all is well, 1 lint found an error, a compiled catalog is stale, two "
+    "catalogs differ, or an expectation failed, 2 the input or the usage is wrong, 3 an internal "
+    "error.\n"
     "\n"
     "Read more: 'cbc COMMAND --help', man cbc, man cbc-catalog (how to write a catalog)";
 
@@ -48,7 +49,9 @@ int run(int argc, char** argv) {
   using namespace cbc::cli;
   CLI::App program(description, "cbc");
   program.option_defaults()->disable_flag_override();  // else --strict=0 would be a way to say no
-  program.set_version_flag("--version", "cbc " + std::string(cbc::version));
+  program.set_help_flag("-h,--help", "Print this help and exit");
+  program.set_version_flag("--version", "cbc " + std::string(cbc::version),
+                           "Print the version and exit");
   program.require_subcommand(1);
   int status = exit_ok;
   add_lint_command(program, status);
@@ -57,7 +60,9 @@ int run(int argc, char** argv) {
   add_graph_command(program, status);
   add_schema_command(program, status);
   add_completion_command(program, argc > 0 ? argv[0] : "", status);
-  set_help(program, program_examples, program_footer);  // commands would inherit it
+  set_help(program, {{"COMMAND [OPTION...] FILE...", "--version", "COMMAND --help"},
+                     program_examples,
+                     program_footer});  // commands would inherit it
 
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   program.failure_message([&](const CLI::App*, const CLI::Error& error) {

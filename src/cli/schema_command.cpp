@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,12 +26,13 @@ namespace cbc::cli {
 namespace {
 
 constexpr const char* schema_examples =
-    "  cbc schema                          the names of all schemas, and what they describe\n"
-    "  cbc schema catalog > catalog.json   for an editor that completes and checks YAML\n"
-    "  cbc schema solve > solve.json       for a program that reads 'cbc solve --format json'\n";
+    "  cbc schema                        all names, and what they describe\n"
+    "  cbc schema catalog > catalog.json\n"
+    "                                    for an editor that completes and checks YAML\n"
+    "  cbc schema solve > solve.json     for programs that read its JSON\n";
 
 constexpr const char* schema_footer =
-    "The schemas are JSON Schema 2020-12. An editor with the YAML language server uses one for a\n"
+    "The schemas are JSON Schema 2020-12. An editor with the YAML language server uses one for a "
     "file that begins with\n"
     "  # yaml-language-server: $schema=catalog.json\n"
     "\n"
@@ -49,7 +51,6 @@ int list_schemas() {
 }
 
 int print_schema(const std::string& name) {
-  if (name.empty()) return list_schemas();
   std::vector<std::string_view> names;
   for (const Schema& schema : all_schemas()) {
     if (schema.name == name) {
@@ -66,14 +67,14 @@ int print_schema(const std::string& name) {
 }  // namespace
 
 void add_schema_command(CLI::App& program, int& status) {
-  const auto name = std::make_shared<std::string>();
+  const auto name = std::make_shared<std::optional<std::string>>();
   CLI::App* const command = program.add_subcommand(
       "schema", "Prints the JSON Schema of a file that cbc reads or writes.");
-  set_help(*command, schema_examples, schema_footer);
+  set_help(*command, {{"[NAME]"}, schema_examples, schema_footer});
   command->add_option("NAME", *name, "The schema to print; without it, all are listed")
       ->option_text(" ")
       ->check(stands_for(ValueKind::schema));
-  command->callback([name, &status] { status = print_schema(*name); });
+  command->callback([name, &status] { status = *name ? print_schema(**name) : list_schemas(); });
 }
 
 }  // namespace cbc::cli

@@ -27,34 +27,33 @@ namespace cbc::cli {
 namespace {
 
 constexpr const char* solve_examples =
-    "  cbc solve quadrotor.yaml mission.yaml          one script, for a person to read\n"
-    "  cbc solve quadrotor.yaml mission.yaml --html mission.html\n"
-    "                                                 a picture, too, for a browser\n"
-    "  cbc solve quadrotor.yaml mission.yaml --why HOVER --alternatives 3\n"
-    "                                                 why HOVER is as it is, and the three\n"
-    "                                                 best configurations, of each event\n";
+    "  cbc solve robot.yaml mission.yaml         one script, for a person to read\n"
+    "  cbc solve robot.yaml mission.yaml --html mission.html\n"
+    "                                            a picture, too, for a browser\n"
+    "  cbc solve robot.yaml mission.yaml --why HOVER --alternatives 3\n"
+    "                                            why HOVER is as it is, and the three\n"
+    "                                            best configurations, of each event\n";
 
 constexpr const char* solve_footer =
     "More examples:\n"
-    "  cbc solve quadrotor.yaml missions/ --format json\n"
-    "                                                 all scripts of a folder, as JSON\n"
-    "  echo '[{start: TAKE_OFF}]' | cbc solve quadrotor.yaml -\n"
-    "                                                 a script from standard input\n"
-    "  cbc solve quadrotor.yaml missions/ --format junit > results.xml\n"
-    "                                                 for CI, a test suite per script\n"
-    "  robot | cbc solve quadrotor.cbc - --format jsonl > log.jsonl\n"
-    "                                                 events as they come, one on a line\n"
-    "  cbc solve --replay log.jsonl quadrotor.cbc     the same again: is it still the same?\n"
-    "  cbc solve quadrotor.yaml mission.yaml --max-solutions 5\n"
-    "                                                 the best of the first 5 solutions only\n"
-    "  cbc solve quadrotor.yaml --sweep 1000          what happens under random events and faults\n"
+    "  cbc solve robot.yaml missions/ --format json\n"
+    "                                            all scripts of a folder, as JSON\n"
+    "  echo '[{start: TAKE_OFF}]' | cbc solve robot.yaml -\n"
+    "                                            a script from standard input\n"
+    "  cbc solve robot.yaml missions/ --format junit > results.xml\n"
+    "                                            for CI, a test suite per script\n"
+    "  robot | cbc solve robot.cbc - --format jsonl > log.jsonl\n"
+    "                                            events as they come, one on a line\n"
+    "  cbc solve --replay log.jsonl robot.cbc    the same again: is it still so?\n"
+    "  cbc solve robot.yaml mission.yaml --max-solutions 5\n"
+    "                                            best of the first 5 solutions\n"
+    "  cbc solve robot.yaml --sweep 1000         random events and faults\n"
     "\n"
     "In the text, P is the priority of the request behind a change, T is + for an activation and "
-    "-\n"
-    "for a deactivation, S says whether it succeeded (Y) or failed (N).\n"
+    "- for a deactivation, S says whether it succeeded (Y) or failed (N).\n"
     "\n"
-    "Exit status: 0 all expectations hold, 1 one does not, 2 the input or the usage is wrong,\n"
-    "3 an internal error (please report it).\n"
+    "Exit status: 0 all expectations hold, 1 one does not, 2 the input or the usage is wrong, 3 "
+    "an internal error (please report it).\n"
     "\n"
     "Read more: man cbc-solve, man cbc-events (how to write a script)";
 
@@ -129,7 +128,19 @@ std::string find_overwritten(const SolveOptions& options) {
   return {};
 }
 
+/// What is missing on the command line; empty if nothing is.
+std::string find_missing(const SolveOptions& options) {
+  if (!options.paths.empty()) return {};
+  if (options.sweep.merge) return "expected the files of the shards to merge";
+  if (options.sweep.is_wanted()) return "expected the catalog of the sweep";
+  if (options.stream.replay) return "expected the catalog of the log";
+  return "expected a catalog and a script";
+}
+
 int solve(const SolveOptions& options) {
+  if (const std::string missing = find_missing(options); !missing.empty()) {
+    return usage_error("solve", missing);
+  }
   if (const std::string clash = find_clash(options); !clash.empty()) {
     return usage_error("solve", clash);
   }
@@ -148,47 +159,47 @@ void add_solve_command(CLI::App& program, int& status) {
   const auto options = std::make_shared<SolveOptions>();
   CLI::App* const command = program.add_subcommand(
       "solve", "Runs scripted events through the coordinator, with the proven best answers.");
-  set_help(*command, solve_examples, solve_footer);
+  set_help(*command,
+           {{"[OPTION...] [CATALOG] SCRIPT...", "--format jsonl [OPTION...] CATALOG SCRIPT|-",
+             "--replay LOG [OPTION...] CATALOG", "--sweep N [OPTION...] CATALOG",
+             "--merge [OPTION...] SHARD..."},
+            solve_examples,
+            solve_footer});
   command
       ->add_option("CATALOG SCRIPT", options->paths,
-                   "The catalog (YAML or compiled), then event scripts: files,\n"
-                   "folders, or - for standard input. Without a catalog each\n"
-                   "script names its own (catalog: FILE).")
+                   "The catalog (YAML or compiled), then event scripts: files, folders, or - for "
+                   "standard input. Without a catalog each script names its own (catalog: FILE).")
       ->option_text("...")
-      ->check(stands_for(ValueKind::catalog))
-      ->required();
+      ->check(stands_for(ValueKind::catalog));
   command
       ->add_option("--format", options->format,
-                   "text (the default), json, junit, github; or jsonl: each\n"
-                   "event as a line, as soon as it is solved; - is then a\n"
-                   "stream of events, one on a line (JSON, or a mapping in\n"
-                   "braces)")
+                   "text (the default), json, junit, github; or jsonl: each event as a line, as "
+                   "soon as it is solved; - is then a stream of events, one on a line (JSON, or a "
+                   "mapping in braces)")
       ->option_text("FORMAT")
       ->check(one_of({"text", "json", "junit", "github", "jsonl"}));
   command
       ->add_option("--html", options->html,
-                   "Write a page with a timeline of all runs to FILE, too: to\n"
-                   "step through in a browser, or to print")
+                   "Write a page with a timeline of all runs to FILE, too: to step through in a "
+                   "browser, or to print")
       ->option_text("FILE")
       ->check(stands_for(ValueKind::file));
   command
       ->add_option("-j,--jobs", options->jobs,
-                   "Run up to N scripts, or sequences of a sweep, at once\n"
-                   "(default: the number of processors); the output is the\n"
-                   "same for any N")
+                   "Run up to N scripts, or sequences of a sweep, at once (default: the number of "
+                   "processors); the output is the same for any N")
       ->option_text("N")
       ->check(whole_number(1));
   command->add_flag("--stats", options->stats,
-                    "Show what each search took, and mean, least and greatest\n"
-                    "of all, with the memory and the time of the process; of a\n"
-                    "sweep, report times, too");
+                    "Show what each search took, and mean, least and greatest of all, with the "
+                    "memory and the time of the process; of a sweep, report times, too");
   command->option_defaults()->group("Reasons");
   add_explain_options(*command, options->explain);
   command->option_defaults()->group("Search");
   command
       ->add_option("--max-solutions", options->max_solutions,
-                   "Take the best of the first M solutions, in the order of\n"
-                   "the paper, instead of the proven optimum")
+                   "Take the best of the first M solutions, in the order of the paper, instead of "
+                   "the proven optimum")
       ->option_text("M")
       ->check(whole_number(1));
   command
@@ -203,14 +214,14 @@ void add_solve_command(CLI::App& program, int& status) {
       ->check(whole_number(1));
   command
       ->add_option("--tie-seed", options->tie_seed,
-                   "Order behaviors of equal suitability at random, by the\n"
-                   "seed N, instead of as in the catalog")
+                   "Order behaviors of equal suitability at random, by the seed N, instead of as "
+                   "in the catalog")
       ->option_text("N")
       ->check(whole_number(0));
   command
       ->add_option("--max-clock-events", options->max_clock_events,
-                   "Give up when timeouts and reactive starts have made more\n"
-                   "than N events (default: 1000000)")
+                   "Give up when timeouts and reactive starts have made more than N events "
+                   "(default: 1000000)")
       ->option_text("N")
       ->check(whole_number(1));
   command->option_defaults()->group("Streams");

@@ -59,8 +59,8 @@ void add_sweep_options(CLI::App& command, SweepOptions& options) {
   CLI::Option* const sweep =
       command
           .add_option("--sweep", options.sequences,
-                      "Run N random event sequences on the catalog instead of\n"
-                      "scripts, and report what happened in them")
+                      "Run N random event sequences on the catalog instead of scripts, and report "
+                      "what happened in them")
           ->option_text("N")
           ->check(whole_number(1, most_sequences));
   const auto add = [&](const char* name, auto& value, const char* text, const char* help) {
@@ -72,24 +72,22 @@ void add_sweep_options(CLI::App& command, SweepOptions& options) {
   add("--priorities", options.priorities, "P", "Requests have priorities from 1 to P (default: 3)")
       ->check(whole_number(1, 1'000'000));
   add("--failures", options.failures, "SHARE",
-      "Of the finished behaviors, from 0 to 1, how many have\n"
-      "failed (default: 0.3)")
+      "Of the finished behaviors, from 0 to 1, how many have failed (default: 0.3)")
       ->check(probability());
   add("--faults", options.faults, "SHARE",
-      "Of the events, from 0 to 1, how many are faults, repairs\n"
-      "and changes of the situation (default: 0.1)")
+      "Of the events, from 0 to 1, how many are faults, repairs and changes of the situation "
+      "(default: 0.1)")
       ->check(probability());
   add("--shard", options.shard, "I/N", "Run the I-th of N shares of the sweep only")
       ->check(shard_of_sweep());
   CLI::Option* const merge = command
                                  .add_flag("--merge", options.merge,
-                                           "Merge the files: the results of all shards, as JSON,\n"
+                                           "Merge the files: the results of all shards, as JSON, "
                                            "become that of one run")
                                  ->option_text(" ");
   command
       .add_option("--slowest", options.slowest,
-                  "Write the event with the most nodes to FILE, as a script\n"
-                  "that ends with it")
+                  "Write the event with the most nodes to FILE, as a script that ends with it")
       ->option_text("FILE")
       ->check(stands_for(ValueKind::file));
   command

@@ -132,7 +132,12 @@ std::string describe_usage_error(CLI::App& program, const CLI::ParseError& error
     return left_over;
   std::string message = error.what();
   const std::string kind = error.get_name();
-  if (kind == "RequiredError" && &used == &program) return "expected a command";
+  if (kind == "RequiredError") {
+    if (&used == &program) return "expected a command";
+    if (CLI::Option* const option = find_subject(used, message)) {
+      return "expected " + describe_value(*option);
+    }
+  }
   if (kind == "RequiresError") {
     if (const auto options = split_at(message, " requires ")) {
       return fmt::format("{} goes with {} only", options->first, options->second);
@@ -153,8 +158,10 @@ std::string describe_usage_error(CLI::App& program, const CLI::ParseError& error
 
 std::string find_unknown_command(CLI::App& program, const std::string& argument) {
   if (argument.starts_with('-') || find_command(program, argument) != nullptr) return {};
-  return fmt::format("unknown command {}{}", quote(argument),
-                     suggestion(argument, command_names(program)));
+  std::string meant = suggestion(argument, command_names(program));
+  // These are commands of many other programs.
+  if (argument == "help" || argument == "version") meant = did_you_mean("--" + argument);
+  return fmt::format("unknown command {}{}", quote(argument), meant);
 }
 
 std::string full_name(const CLI::App& program) {

@@ -1,4 +1,5 @@
-"""Do the pages have the options, exit statuses and commands of --help, no more and no less?"""
+"""Do the pages have what --help has, no more and no less: commands, forms of the command line, options
+with their words and default values, exit statuses?"""
 
 import re
 import subprocess
@@ -26,6 +27,68 @@ def options_in_page(verb):
         names, _, value = item.partition(" Ar ")
         found[", ".join(f"-{name}" for name in names.split(" , Fl "))] = value
     return found
+
+
+def paragraphs_in_page(verb):
+    """By names of the option, all that the page says of it."""
+    options = pages.page_of(verb).read_text().partition(".Sh EXIT STATUS")[0]
+    parts = re.split(r"^\.It Fl (.*)\n", options, flags=re.MULTILINE)
+    return {
+        ", ".join(f"-{name}" for name in item.partition(" Ar ")[0].split(" , Fl ")): text
+        for item, text in zip(parts[1::2], parts[2::2])
+    }
+
+
+def words_of(verb, option):
+    """The words that completion offers as its value, if it is one of a few."""
+    command = [program, "__complete", "fish", "", verb, option, ""]
+    lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+    return {line.partition("\t")[0] for line in lines[1:]} if lines[0] == "words" else set()
+
+
+def defaults_in_help(verb):
+    """By the names of the option, the numbers that count without it."""
+    text = re.sub(r"\s+", " ", help_of(verb))
+    found = re.findall(r" ((?:-\w, ?)?--[\w-]+) (?:(?! --).)*?\(default: ([0-9.]+)\)", text)
+    return {re.sub(r", ?", ", ", names): value for names, value in found}
+
+
+def compare_values(verb):
+    page = pages.page_of(verb).name
+    paragraphs = paragraphs_in_page(verb)
+    for names, value in options_in_help(verb).items():
+        known = words_of(verb, names.split(", ")[-1]) if value and value.isupper() else set()
+        text = paragraphs.get(names, "")
+        listed = set(re.findall(r"^\.It (?:Cm|Ic) (\w+)$", text, re.MULTILINE))
+        lines = re.findall(r"\b(?:Cm|Ic) (.*)$", text, re.MULTILINE)
+        said = {word for line in lines for word in re.findall(r"\w+", line)}
+        if value in ("FORMAT", "VIEW", "STYLE", "KIND") and not (known and known <= said):
+            yield f"{page}: {names} says nothing of {', '.join(sorted(known - said))}"
+        if listed and listed != known:
+            yield f"{page}: {names} has the words {sorted(listed)}, the program {sorted(known)}"
+    for names, number in defaults_in_help(verb).items():
+        if not re.search(rf"\b{re.escape(number)}\b", paragraphs.get(names, "")):
+            yield f"{page}: {names} does not say that {number} is the default"
+
+
+def forms_in_help(verb):
+    usage = help_of(verb).partition("Usage: ")[2].partition("\n\n")[0]
+    forms = [line.split(f"cbc {verb} ")[1] for line in usage.splitlines()]
+    return [form.replace("[OPTION...] ", "") for form in forms]
+
+
+def forms_in_page(verb):
+    """Without the options that may be left out."""
+    synopsis = pages.page_of(verb).read_text().partition(".Sh SYNOPSIS\n")[2].partition("\n.Sh ")[0]
+    forms = []
+    for line in synopsis.splitlines():
+        if line == f".Nm cbc {verb}":
+            forms.append([])
+        elif not re.match(r"\.Op (Fl|Ar OPTION)", line):
+            text = re.sub(r" ?\| ?", "|", line.replace(" ...", "..."))
+            text = re.sub(r"\bFl ", "-", re.sub(r"\b(Ar|Cm) ", "", text.lstrip(".")))
+            forms[-1].append(f"[{text[3:]}]" if text.startswith("Op ") else text)
+    return [" ".join(form) for form in forms]
 
 
 def statuses_in_help(verb):
@@ -70,6 +133,12 @@ def main():
         if len(of_help) < 2:
             faults.append(f"cbc {verb} --help: found no options in it")
         faults += compare(pages.page_of(verb).name, of_help, options_in_page(verb))
+        if verb:
+            faults += compare_values(verb)
+            if forms_in_help(verb) != forms_in_page(verb):
+                faults.append(
+                    f"cbc {verb}: forms {forms_in_help(verb)} in --help, {forms_in_page(verb)} in the page"
+                )
         if statuses_in_help(verb) != statuses_in_page(verb):
             faults.append(f"{pages.page_of(verb).name}: other exit statuses than in --help")
         known |= {name[1:] for names in of_help for name in names.split(", ")}
