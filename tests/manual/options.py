@@ -109,6 +109,17 @@ def commands_in_page():
     return re.findall(r"^\.It Cm ([a-z]+)$", pages.page_of("").read_text(), re.MULTILINE)
 
 
+def schemas_of_program():
+    command = [program, "schema"]
+    lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+    return [line.split()[0] for line in lines]
+
+
+def schemas_in_page():
+    section = pages.page_of("").read_text().partition(".Sh SCHEMAS\n")[2].partition("\n.Sh ")[0]
+    return re.findall(r"^\.It Ic (.*)$", section, re.MULTILINE)
+
+
 def compare(where, of_help, of_page):
     for name in sorted(set(of_help) | set(of_page)):
         if name not in of_page:
@@ -127,6 +138,7 @@ def options_in_text(page):
 def main():
     commands = commands_in_help()
     faults = list(compare("cbc.1", dict.fromkeys(commands), dict.fromkeys(commands_in_page())))
+    faults += compare("cbc.1", dict.fromkeys(schemas_of_program()), dict.fromkeys(schemas_in_page()))
     known = set()
     for verb in ("", *pages.VERBS):
         of_help = options_in_help(verb)
