@@ -20,6 +20,9 @@ std::string describe_protection(const EventRecord& record, const Reason& reason)
     return "runs by request, and a reactive start stops no such task";
   }
   const std::int32_t level = record.search != nullptr ? record.search->protection : record.priority;
+  if (level == 0 && record.verb != Verb::start && record.verb != Verb::stop) {
+    return fmt::format("runs with priority {}, and this event has none", reason.priority);
+  }
   return fmt::format("runs with priority {}, higher than {}", reason.priority, level);
 }
 
@@ -97,6 +100,14 @@ std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const 
     if (reason.kind == Reason::Kind::exclusive) continue;
     if (reason.kind == Reason::Kind::is_protected && protection_of(reason.task) == nullptr)
       continue;
+    // A minimum performance says that the task is required, too.
+    if (reason.kind == Reason::Kind::requires_task &&
+        std::any_of(reasons.begin(), reasons.end(), [&reason](const Reason& other) {
+          return other.kind == Reason::Kind::performance && other.behavior == reason.behavior &&
+                 other.task == reason.task;
+        })) {
+      continue;
+    }
     sentences.push_back(describe_reason(catalog, record, reason));
   }
   return sentences;
