@@ -1,19 +1,24 @@
-# Installs the manual. Under another name of the program its pages are named after that, and so are
-# the references between them and the commands in them; the program calls itself cbc in what it prints.
+# Installs the manual, and puts it into the build, where man finds it beside a program that is on the PATH.
+# Under another name of the program its pages are named after that, and so are the references between them
+# and the commands in them; the program calls itself cbc in what it prints.
 
 foreach(section 1 5 7)
   file(GLOB pages CONFIGURE_DEPENDS man/*.${section})
+  set(built_dir "share/man/man${section}")
+  file(MAKE_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/${built_dir}")
   foreach(page IN LISTS pages)
     get_filename_component(name "${page}" NAME)
-    if(NOT CBC_PROGRAM_NAME STREQUAL "cbc")
+    if(CBC_PROGRAM_NAME STREQUAL "cbc")
+      file(CREATE_LINK "${page}" "${CMAKE_CURRENT_BINARY_DIR}/${built_dir}/${name}" SYMBOLIC)
+    else()
       string(TOUPPER "${CBC_PROGRAM_NAME}" title)
       file(READ "${page}" text)
       string(REGEX REPLACE "(\n\\.(Nm|Xr) |\n\\$ )cbc([- \n])" "\\1${CBC_PROGRAM_NAME}\\3" text "${text}")
       string(REGEX REPLACE "(\n\\.Dt )CBC" "\\1${title}" text "${text}")
       string(REGEX REPLACE "^cbc" "${CBC_PROGRAM_NAME}" name "${name}")
-      file(CONFIGURE OUTPUT "man/${name}" CONTENT "${text}" @ONLY)
+      file(CONFIGURE OUTPUT "${built_dir}/${name}" CONTENT "${text}" @ONLY)
       set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${page}")
-      set(page "${CMAKE_CURRENT_BINARY_DIR}/man/${name}")
+      set(page "${CMAKE_CURRENT_BINARY_DIR}/${built_dir}/${name}")
     endif()
     install(FILES "${page}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man${section}")
   endforeach()

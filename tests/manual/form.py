@@ -3,6 +3,8 @@
 import os
 import re
 import subprocess
+import sys
+from pathlib import Path
 
 import pages
 
@@ -55,6 +57,15 @@ def characters_not_as_typed(page):
             yield f"{page.name}:{number}: escape - ' ` ^ ~ in a literal block: {line}"
 
 
+def found_by_man(page):
+    """With the program of the build on the PATH."""
+    path = f"{Path(sys.argv[1]).parent}:{os.environ['PATH']}"
+    environment = {name: value for name, value in os.environ.items() if name != "MANPATH"}
+    command = ["man", "-w", page.suffix[1:], page.stem]
+    result = subprocess.run(command, env={**environment, "PATH": path}, capture_output=True, text=True)
+    return result.returncode == 0 and Path(result.stdout.strip()).samefile(page)
+
+
 def main():
     pages.require("man", "mandoc")
     if not is_man_db():
@@ -64,6 +75,8 @@ def main():
         faults += [f"{page.name}: man: {line}" for line in complaints_of_man(page)]
         faults += complaints_of_mandoc(page)
         faults += characters_not_as_typed(page)
+        if not found_by_man(page):
+            faults.append(f"{page.name}: man does not find it beside the program")
     pages.finish(faults)
 
 

@@ -10,11 +10,11 @@ cmake -S "$source" -B "$work" -D CBC_BUILD_BENCHMARKS=OFF -D CBC_BUILD_TESTS=OFF
 
 for page in "$source"/man/*.[1-9]; do
   name=other-name$(basename -- "$page" | sed 's/^cbc//')
-  [[ $(grep -cF 'other-name' "$work/man/$name") -gt 1 ]]
+  [[ $(grep -cF 'other-name' "$work/share/man/man${page##*.}/$name") -gt 1 ]]
   # Nothing but names is different.
-  diff <(sed -E 's/other-name/cbc/; s/OTHER-NAME/CBC/' "$work/man/$name") "$page"
+  diff <(sed -E 's/other-name/cbc/; s/OTHER-NAME/CBC/' "$work/share/man/man${page##*.}/$name") "$page"
 done
-if grep -nE '^(\.(Nm|Xr|Dt) |\$ )(cbc|CBC)($|[- ])' "$work"/man/*; then
+if grep -nE '^(\.(Nm|Xr|Dt) |\$ )(cbc|CBC)($|[- ])' "$work"/share/man/man?/*; then
   echo "check_name.sh: FAILED: these lines have the usual name"
   exit 1
 fi
