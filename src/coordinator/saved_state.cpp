@@ -1,5 +1,6 @@
 #include "coordinator/saved_state.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -9,6 +10,7 @@
 
 #include "cbc/event.h"
 #include "compiled/identity.h"
+#include "text/json_nesting.h"
 #include "text/quote.h"
 
 namespace cbc {
@@ -198,6 +200,11 @@ std::string write_state(const CompiledCatalog& catalog, const Snapshot& snapshot
 
 StateReading read_state(std::string_view text, const CompiledCatalog& catalog) {
   StateReading reading;
+  constexpr std::size_t deepest = 6;  // no state has more
+  if (nesting_of(text) > deepest) {
+    reading.error = "it is nested too deep";
+    return reading;
+  }
   const Json root = Json::parse(text, nullptr, false);
   if (root.is_discarded()) {
     reading.error = "it is no JSON, or damaged";

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <unordered_map>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "report/sweep_json.h"
 #include "sweep/merge.h"
+#include "text/json_nesting.h"
 #include "text/quote.h"
 
 namespace cbc {
@@ -289,15 +291,10 @@ class SweepReader {
 }  // namespace
 
 std::variant<SweepResult, std::string> sweep_from_json(std::string_view text) {
-  constexpr int deepest = 5;  // no sweep has more; so deep nesting costs no memory
-  bool is_too_deep = false;
-  const auto accept = [&](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
-    if (depth > deepest) is_too_deep = true;
-    return depth <= deepest;
-  };
-  const Json root = Json::parse(text, accept, false);
+  constexpr std::size_t deepest = 6;  // no sweep has more
+  if (nesting_of(text) > deepest) return "it is nested too deep";
+  const Json root = Json::parse(text, nullptr, false);
   if (root.is_discarded()) return "it is no JSON, or cut off";
-  if (is_too_deep) return "it is nested too deep";
   return SweepReader().read(root);
 }
 
