@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cerrno>
-#include <cstddef>
 #include <cstring>
 #include <deque>
 #include <fcntl.h>
@@ -22,7 +21,6 @@
 #include "cli/stream_start.h"
 #include "report/event_stream.h"
 #include "script/event_log.h"
-#include "text/json_nesting.h"
 #include "text/quote.h"
 
 namespace cbc::cli {
@@ -34,8 +32,6 @@ constexpr std::size_t longest_line = std::size_t{64} << 20;
 /// The names of the members that differ, "'running', 'changes'".
 std::string find_differences(std::string_view logged, std::string_view found) {
   using Json = nlohmann::ordered_json;
-  constexpr std::size_t deepest = 100;  // parameters have up to 64 levels
-  if (nesting_of(logged) > deepest) return "the form of the line";
   const Json left = Json::parse(logged, nullptr, false);
   const Json right = Json::parse(found, nullptr, false);
   std::string names;
