@@ -8,47 +8,14 @@
 
 #include "cli/commands.h"
 #include "cli/completion_names.h"
+#include "cli/typed_line.h"
 #include "cli/value_kind.h"
 
 namespace cbc::cli {
 namespace {
 
-/// The words before the last one, understood as far as they can be.
-struct TypedLine {
-  CLI::App* command = nullptr;           ///< null: it comes next
-  bool is_unknown = false;               ///< there is no such command
-  CLI::Option* pending = nullptr;        ///< the last word is its value
-  bool has_separator = false;            ///< "--": no options come any more
-  std::vector<std::string> positionals;  ///< of the command
-};
-
-bool is_option(const std::string& word) { return word.size() > 1 && word.front() == '-'; }
-
-TypedLine parse_words(CLI::App& program, const std::vector<std::string>& words) {
-  TypedLine line;
-  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
-    const std::string& word = words[i];
-    if (line.command == nullptr) {
-      if (is_option(word)) continue;
-      line.command = find_command(program, word);
-      line.is_unknown = line.command == nullptr;
-      if (line.is_unknown) return line;
-    } else if (line.has_separator || !is_option(word)) {
-      line.positionals.push_back(word);
-    } else if (word == "--") {
-      line.has_separator = true;
-    } else if (CLI::Option* const option = line.command->get_option_no_throw(word);
-               option != nullptr && takes_value(*option)) {
-      if (i + 2 == words.size()) line.pending = option;
-      ++i;  // its value
-    }
-  }
-  return line;
-}
-
 /// What an option or a command does, in a few words of its help.
 std::string first_words(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
   std::size_t end = text.size();
   for (const char* const stop : {". ", "; ", ": ", " ("}) end = std::min(end, text.find(stop));
   text.resize(end);
@@ -87,6 +54,35 @@ void offer_files(std::vector<std::string_view> suffixes, Completion& completion)
   completion.suffixes = std::move(suffixes);
 }
 
+/// The names come out of a catalog on the line, or of one that a script there names.
+void offer_names_of(const TypedLine& line, bool with_behaviors, Completion& completion) {
+  const std::vector<std::string>& paths = line.files.empty() ? line.scripts : line.files;
+  if (!paths.empty()) offer_names(names_of_file(paths.front(), with_behaviors), completion);
+}
+
+void offer_kind(ValueKind kind, const TypedLine& line, Completion& completion) {
+  switch (kind) {
+    case ValueKind::catalog:
+      return offer_files({"yaml", "yml", "cbc"}, completion);
+    case ValueKind::script:
+      return offer_files({"yaml", "yml", "json"}, completion);
+    case ValueKind::catalog_or_script:
+      return offer_files({"yaml", "yml", "json", "cbc"}, completion);
+    case ValueKind::shard:
+      return offer_files({"json"}, completion);
+    case ValueKind::file:
+      return offer_files({}, completion);
+    case ValueKind::rule:
+      return offer_names(rule_names_with_help(), completion);
+    case ValueKind::schema:
+      return offer_names(schema_names_with_help(), completion);
+    case ValueKind::task:
+      return offer_names_of(line, false, completion);
+    case ValueKind::task_or_behavior:
+      return offer_names_of(line, true, completion);
+  }
+}
+
 void offer_values(CLI::Option& option, const TypedLine& line, const std::string& typed,
                   Completion& completion) {
   if (option.get_delimiter() != '\0') {
@@ -95,24 +91,7 @@ void offer_values(CLI::Option& option, const TypedLine& line, const std::string&
   }
   for (const std::string& choice : choices_of(option))
     completion.candidates.push_back({choice, ""});
-  const std::optional<ValueKind> kind = kind_of(option);
-  if (!kind) return;
-  switch (*kind) {
-    case ValueKind::catalog:
-      return offer_files({"yaml", "yml", "cbc"}, completion);
-    case ValueKind::script:
-      return offer_files({"yaml", "yml"}, completion);
-    case ValueKind::file:
-      return offer_files({}, completion);
-    case ValueKind::rule:
-      return offer_names(rule_names_with_help(), completion);
-    case ValueKind::schema:
-      return offer_names(schema_names_with_help(), completion);
-    case ValueKind::task:
-      return offer_names(names_of_catalog(line.positionals, false), completion);
-    case ValueKind::task_or_behavior:
-      return offer_names(names_of_catalog(line.positionals, true), completion);
-  }
+  if (const auto kind = kind_of(option)) offer_kind(*kind, line, completion);
 }
 
 /// The positional argument that comes next; null if all are there.
@@ -128,11 +107,12 @@ CLI::Option* next_positional(CLI::App& command, std::size_t given) {
 
 }  // namespace
 
-Completion complete(CLI::App& program, const std::vector<std::string>& words) {
+Completion complete(CLI::App& program, const std::vector<std::string>& words,
+                    const std::vector<std::string>& behind) {
   Completion completion;
   if (words.empty()) return completion;
   const std::string& last = words.back();
-  const TypedLine line = parse_words(program, words);
+  const TypedLine line = understand_line(program, words, behind);
   if (line.is_unknown) return completion;
   const bool is_dash = last.starts_with('-') && !line.has_separator;
   if (line.command == nullptr) {
@@ -145,15 +125,18 @@ Completion complete(CLI::App& program, const std::vector<std::string>& words) {
   }
   const std::size_t equals = last.find('=');
   if (is_dash && equals != std::string::npos) {
+    if (!last.starts_with("--")) return completion;  // short options take no '='
     CLI::Option* const option = line.command->get_option_no_throw(last.substr(0, equals));
     if (option == nullptr || !takes_value(*option)) return completion;
     completion.prefix = last.substr(0, equals + 1);
     offer_values(*option, line, last.substr(equals + 1), completion);
     return completion;
   }
-  CLI::Option* const positional = next_positional(*line.command, line.positionals.size());
-  if (is_dash || (positional == nullptr && !line.has_separator)) {
+  CLI::Option* const positional = next_positional(*line.command, line.positionals);
+  if (is_dash || (positional == nullptr && last.empty() && !line.has_separator)) {
     offer_options(*line.command, completion);
+  } else if (positional != nullptr && line.argument) {
+    offer_kind(*line.argument, line, completion);
   } else if (positional != nullptr) {
     offer_values(*positional, line, last, completion);
   }

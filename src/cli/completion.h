@@ -11,7 +11,7 @@ class App;
 
 namespace cbc::cli {
 
-/// What can stand at the end of a command line that is being typed.
+/// What can stand where a word of a command line is being typed.
 struct Completion {
   struct Candidate {
     std::string text;  ///< without `prefix`
@@ -24,8 +24,9 @@ struct Completion {
 };
 
 /// Derived from the definition of the command line. `words`: those after the name of the program;
-/// the last one, which may be empty, is being typed. Where names out of a catalog can follow, the
-/// catalog is read.
-[[nodiscard]] Completion complete(CLI::App& program, const std::vector<std::string>& words);
+/// the last one, which may be empty, is being typed. `behind`: the words behind that one. Where
+/// names out of a catalog can follow, the catalog is read.
+[[nodiscard]] Completion complete(CLI::App& program, const std::vector<std::string>& words,
+                                  const std::vector<std::string>& behind);
 
 }  // namespace cbc::cli

@@ -4,11 +4,15 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <system_error>
 
 #include "cbc/rules.h"
 #include "cli/drawable.h"
+#include "cli/file_kind.h"
+#include "cli/input_files.h"
+#include "cli/named_catalog.h"
 #include "cli/schemas.h"
 
 namespace cbc::cli {
@@ -29,6 +33,18 @@ bool is_readable_file(const std::string& path) {
          std::filesystem::file_size(path, error) <= largest_completed && !error;
 }
 
+std::optional<InputFile> read_if_readable(InputFiles& files, const std::string& path) {
+  return is_readable_file(path) ? files.read(path) : std::nullopt;
+}
+
+/// The catalog at the path, or the one that the script there names.
+std::optional<InputFile> read_catalog_of(InputFiles& files, const std::string& path) {
+  std::optional<InputFile> file = read_if_readable(files, path);
+  if (!file || file->document == nullptr || !is_script(*file->document)) return file;
+  const std::optional<std::string> named = path_of_catalog(path, *file->document);
+  return named ? read_if_readable(files, *named) : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<CompletionName> rule_names_with_help() {
@@ -47,12 +63,11 @@ std::vector<CompletionName> schema_names_with_help() {
   return names;
 }
 
-std::vector<CompletionName> names_of_catalog(const std::vector<std::string>& paths,
-                                             bool with_behaviors) {
-  if (paths.empty()) return {};
-  const std::string path = expand_home(paths.front());
-  if (!is_readable_file(path)) return {};
-  const std::unique_ptr<Drawable> drawable = read_drawable(path);
+std::vector<CompletionName> names_of_file(const std::string& path, bool with_behaviors) {
+  InputFiles files;
+  const std::optional<InputFile> catalog = read_catalog_of(files, expand_home(path));
+  if (!catalog) return {};
+  const std::unique_ptr<Drawable> drawable = to_drawable(files, *catalog);
   if (drawable == nullptr) return {};
   std::vector<CompletionName> names;
   std::set<std::string> known;

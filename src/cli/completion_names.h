@@ -15,9 +15,10 @@ struct CompletionName {
 
 [[nodiscard]] std::vector<CompletionName> schema_names_with_help();
 
-/// The tasks, on request also the behaviors, of the first catalog of the paths: of a faulty one, as
-/// far as it is understood. Complaints go to standard error.
-[[nodiscard]] std::vector<CompletionName> names_of_catalog(const std::vector<std::string>& paths,
-                                                           bool with_behaviors);
+/// The tasks, on request also the behaviors, of the catalog in a file, or of the one that the
+/// script in it names: of a faulty catalog, as far as it is understood. Complaints go to standard
+/// error.
+[[nodiscard]] std::vector<CompletionName> names_of_file(const std::string& path,
+                                                        bool with_behaviors);
 
 }  // namespace cbc::cli

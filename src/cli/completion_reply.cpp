@@ -1,5 +1,6 @@
 #include "cli/completion_reply.h"
 
+#include <charconv>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -76,16 +77,31 @@ TypedWord typed_word(const std::string& word, const std::string& kept) {
   return typed;
 }
 
-void print_words(const Completion& completion, const TypedWord& typed, bool is_bash) {
+char to_lower(char character) {
+  return character >= 'A' && character <= 'Z' ? static_cast<char>(character - 'A' + 'a')
+                                              : character;
+}
+
+/// Whether a candidate has all letters of what is typed, in this order and in any case. fish takes
+/// it then, if it is the only one; it would find nearly all letters in the help, too.
+bool has_letters_of(std::string_view candidate, std::string_view typed) {
+  for (const char character : candidate) {
+    if (!typed.empty() && to_lower(character) == to_lower(typed.front())) typed.remove_prefix(1);
+  }
+  return typed.empty();
+}
+
+void print_words(const Completion& completion, const TypedWord& typed, std::string_view shell) {
   fmt::print("words\n");
   for (const auto& [text, help] : completion.candidates) {
     const std::string whole = completion.prefix + text;
     if (text.empty() || printable(whole) != whole) continue;
-    if (!is_bash) {
-      fmt::print("{}\t{}\n", whole, printable(help));
-    } else if (whole.starts_with(typed.plain)) {
+    if (shell == "bash") {
+      if (!whole.starts_with(typed.plain)) continue;
       const auto quoted = quote_for_bash(whole.substr(typed.kept.size()), typed.quote_mark);
       if (quoted) fmt::print("{}\n", *quoted);
+    } else if (shell == "zsh" || has_letters_of(whole, typed.plain)) {
+      fmt::print("{}\t{}\n", whole, printable(help));
     }
   }
 }
@@ -98,19 +114,30 @@ void print_files(const Completion& completion, const TypedWord& typed) {
   fmt::print("\n{}\n{}\n", printable(typed.plain.substr(skipped)), printable(kept));
 }
 
+/// 0 if it is no number.
+std::size_t parse_place(std::string_view text) {
+  std::size_t place = 0;
+  std::from_chars(text.data(), text.data() + text.size(), place);
+  return place;
+}
+
 }  // namespace
 
 void reply_to_shell(CLI::App& program, const std::vector<std::string>& arguments) {
-  if (arguments.size() < 3) return;
-  const bool is_bash = arguments[0] == "bash";
-  const TypedWord typed = typed_word(arguments.back(), arguments[1]);
-  std::vector<std::string> words(arguments.begin() + 2, arguments.end() - 1);
-  if (is_bash) {
+  constexpr std::size_t first_word = 3;
+  if (arguments.size() <= first_word) return;
+  const std::size_t place = parse_place(arguments[2]);
+  if (place == 0 || place > arguments.size() - first_word) return;
+  const std::string& shell = arguments[0];
+  std::vector<std::string> words(arguments.begin() + first_word, arguments.end());
+  const TypedWord typed = typed_word(words[place - 1], arguments[1]);
+  if (shell == "bash") {
     for (std::string& word : words) word = unquote(word);
   }
-  words.push_back(typed.plain);
-  const Completion completion = complete(program, words);
-  completion.is_file ? print_files(completion, typed) : print_words(completion, typed, is_bash);
+  const auto behind = words.begin() + static_cast<std::ptrdiff_t>(place);
+  words[place - 1] = typed.plain;
+  const Completion completion = complete(program, {words.begin(), behind}, {behind, words.end()});
+  completion.is_file ? print_files(completion, typed) : print_words(completion, typed, shell);
 }
 
 }  // namespace cbc::cli

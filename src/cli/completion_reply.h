@@ -12,11 +12,12 @@ namespace cbc::cli {
 /// The first argument by which the scripts of `cbc completion` call the program.
 inline constexpr const char* complete_argument = "__complete";
 
-/// Answers such a call, with what can stand at the end of a command line.
+/// Answers such a call, with what can stand where a word is being typed.
 ///
-/// Arguments: the shell; of the last word, as it is typed, what the shell does not replace (bash
-/// replaces what follows '=' or ':'); the words after the name of the program. With the quotes of
-/// the shell are: the last word, for bash all of them.
+/// Arguments: the shell; of the word that is being typed what the shell does not replace (bash
+/// replaces what follows '=' or ':', or begins with '@'); the number of that word; all words after
+/// the name of the program. With the quotes of the shell are: the word that is being typed, for
+/// bash all of them.
 ///
 /// The first line of the answer is "words", and a candidate follows on each line, with a tab before
 /// its help: for bash, which has no help, quoted as it has to be inserted. Or it is "files", with

@@ -13,32 +13,45 @@ namespace {
 constexpr std::string_view bash_script =
     R"script(# Completion of PROGRAM for bash, printed by 'PROGRAM completion bash'.
 _PROGRAM() {
-  local program=${1:-${COMP_WORDS[0]}} line=${COMP_LINE-} part='' gap kept='' suffix i
+  local program=${1:-${COMP_WORDS[0]}} line=${COMP_LINE-} part gap last='' suffix i
+  local before kept='' typed='' place=0 left=$((${#line} - ${COMP_POINT:-0}))
   local IFS=$' \t\n'
   local -a words=() answer=() suffixes=()
   program=${program/#\~\//$HOME/}
   COMPREPLY=()
 
-  # bash splits words at '=' and ':'. They are put together again.
+  # bash splits words at '=', ':' and '@'. They are put together again.
   line=${line#*"${COMP_WORDS[0]}"}
-  for ((i = 1; i <= COMP_CWORD; i++)); do
+  for ((i = 1; i < ${#COMP_WORDS[@]}; i++)); do
     part=${COMP_WORDS[i]}
     gap=${line%%[![:space:]]*}
     line=${line#"$gap"}
+    if [[ -n $part ]] && ((i == COMP_CWORD && left > ${#line})); then
+      words+=('') # bash takes a word that is a blank away
+      place=${#words[@]}
+    fi
     line=${line#"$part"}
-    if [[ $i -gt 1 && -z $gap && -n $part ]] &&
-      [[ -n ${COMP_LINE-} || $part == '=' || ${COMP_WORDS[i - 1]} == '=' ]]; then
-      kept=${words[-1]}
+    before=''
+    if [[ -z $gap && -n $part && -n $last ]] &&
+      [[ -n ${COMP_LINE-} || $part == '=' || $last == '=' ]]; then
+      before=${words[-1]}
       words[-1]+=$part
     else
-      kept=''
       words+=("$part")
     fi
+    last=$part
+    if ((i == COMP_CWORD && place == 0)); then
+      place=${#words[@]} typed=${words[-1]} kept=$before
+      [[ -n $part && -z ${part//[=:@]/} ]] && kept=$typed
+      kept=${kept%@} # of these only '@' is replaced
+    fi
   done
-  ((${#words[@]})) || return 0
-  [[ $part == [=:]* ]] && kept=${words[-1]}
+  ((place)) || return 0
+  words[place - 1]=$typed # not with parts behind the cursor
 
-  mapfile -t answer < <("$program" __complete bash "$kept" "${words[@]}" 2>/dev/null </dev/null)
+  mapfile -t answer < <(
+    "$program" __complete bash "$kept" "$place" "${words[@]}" 2>/dev/null </dev/null
+  )
   case ${answer[0]-} in
     words) COMPREPLY=("${answer[@]:1}") ;;
     files*)
@@ -55,6 +68,11 @@ _PROGRAM() {
       if ((${#COMPREPLY[@]} == 0)); then
         mapfile -t COMPREPLY < <(compgen -f -- "${answer[1]}")
       fi
+      if [[ -z ${answer[1]} ]]; then
+        for i in "${!COMPREPLY[@]}"; do # not what would be an option
+          [[ ${COMPREPLY[i]} == -* ]] && unset "COMPREPLY[i]"
+        done
+      fi
       COMPREPLY=("${COMPREPLY[@]#"${answer[2]}"}")
       ;;
   esac
@@ -68,10 +86,10 @@ constexpr std::string_view zsh_script =
 # Completion of PROGRAM for zsh, printed by 'PROGRAM completion zsh'.
 _PROGRAM() {
   local program=${(Q)words[1]} line
-  local -a answer names lines
+  local -a answer names lines ignored
   program=${program/#\~\//$HOME/}
-  answer=("${(@f)$("$program" __complete zsh '' "${(@Q)words[2,CURRENT-1]}" "$PREFIX" \
-    2>/dev/null </dev/null)}")
+  answer=("${(@f)$("$program" __complete zsh '' $((CURRENT - 1)) "${(@Q)words[2,CURRENT-1]}" \
+    "$PREFIX" "${(@Q)words[CURRENT+1,-1]}" 2>/dev/null </dev/null)}")
   case $answer[1] in
     words)
       for line in "${(@)answer[2,-1]}"; do
@@ -86,10 +104,11 @@ _PROGRAM() {
       ;;
     files*)
       [[ $PREFIX == -*=* ]] && compset -P 1 '*='
+      [[ -z $PREFIX ]] && ignored=(-F '(-*)') # not what would be an option
       if [[ $answer[1] == files ]]; then
-        _files
+        _files $ignored
       else
-        _files -g "*.(${(j:|:)${(s: :)answer[1]#files }})(-.)"
+        _files $ignored -g "*.(${(j:|:)${(s: :)answer[1]#files }})(-.)"
       fi
       ;;
   esac
@@ -107,7 +126,9 @@ function __PROGRAM_complete
     set -l words (commandline -opc)
     set -l current (commandline -ct)
     set -l program (string replace -r '^~/' "$HOME/" -- $words[1])
-    set -l answer ($program __complete fish '' $words[2..] "$current" 2>/dev/null </dev/null)
+    # fish does not tell what is behind the cursor.
+    set -l answer ($program __complete fish '' (count $words) $words[2..] "$current" \
+        2>/dev/null </dev/null)
     switch "$answer[1]"
         case words
             printf '%s\n' $answer[2..]
@@ -117,6 +138,15 @@ function __PROGRAM_complete
             set -l suffixes (string split -n ' ' (string sub -s 6 -- $answer[1]))
             set -l files (complete -C "__fish_command_without_completions $path" |
                 string replace -r '\t.*' '')
+            if string match -q -r '[:=]' -- "$path" # then fish adds all files behind it
+                set -l existing
+                for file in $files
+                    test -e (string replace -r '^~/' "$HOME/" -- $file); and set -a existing $file
+                end
+                set files $existing
+            end
+            # Not what would be an option.
+            test -n "$current"; or set files (string match -v -- '-*' $files)
             set -l wanted $files
             if set -q suffixes[1]
                 set wanted (string match -r -- '.*(?:/|\.(?:'(string join '|' $suffixes)'))$' $files)

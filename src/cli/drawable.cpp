@@ -41,15 +41,17 @@ std::unique_ptr<Drawable> from_text(InputFiles& files, const InputFile& file) {
 
 }  // namespace
 
+std::unique_ptr<Drawable> to_drawable(InputFiles& files, const InputFile& file) {
+  if (file.document != nullptr) return from_text(files, file);
+  std::optional<CompiledFile> compiled = load(file.compiled);
+  return compiled ? from_compiled(std::move(compiled->catalog)) : nullptr;
+}
+
 std::unique_ptr<Drawable> read_drawable(const std::string& path) {
   InputFiles files;
   std::unique_ptr<Drawable> drawable;
   if (const std::optional<InputFile> file = files.read_catalog(path)) {
-    if (file->document != nullptr) {
-      drawable = from_text(files, *file);
-    } else if (std::optional<CompiledFile> compiled = load(file->compiled)) {
-      drawable = from_compiled(std::move(compiled->catalog));
-    }
+    drawable = to_drawable(files, *file);
   }
   files.print_findings();
   return drawable;

@@ -11,6 +11,9 @@
 
 namespace cbc::cli {
 
+struct InputFile;
+class InputFiles;
+
 /// What can be drawn of a catalog, and what it was made of.
 struct Drawable {
   std::shared_ptr<const CompiledCatalog> compiled;  ///< of a catalog without errors
@@ -23,5 +26,8 @@ struct Drawable {
 /// Reads a catalog, a compiled one or YAML, which may have errors, and prints what is wrong with
 /// it. Null if nothing can be drawn.
 [[nodiscard]] std::unique_ptr<Drawable> read_drawable(const std::string& path);
+
+/// The same of a catalog that was read from one of the files; what is wrong with it is left there.
+[[nodiscard]] std::unique_ptr<Drawable> to_drawable(InputFiles& files, const InputFile& file);
 
 }  // namespace cbc::cli

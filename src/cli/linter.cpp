@@ -1,7 +1,6 @@
 #include "cli/linter.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "cli/exit_status.h"
 #include "cli/file_kind.h"
 #include "cli/input.h"
+#include "cli/named_catalog.h"
 #include "cli/output.h"
 #include "compiled/compile.h"
 #include "lint/controls.h"
@@ -20,8 +20,6 @@
 
 namespace cbc::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 void complain_of_catalog(const std::string& name) {
   complain(fmt::format("{} is a catalog; expected an event script", quote(name)));
@@ -213,10 +211,8 @@ void Linter::lint_script_text(const std::string& path, std::string text,
 /// The catalog that a script runs on; nullptr if there is none that is good, which is complained
 /// of.
 Linter::CatalogPointer Linter::catalog_of(const yaml::Document& script, const std::string& given) {
-  std::string catalog = given;
-  if (const auto named = catalog_of_script(script); catalog.empty() && named) {
-    catalog = (fs::path(script.file()).parent_path() / *named).lexically_normal().string();
-  }
+  const std::string catalog =
+      given.empty() ? path_of_catalog(script.file(), script).value_or("") : given;
   if (catalog.empty()) {
     complain(
         fmt::format("{} is an event script that names no catalog; give one: "

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -44,6 +45,19 @@ constexpr const char* program_footer =
     "error.\n"
     "\n"
     "Read more: 'cbc COMMAND --help', man cbc, man cbc-catalog (how to write a catalog)";
+
+/// The arguments of a command without "--", behind which CLI11 gives what follows to the program,
+/// if the command has a file already: all of it are files, so a path that does not look like an
+/// option does.
+std::vector<std::string> without_separator(std::vector<std::string> arguments) {
+  const auto separator = std::find(arguments.begin(), arguments.end(), "--");
+  if (separator == arguments.end()) return arguments;
+  for (auto file = separator + 1; file != arguments.end(); ++file) {
+    if (file->size() > 1 && file->front() == '-') file->insert(0, "./");
+  }
+  arguments.erase(separator);
+  return arguments;
+}
 
 int run(int argc, char** argv) {
   using namespace cbc::cli;
@@ -84,9 +98,15 @@ int run(int argc, char** argv) {
       complain(unknown + "\nSee 'cbc --help'.");
       return exit_unusable;
     }
+    if (const std::string misuse = find_short_option_with_equals(program, arguments);
+        !misuse.empty()) {
+      return usage_error(arguments.front(), misuse);
+    }
   }
   try {
-    program.parse(argc, argv);
+    std::vector<std::string> left = without_separator(arguments);
+    std::reverse(left.begin(), left.end());  // so CLI11 wants them
+    program.parse(std::move(left));
   } catch (const CLI::ParseError& error) {
     std::cout
         << std::unitbuf;  // help is written here, and must have arrived before the check below

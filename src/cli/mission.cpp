@@ -1,7 +1,6 @@
 #include "cli/mission.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <string_view>
 #include <utility>
 
@@ -9,24 +8,11 @@
 
 #include "cli/file_kind.h"
 #include "cli/input.h"
+#include "cli/named_catalog.h"
 #include "script/reader.h"
 #include "text/quote.h"
 
 namespace cbc::cli {
-namespace {
-
-namespace fs = std::filesystem;
-
-/// Empty if the script names none.
-std::optional<std::string> path_of_catalog(const std::string& script_path,
-                                           const yaml::Document& script) {
-  const std::optional<std::string> named = catalog_of_script(script);
-  if (!named) return std::nullopt;
-  return (fs::path(script_path).parent_path() / *named).lexically_normal().string();
-}
-
-}  // namespace
-
 std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::string>& paths) {
   std::size_t first_script = 0;
   const auto from_stdin = std::count(paths.begin(), paths.end(), "-");

@@ -170,7 +170,7 @@ void add_solve_command(CLI::App& program, int& status) {
                    "The catalog (YAML or compiled), then event scripts: files, folders, or - for "
                    "standard input. Without a catalog each script names its own (catalog: FILE).")
       ->option_text("...")
-      ->check(stands_for(ValueKind::catalog));
+      ->check(stands_for(ValueKind::catalog_or_script));
   command
       ->add_option("--format", options->format,
                    "text (the default), json, junit, github; or jsonl: each event as a line, as "

@@ -84,7 +84,8 @@ void add_sweep_options(CLI::App& command, SweepOptions& options) {
                                  .add_flag("--merge", options.merge,
                                            "Merge the files: the results of all shards, as JSON, "
                                            "become that of one run")
-                                 ->option_text(" ");
+                                 ->option_text(" ")
+                                 ->check(stands_for(ValueKind::shard));
   command
       .add_option("--slowest", options.slowest,
                   "Write the event with the most nodes to FILE, as a script that ends with it")

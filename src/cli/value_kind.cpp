@@ -15,9 +15,11 @@ namespace {
 
 // A validator is what CLI11 lets one attach to an option. Its name says what it is.
 constexpr const char* choice_name = "choice";
-constexpr std::array<std::pair<ValueKind, const char*>, 7> kind_names = {
+constexpr std::array<std::pair<ValueKind, const char*>, 9> kind_names = {
     {{ValueKind::catalog, "a catalog"},
      {ValueKind::script, "a script"},
+     {ValueKind::catalog_or_script, "a catalog or a script"},
+     {ValueKind::shard, "the result of a shard"},
      {ValueKind::file, "a file"},
      {ValueKind::rule, "a rule"},
      {ValueKind::schema, "a schema"},

@@ -11,12 +11,14 @@
 namespace cbc::cli {
 
 enum class ValueKind {
-  catalog,  ///< a file with a catalog or a script, or a folder of them
-  script,   ///< a file with a script
-  file,     ///< any file
-  rule,     ///< the name of a rule
-  schema,   ///< the name of a schema
-  task,     ///< the name of a task of the catalog
+  catalog,            ///< a file with a catalog or a script, or a folder of them
+  script,             ///< a file with a script
+  catalog_or_script,  ///< either, or a folder of scripts
+  shard,   ///< a file with the result of a shard; of a flag: it makes the arguments such files
+  file,    ///< any file
+  rule,    ///< the name of a rule
+  schema,  ///< the name of a schema
+  task,    ///< the name of a task of the catalog
   task_or_behavior,
 };
 

@@ -1,7 +1,8 @@
 #!/bin/sh
 # check.sh SHELL PROGRAM FOLDER: completes command lines of PROGRAM in a real shell, in a new FOLDER
 # with a catalog whose names are traps. What is offered must be what expected.txt has (list.SHELL
-# asks for it), and what a person gets who presses the tab key must be what typing.py says.
+# asks for it), and what a person gets who presses the tab key must be what typing.py says, also with
+# the script installed as 'cbc completion --help' has it.
 #
 # Exit status: 0 all is well, 1 it is not, 77 skipped: a tool is missing.
 set -eu
@@ -22,9 +23,14 @@ mkdir -p -- "$folder/bin" "$folder/home"
 ln -s -- "$program" "$folder/bin/cbc"
 cp -R -- "$here/files" "$folder/files"
 cp -- "$here/files/robot.yaml" "$folder/files/my dir/"
-"$program" completion "$shell" >"$folder/_cbc"
+# Names that not every checkout could hold.
+mkdir -- "$folder/files/dash"
+cp -- "$here/files/arm@2.yaml" "$folder/files/x:y=z.yaml"
+cp -- "$here/files/arm@2.yaml" "$folder/files/dash/-dash.yaml"
+cp -- "$here/files/arm@2.yaml" "$folder/files/dash/robot.yaml"
 export PATH="$folder/bin:$PATH" HOME="$folder/home" LC_ALL=C.UTF-8 TERM=dumb
 unset XDG_CONFIG_HOME XDG_DATA_HOME ZDOTDIR BASH_ENV ENV
+cbc completion "$shell" >"$folder/_cbc"
 cd -- "$folder/files"
 
 sed -n 's/^\$ //p' "$here/expected.txt" | while IFS= read -r line; do

@@ -5,7 +5,7 @@ source $1
 compadd() {
   local name
   for name in ${(P)@[-1]}; do
-    [[ $name == "$PREFIX"* ]] && print -r -- $name
+    if [[ $name == "$PREFIX"* ]]; then print -r -- $name; fi
   done
 }
 

@@ -41,7 +41,7 @@ def paragraphs_in_page(verb):
 
 def words_of(verb, option):
     """The words that completion offers as its value, if it is one of a few."""
-    command = [program, "__complete", "fish", "", verb, option, ""]
+    command = [program, "__complete", "fish", "", "3", verb, option, ""]
     lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
     return {line.partition("\t")[0] for line in lines[1:]} if lines[0] == "words" else set()
 
