@@ -1,8 +1,8 @@
 #[[
 cbc_add_catalog(TARGET FILE... [OUTPUT FILE...])
 
-Checks and compiles catalogs whenever the target, or all, is built and one of them has changed.
-A catalog with errors fails the build, with the findings of `cbc lint`.
+Checks and compiles catalogs whenever the target, or all, is built and one of them, or the settings that
+apply to it, have changed. A catalog with errors fails the build, with the findings of `cbc lint`.
 
 Each FILE is relative to the current source folder. The compiled catalog of DIR/NAME.yaml is NAME.cbc
 in the current binary folder, unless OUTPUT names others, as many as there are catalogs.
@@ -28,40 +28,60 @@ function(cbc_add_catalog target)
   endif()
 
   set(compiled_catalogs)
+  set(all_settings)
+  set(list_of_settings "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${target}.settings")
   foreach(catalog output IN ZIP_LISTS catalogs outputs)
     get_filename_component(path "${catalog}" ABSOLUTE)
     get_filename_component(compiled "${output}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_BINARY_DIR}")
     get_filename_component(compiled_dir "${compiled}" DIRECTORY)
+    _cbc_check_source(${target} "${path}")
+    if(compiled IN_LIST compiled_catalogs)
+      message(FATAL_ERROR "cbc_add_catalog(${target}): two catalogs would be compiled to ${compiled}; "
+                          "expected OUTPUT with a file for each")
+    endif()
     file(MAKE_DIRECTORY "${compiled_dir}")
     _cbc_find_settings(settings "${path}")
+    list(APPEND all_settings ${settings})
     # The compiled catalog has the name of its source in it: with the relative one it is the same
-    # wherever the project is built.
+    # wherever the project is built. What cbc compile has to say about the catalog, cbc lint has said
+    # before; only if something else is wrong, a second run tells it.
     add_custom_command(
       OUTPUT "${compiled}"
       COMMAND cbc::cbc lint "${path}"
-      COMMAND cbc::cbc compile "${catalog}" -o "${compiled}"
-      DEPENDS "${path}" ${settings} "$<TARGET_FILE:cbc::cbc>"
+      COMMAND sh -c [["$@" 2>/dev/null || "$@"]] sh "$<TARGET_FILE:cbc::cbc>" compile "${catalog}" -o "${compiled}"
+      DEPENDS "${path}" ${settings} "${list_of_settings}" "$<TARGET_FILE:cbc::cbc>"
       WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}"
       COMMENT "Compiling catalog ${catalog}"
       VERBATIM)
     list(APPEND compiled_catalogs "${compiled}")
   endforeach()
+  # Written when settings appear or vanish, whatever their age.
+  file(CONFIGURE OUTPUT "${list_of_settings}" CONTENT "${all_settings}" @ONLY)
   add_custom_target(${target} ALL DEPENDS ${compiled_catalogs})
 endfunction()
 
-# The settings of lint that apply to a catalog, if there are any.
+# A catalog that the build makes need not be there yet.
+function(_cbc_check_source target path)
+  get_source_file_property(is_generated "${path}" GENERATED)
+  cmake_path(IS_PREFIX CMAKE_BINARY_DIR "${path}" is_of_build)
+  if(NOT EXISTS "${path}" AND NOT is_generated AND NOT is_of_build)
+    message(FATAL_ERROR "cbc_add_catalog(${target}): there is no catalog ${path}")
+  endif()
+endfunction()
+
+# The settings of lint in the folders above a catalog. The nearest apply to it, but they may vanish; the
+# build looks for them again each time.
 function(_cbc_find_settings variable path)
-  set(${variable} "" PARENT_SCOPE)
+  set(patterns)
+  set(last_folder "")
   get_filename_component(folder "${path}" DIRECTORY)
-  while(TRUE)
-    if(EXISTS "${folder}/.cbc.yaml")
-      set(${variable} "${folder}/.cbc.yaml" PARENT_SCOPE)
-      return()
-    endif()
-    get_filename_component(parent "${folder}" DIRECTORY)
-    if(parent STREQUAL folder)
-      return()
-    endif()
-    set(folder "${parent}")
+  get_filename_component(folder "${folder}" REALPATH) # lint follows links to folders, too
+  while(NOT folder STREQUAL last_folder)
+    string(REGEX REPLACE "([[*?])" "[\\1]" pattern "${folder}")
+    list(APPEND patterns "${pattern}/.cbc.yaml")
+    set(last_folder "${folder}")
+    get_filename_component(folder "${folder}" DIRECTORY)
   endwhile()
+  file(GLOB settings LIST_DIRECTORIES false CONFIGURE_DEPENDS ${patterns})
+  set(${variable} ${settings} PARENT_SCOPE)
 endfunction()

@@ -16,7 +16,6 @@ graph). It needs neither a robot nor ROS.
 .
 The C++ library for programs on the robot is included, with its headers and
 its packages for CMake and pkg-config.")
-set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 
@@ -32,8 +31,13 @@ if(CBC_PROGRAM_NAME STREQUAL "cbc")
 endif()
 
 set(changelog "${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian")
-configure_file(src/package/debian/changelog.in "${changelog}" @ONLY)
+configure_file(src/package/debian/changelog.in "${changelog}" @ONLY NO_SOURCE_PERMISSIONS)
 configure_file(src/package/debian/finish.cmake.in finish_package.cmake @ONLY)
 set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_BINARY_DIR}/finish_package.cmake")
+
+# A shared library would need a package of its own, and a static program another description.
+if(BUILD_SHARED_LIBS OR CBC_STATIC)
+  set(CPACK_PROJECT_CONFIG_FILE "${CMAKE_CURRENT_SOURCE_DIR}/src/package/debian/refuse.cmake")
+endif()
 
 include(CPack)

@@ -1,7 +1,8 @@
 # Installs the catalogs and missions of catalogs/ as examples.
 
 set(examples_dir "${doc_dir}/examples")
-file(RELATIVE_PATH examples_to_schemas "/${examples_dir}" "/${CMAKE_INSTALL_DATADIR}/cbc/schemas")
+file(RELATIVE_PATH examples_to_schemas "${CMAKE_INSTALL_FULL_DATAROOTDIR}/doc/${package_name}/examples"
+     "${CMAKE_INSTALL_FULL_DATADIR}/cbc/schemas")
 file(GLOB examples CONFIGURE_DEPENDS catalogs/*.yaml)
 foreach(source IN LISTS examples)
   # Their schemas are somewhere else there.

@@ -1,5 +1,7 @@
 #include "report/github_command.h"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 #include "text/quote.h"
@@ -30,11 +32,17 @@ std::string describe_range(const Range& range) {
                      range.begin.column, range.end.column);
 }
 
+/// GitHub attaches nothing to "./a.yaml", which is how a search in "." names a file.
+std::string plain_path(const std::string& file) {
+  return std::filesystem::path(file).lexically_normal().string();
+}
+
 }  // namespace
 
 std::string github_command(std::string_view command, const GithubPlace& place,
                            std::string_view title, std::string_view message) {
-  return fmt::format("::{} file={}{},title={}::{}\n", command, escape_property(place.file),
+  return fmt::format("::{} file={}{},title={}::{}\n", command,
+                     escape_property(plain_path(place.file)),
                      place.range ? describe_range(*place.range) : "", escape_property(title),
                      escape_message(message));
 }

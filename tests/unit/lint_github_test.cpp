@@ -49,6 +49,21 @@ TEST(LintGithub, AppendsNotesToTheMessage) {
             "::again%0Aa.yaml:3:4: first here%0Ab.yaml:5:6: and there\n");
 }
 
+TEST(LintGithub, NamesFilesAsGitHubDoes) {
+  const auto place_of = [](const std::string& file) {
+    const std::string text =
+        lint_github_of({rule::wrong_type, Severity::error, file, {{1, 1}, {1, 2}}, "x", {}});
+    return text.substr(0, text.find(','));
+  };
+  EXPECT_EQ(place_of("./a.yaml"), "::error file=a.yaml");
+  EXPECT_EQ(place_of("./b/c.yaml"), "::error file=b/c.yaml");
+  EXPECT_EQ(place_of("missions/../c.yaml"), "::error file=c.yaml");
+  EXPECT_EQ(place_of("b//./c.yaml"), "::error file=b/c.yaml");
+  EXPECT_EQ(place_of("../c.yaml"), "::error file=../c.yaml");
+  EXPECT_EQ(place_of("/r/./c.yaml"), "::error file=/r/c.yaml");
+  EXPECT_EQ(place_of("<stdin>"), "::error file=<stdin>");
+}
+
 TEST(LintGithub, EscapesWhatEndsAPropertyOrTheLine) {
   // Commas and colons end a property, but not the message.
   EXPECT_EQ(lint_github_of({rule::wrong_type,
