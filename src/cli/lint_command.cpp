@@ -210,6 +210,12 @@ void print_report(const LintCommand& command, const Linter& linter, bool is_comp
   }
 }
 
+bool has_faults(const std::vector<LintedFile>& files) {
+  return std::any_of(files.begin(), files.end(), [](const LintedFile& file) {
+    return count(file, Severity::error) + count(file, Severity::warning) > 0;
+  });
+}
+
 int lint(const LintCommand& command) {
   if (const std::string misuse = find_misuse(command); !misuse.empty())
     return usage_error("lint", misuse);
@@ -233,6 +239,9 @@ int lint(const LintCommand& command) {
   Linter linter(std::move(options));
   const bool has_all = lint_all(command, linter);
   if (!linter.files().empty()) print_report(command, linter, has_all && !linter.has_failed());
+  if (command.fix && !command.diff && !linter.has_mended() && has_faults(linter.files())) {
+    complain("nothing of this can be mended in place");
+  }
   if (linter.has_internal_error()) return exit_internal;
   if (!has_all || linter.has_failed()) return exit_unusable;
   return linter.has_found() ? exit_no : exit_ok;

@@ -128,12 +128,7 @@ void Linter::fix(const std::string& path, Linted& linted, const SeveritySettings
     mended += text.mended.size();
     fixed = lint_text(linted.file.file, std::move(text.text), settings);
   }
-  if (mended == 0) {
-    if (!options_.is_to_show_fixes && !linted.file.findings.empty()) {
-      complain(fmt::format("{}: nothing here can be mended in place", printable(linted.file.file)));
-    }
-    return;
-  }
+  if (mended == 0) return;
   if (!same_meaning(linted.catalog, fixed.catalog) || fixed.errors > linted.errors) {
     complain(
         fmt::format("internal error: mending {} would change its meaning, so nothing is "
@@ -148,6 +143,7 @@ void Linter::fix(const std::string& path, Linted& linted, const SeveritySettings
     has_failed_ = true;
     return;
   } else {
+    has_mended_ = true;
     complain(fmt::format("{}: {} {} mended", printable(linted.file.file), mended,
                          mended == 1 ? "finding" : "findings"));
   }

@@ -48,6 +48,8 @@ class Linter {
   /// Whether there is an error, or a warning in a file for which it counts as one.
   [[nodiscard]] bool has_found() const { return has_found_; }
   [[nodiscard]] const std::string& diff() const { return diff_; }
+  /// Whether a file was mended in place.
+  [[nodiscard]] bool has_mended() const { return has_mended_; }
 
  private:
   using CatalogPointer = std::shared_ptr<const CompiledCatalog>;
@@ -80,6 +82,7 @@ class Linter {
   bool has_failed_ = false;
   bool has_internal_error_ = false;
   bool has_found_ = false;
+  bool has_mended_ = false;
 };
 
 }  // namespace cbc::cli

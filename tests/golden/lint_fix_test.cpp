@@ -121,7 +121,7 @@ TEST_F(LintFix, ChangesNothingTheSecondTime) {
   EXPECT_EQ(folder.read("plow.yaml"), after);
   EXPECT_EQ(first.st_ino, second.st_ino) << "written anew";
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.err, "cbc: nothing of this can be mended in place\n");
 }
 
 TEST_F(LintFix, KeepsPermissionsAndLineEnds) {
@@ -194,7 +194,7 @@ TEST_F(LintFix, LeavesWhatIsNoYamlAlone) {
   folder.write("gps.yaml", text);
   const Result result = fix({"gps.yaml"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.err, "cbc: nothing of this can be mended in place\n");
   EXPECT_EQ(folder.read("gps.yaml"), text);
 }
 
