@@ -19,18 +19,21 @@ namespace cbc::cli {
 namespace {
 
 /// What takes longer to read than somebody who presses a key waits.
-constexpr std::uintmax_t largest_completed = std::uintmax_t{32} << 20U;
+constexpr std::uintmax_t largest_completed = std::uintmax_t{2} << 20U;
+constexpr std::uintmax_t largest_compiled = std::uintmax_t{64} << 20U;
 
 std::string expand_home(const std::string& path) {
   const char* const home = std::getenv("HOME");
   return home != nullptr && path.starts_with("~/") ? home + path.substr(1) : path;
 }
 
-/// Nothing else is read: a pipe would never end.
+/// Nothing else is read: a pipe would never end, nor would a file of the kernel, which has no size.
 bool is_readable_file(const std::string& path) {
   std::error_code error;
-  return std::filesystem::is_regular_file(path, error) &&
-         std::filesystem::file_size(path, error) <= largest_completed && !error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  return !error && size > 0 &&
+         size <= (path.ends_with(".cbc") ? largest_compiled : largest_completed);
 }
 
 std::optional<InputFile> read_if_readable(InputFiles& files, const std::string& path) {

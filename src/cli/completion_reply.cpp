@@ -97,7 +97,7 @@ void print_words(const Completion& completion, const TypedWord& typed, std::stri
     const std::string whole = completion.prefix + text;
     if (text.empty() || printable(whole) != whole) continue;
     if (shell == "bash") {
-      if (!whole.starts_with(typed.plain)) continue;
+      if (!whole.starts_with(typed.plain) || !whole.starts_with(typed.kept)) continue;
       const auto quoted = quote_for_bash(whole.substr(typed.kept.size()), typed.quote_mark);
       if (quoted) fmt::print("{}\n", *quoted);
     } else if (shell == "zsh" || has_letters_of(whole, typed.plain)) {

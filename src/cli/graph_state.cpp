@@ -73,15 +73,15 @@ std::string find_miss(const Script& script, const WantedState& wanted, std::uint
 void add_state_options(CLI::App& command, StateOptions& options) {
   command
       .add_option("--script", options.script,
-                  "Run this event script, and mark what runs at its end: running\n"
-                  "tasks and active behaviors, and what the last event changed.\n"
-                  "It may name the catalog (catalog: FILE)")
+                  "Run this event script, and mark what runs at its end: running tasks and active "
+                  "behaviors, and what the last event changed. It may name the catalog (catalog: "
+                  "FILE)")
       ->option_text("SCRIPT")
       ->check(stands_for(ValueKind::script));
   command
       .add_option("--after", options.after,
-                  "Of --script: mark what runs after the Nth event that 'cbc\n"
-                  "solve' lists (0: before the first)")
+                  "Of --script: mark what runs after the Nth event that 'cbc solve' lists (0: "
+                  "before the first)")
       ->option_text("N")
       ->check(whole_number(0));
   command.add_option("--at", options.at, "Of --script: mark what runs after this time")

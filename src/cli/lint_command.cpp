@@ -45,7 +45,6 @@ constexpr const char* lint_examples =
 constexpr const char* lint_footer =
     "More examples:\n"
     "  cbc lint --strict catalogs/               a folder; warnings fail, too\n"
-    "too\n"
     "  cbc lint --format sarif catalogs/ > lint.sarif\n"
     "                                            for code scanning\n"
     "  cbc lint --script mission.yaml robot.yaml  an event script as well\n"

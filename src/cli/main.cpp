@@ -98,8 +98,7 @@ int run(int argc, char** argv) {
       complain(unknown + "\nSee 'cbc --help'.");
       return exit_unusable;
     }
-    if (const std::string misuse = find_short_option_with_equals(program, arguments);
-        !misuse.empty()) {
+    if (const std::string misuse = find_bad_equals(program, arguments); !misuse.empty()) {
       return usage_error(arguments.front(), misuse);
     }
   }

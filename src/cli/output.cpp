@@ -1,8 +1,8 @@
 #include "cli/output.h"
 
 #include <cstdio>
-#include <filesystem>
-#include <system_error>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -25,9 +25,13 @@ int write_output(const std::string& path, std::string_view content) {
   return exit_ok;
 }
 
-bool is_same_file(const std::string& path, const std::string& other) {
-  std::error_code ignored;
-  return path != "-" && other != "-" && std::filesystem::equivalent(path, other, ignored);
+bool is_same_file(const std::string& input, const std::string& output) {
+  if (output == "-") return false;
+  struct stat in {};
+  struct stat out {};
+  const int status = input == "-" ? ::fstat(STDIN_FILENO, &in) : ::stat(input.c_str(), &in);
+  return status == 0 && ::stat(output.c_str(), &out) == 0 && in.st_dev == out.st_dev &&
+         in.st_ino == out.st_ino;
 }
 
 }  // namespace cbc::cli

@@ -9,7 +9,8 @@ namespace cbc::cli {
 /// Returns the exit status.
 [[nodiscard]] int write_output(const std::string& path, std::string_view content);
 
-/// Whether both lead to the same file; "-" and what is not there lead to none.
-[[nodiscard]] bool is_same_file(const std::string& path, const std::string& other);
+/// Whether an input ("-": standard input) is the file that an output ("-": standard output, which
+/// is none) would replace.
+[[nodiscard]] bool is_same_file(const std::string& input, const std::string& output);
 
 }  // namespace cbc::cli

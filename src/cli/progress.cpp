@@ -1,14 +1,27 @@
 #include "cli/progress.h"
 
+#include <cstddef>
 #include <cstdio>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/terminal.h"
 #include "text/quote.h"
+#include "text/utf8.h"
 
 namespace cbc::cli {
+namespace {
+
+/// A longer line would go on below, and stay.
+std::string_view first_characters(std::string_view line, std::size_t count) {
+  std::size_t end = 0;
+  while (end < line.size() && count-- > 0) end += utf8::decode(line, end).bytes;
+  return line.substr(0, end);
+}
+
+}  // namespace
 
 Progress::Progress(std::string what, std::size_t total)
     : what_(std::move(what)),
@@ -30,7 +43,9 @@ void Progress::show(const std::string& detail) {
   if (!is_wanted_ || now - start_ < std::chrono::seconds(1)) return;
   if (is_shown_ && now - shown_ < between_updates) return;
   // The line is written over: return, text, erase to the end.
-  fmt::print(stderr, "\r{} {} of {}: {}{}\x1b[K", what_, begun_, total_, printable(name_), detail);
+  const std::string line =
+      fmt::format("{} {} of {}: {}{}", what_, begun_, total_, printable(name_), detail);
+  fmt::print(stderr, "\r{}\x1b[K", first_characters(line, columns_of(stderr) - 1));
   std::fflush(stderr);
   is_shown_ = true;
   shown_ = now;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -72,7 +73,12 @@ std::string find_clash(const SolveOptions& options) {
        {std::pair("--html", options.html), std::pair("--state-out", options.stream.state_out),
         std::pair("--slowest", options.sweep.slowest),
         std::pair("--slowest-by-time", options.sweep.slowest_by_time)}) {
+    if (file == "") return fmt::format("expected the name of a file after {}", name);
     if (file == "-") return fmt::format("{} needs a file, as standard output has the report", name);
+  }
+  const auto& [slowest, by_time] = std::tie(options.sweep.slowest, options.sweep.slowest_by_time);
+  if (slowest && by_time && (*slowest == *by_time || is_same_file(*slowest, *by_time))) {
+    return "--slowest and --slowest-by-time need a file each";
   }
   if (is_sweep) {
     if (!is_one_of(options.format, {"text", "json"})) {

@@ -92,9 +92,12 @@ bool know_names(const std::vector<Mission>& missions, const ExplainOptions& opti
   });
 }
 
-bool is_named_catalog(const std::string& path, const std::vector<Mission>& missions) {
+/// What the command line does not name itself, but reads: catalogs that scripts name, scripts of
+/// folders.
+bool is_read(const std::string& path, const std::vector<Mission>& missions) {
   return std::any_of(missions.begin(), missions.end(), [&](const Mission& mission) {
-    return mission.named_catalog && is_same_file(path, *mission.named_catalog);
+    return is_same_file(mission.script.file, path) ||
+           (mission.named_catalog && is_same_file(*mission.named_catalog, path));
   });
 }
 
@@ -108,8 +111,9 @@ int solve_missions(const SolveOptions& options) {
     return exit_unusable;
   }
   if (!know_names(*missions, options.explain)) return exit_unusable;
-  if (options.html && is_named_catalog(*options.html, *missions)) {
-    complain(fmt::format("the output {} is a catalog that a script names", quote(*options.html)));
+  if (options.html && is_read(*options.html, *missions)) {
+    complain(fmt::format("the output {} is a script of a folder, or a catalog that a script names",
+                         quote(*options.html)));
     return exit_unusable;
   }
   const std::unique_ptr<SolveReport> report = make_report(options);

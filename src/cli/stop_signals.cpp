@@ -11,6 +11,8 @@
 namespace cbc::cli {
 namespace {
 
+constexpr std::array stop_signals = {SIGINT, SIGTERM, SIGHUP};
+
 // What a signal handler may touch.
 volatile std::sig_atomic_t stop = 0;
 volatile std::sig_atomic_t asked_at = 0;  ///< in seconds
@@ -46,16 +48,18 @@ StopSignals::StopSignals() {
   action.sa_handler = ask_to_stop;
   action.sa_flags = SA_RESTART;  // writing goes on where it was
   sigemptyset(&action.sa_mask);
-  sigaddset(&action.sa_mask, SIGINT);
-  sigaddset(&action.sa_mask, SIGTERM);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : stop_signals) sigaddset(&action.sa_mask, signal);
+  for (const int signal : stop_signals) {
+    struct sigaction before = {};
+    ::sigaction(signal, &action, &before);
+    // nohup sees to it that the end of a connection ends nothing.
+    if (signal == SIGHUP && before.sa_handler == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  }
 }
 
 StopSignals::~StopSignals() {
   // All is done and saved; what comes now must not make it look broken off.
-  std::signal(SIGINT, SIG_IGN);
-  std::signal(SIGTERM, SIG_IGN);
+  for (const int signal : stop_signals) std::signal(signal, SIG_IGN);
   ::close(ends[0]);
   ::close(ends[1]);
 }

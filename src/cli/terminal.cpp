@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <string_view>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace cbc::cli {
@@ -10,6 +11,11 @@ bool is_terminal(std::FILE* stream) {
   const char* const terminal = std::getenv("TERM");
   if (terminal == nullptr || std::string_view(terminal) == "dumb") return false;
   return isatty(fileno(stream)) != 0;
+}
+
+std::size_t columns_of(std::FILE* stream) {
+  winsize size{};
+  return ::ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
 bool wants_color(std::FILE* stream) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdio>
 
 #include "text/style.h"
@@ -8,6 +9,9 @@ namespace cbc::cli {
 
 /// Whether a stream is a terminal that can do more than print.
 [[nodiscard]] bool is_terminal(std::FILE* stream);
+
+/// How many characters a line of a terminal has; 80 where it does not say.
+[[nodiscard]] std::size_t columns_of(std::FILE* stream);
 
 /// Whether to write colors to a stream: it is such a terminal, and NO_COLOR (https://no-color.org)
 /// is not set.

@@ -164,18 +164,19 @@ std::string find_unknown_command(CLI::App& program, const std::string& argument)
   return fmt::format("unknown command {}{}", quote(argument), meant);
 }
 
-std::string find_short_option_with_equals(CLI::App& program,
-                                          const std::vector<std::string>& arguments) {
+std::string find_bad_equals(CLI::App& program, const std::vector<std::string>& arguments) {
   CLI::App* const command = arguments.empty() ? nullptr : find_command(program, arguments.front());
   if (command == nullptr) return {};
   for (std::size_t i = 1; i < arguments.size() && arguments[i] != "--"; ++i) {
     const std::string& argument = arguments[i];
     const std::string name = argument.substr(0, argument.find('='));
-    const CLI::Option* const option =
+    CLI::Option* const option =
         name.starts_with('-') ? command->get_option_no_throw(name) : nullptr;
     if (option == nullptr || !takes_value(*option)) continue;
     if (name == argument) {
       ++i;  // its value, which may be anything
+    } else if (name.size() + 1 == argument.size()) {
+      return fmt::format("{} needs {}", name, describe_value(*option));
     } else if (!name.starts_with("--")) {
       const std::string value = argument.substr(name.size() + 1);
       return fmt::format("expected {} or {}, found {}", quote(name + " " + value),

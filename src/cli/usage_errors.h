@@ -18,10 +18,10 @@ namespace cbc::cli {
 /// The complaint about a first argument that is no command; empty if it is one, or an option.
 [[nodiscard]] std::string find_unknown_command(CLI::App& program, const std::string& argument);
 
-/// The complaint about a short option with an equals sign, which would be a part of its value;
-/// empty if there is none.
-[[nodiscard]] std::string find_short_option_with_equals(CLI::App& program,
-                                                        const std::vector<std::string>& arguments);
+/// The complaint about an equals sign: behind a short option, whose value it would begin, or with
+/// no value behind it, where the next argument would be taken; empty if there is none.
+[[nodiscard]] std::string find_bad_equals(CLI::App& program,
+                                          const std::vector<std::string>& arguments);
 
 /// The command that was called, as "cbc lint", or "cbc".
 [[nodiscard]] std::string full_name(const CLI::App& program);

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
+#include <iterator>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -88,17 +89,26 @@ class TemporaryFile {
   bool is_named_ = false;
 };
 
-/// Where symbolic links lead to in the end, whether or not there is a file.
-fs::path follow_links(fs::path path, std::error_code& error) {
+/// Whether a path, such as /dev/stdout, is another name of what a program has open: to replace the
+/// file behind it would not reach those who have it open.
+bool is_descriptor(const fs::path& path) {
+  std::error_code error;
+  const fs::path folder = fs::canonical(path.has_parent_path() ? path.parent_path() : ".", error);
+  return !error && folder.filename() == "fd" && *std::next(folder.begin()) == "proc";
+}
+
+/// Makes of a path that to which symbolic links lead in the end, whether or not there is a file.
+/// Returns why it cannot be replaced, or nothing.
+std::optional<std::string> follow_links(fs::path& path) {
   constexpr int most_links = 40;
   for (int links = 0; links <= most_links; ++links) {
+    if (is_descriptor(path)) return "it is not the name of a file; '-' is standard output";
     std::error_code no_link;
     const fs::path target = fs::read_symlink(path, no_link);
-    if (no_link) return path;
+    if (no_link) return std::nullopt;
     path = path.parent_path() / target;
   }
-  error = std::make_error_code(std::errc::too_many_symbolic_link_levels);
-  return path;
+  return reason(ELOOP);
 }
 
 /// Makes the new name last. The content is complete either way, so failures do not matter.
@@ -119,9 +129,8 @@ struct Target {
 
 /// Returns why nothing can be put there, or nothing.
 std::optional<std::string> find_target(const std::string& path, Target& target) {
-  std::error_code error;
-  target.path = follow_links(path, error);
-  if (error) return error.message();
+  target.path = path;
+  if (auto obstacle = follow_links(target.path)) return obstacle;
   if (!target.path.has_filename()) return reason(EISDIR);
   target.folder = target.path.has_parent_path() ? target.path.parent_path() : fs::path(".");
 

@@ -25,7 +25,7 @@ class RedundancyCheck {
     if (semantics_.liveness().of_behavior(id) != Liveness::State::live) return;
     check_repetitions(semantics_.behavior(id));
     if (catalog_.requirements[id].size() < 2) return;
-    for (const CompiledRequirement& requirement : catalog_.requirements[id]) {
+    for (const CompiledRequirement& requirement : doubtful_requirements(id)) {
       check_requirement(id, requirement);
     }
   }
@@ -63,9 +63,28 @@ class RedundancyCheck {
     }
   }
 
+  /// The requirements whose tasks may be required by what the behavior requires otherwise, too. No
+  /// other can be redundant. As requirements form no cycle, what leads to a task is not led to by
+  /// it.
+  [[nodiscard]] std::vector<CompiledRequirement> doubtful_requirements(BehaviorId id) const {
+    RelevantTasks all(catalog_, catalog_.group_of(id));
+    for (const CompiledRequirement& requirement : catalog_.requirements[id]) {
+      all.add(requirement.task);
+    }
+    all.close();
+    RelevantTasks led_to(catalog_, catalog_.group_of(id));
+    for (const TaskId task : all.tasks()) {
+      for (const Arc& arc : catalog_.arcs[task]) led_to.add(arc.target);
+    }
+    std::vector<CompiledRequirement> doubtful;
+    for (const CompiledRequirement& requirement : catalog_.requirements[id]) {
+      if (led_to.contains(requirement.task)) doubtful.push_back(requirement);
+    }
+    return doubtful;
+  }
+
   void check_requirement(BehaviorId id, const CompiledRequirement& requirement) {
     RelevantTasks relevant = others_of(id, requirement.task);
-    if (!relevant.contains(requirement.task)) return;
     std::vector<Reason> others;
     for (const ValueId value : catalog_.performs[id]) relevant.add(catalog_.task_of(value));
     relevant.close();
@@ -98,8 +117,7 @@ class RedundancyCheck {
            constraint_notes(reason, semantics_.catalog(), catalog_, semantics_.reporter()), {});
   }
 
-  /// What the behavior requires apart from a task, with all that leads to. Only if the task is
-  /// among it can its requirement be redundant.
+  /// What the behavior requires apart from a task, with all that leads to.
   [[nodiscard]] RelevantTasks others_of(BehaviorId id, TaskId task) const {
     RelevantTasks relevant(catalog_, catalog_.group_of(id));
     for (const CompiledRequirement& requirement : catalog_.requirements[id]) {

@@ -289,7 +289,7 @@ TEST_F(StreamTest, TotalsComeLast) {
 }
 
 TEST_F(StreamTest, SignalsEndItWithTheStateSaved) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     fs::remove(folder_ / "in");
     make_pipe("in");
     const int in = ::open((folder_ / "in").c_str(), O_RDWR | O_CLOEXEC);

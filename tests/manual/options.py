@@ -71,6 +71,14 @@ def compare_values(verb):
             yield f"{page}: {names} does not say that {number} is the default"
 
 
+def bad_lines_in_help(verb):
+    """Lines that do not fit, and lines of the lists that are not indented."""
+    text = help_of(verb)
+    lists = re.findall(r"^(?:Positionals|Options|[A-Z]\w+):\n((?:.+\n)+)", text, re.MULTILINE)
+    lines = [line for part in lists for line in part.splitlines() if not line.startswith("  ")]
+    return lines + [line for line in text.splitlines() if len(line) > 80]
+
+
 def forms_in_help(verb):
     usage = help_of(verb).partition("Usage: ")[2].partition("\n\n")[0]
     forms = [line.split(f"cbc {verb} ")[1] for line in usage.splitlines()]
@@ -145,6 +153,7 @@ def main():
         if len(of_help) < 2:
             faults.append(f"cbc {verb} --help: found no options in it")
         faults += compare(pages.page_of(verb).name, of_help, options_in_page(verb))
+        faults += [f"cbc {verb} --help: this line: {line}" for line in bad_lines_in_help(verb)]
         if verb:
             faults += compare_values(verb)
             if forms_in_help(verb) != forms_in_page(verb):

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <fcntl.h>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -48,6 +49,20 @@ TEST(AtomicFile, ReplacesAFileAndKeepsItsMode) {
   EXPECT_EQ(write_atomically(folder / "a", ""), std::nullopt);
   EXPECT_EQ(folder.read("a"), "");
   EXPECT_EQ(folder.names(), Names{"a"});
+}
+
+TEST(AtomicFile, RefusesWhatAProgramHasOpen) {
+  const test::ScratchFolder folder;
+  folder.write("a", "old");
+  const int descriptor = open((folder / "a").c_str(), O_WRONLY | O_CLOEXEC);
+  std::filesystem::create_symlink("/dev/fd/" + std::to_string(descriptor), folder / "link");
+  for (const std::string& path : {"/dev/fd/" + std::to_string(descriptor),
+                                  "/proc/self/fd/" + std::to_string(descriptor), folder / "link"}) {
+    EXPECT_EQ(write_atomically(path, "new"), "it is not the name of a file; '-' is standard output")
+        << path;
+  }
+  close(descriptor);
+  EXPECT_EQ(folder.read("a"), "old");
 }
 
 TEST(AtomicFile, FollowsLinks) {
