@@ -47,8 +47,8 @@ std::optional<SweepShard> parse_shard(const std::string& text) {
 CLI::Validator shard_of_sweep() {
   const auto check = [](const std::string& text) -> std::string {
     if (parse_shard(text)) return {};
-    return fmt::format("expected a shard of at most {} ('1/8' to '8/8'), found {}", most_shards,
-                       quote(text));
+    return fmt::format("expected I/N, such as 3/8, with I from 1 to N and N at most {}, found {}",
+                       most_shards, quote(text));
   };
   return {check, ""};
 }

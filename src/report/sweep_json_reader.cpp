@@ -294,7 +294,8 @@ std::variant<SweepResult, std::string> sweep_from_json(std::string_view text) {
   constexpr std::size_t deepest = 6;  // no sweep has more
   if (nesting_of(text) > deepest) return "it is nested too deep";
   const Json root = Json::parse(text, nullptr, false);
-  if (root.is_discarded()) return "it is no JSON, or cut off";
+  if (root.is_discarded())
+    return "it is no JSON, or cut off; expected what '--shard I/N --format json' writes";
   return SweepReader().read(root);
 }
 

@@ -18,6 +18,7 @@ import json
 import math
 import os
 import re
+import shutil
 import statistics
 import subprocess
 import sys
@@ -159,7 +160,16 @@ def report(name, version, program, rounds, solve_time):
     print(f"{name:<28}{number:<12}{whole:>12.1f}{search:>14}")
 
 
+def require_programs():
+    missing = [name for name in ("minizinc", "clingo") if shutil.which(name) is None]
+    if missing:
+        sys.exit(f"there is no {' and no '.join(missing)}: install the packages minizinc and gringo")
+    if len(sys.argv) != 4 or not os.path.exists(sys.argv[2]):
+        sys.exit("expected the program, a catalog and a task, as in\n" + __doc__.split("\n\n")[1])
+
+
 def main():
+    require_programs()
     program, catalog, task = sys.argv[1:]
     dump = json.loads(run(program, "compile", "--dump", "--format", "json", catalog)[0])
     group = Group(group_of(dump, task), task)
