@@ -37,7 +37,7 @@ std::optional<Catalog> CatalogLoader::understand(const std::string& path,
 
 std::shared_ptr<const CompiledCatalog> load_catalog(const std::string& path) {
   InputFiles files;
-  const auto catalog = CatalogLoader(files).load(path);
+  auto catalog = CatalogLoader(files).load(path);
   files.print_findings();
   return catalog;
 }

@@ -179,8 +179,8 @@ std::string find_bad_equals(CLI::App& program, const std::vector<std::string>& a
       return fmt::format("{} needs {}", name, describe_value(*option));
     } else if (!name.starts_with("--")) {
       const std::string value = argument.substr(name.size() + 1);
-      return fmt::format("expected {} or {}, found {}", quote(name + " " + value),
-                         quote(option->get_name() + "=" + value), quote(argument));
+      return fmt::format("expected {} or {}, found {}", quote(fmt::format("{} {}", name, value)),
+                         quote(fmt::format("{}={}", option->get_name(), value)), quote(argument));
     }
   }
   return {};

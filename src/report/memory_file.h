@@ -16,7 +16,7 @@ class MemoryFile {
   }
   ~MemoryFile() {
     std::fclose(file_);
-    std::free(data_);
+    std::free(data_);  // NOLINT(cppcoreguidelines-no-malloc): open_memstream wants it
   }
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;

@@ -339,7 +339,7 @@ class BlockedStreamTest : public StreamTest {
     Call of_stream = stream({"--state-out", "state.json"});
     of_stream.standard_input = folder_ / "input";
     of_stream.standard_output = folder_ / "out";
-    const Result result = run(of_stream, [&](pid_t process) {
+    Result result = run(of_stream, [&](pid_t process) {
       // The input never keeps it waiting.
       pollfd room{out, POLLOUT, 0};
       while (::poll(&room, 1, 0) > 0 || !is_waiting(process)) {
@@ -648,7 +648,7 @@ TEST_F(StreamTest, ReplayRefusesWhatIsNoLogOfTheCatalog) {
   EXPECT_EQ(replay("{}\n").status, 2);
   EXPECT_EQ(replay(log.substr(0, log.size() - 20)).status, 2);
   std::string other = log;
-  other.replace(other.find("\"digest\":\"") + 10, 4, "0000");
+  other.replace(other.find(R"("digest":")") + 10, 4, "0000");
   const Result result = replay(other);
   EXPECT_EQ(result.status, 2);
   EXPECT_NE(result.err.find("it was made with another catalog"), std::string::npos) << result.err;

@@ -19,13 +19,13 @@ std::string source_text(const std::string& name) {
 TEST(Version, IsTheNewestOfTheChangelog) {
   const std::string changelog = source_text("CHANGELOG.md");
   std::smatch found;
-  ASSERT_TRUE(std::regex_search(changelog, found, std::regex("\n## \\[([0-9][^\\]]*)\\]")));
+  ASSERT_TRUE(std::regex_search(changelog, found, std::regex(R"(\n## \[([0-9][^\]]*)\])")));
   EXPECT_EQ(found.str(1), version);
 }
 
 TEST(Version, IsTheOneToUseInPipelines) {
   const std::string page = source_text("docs/ci.md");
-  const std::regex tag("\\bv([0-9]+\\.[0-9]+\\.[0-9]+)\\b");
+  const std::regex tag(R"(\bv([0-9]+\.[0-9]+\.[0-9]+)\b)");
   std::size_t count = 0;
   for (std::sregex_iterator found(page.begin(), page.end(), tag), end; found != end; ++found) {
     EXPECT_EQ(found->str(1), version);
