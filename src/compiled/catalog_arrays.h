@@ -63,6 +63,6 @@ struct CatalogArrays {
 };
 
 /// A catalog that uses the arrays, which it keeps.
-[[nodiscard]] CompiledCatalog to_catalog(CatalogArrays arrays);
+[[nodiscard]] CompiledCatalog to_catalog(CatalogArrays made);
 
 }  // namespace cbc

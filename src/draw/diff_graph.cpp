@@ -54,13 +54,15 @@ std::string_view package_before(const CatalogChange& change) {
 class Union {
  public:
   Union(const CompiledCatalog& before, const CompiledCatalog& after, const CatalogDiff& diff)
-      : before_(before), diff_(diff), graph_(to_graph(after)) {
+      : before_(before),
+        diff_(diff),
+        graph_(to_graph(after)),
+        performances_(graph_.performances.size()),
+        requirements_(graph_.requirements.size()) {
     for (const auto& task : graph_.tasks) tasks_.emplace(task.name, tasks_.size());
     for (const auto& behavior : graph_.behaviors) {
       behaviors_.emplace(behavior.name, behaviors_.size());
     }
-    performances_ = graph_.performances.size();
-    requirements_ = graph_.requirements.size();
   }
 
   CatalogGraph run() && {
@@ -191,8 +193,8 @@ class Union {
   CatalogGraph graph_;
   Places tasks_;
   Places behaviors_;
-  std::size_t performances_ = 0;  ///< of the newer catalog
-  std::size_t requirements_ = 0;
+  std::size_t performances_;  ///< of the newer catalog
+  std::size_t requirements_;
 };
 
 }  // namespace

@@ -16,6 +16,7 @@ void RelevantTasks::add(TaskId task) {
 }
 
 bool RelevantTasks::close(std::size_t most) {
+  // NOLINTNEXTLINE(modernize-loop-convert): the list grows
   for (std::size_t next = 0; next < tasks_.size(); ++next) {
     if (tasks_.size() > most) return false;
     for (const Arc& arc : catalog_.arcs[tasks_[next]]) add(arc.target);

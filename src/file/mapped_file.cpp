@@ -37,7 +37,8 @@ MappedFile map_file(const std::string& path, std::size_t largest) {
   if (begin == MAP_FAILED) return fail(errno);
   MappedFile mapped;
   mapped.memory = std::shared_ptr<const void>(begin, [size](const void* memory) {
-    munmap(const_cast<void*>(memory), size);  // it was not const when it was mapped
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): it was not const when it was mapped
+    munmap(const_cast<void*>(memory), size);
   });
   mapped.content = {static_cast<const char*>(begin), size};
   return mapped;

@@ -20,7 +20,7 @@ void check_suitability(const Performance& performance, Reporter& reporter) {
   } else if (looks_like_fraction(suitability)) {
     reporter.report(rule::suspicious_suitability, *performance.suitability_range,
                     "a suitability of " + format_percent(suitability) + " is next to nothing; is " +
-                        format_percent(suitability * 100) + " meant?");
+                        format_percent(std::int64_t{suitability} * 100) + " meant?");
   }
 }
 

@@ -58,7 +58,7 @@ const Requirement& strongest_requirement(const Behavior& behavior, TaskIndex tas
       found = &requirement;
     }
   }
-  return *found;
+  return *found;  // NOLINT(clang-analyzer-core.uninitialized.UndefReturn): there is one
 }
 
 std::vector<Note> constraint_notes(std::span<const Reason> constraints, const Catalog& catalog,
@@ -81,6 +81,7 @@ std::vector<Note> constraint_notes(std::span<const Reason> constraints, const Ca
     return a.level != b.level ? a.level > b.level : a.note.range < b.note.range;
   });
   std::vector<Note> notes;
+  notes.reserve(entries.size());
   for (Entry& entry : entries) notes.push_back(std::move(entry.note));
   return notes;
 }

@@ -27,7 +27,8 @@ void check_suspicious_minimum(Millionths minimum, const Range& range, Reporter& 
   if (!looks_like_fraction(minimum)) return;
   reporter.report(rule::suspicious_minimum, range,
                   "a minimum_performance of " + format_percent(minimum) +
-                      " is next to nothing; is " + format_percent(minimum * 100) + " meant?");
+                      " is next to nothing; is " + format_percent(std::int64_t{minimum} * 100) +
+                      " meant?");
 }
 
 }  // namespace cbc

@@ -16,8 +16,8 @@ namespace {
 /// A problem of a test case: failure or error.
 std::string problem(std::string_view element, std::string_view type, const std::string& message,
                     const std::string& details) {
-  return fmt::format("<{0} type=\"{1}\" message=\"{2}\">{3}</{0}>", element, type,
-                     xml_text(message), details);
+  return fmt::format(R"(<{0} type="{1}" message="{2}">{3}</{0}>)", element, type, xml_text(message),
+                     details);
 }
 
 std::string open_suite(const std::string& file, std::uint64_t tests, std::uint64_t failures,
@@ -91,7 +91,7 @@ void JunitReport::write_cases(const RunResult& result) const {
   auto failed = failed_.begin();
   for (const Step& step : script_->steps) {
     if (!step.expect) continue;
-    fmt::print(out_, "<testcase name=\"line {}: {}\" classname=\"{}\"", step.range.begin.line,
+    fmt::print(out_, R"(<testcase name="line {}: {}" classname="{}")", step.range.begin.line,
                xml_text(describe_expectation(*catalog_, *step.expect)), xml_text(script_->file));
     if (to_come == 0) {
       fmt::print(out_, "><skipped message=\"the run ended before\"/></testcase>\n");

@@ -15,6 +15,7 @@ Suggestions& suggestions_from(const Texts& names, std::optional<Suggestions>& ma
   if (!made) {
     std::vector<std::string_view> all;
     all.reserve(names.size());
+    // NOLINTNEXTLINE(modernize-loop-convert): these texts have no iterators
     for (std::size_t place = 0; place < names.size(); ++place) all.push_back(names[place]);
     made.emplace(std::move(all));
   }

@@ -13,6 +13,7 @@ namespace {
 
 std::vector<std::string_view> list_names(const std::vector<Parameter>& parameters) {
   std::vector<std::string_view> names;
+  names.reserve(parameters.size());
   for (const Parameter& parameter : parameters) names.push_back(parameter.name);
   return names;
 }
