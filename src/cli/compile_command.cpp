@@ -1,5 +1,3 @@
-#include "cli/compile_command.h"
-
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -13,20 +11,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "cbc/version.h"
-#include "cli/catalog_loader.h"
-#include "cli/exit_status.h"
-#include "cli/help_format.h"
+#include "cli/command_line.h"
+#include "cli/commands.h"
 #include "cli/input.h"
-#include "cli/input_files.h"
 #include "cli/output.h"
-#include "cli/value_kind.h"
-#include "compiled/compile.h"
+#include "compile/compile.h"
 #include "compiled/compiled_file.h"
-#include "file/mapped_file.h"
-#include "report/catalog_json.h"
-#include "report/catalog_text.h"
-#include "text/quote.h"
+#include "report/catalog_dump.h"
 
 namespace cbc::cli {
 namespace {

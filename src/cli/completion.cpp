@@ -1,17 +1,319 @@
-#include "cli/completion.h"
-
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "base/text.h"
+#include "cli/command_line.h"
 #include "cli/commands.h"
-#include "cli/completion_names.h"
-#include "cli/typed_line.h"
-#include "cli/value_kind.h"
+#include "cli/input.h"
+#include "diagnostic/rules.h"
 
 namespace cbc::cli {
+
+/// The words around the one that is being typed, understood as far as they can be.
+struct TypedLine {
+  CLI::App* command = nullptr;        ///< null: it comes next
+  bool is_unknown = false;            ///< there is no such command
+  CLI::Option* pending = nullptr;     ///< what is being typed is its value
+  bool has_separator = false;         ///< "--" is before it: no options come any more
+  std::size_t positionals = 0;        ///< of the command, before it
+  std::vector<std::string> files;     ///< the positionals before and behind it
+  std::vector<std::string> scripts;   ///< that options before and behind it name
+  std::optional<ValueKind> argument;  ///< what a flag makes of the positionals
+};
+
+/// `words`: those after the name of the program; the last one is being typed. `behind`: those
+/// behind it.
+[[nodiscard]] TypedLine understand_line(CLI::App& program, const std::vector<std::string>& words,
+                                        const std::vector<std::string>& behind);
+
+namespace {
+
+bool is_option(const std::string& word) { return word.size() > 1 && word.front() == '-'; }
+
+void add_value(CLI::Option& option, const std::string& value, TypedLine& line) {
+  if (kind_of(option) == ValueKind::script) line.scripts.push_back(value);
+}
+
+void add_option(const std::string& word, TypedLine& line) {
+  const std::size_t equals = word.find('=');
+  CLI::Option* const option = line.command->get_option_no_throw(word.substr(0, equals));
+  if (option == nullptr) return;
+  if (!takes_value(*option)) {
+    if (const auto kind = kind_of(*option)) line.argument = kind;
+  } else if (equals == std::string::npos) {
+    line.pending = option;
+  } else {
+    add_value(*option, word.substr(equals + 1), line);
+  }
+}
+
+void add_word(const std::string& word, TypedLine& line) {
+  if (line.pending != nullptr) {
+    add_value(*std::exchange(line.pending, nullptr), word, line);
+  } else if (line.has_separator || !is_option(word)) {
+    line.files.push_back(word);
+  } else if (word == "--") {
+    line.has_separator = true;
+  } else {
+    add_option(word, line);
+  }
+}
+
+}  // namespace
+
+TypedLine understand_line(CLI::App& program, const std::vector<std::string>& words,
+                          const std::vector<std::string>& behind) {
+  TypedLine line;
+  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+    if (line.command != nullptr) {
+      add_word(words[i], line);
+    } else if (!is_option(words[i])) {
+      line.command = find_command(program, words[i]);
+      line.is_unknown = line.command == nullptr;
+      if (line.is_unknown) return line;
+    }
+  }
+  if (line.command == nullptr) return line;
+  line.positionals = line.files.size();
+  TypedLine whole = line;
+  whole.pending = nullptr;
+  for (const std::string& word : behind) add_word(word, whole);
+  line.files = std::move(whole.files);
+  line.scripts = std::move(whole.scripts);
+  line.argument = whole.argument;
+  return line;
+}
+
+/// Names that completion offers.
+
+struct CompletionName {
+  std::string name;
+  std::string help;
+};
+
+[[nodiscard]] std::vector<CompletionName> rule_names_with_help();
+
+[[nodiscard]] std::vector<CompletionName> schema_names_with_help();
+
+/// The tasks, on request also the behaviors, of the catalog in a file, or of the one that the
+/// script in it names: of a faulty catalog, as far as it is understood. Complaints go to standard
+/// error.
+[[nodiscard]] std::vector<CompletionName> names_of_file(const std::string& path,
+                                                        bool with_behaviors);
+
+namespace {
+
+/// What takes longer to read than somebody who presses a key waits.
+constexpr std::uintmax_t largest_completed = std::uintmax_t{2} << 20U;
+constexpr std::uintmax_t largest_compiled = std::uintmax_t{64} << 20U;
+
+std::string expand_home(const std::string& path) {
+  const char* const home = std::getenv("HOME");
+  return home != nullptr && path.starts_with("~/") ? home + path.substr(1) : path;
+}
+
+/// Nothing else is read: a pipe would never end, nor would a file of the kernel, which has no size.
+bool is_readable_file(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  return !error && size > 0 &&
+         size <= (path.ends_with(".cbc") ? largest_compiled : largest_completed);
+}
+
+std::optional<InputFile> read_if_readable(InputFiles& files, const std::string& path) {
+  return is_readable_file(path) ? files.read(path) : std::nullopt;
+}
+
+/// The catalog at the path, or the one that the script there names.
+std::optional<InputFile> read_catalog_of(InputFiles& files, const std::string& path) {
+  std::optional<InputFile> file = read_if_readable(files, path);
+  if (!file || file->document == nullptr || !is_script(*file->document)) return file;
+  const std::optional<std::string> named = path_of_catalog(path, *file->document);
+  return named ? read_if_readable(files, *named) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<CompletionName> rule_names_with_help() {
+  std::vector<CompletionName> names;
+  for (const Rule& rule : all_rules()) {
+    names.push_back({std::string(rule.name), std::string(rule.summary)});
+  }
+  return names;
+}
+
+std::vector<CompletionName> schema_names_with_help() {
+  std::vector<CompletionName> names;
+  for (const Schema& schema : all_schemas()) {
+    names.push_back({std::string(schema.name), title_of(schema)});
+  }
+  return names;
+}
+
+std::vector<CompletionName> names_of_file(const std::string& path, bool with_behaviors) {
+  InputFiles files;
+  const std::optional<InputFile> catalog = read_catalog_of(files, expand_home(path));
+  if (!catalog) return {};
+  const std::unique_ptr<Drawable> drawable = to_drawable(files, *catalog);
+  if (drawable == nullptr) return {};
+  std::vector<CompletionName> names;
+  std::set<std::string> known;
+  const auto add = [&](const auto& entries, const char* what) {
+    for (const auto& entry : entries) {
+      std::string name(entry.name);
+      if (known.insert(name).second) names.push_back({std::move(name), what});
+    }
+  };
+  add(drawable->graph.tasks, "task");
+  if (with_behaviors) add(drawable->graph.behaviors, "behavior");
+  return names;
+}
+
+namespace {
+
+/// What a shell makes of a word, that may not be finished, without expanding anything.
+std::string unquote(std::string_view word) {
+  std::string plain;
+  char quote_mark = '\0';
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    const char character = word[i];
+    if (quote_mark == '\0' && (character == '\'' || character == '"')) {
+      quote_mark = character;
+    } else if (character == quote_mark) {
+      quote_mark = '\0';
+    } else if (character == '\\' && quote_mark != '\'') {
+      if (i + 1 == word.size()) break;
+      const bool is_literal =
+          quote_mark == '"' && std::string_view("$`\"\\").find(word[i + 1]) == std::string::npos;
+      if (is_literal) plain += character;
+      plain += word[++i];
+    } else {
+      plain += character;
+    }
+  }
+  return plain;
+}
+
+bool is_harmless(char character) {
+  return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
+         (character >= '0' && character <= '9') ||
+         std::string_view("_-./+,@%:=").find(character) != std::string_view::npos ||
+         static_cast<unsigned char>(character) >= 0x80;
+}
+
+/// A text as bash has to find it behind an opening quote, or behind none. Empty if it cannot be
+/// there.
+std::optional<std::string> quote_for_bash(std::string_view text, char quote_mark) {
+  std::string quoted;
+  for (const char character : text) {
+    if (quote_mark == '\'') {
+      quoted += character == '\'' ? R"('\'')" : std::string(1, character);
+    } else if (quote_mark == '"') {
+      if (character == '!') return std::nullopt;  // the history is expanded here, too
+      if (std::string_view("$`\"\\").find(character) != std::string_view::npos) quoted += '\\';
+      quoted += character;
+    } else {
+      if (!is_harmless(character)) quoted += '\\';
+      quoted += character;
+    }
+  }
+  return quoted;
+}
+
+/// A word that is being typed.
+struct TypedWord {
+  std::string plain;       ///< all of it, without quotes
+  std::string kept;        ///< what the shell does not replace, without quotes
+  char quote_mark = '\0';  ///< that opens what it does replace
+};
+
+TypedWord typed_word(const std::string& word, const std::string& kept) {
+  TypedWord typed{unquote(word), unquote(kept), '\0'};
+  if (word.size() > kept.size() && (word[kept.size()] == '"' || word[kept.size()] == '\'')) {
+    typed.quote_mark = word[kept.size()];
+  }
+  return typed;
+}
+
+char to_lower(char character) {
+  return character >= 'A' && character <= 'Z' ? static_cast<char>(character - 'A' + 'a')
+                                              : character;
+}
+
+/// Whether a candidate has all letters of what is typed, in this order and in any case. fish takes
+/// it then, if it is the only one; it would find nearly all letters in the help, too.
+bool has_letters_of(std::string_view candidate, std::string_view typed) {
+  for (const char character : candidate) {
+    if (!typed.empty() && to_lower(character) == to_lower(typed.front())) typed.remove_prefix(1);
+  }
+  return typed.empty();
+}
+
+void print_words(const Completion& completion, const TypedWord& typed, std::string_view shell) {
+  fmt::print("words\n");
+  for (const auto& [text, help] : completion.candidates) {
+    const std::string whole = completion.prefix + text;
+    if (text.empty() || printable(whole) != whole) continue;
+    if (shell == "bash") {
+      if (!whole.starts_with(typed.plain) || !whole.starts_with(typed.kept)) continue;
+      const auto quoted = quote_for_bash(whole.substr(typed.kept.size()), typed.quote_mark);
+      if (quoted) fmt::print("{}\n", *quoted);
+    } else if (shell == "zsh" || has_letters_of(whole, typed.plain)) {
+      fmt::print("{}\t{}\n", whole, printable(help));
+    }
+  }
+}
+
+void print_files(const Completion& completion, const TypedWord& typed) {
+  fmt::print("files");
+  for (const std::string_view suffix : completion.suffixes) fmt::print(" {}", suffix);
+  const std::size_t skipped = completion.prefix.size();
+  const std::string kept = typed.kept.size() > skipped ? typed.kept.substr(skipped) : "";
+  fmt::print("\n{}\n{}\n", printable(typed.plain.substr(skipped)), printable(kept));
+}
+
+/// 0 if it is no number.
+std::size_t parse_place(std::string_view text) {
+  std::size_t place = 0;
+  std::from_chars(text.data(), text.data() + text.size(), place);
+  return place;
+}
+
+}  // namespace
+
+void reply_to_shell(CLI::App& program, const std::vector<std::string>& arguments) {
+  constexpr std::size_t first_word = 3;
+  if (arguments.size() <= first_word) return;
+  const std::size_t place = parse_place(arguments[2]);
+  if (place == 0 || place > arguments.size() - first_word) return;
+  const std::string& shell = arguments[0];
+  std::vector<std::string> words(arguments.begin() + first_word, arguments.end());
+  const TypedWord typed = typed_word(words[place - 1], arguments[1]);
+  if (shell == "bash") {
+    for (std::string& word : words) word = unquote(word);
+  }
+  const auto behind = words.begin() + static_cast<std::ptrdiff_t>(place);
+  words[place - 1] = typed.plain;
+  const Completion completion = complete(program, {words.begin(), behind}, {behind, words.end()});
+  completion.is_file ? print_files(completion, typed) : print_words(completion, typed, shell);
+}
+
 namespace {
 
 /// What an option or a command does, in a few words of its help.

@@ -1,5 +1,6 @@
-#include "cli/completion_command.h"
-
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -8,12 +9,192 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/completion_scripts.h"
-#include "cli/exit_status.h"
-#include "cli/help_format.h"
-#include "cli/value_kind.h"
+#include "cli/command_line.h"
+#include "cli/commands.h"
 
+/// The scripts that make a shell ask the program how a command line can go on.
 namespace cbc::cli {
+
+/// The name whose command lines are to be completed by a program that was called as this path or
+/// name: its file name, or "cbc" if a shell could take that for anything but a word.
+[[nodiscard]] std::string name_to_complete(std::string_view called_as);
+
+/// The script for "bash", "zsh" or "fish" that completes the command lines of `program`.
+[[nodiscard]] std::string completion_script(std::string_view shell, std::string_view program);
+
+namespace {
+
+// What the program answers is data for all of them: no line of it is ever evaluated.
+// PROGRAM stands for the name of the program.
+
+constexpr std::string_view bash_script =
+    R"script(# Completion of PROGRAM for bash, printed by 'PROGRAM completion bash'.
+_PROGRAM() {
+  local program=${1:-${COMP_WORDS[0]}} line=${COMP_LINE-} part gap last='' suffix i
+  local before kept='' typed='' place=0 left=$((${#line} - ${COMP_POINT:-0}))
+  local IFS=$' \t\n'
+  local -a words=() answer=() suffixes=()
+  program=${program/#\~\//$HOME/}
+  COMPREPLY=()
+
+  # bash splits words at '=', ':' and '@'. They are put together again.
+  line=${line#*"${COMP_WORDS[0]}"}
+  for ((i = 1; i < ${#COMP_WORDS[@]}; i++)); do
+    part=${COMP_WORDS[i]}
+    gap=${line%%[![:space:]]*}
+    line=${line#"$gap"}
+    if [[ -n $part ]] && ((i == COMP_CWORD && left > ${#line})); then
+      words+=('') # bash takes a word that is a blank away
+      place=${#words[@]}
+    fi
+    line=${line#"$part"}
+    before=''
+    if [[ -z $gap && -n $part && -n $last ]] &&
+      [[ -n ${COMP_LINE-} || $part == '=' || $last == '=' ]]; then
+      before=${words[-1]}
+      words[-1]+=$part
+    else
+      words+=("$part")
+    fi
+    last=$part
+    if ((i == COMP_CWORD && place == 0)); then
+      place=${#words[@]} typed=${words[-1]} kept=$before
+      [[ -n $part && -z ${part//[=:@]/} ]] && kept=$typed
+      kept=${kept%@} # of these only '@' is replaced
+    fi
+  done
+  ((place)) || return 0
+  words[place - 1]=$typed # not with parts behind the cursor
+
+  mapfile -t answer < <(
+    "$program" __complete bash "$kept" "$place" "${words[@]}" 2>/dev/null </dev/null
+  )
+  case ${answer[0]-} in
+    words) COMPREPLY=("${answer[@]:1}") ;;
+    files*)
+      compopt -o filenames 2>/dev/null
+      read -ra suffixes <<<"${answer[0]#files}"
+      if ((${#suffixes[@]})); then
+        mapfile -t COMPREPLY < <(
+          compgen -d -- "${answer[1]}"
+          for suffix in "${suffixes[@]}"; do
+            compgen -f -X "!*.$suffix" -- "${answer[1]}"
+          done
+        )
+      fi
+      if ((${#COMPREPLY[@]} == 0)); then
+        mapfile -t COMPREPLY < <(compgen -f -- "${answer[1]}")
+      fi
+      if [[ -z ${answer[1]} ]]; then
+        for i in "${!COMPREPLY[@]}"; do # not what would be an option
+          [[ ${COMPREPLY[i]} == -* ]] && unset "COMPREPLY[i]"
+        done
+      fi
+      COMPREPLY=("${COMPREPLY[@]#"${answer[2]}"}")
+      ;;
+  esac
+  return 0
+}
+complete -F _PROGRAM PROGRAM
+)script";
+
+constexpr std::string_view zsh_script =
+    R"script(#compdef PROGRAM
+# Completion of PROGRAM for zsh, printed by 'PROGRAM completion zsh'.
+_PROGRAM() {
+  local program=${(Q)words[1]} line
+  local -a answer names lines ignored
+  program=${program/#\~\//$HOME/}
+  answer=("${(@f)$("$program" __complete zsh '' $((CURRENT - 1)) "${(@Q)words[2,CURRENT-1]}" \
+    "$PREFIX" "${(@Q)words[CURRENT+1,-1]}" 2>/dev/null </dev/null)}")
+  case $answer[1] in
+    words)
+      for line in "${(@)answer[2,-1]}"; do
+        names+=("${line%%$'\t'*}")
+        if [[ -n ${line#*$'\t'} ]]; then
+          lines+=("${line%%$'\t'*}  -- ${line#*$'\t'}")
+        else
+          lines+=("${line%%$'\t'*}")
+        fi
+      done
+      compadd -l -d lines -a -- names
+      ;;
+    files*)
+      [[ $PREFIX == -*=* ]] && compset -P 1 '*='
+      [[ -z $PREFIX ]] && ignored=(-F '(-*)') # not what would be an option
+      if [[ $answer[1] == files ]]; then
+        _files $ignored
+      else
+        _files $ignored -g "*.(${(j:|:)${(s: :)answer[1]#files }})(-.)"
+      fi
+      ;;
+  esac
+}
+if [[ $funcstack[1] == _PROGRAM ]]; then
+  _PROGRAM "$@"
+else
+  compdef _PROGRAM PROGRAM
+fi
+)script";
+
+constexpr std::string_view fish_script =
+    R"script(# Completion of PROGRAM for fish, printed by 'PROGRAM completion fish'.
+function __PROGRAM_complete
+    set -l words (commandline -opc)
+    set -l current (commandline -ct)
+    set -l program (string replace -r '^~/' "$HOME/" -- $words[1])
+    # fish does not tell what is behind the cursor.
+    set -l answer ($program __complete fish '' (count $words) $words[2..] "$current" \
+        2>/dev/null </dev/null)
+    switch "$answer[1]"
+        case words
+            printf '%s\n' $answer[2..]
+        case 'files*'
+            set -l prefix (string match -r -- '^-[^=]*=' "$current")
+            set -l path (string replace -r -- '^-[^=]*=' '' "$current")
+            set -l suffixes (string split -n ' ' (string sub -s 6 -- $answer[1]))
+            set -l files (complete -C "__fish_command_without_completions $path" |
+                string replace -r '\t.*' '')
+            if string match -q -r '[:=]' -- "$path" # then fish adds all files behind it
+                set -l existing
+                for file in $files
+                    test -e (string replace -r '^~/' "$HOME/" -- $file); and set -a existing $file
+                end
+                set files $existing
+            end
+            # Not what would be an option.
+            test -n "$current"; or set files (string match -v -- '-*' $files)
+            set -l wanted $files
+            if set -q suffixes[1]
+                set wanted (string match -r -- '.*(?:/|\.(?:'(string join '|' $suffixes)'))$' $files)
+                set -q wanted[1]; or set wanted $files
+            end
+            set -q wanted[1]; and printf '%s\n' "$prefix"$wanted
+    end
+end
+complete -c PROGRAM -f -a '(__PROGRAM_complete)'
+)script";
+
+}  // namespace
+
+std::string name_to_complete(std::string_view called_as) {
+  const std::string_view name = called_as.substr(called_as.rfind('/') + 1);
+  const bool is_plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.' || c == '+';
+  });
+  return std::string(is_plain && !name.empty() ? name : "cbc");
+}
+
+std::string completion_script(std::string_view shell, std::string_view program) {
+  constexpr std::string_view placeholder = "PROGRAM";
+  std::string script(shell == "bash" ? bash_script : shell == "zsh" ? zsh_script : fish_script);
+  for (std::size_t at = 0; (at = script.find(placeholder, at)) != std::string::npos;) {
+    script.replace(at, placeholder.size(), program);
+    at += program.size();
+  }
+  return script;
+}
+
 namespace {
 
 constexpr const char* completion_examples =

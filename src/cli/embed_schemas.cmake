@@ -6,7 +6,7 @@
 file(GLOB names RELATIVE "${folder}" "${folder}/*.json")
 list(TRANSFORM names REPLACE "[.]json$" "")
 list(SORT names)
-set(header "#pragma once\n\n#include \"cli/schemas.h\"\n\nnamespace cbc::cli {\n\n")
+set(header "#pragma once\n\n#include \"cli/commands.h\"\n\nnamespace cbc::cli {\n\n")
 string(APPEND header "inline constexpr Schema schema_files[] = {\n")
 foreach(name IN LISTS names)
   file(READ "${folder}/${name}.json" text)

@@ -1,9 +1,10 @@
-#include "cli/graph_command.h"
-
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,27 +17,381 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/drawable.h"
-#include "cli/exit_status.h"
-#include "cli/graph_diff.h"
-#include "cli/graph_options.h"
-#include "cli/graph_state.h"
-#include "cli/graphviz.h"
-#include "cli/help_format.h"
+#include "base/text.h"
+#include "cli/command_line.h"
+#include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/output.h"
-#include "cli/terminal.h"
-#include "cli/value_kind.h"
+#include "cli/solve.h"
+#include "compiled/compiled_catalog.h"
+#include "diff/catalog_diff.h"
 #include "draw/catalog_graph.h"
-#include "draw/view.h"
-#include "report/diff_json.h"
-#include "report/diff_text.h"
-#include "report/graph_dot.h"
-#include "report/graph_json.h"
-#include "report/graph_mermaid.h"
-#include "text/quote.h"
+#include "draw/diagram.h"
+#include "draw/marks.h"
+#include "report/graph_report.h"
+#include "report/solve_report.h"
+#include "script/runner.h"
+#include "support/system.h"
+#include "support/wording.h"
+
+namespace CLI {
+class App;
+}
 
 namespace cbc::cli {
+
+/// What `cbc graph` draws of a catalog, and how.
+struct DrawingOptions {
+  std::string view;
+  std::string exclusivity;
+  std::string cluster;
+  bool reduce = false;
+  bool legend = false;
+  std::vector<std::string> tasks;
+  bool up = false;
+  bool down = false;
+  std::optional<std::uint32_t> depth;
+  std::optional<std::uint32_t> group;
+
+  [[nodiscard]] bool operator==(const DrawingOptions&) const = default;
+};
+
+void add_drawing_options(CLI::App& command, DrawingOptions& options);
+
+/// What is wrong with the combination of options; empty if nothing is.
+[[nodiscard]] std::string find_misuse(const DrawingOptions& options);
+
+[[nodiscard]] draw::ViewOptions view_options(const DrawingOptions& options);
+
+/// The part of the catalog that is drawn. Empty if it has no such tasks or group, which is
+/// complained of.
+[[nodiscard]] std::optional<draw::Part> find_part(const draw::CatalogGraph& graph,
+                                                  const DrawingOptions& options);
+
+namespace {
+
+/// The name that an unknown one may stand for.
+std::string suggest(const draw::CatalogGraph& graph, const std::string& name) {
+  const auto has_name = [&](const auto& one) { return one.name == name; };
+  if (std::any_of(graph.behaviors.begin(), graph.behaviors.end(), has_name)) {
+    return "; there is a behavior of this name";
+  }
+  std::vector<std::string_view> names;
+  for (const auto& task : graph.tasks) names.push_back(task.name);
+  return did_you_mean(nearest(name, names));
+}
+
+std::optional<std::vector<std::uint32_t>> find_tasks(const draw::CatalogGraph& graph,
+                                                     const std::vector<std::string>& names) {
+  std::vector<std::uint32_t> tasks;
+  for (const std::string& name : names) {
+    const auto found = std::find_if(graph.tasks.begin(), graph.tasks.end(),
+                                    [&](const auto& task) { return task.name == name; });
+    if (found == graph.tasks.end()) {
+      complain(fmt::format("--task: catalog {} has no task {}{}", quote(graph.file), quote(name),
+                           suggest(graph, name)));
+      return std::nullopt;
+    }
+    tasks.push_back(static_cast<std::uint32_t>(found - graph.tasks.begin()));
+  }
+  return tasks;
+}
+
+std::uint32_t group_count(const draw::CatalogGraph& graph) {
+  std::uint32_t groups = 0;
+  for (const auto& task : graph.tasks) {
+    if (task.group != none) groups = std::max(groups, task.group + 1);
+  }
+  return groups;
+}
+
+}  // namespace
+
+void add_drawing_options(CLI::App& command, DrawingOptions& options) {
+  constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
+  command
+      .add_option("--view", options.view,
+                  "What is drawn: full (default: tasks and behaviors), tasks (what each requires), "
+                  "constraints (between tasks, one color a group), behaviors (what each requires)")
+      ->option_text("VIEW")
+      ->check(one_of({"full", "tasks", "constraints", "behaviors"}));
+  command
+      .add_option("--exclusivity", options.exclusivity,
+                  "Draw lists of exclusive tasks as pairs, as hubs (a dot with a line to each "
+                  "task), or none (default: up to three tasks as pairs, more as hubs; in the views "
+                  "tasks and behaviors none)")
+      ->option_text("STYLE")
+      ->check(one_of({"pairs", "hubs", "none"}));
+  command
+      .add_option("--cluster", options.cluster,
+                  "Draw frames around packages (of behaviors), groups (of tasks that constraints "
+                  "connect), or none (default: none; in the view of the constraints groups)")
+      ->option_text("KIND")
+      ->check(one_of({"packages", "groups", "none"}));
+  command.add_flag("--reduce", options.reduce,
+                   "In the view of tasks, leave out requirements that follow from others");
+  command
+      .add_option("--task", options.tasks,
+                  "Draw this task only, with what it requires and what requires it. Repeatable")
+      ->option_text("NAME")
+      ->check(stands_for(ValueKind::task))
+      ->allow_extra_args(false);
+  command.add_flag("--up", options.up, "Of --task: only what requires it");
+  command.add_flag("--down", options.down, "Of --task: only what it requires");
+  command.add_option("--depth", options.depth, "Of --task: at most N tasks away")
+      ->option_text("N")
+      ->check(whole_number(0, most));
+  command
+      .add_option("--group", options.group,
+                  "Draw this group only; 'cbc compile --dump' numbers them")
+      ->option_text("N")
+      ->check(whole_number(0, most));
+  command.add_flag("--legend", options.legend, "Add a key to the kinds of shapes and lines");
+}
+
+std::string find_misuse(const DrawingOptions& options) {
+  if (!options.tasks.empty() && options.group) return "--task and --group do not go together";
+  if (options.tasks.empty()) {
+    if (options.up) return "--up goes with --task only";
+    if (options.down) return "--down goes with --task only";
+    if (options.depth) return "--depth goes with --task only";
+  }
+  if (options.reduce && options.view != "tasks") return "--reduce goes with --view tasks only";
+  return {};
+}
+
+draw::ViewOptions view_options(const DrawingOptions& options) {
+  draw::ViewOptions result;
+  if (options.view == "tasks") result.view = draw::View::tasks;
+  if (options.view == "constraints") result.view = draw::View::constraints;
+  if (options.view == "behaviors") result.view = draw::View::behaviors;
+  if (options.exclusivity == "pairs") result.exclusivity = draw::ExclusivityStyle::pairs;
+  if (options.exclusivity == "hubs") result.exclusivity = draw::ExclusivityStyle::hubs;
+  if (options.exclusivity == "none") result.exclusivity = draw::ExclusivityStyle::hidden;
+  if (options.cluster == "packages") result.clustering = draw::Clustering::packages;
+  if (options.cluster == "none") result.clustering = draw::Clustering::nothing;
+  if (options.cluster == "groups") result.clustering = draw::Clustering::groups;
+  result.reduce = options.reduce;
+  return result;
+}
+
+std::optional<draw::Part> find_part(const draw::CatalogGraph& graph,
+                                    const DrawingOptions& options) {
+  if (options.group) {
+    const std::uint32_t groups = group_count(graph);
+    if (*options.group >= groups) {
+      complain(fmt::format(
+          "--group: catalog {} has no group {}; {}", quote(graph.file), *options.group,
+          groups == 0 ? "it has none" : fmt::format("they count from 0 to {}", groups - 1)));
+      return std::nullopt;
+    }
+    return part_of_group(graph, *options.group);
+  }
+  if (options.tasks.empty()) return whole(graph);
+  const auto tasks = find_tasks(graph, options.tasks);
+  if (!tasks) return std::nullopt;
+  const bool is_both = options.up == options.down;
+  return part_around(graph, *tasks,
+                     {is_both || options.up, is_both || options.down, options.depth});
+}
+
+/// Has Graphviz's program `dot` draw a graph: format is svg, png or pdf. Empty if that fails, which
+/// is complained of.
+[[nodiscard]] std::optional<std::string> run_graphviz(const std::string& dot,
+                                                      const std::string& format);
+
+namespace {
+
+std::string first_line(const std::string& text) {
+  const std::string line = text.substr(0, text.find('\n'));
+  return line.empty() ? "it does not say why" : line;
+}
+
+/// Takes the time of the run out of a PDF file, so that the same catalog gives the same bytes. The
+/// length stays, because the file has a table of the places in it.
+void remove_date(std::string& pdf) {
+  constexpr std::string_view begin = "/CreationDate (D:";
+  constexpr std::string_view date = "19700101000000";
+  const std::size_t place = pdf.find(begin);
+  if (place == std::string::npos || pdf.size() < place + begin.size() + date.size()) return;
+  pdf.replace(place + begin.size(), date.size(), date);
+}
+
+}  // namespace
+
+std::optional<std::string> run_graphviz(const std::string& dot, const std::string& format) {
+  Filtered picture = run_filter({"dot", "-T" + format}, dot);
+  if (!picture.is_found) {
+    complain(fmt::format("{} needs Graphviz (Debian: apt install graphviz): cannot run 'dot': {}",
+                         format, picture.error_output));
+    return std::nullopt;
+  }
+  if (!picture.is_done || picture.output.empty()) {
+    complain(fmt::format("Graphviz cannot draw it as {}: {}", format,
+                         printable(first_line(picture.error_output))));
+    return std::nullopt;
+  }
+  if (format == "pdf") remove_date(picture.output);
+  return std::move(picture.output);
+}
+
+}  // namespace cbc::cli
+
+namespace CLI {
+class App;
+}
+
+namespace cbc::cli {
+
+/// Which state of a mission `cbc graph` draws.
+struct StateOptions {
+  std::optional<std::string> script;  ///< empty: no state, but the catalog
+  std::optional<std::uint64_t> after;
+  std::string at;
+};
+
+void add_state_options(CLI::App& command, StateOptions& options);
+
+/// What is wrong with the combination of options; empty if nothing is.
+[[nodiscard]] std::string find_misuse(const StateOptions& options);
+
+/// Runs the script on the catalog, or on the one that it names if `catalog` is empty. Null if there
+/// is no such state: why is printed, and `status` is set.
+[[nodiscard]] std::unique_ptr<Drawable> read_state(const std::string& catalog,
+                                                   const StateOptions& options, int& status);
+
+namespace {
+
+/// The one script, with its catalog.
+std::optional<Mission> load_mission(const std::string& catalog, const std::string& script) {
+  std::vector<std::string> paths;
+  if (!catalog.empty()) paths.push_back(catalog);
+  paths.push_back(script);
+  for (const std::string& path : paths) {
+    if (!is_folder(path)) continue;
+    complain(fmt::format("cannot read {}: it is a folder", quote(path)));
+    return std::nullopt;
+  }
+  std::optional<std::vector<Mission>> missions = MissionLoader().load(paths);
+  if (!missions) return std::nullopt;
+  if (missions->size() > 1) {
+    complain(fmt::format("{} is a script; expected a catalog here (a script goes after --script)",
+                         quote(display_name(catalog))));
+    return std::nullopt;
+  }
+  return std::move(missions->front());
+}
+
+Microseconds end_of(const Script& script) {
+  Microseconds end = 0;
+  for (const Step& step : script.steps) end = step.time.value_or(end);
+  return end;
+}
+
+WantedState wanted_state(const StateOptions& options) {
+  WantedState wanted;
+  wanted.index = options.after;
+  if (!options.at.empty()) wanted.time = parse_seconds(options.at).value;
+  return wanted;
+}
+
+/// Why a run that came to its end has no such state, or empty.
+std::string find_miss(const Script& script, const WantedState& wanted, std::uint64_t events) {
+  if (wanted.index && *wanted.index > events) {
+    return fmt::format("--after: script {} makes {} {} in all", quote(script.file), events,
+                       events == 1 ? "event" : "events");
+  }
+  if (wanted.time && *wanted.time > end_of(script)) {
+    return fmt::format("--at: script {} ends at {} s", quote(script.file),
+                       format_decimal(end_of(script), 6));
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_state_options(CLI::App& command, StateOptions& options) {
+  command
+      .add_option("--script", options.script,
+                  "Run this event script, and mark what runs at its end: running tasks and active "
+                  "behaviors, and what the last event changed. It may name the catalog (catalog: "
+                  "FILE)")
+      ->option_text("SCRIPT")
+      ->check(stands_for(ValueKind::script));
+  command
+      .add_option("--after", options.after,
+                  "Of --script: mark what runs after the Nth event that 'cbc solve' lists (0: "
+                  "before the first)")
+      ->option_text("N")
+      ->check(whole_number(0));
+  command.add_option("--at", options.at, "Of --script: mark what runs after this time")
+      ->option_text("SECONDS")
+      ->check(seconds(0));
+}
+
+std::string find_misuse(const StateOptions& options) {
+  if (options.after && !options.at.empty()) return "--after and --at do not go together";
+  if (options.script) return {};
+  if (options.after) return "--after goes with --script only";
+  if (!options.at.empty()) return "--at goes with --script only";
+  return {};
+}
+
+std::unique_ptr<Drawable> read_state(const std::string& catalog, const StateOptions& options,
+                                     int& status) {
+  status = exit_unusable;
+  std::optional<Mission> mission = load_mission(catalog, *options.script);
+  if (!mission) return nullptr;
+  const WantedState wanted = wanted_state(options);
+  CoordinatorOptions coordination;
+  coordination.find_conflicts = false;
+  StateRecorder recorder(*mission->catalog, mission->script, wanted);
+  const RunResult result = run_script(*mission->catalog, mission->script, coordination, recorder);
+  if (!recorder.has_passed()) {
+    std::string problem = describe_end(result, coordination);
+    if (problem.empty()) problem = find_miss(mission->script, wanted, recorder.events());
+    if (!problem.empty()) {
+      complain(problem);
+      status = std::max<int>(exit_unusable, status_of(result));
+      return nullptr;
+    }
+  }
+  auto state = std::make_unique<Drawable>();
+  state->graph = draw::to_graph(*mission->catalog);
+  draw::mark_state(state->graph, recorder.state());
+  state->moment = recorder.moment();
+  state->named_catalog = std::move(mission->named_catalog);
+  state->compiled = std::move(mission->catalog);
+  return state;
+}
+
+/// Two catalogs, what they do not have in common, and both as one, fit to be drawn.
+struct ComparedCatalogs {
+  std::shared_ptr<const CompiledCatalog> before;
+  std::shared_ptr<const CompiledCatalog> after;
+  CatalogDiff diff;
+  draw::CatalogGraph graph;
+};
+
+/// Reads and compares two catalogs, compiled ones or YAML. Null if one of them cannot be used,
+/// which is said.
+[[nodiscard]] std::unique_ptr<const ComparedCatalogs> read_and_compare(const std::string& before,
+                                                                       const std::string& after);
+
+std::unique_ptr<const ComparedCatalogs> read_and_compare(const std::string& before,
+                                                         const std::string& after) {
+  auto compared = std::make_unique<ComparedCatalogs>();
+  InputFiles files;
+  CatalogLoader loader(files);
+  compared->before = loader.load(before);
+  compared->after = loader.load(after);
+  files.print_findings();
+  if (compared->before == nullptr || compared->after == nullptr) return nullptr;
+  compared->diff = compare_catalogs(*compared->before, *compared->after);
+  compared->graph = draw::to_graph(*compared->before, *compared->after, compared->diff);
+  return compared;
+}
+
 namespace {
 
 constexpr const char* graph_examples =

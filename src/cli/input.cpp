@@ -3,19 +3,114 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "cli/exit_status.h"
+#include "base/text.h"
+#include "catalog/reader.h"
+#include "cli/commands.h"
+#include "cli/output.h"
+#include "compile/compile.h"
 #include "compiled/compiled_file.h"
-#include "text/quote.h"
+#include "diagnostic/diagnostic.h"
+#include "lint/controls.h"
+#include "script/reader.h"
+#include "support/wording.h"
 
 namespace cbc::cli {
+namespace {
+
+constexpr std::array<std::string_view, 4> catalog_keys = {
+    "behaviors", "tasks", "exclusivity_constraints", "default_values"};
+
+template <typename Keys>
+bool has_any(const yaml::Node& node, const Keys& keys) {
+  return std::any_of(keys.begin(), keys.end(),
+                     [&node](std::string_view key) { return node.find(key) != nullptr; });
+}
+
+/// Whether a line begins with one of the keys.
+bool has_line_with_key(std::string_view text) {
+  text = utf8::without_byte_order_mark(text);
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::string_view line = text.substr(begin, text.find('\n', begin) - begin);
+    for (const std::string_view key : catalog_keys) {
+      if (line.starts_with(key) && line.substr(key.size()).starts_with(':')) return true;
+    }
+    begin += line.size() + 1;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool is_catalog(const yaml::Document& document) { return has_any(document.root(), catalog_keys); }
+
+bool is_script(const yaml::Document& document) {
+  constexpr std::array<std::string_view, 4> keys = {"events", "catalog", "reactive_delay",
+                                                    "situation"};
+  constexpr std::array<std::string_view, 9> event_keys = {
+      "start", "stop", "finish", "situation", "fault", "repair", "expect", "at", "wait"};
+  const yaml::Node& root = document.root();
+  if (root.kind != yaml::Kind::sequence) return !is_catalog(document) && has_any(root, keys);
+  // A list of anything else is more likely a catalog that lacks a key.
+  return root.items.empty() ||
+         std::any_of(root.items.begin(), root.items.end(),
+                     [&event_keys](const yaml::Node* item) { return has_any(*item, event_keys); });
+}
+
+bool looks_like_script(const yaml::Document& document) {
+  if (is_script(document)) return true;
+  const auto& entries = document.root().entries;
+  return !is_catalog(document) &&
+         std::any_of(entries.begin(), entries.end(), [](const auto& entry) {
+           return nearest(entry.first->text, std::array<std::string_view, 1>{"events"}).has_value();
+         });
+}
+
+bool looks_like_catalog(std::string_view text) {
+  if (has_line_with_key(text)) return true;
+  Diagnostics ignored;
+  const auto document = yaml::parse(text, {}, ignored);
+  if (document == nullptr || is_script(*document)) return false;
+  if (is_catalog(*document)) return true;
+  const auto& entries = document->root().entries;
+  return std::any_of(entries.begin(), entries.end(), [](const auto& entry) {
+    return nearest(entry.first->text, catalog_keys).has_value();
+  });
+}
+
+void print_findings(const std::vector<Diagnostic>& findings,
+                    const std::map<std::string, std::string>& texts) {
+  constexpr std::size_t most_warnings = 3;
+  SourceTexts sources;
+  for (const auto& [file, text] : texts) sources.add(file, text);
+  const Style style = style_for(stderr);
+  std::map<std::pair<std::string_view, std::string_view>, std::size_t> warnings;
+  for (const Diagnostic& finding : findings) {
+    if (finding.severity == Severity::note) continue;
+    if (finding.severity == Severity::error ||
+        ++warnings[{finding.file, finding.rule}] <= most_warnings) {
+      fmt::print(stderr, "{}", render(finding, sources, style));
+    }
+  }
+  for (const auto& [kind, count] : warnings) {
+    if (count <= most_warnings) continue;
+    fmt::print(stderr, "{}: {} more like these [{}]\n", printable(kind.first),
+               count - most_warnings, kind.second);
+  }
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -101,6 +196,189 @@ void complain(const std::string& message) {
 int usage_error(std::string_view command, const std::string& message) {
   complain(fmt::format("{}\nSee 'cbc {} --help'.", message, command));
   return exit_unusable;
+}
+
+std::optional<InputFile> InputFiles::read(const std::string& path) {
+  std::optional<CatalogInput> input = read_catalog_input(path);
+  if (!input) return std::nullopt;
+  if (input->is_compiled) return InputFile{path, nullptr, std::move(*input)};
+  const std::string name = display_name(path);
+  const auto entry = texts_.insert_or_assign(name, std::move(input->content)).first;
+  Diagnostics diagnostics;
+  auto document = yaml::parse(entry->second, name, diagnostics);
+  for (Diagnostic& finding : diagnostics.release()) findings_.push_back(std::move(finding));
+  if (document == nullptr) return std::nullopt;
+  return InputFile{path, std::move(document), {}};
+}
+
+std::optional<InputFile> InputFiles::read_catalog(const std::string& path) {
+  std::optional<InputFile> file = read(path);
+  if (file && file->document != nullptr && is_script(*file->document)) {
+    complain(fmt::format("{} is a script; expected a catalog here", quote(display_name(path))));
+    return std::nullopt;
+  }
+  return file;
+}
+
+bool InputFiles::take_findings(const std::string& path, const yaml::Document& document,
+                               Diagnostics diagnostics) {
+  const std::optional<SeveritySettings> settings = settings_.find(path);
+  if (!settings) return false;
+  // Not all rules are looked at here, so that none of the comments can be called unused.
+  const CommentedFile file{document.file(), text_of(document), &document, false};
+  bool has_errors = false;
+  for (Diagnostic& finding : control_findings(diagnostics.release(), file, *settings)) {
+    has_errors |= finding.severity == Severity::error;
+    findings_.push_back(std::move(finding));
+  }
+  return !has_errors;
+}
+
+void InputFiles::print_findings() {
+  std::stable_sort(findings_.begin(), findings_.end(),
+                   [](const Diagnostic& a, const Diagnostic& b) { return a.file < b.file; });
+  cli::print_findings(findings_, texts_);
+}
+
+std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const InputFile& file) {
+  if (file.document == nullptr) {
+    std::optional<CompiledFile> compiled = cli::load(file.compiled);
+    if (!compiled) return nullptr;
+    return std::make_shared<const CompiledCatalog>(std::move(compiled->catalog));
+  }
+  const std::optional<Catalog> catalog = understand(file.path, *file.document);
+  if (!catalog) return nullptr;
+  return std::make_shared<const CompiledCatalog>(compile(*catalog));
+}
+
+std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const std::string& path) {
+  const auto [entry, is_new] = known_.try_emplace(path, nullptr);
+  if (is_new) {
+    if (const std::optional<InputFile> file = files_.read_catalog(path))
+      entry->second = load(*file);
+  }
+  return entry->second;
+}
+
+std::optional<Catalog> CatalogLoader::understand(const std::string& path,
+                                                 const yaml::Document& document) {
+  Diagnostics diagnostics;
+  CatalogReading reading = understand_catalog(document, diagnostics);
+  if (!files_.take_findings(path, document, std::move(diagnostics))) return std::nullopt;
+  return std::move(reading.catalog);
+}
+
+std::shared_ptr<const CompiledCatalog> load_catalog(const std::string& path) {
+  InputFiles files;
+  auto catalog = CatalogLoader(files).load(path);
+  files.print_findings();
+  return catalog;
+}
+
+namespace {
+
+/// Whether there is a compiled catalog in a regular file: nothing else can be read twice.
+bool can_be_mapped(const std::string& path) {
+  std::error_code ignored;
+  if (path == "-" || !std::filesystem::is_regular_file(path, ignored)) return false;
+  std::array<char, 8> begin{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin.data(), begin.size());
+  return is_compiled({begin.data(), static_cast<std::size_t>(file.gcount())});
+}
+
+}  // namespace
+
+std::optional<CatalogInput> read_catalog_input(const std::string& path) {
+  if (can_be_mapped(path)) return CatalogInput{path, {}, true};
+  std::optional<std::string> content = read_input(path);
+  if (!content) return std::nullopt;
+  const bool has_catalog = is_compiled(*content);
+  return CatalogInput{path, std::move(*content), has_catalog};
+}
+
+std::optional<CompiledFile> load(const CatalogInput& input) {
+  CompiledFileResult result =
+      input.content.empty() ? load_compiled(input.path) : read_compiled(input.content);
+  if (!result.file) {
+    complain(fmt::format("cannot read {}: {}", quote(display_name(input.path)), result.error));
+  }
+  return std::move(result.file);
+}
+
+std::optional<std::string> path_of_catalog(const std::string& script_path,
+                                           const yaml::Document& script) {
+  const std::optional<std::string> named = catalog_of_script(script);
+  if (!named) return std::nullopt;
+  const std::filesystem::path folder = std::filesystem::path(script_path).parent_path();
+  return (folder / *named).lexically_normal().string();
+}
+
+SettingsFinder::SettingsFinder(SeveritySettings command_line)
+    : command_line_(std::move(command_line)) {}
+
+std::optional<SeveritySettings> SettingsFinder::find(const std::string& path) {
+  const std::optional<std::string> file = find_settings_file(path);
+  if (!file) return command_line_;
+  const auto [entry, is_new] = known_.try_emplace(*file);
+  if (!is_new) return entry->second;
+  if (const std::optional<std::string> text = read_input(*file)) {
+    Diagnostics diagnostics;
+    entry->second = read_settings(*text, *file, diagnostics);
+    diagnostics.sort();
+    print_findings(diagnostics.all(), {{*file, *text}});
+  }
+  if (entry->second) entry->second->override_with(command_line_);
+  return entry->second;
+}
+
+namespace {
+
+std::unique_ptr<Drawable> from_compiled(CompiledCatalog catalog) {
+  auto drawable = std::make_unique<Drawable>();
+  drawable->compiled = std::make_shared<const CompiledCatalog>(std::move(catalog));
+  drawable->graph = draw::to_graph(*drawable->compiled);
+  return drawable;
+}
+
+bool has_errors(const std::vector<Diagnostic>& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Diagnostic& finding) { return finding.severity == Severity::error; });
+}
+
+/// Null if nothing can be drawn.
+std::unique_ptr<Drawable> from_text(InputFiles& files, const InputFile& file) {
+  Diagnostics diagnostics;
+  CatalogReading reading = understand_catalog(*file.document, diagnostics);
+  if (files.take_findings(file.path, *file.document, std::move(diagnostics))) {
+    return from_compiled(compile(reading.catalog));
+  }
+  // Without an error it is the settings that could not be read.
+  if (!has_errors(files.findings())) return nullptr;
+  auto drawable = std::make_unique<Drawable>();
+  drawable->reading = std::move(reading);
+  drawable->graph = draw::to_graph(drawable->reading, files.findings());
+  const draw::CatalogGraph& graph = drawable->graph;
+  if (graph.tasks.empty() && graph.behaviors.empty()) return nullptr;
+  return drawable;
+}
+
+}  // namespace
+
+std::unique_ptr<Drawable> to_drawable(InputFiles& files, const InputFile& file) {
+  if (file.document != nullptr) return from_text(files, file);
+  std::optional<CompiledFile> compiled = load(file.compiled);
+  return compiled ? from_compiled(std::move(compiled->catalog)) : nullptr;
+}
+
+std::unique_ptr<Drawable> read_drawable(const std::string& path) {
+  InputFiles files;
+  std::unique_ptr<Drawable> drawable;
+  if (const std::optional<InputFile> file = files.read_catalog(path)) {
+    drawable = to_drawable(files, *file);
+  }
+  files.print_findings();
+  return drawable;
 }
 
 }  // namespace cbc::cli

@@ -15,18 +15,25 @@
 #include <fmt/format.h>
 
 #include "cbc/version.h"
-#include "cli/compile_command.h"
-#include "cli/completion_command.h"
-#include "cli/completion_reply.h"
-#include "cli/exit_status.h"
-#include "cli/graph_command.h"
-#include "cli/help_format.h"
+#include "cli/command_line.h"
+#include "cli/commands.h"
 #include "cli/input.h"
-#include "cli/lint_command.h"
-#include "cli/schema_command.h"
-#include "cli/solve_command.h"
-#include "cli/standard_descriptors.h"
-#include "cli/usage_errors.h"
+#include "cli/output.h"
+
+namespace cbc::cli {
+
+std::vector<CLI::App*> commands_of(CLI::App& program) {
+  return program.get_subcommands([](const CLI::App*) { return true; });
+}
+
+CLI::App* find_command(CLI::App& program, const std::string& name) {
+  for (CLI::App* command : commands_of(program)) {
+    if (command->get_name() == name) return command;
+  }
+  return nullptr;
+}
+
+}  // namespace cbc::cli
 
 namespace {
 

@@ -1,17 +1,161 @@
 #include "cli/output.h"
 
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
 #include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fcntl.h>
+#include <initializer_list>
+#include <string_view>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "cli/exit_status.h"
+#include "base/text.h"
+#include "cli/commands.h"
 #include "cli/input.h"
-#include "file/atomic_file.h"
-#include "text/quote.h"
+#include "support/system.h"
 
 namespace cbc::cli {
+
+bool is_terminal(std::FILE* stream) {
+  const char* const terminal = std::getenv("TERM");
+  if (terminal == nullptr || std::string_view(terminal) == "dumb") return false;
+  return isatty(fileno(stream)) != 0;
+}
+
+std::size_t columns_of(std::FILE* stream) {
+  winsize size{};
+  return ::ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+bool wants_color(std::FILE* stream) {
+  const char* const no_color = std::getenv("NO_COLOR");
+  return (no_color == nullptr || *no_color == '\0') && is_terminal(stream);
+}
+
+Style style_for(std::FILE* stream) { return wants_color(stream) ? color_style() : plain_style(); }
+
+namespace {
+
+/// A longer line would go on below, and stay.
+std::string_view first_characters(std::string_view line, std::size_t count) {
+  std::size_t end = 0;
+  while (end < line.size() && count-- > 0) end += utf8::decode(line, end).bytes;
+  return line.substr(0, end);
+}
+
+}  // namespace
+
+Progress::Progress(std::string what, std::size_t total)
+    : what_(std::move(what)),
+      total_(total),
+      is_wanted_(is_terminal(stderr)),
+      start_(std::chrono::steady_clock::now()) {}
+
+Progress::~Progress() { clear(); }
+
+void Progress::begin(const std::string& name) {
+  ++begun_;
+  name_ = name;
+  show();
+}
+
+void Progress::show(const std::string& detail) {
+  constexpr std::chrono::milliseconds between_updates(100);  // more often is no use to anybody
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_wanted_ || now - start_ < std::chrono::seconds(1)) return;
+  if (is_shown_ && now - shown_ < between_updates) return;
+  // The line is written over: return, text, erase to the end.
+  const std::string line =
+      fmt::format("{} {} of {}: {}{}", what_, begun_, total_, printable(name_), detail);
+  fmt::print(stderr, "\r{}\x1b[K", first_characters(line, columns_of(stderr) - 1));
+  std::fflush(stderr);
+  is_shown_ = true;
+  shown_ = now;
+}
+
+void Progress::clear() {
+  if (!is_shown_) return;
+  fmt::print(stderr, "\r\x1b[K");
+  is_shown_ = false;
+}
+
+namespace {
+
+constexpr std::array stop_signals = {SIGINT, SIGTERM, SIGHUP};
+
+// What a signal handler may touch.
+volatile std::sig_atomic_t stop = 0;
+volatile std::sig_atomic_t asked_at = 0;  ///< in seconds
+std::array<int, 2> ends{-1, -1};
+
+std::sig_atomic_t seconds_now() {
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<std::sig_atomic_t>(time.tv_sec);
+}
+
+extern "C" void ask_to_stop(int signal) {
+  const int error = errno;
+  if (stop == 0) {
+    stop = 1;
+    asked_at = seconds_now();
+    static_cast<void>(!::write(ends[1], "", 1));
+  } else if (seconds_now() - asked_at > 1) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  errno = error;
+}
+
+}  // namespace
+
+StopSignals::StopSignals() {
+  if (::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) != 0) {
+    throw std::system_error(errno, std::generic_category());
+  }
+  stop = 0;
+  struct sigaction action = {};
+  action.sa_handler = ask_to_stop;
+  action.sa_flags = SA_RESTART;  // writing goes on where it was
+  sigemptyset(&action.sa_mask);
+  for (const int signal : stop_signals) sigaddset(&action.sa_mask, signal);
+  for (const int signal : stop_signals) {
+    struct sigaction before = {};
+    ::sigaction(signal, &action, &before);
+    // nohup sees to it that the end of a connection ends nothing.
+    if (signal == SIGHUP && before.sa_handler == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  }
+}
+
+StopSignals::~StopSignals() {
+  // All is done and saved; what comes now must not make it look broken off.
+  for (const int signal : stop_signals) std::signal(signal, SIG_IGN);
+  ::close(ends[0]);
+  ::close(ends[1]);
+}
+
+bool StopSignals::have_come() const { return stop != 0; }
+
+int StopSignals::descriptor() const { return ends[0]; }
+
+void hold_standard_descriptors() {
+  // In order, as a file that is opened takes the lowest free descriptor.
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(descriptor, F_GETFD) >= 0) continue;
+    // Open for the direction that is not used. What nobody wants to be told is no error, though.
+    const int mode = descriptor == STDOUT_FILENO ? O_RDONLY : O_WRONLY;
+    if (::open("/dev/null", mode) < 0) return;
+  }
+}
 
 int write_output(const std::string& path, std::string_view content) {
   if (path == "-") {
@@ -32,6 +176,25 @@ bool is_same_file(const std::string& input, const std::string& output) {
   const int status = input == "-" ? ::fstat(STDIN_FILENO, &in) : ::stat(input.c_str(), &in);
   return status == 0 && ::stat(output.c_str(), &out) == 0 && in.st_dev == out.st_dev &&
          in.st_ino == out.st_ino;
+}
+
+std::string describe_end(const RunResult& result, const CoordinatorOptions& options) {
+  switch (result.status) {
+    case Coordinator::Status::ok:
+      return {};
+    case Coordinator::Status::too_many_clock_events:
+      return fmt::format("the clock made more than {} events (--max-clock-events)",
+                         options.max_clock_events);
+    case Coordinator::Status::refused_answer:
+      return "the checker refuses an answer of the solver: " + result.internal_error;
+  }
+  return {};
+}
+
+int status_of(const RunResult& result) {
+  if (result.status == Coordinator::Status::refused_answer) return exit_internal;
+  if (result.status == Coordinator::Status::too_many_clock_events) return exit_unusable;
+  return result.failed > 0 ? exit_no : exit_ok;
 }
 
 }  // namespace cbc::cli

@@ -1,10 +1,10 @@
-#include "cli/solve_command.h"
-
 #include <algorithm>
+#include <chrono>
 #include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -12,19 +12,116 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/exit_status.h"
-#include "cli/help_format.h"
+#include "base/text.h"
+#include "cli/command_line.h"
+#include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/output.h"
-#include "cli/solve_missions.h"
-#include "cli/solve_options.h"
-#include "cli/solve_stream.h"
-#include "cli/sweep_command.h"
-#include "cli/validators.h"
-#include "cli/value_kind.h"
-#include "text/quote.h"
+#include "cli/solve.h"
+#include "support/wording.h"
 
 namespace cbc::cli {
+
+CoordinatorOptions coordinator_options(const SolveOptions& options,
+                                       const CompiledCatalog& catalog) {
+  CoordinatorOptions result;
+  result.search.max_solutions = options.max_solutions;
+  result.search.max_nodes = options.max_nodes;
+  if (!options.time_limit.empty()) {
+    result.search.time_limit = std::chrono::microseconds(parse_seconds(options.time_limit).value);
+  }
+  result.tie_seed = options.tie_seed;
+  result.max_clock_events = options.max_clock_events;
+  result.explain = explanation_for(catalog, options.explain);
+  // The others are for programs, which ask for it.
+  result.explain.displaced =
+      options.format == "text" || options.format == "junit" || options.format == "github";
+  result.measure_time = options.stats;
+  return result;
+}
+
+EventAdditions event_additions(const SolveOptions& options) {
+  return {!options.explain.why.empty(), options.explain.alternatives > 0};
+}
+
+std::size_t thread_count(const SolveOptions& options) {
+  constexpr std::uint64_t most_threads = 256;  // more would only take memory
+  if (options.jobs) return std::min(*options.jobs, most_threads);
+  return std::max(1U, std::thread::hardware_concurrency());
+}
+
+namespace {
+
+constexpr std::uint32_t most_alternatives = 1000;
+
+/// The name that an unknown one may stand for.
+std::string suggest(const CompiledCatalog& catalog, const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const std::string_view task : catalog.task_names) names.push_back(task);
+  for (const std::string_view behavior : catalog.behavior_names) names.push_back(behavior);
+  return did_you_mean(nearest(name, names));
+}
+
+}  // namespace
+
+void add_explain_options(CLI::App& command, ExplainOptions& options) {
+  command
+      .add_option("--why", options.why,
+                  "Say of each accepted event why this task or behavior is as it is: where the "
+                  "best alternative loses. Repeatable")
+      ->option_text("NAME")
+      ->check(stands_for(ValueKind::task_or_behavior))
+      ->allow_extra_args(false);
+  command
+      .add_option("--alternatives", options.alternatives,
+                  fmt::format("List the K best configurations of each accepted event (at most {})",
+                              most_alternatives))
+      ->option_text("K")
+      ->check(whole_number(1, most_alternatives));
+}
+
+ExplanationOptions explanation_for(const CompiledCatalog& catalog, const ExplainOptions& options) {
+  ExplanationOptions result;
+  result.alternatives = options.alternatives;
+  for (const std::string& name : options.why) {
+    // A task and a behavior may have the same name.
+    if (const auto task = catalog.find_task(name)) result.why.push_back({true, *task});
+    if (const auto behavior = catalog.find_behavior(name)) result.why.push_back({false, *behavior});
+  }
+  return result;
+}
+
+bool knows_names(const CompiledCatalog& catalog, const ExplainOptions& options) {
+  for (const std::string& name : options.why) {
+    if (catalog.find_task(name) || catalog.find_behavior(name)) continue;
+    complain(fmt::format("--why: catalog {} has no task or behavior {}{}", quote(catalog.file),
+                         quote(name), suggest(catalog, name)));
+    return false;
+  }
+  return true;
+}
+
+void add_stream_options(CLI::App& command, StreamOptions& options) {
+  command
+      .add_option("--state-out", options.state_out,
+                  "Save the state at the end of a stream (jsonl) to FILE; what is due at its last "
+                  "instant is left to what goes on")
+      ->option_text("FILE")
+      ->check(stands_for(ValueKind::file));
+  command
+      .add_option("--state-in", options.state_in,
+                  "Go on from a saved state of the same catalog, with its clock, its situation and "
+                  "its reactive delay")
+      ->option_text("FILE")
+      ->check(stands_for(ValueKind::file));
+  command
+      .add_option("--replay", options.replay,
+                  "Run the scripted events of LOG, which --format jsonl wrote, again, and compare, "
+                  "byte for byte; with the same options")
+      ->option_text("LOG")
+      ->check(stands_for(ValueKind::file));
+}
+
 namespace {
 
 constexpr const char* solve_examples =

@@ -1,31 +1,212 @@
-#include "cli/solve_missions.h"
-
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "cli/exit_status.h"
+#include "base/text.h"
+#include "cli/commands.h"
 #include "cli/input.h"
-#include "cli/mission.h"
+#include "cli/ordered_work.h"
 #include "cli/output.h"
-#include "cli/run_end.h"
-#include "cli/solve_runs.h"
-#include "cli/terminal.h"
-#include "report/solve_github.h"
-#include "report/solve_html.h"
-#include "report/solve_json.h"
-#include "report/solve_junit.h"
+#include "cli/solve.h"
 #include "report/solve_report.h"
-#include "report/solve_text.h"
+#include "script/reader.h"
 #include "script/runner.h"
-#include "text/quote.h"
 
 namespace cbc::cli {
+std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::string>& paths) {
+  std::size_t first_script = 0;
+  const auto from_stdin = std::count(paths.begin(), paths.end(), "-");
+  if (from_stdin > 1) {
+    complain(stdin_only_once);
+    return std::nullopt;
+  }
+  if (!is_folder(paths.front())) {
+    const std::optional<InputFile> first = files_.read(paths.front());
+    if (first && first->document != nullptr && is_script(*first->document)) {
+      add_script(paths.front(), *first->document);
+    } else {
+      if (first) given_catalog_ = catalogs_.load(*first);
+      is_given_catalog_bad_ = given_catalog_ == nullptr;
+      has_failed_ = is_given_catalog_bad_;
+    }
+    first_script = 1;
+  }
+  for (std::size_t place = first_script; place < paths.size(); ++place) add_path(paths[place]);
+  files_.print_findings();
+  if (has_failed_) return std::nullopt;
+  if (missions_.empty()) {
+    complain(given_catalog_ != nullptr && paths.size() == 1
+                 ? fmt::format("no event script given to solve on catalog {}",
+                               quote(display_name(paths.front())))
+                 : fmt::format("found no event script in {}", quote(paths.back())));
+    return std::nullopt;
+  }
+  return std::move(missions_);
+}
+
+void MissionLoader::add_path(const std::string& path) {
+  if (is_folder(path)) {
+    add_folder(path);
+    return;
+  }
+  const std::optional<InputFile> file = files_.read(path);
+  if (!file) {
+    has_failed_ = true;
+  } else if (file->document == nullptr) {
+    complain_of_catalog(path);
+  } else {
+    add_script(path, *file->document);
+  }
+}
+
+/// The scripts of a folder; other files may lie among them, but none that is meant as a script is
+/// left out for a slip of the pen.
+void MissionLoader::add_folder(const std::string& path) {
+  for (const std::string& name : list_folder(path, {".yaml", ".yml", ".json"}, has_failed_)) {
+    const std::optional<InputFile> file = files_.read(name);
+    if (!file) {
+      has_failed_ = true;
+    } else if (file->document != nullptr && looks_like_script(*file->document)) {
+      add_script(name, *file->document);
+    }
+  }
+}
+
+void MissionLoader::complain_of_catalog(const std::string& path) {
+  complain(fmt::format("{} is a catalog; expected a script here (a catalog goes first)",
+                       quote(display_name(path))));
+  has_failed_ = true;
+}
+
+void MissionLoader::add_script(const std::string& path, const yaml::Document& document) {
+  if (is_catalog(document)) {
+    complain_of_catalog(path);
+    return;
+  }
+  std::shared_ptr<const CompiledCatalog> catalog = catalog_of(path, document);
+  if (catalog == nullptr) {
+    has_failed_ = true;
+    return;
+  }
+  Diagnostics diagnostics;
+  std::optional<Script> script = read_script(document, *catalog, Severity::warning, diagnostics);
+  if (files_.take_findings(path, document, std::move(diagnostics)) && script) {
+    missions_.push_back({std::move(catalog), path_of_catalog(path, document), std::move(*script)});
+  } else {
+    has_failed_ = true;
+  }
+}
+
+std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_of(const std::string& script_path,
+                                                                 const yaml::Document& script) {
+  if (given_catalog_ != nullptr || is_given_catalog_bad_) return given_catalog_;
+  const std::optional<std::string> named = path_of_catalog(script_path, script);
+  if (!named) {
+    complain(fmt::format("script {} names no catalog, and none is given",
+                         quote(display_name(script_path))));
+    return nullptr;
+  }
+  return catalogs_.load(*named);
+}
+
+namespace {
+
+constexpr const char* doing = "solving";
+
+/// Passes everything on, and shows how far a run is.
+class ProgressReport final : public SolveReport {
+ public:
+  ProgressReport(SolveReport& report, Progress& progress) : report_(report), progress_(progress) {}
+
+  void begin_run(const CompiledCatalog& catalog, const Script& script) override {
+    script_ = &script;
+    progress_.begin(script.file);
+    report_.begin_run(catalog, script);
+  }
+  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+    report_.on_event(record, step, state);
+    if (step != nullptr) last_step_ = static_cast<std::size_t>(step - script_->steps.data()) + 1;
+    constexpr std::uint64_t events_between = 4096;
+    if (record.index % events_between == 0) {
+      progress_.show(fmt::format(" ({} %)", last_step_ * 100 / script_->steps.size()));
+    }
+  }
+  void on_failure(const Failure& failure) override { report_.on_failure(failure); }
+  void on_end(const State& state) override { report_.on_end(state); }
+  void end_run(const RunResult& result, const std::string& error) override {
+    report_.end_run(result, error);
+  }
+  void end() override { report_.end(); }
+
+ private:
+  SolveReport& report_;
+  Progress& progress_;
+  const Script* script_ = nullptr;
+  std::size_t last_step_ = 0;
+};
+
+void run_in_turn(const std::vector<Mission>& missions, SolveReport& report, const RunMission& run,
+                 const AfterRun& after_run) {
+  Progress progress(doing, missions.size());
+  ProgressReport with_progress(report, progress);
+  // On the same terminal the results themselves tell how far it is.
+  const bool is_in_the_way = is_terminal(stdout);
+  for (const Mission& mission : missions) {
+    const RunResult result = is_in_the_way ? run(mission, report) : run(mission, with_progress);
+    progress.clear();
+    after_run(mission, result);
+  }
+}
+
+/// A run, and what the report has of it.
+struct Part {
+  std::unique_ptr<MemoryFile> text;
+  RunResult result;
+};
+
+void run_at_once(const std::vector<Mission>& missions, std::size_t jobs, SolveReport& report,
+                 const RunMission& run, const AfterRun& after_run) {
+  constexpr std::chrono::milliseconds between_looks(100);
+  const auto run_apart = [&](std::size_t number) {
+    Part part{std::make_unique<MemoryFile>(), {}};
+    const std::unique_ptr<SolveReport> part_report = report.make_part(part.text->stream());
+    part.result = run(missions[number], *part_report);
+    return part;
+  };
+  Progress progress(doing, missions.size());
+  OrderedWork<Part> work(missions.size(), jobs, run_apart);
+  for (const Mission& mission : missions) {
+    progress.begin(mission.script.file);
+    while (!work.wait_for(between_looks)) progress.show();
+    const Part part = work.take();
+    progress.clear();
+    report.add_part(part.text->text(), part.result);
+    after_run(mission, part.result);
+  }
+}
+
+}  // namespace
+
+void run_all(const std::vector<Mission>& missions, std::size_t jobs, SolveReport& report,
+             const RunMission& run, const AfterRun& after_run) {
+  const std::size_t threads = std::min(jobs, missions.size());
+  if (threads > 1 && report.make_part(stdout) != nullptr) {
+    run_at_once(missions, threads, report, run, after_run);
+  } else {
+    run_in_turn(missions, report, run, after_run);
+  }
+  report.end();
+}
+
 namespace {
 
 /// Says on standard error why a run ended early.

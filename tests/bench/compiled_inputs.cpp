@@ -11,9 +11,8 @@
 
 #include "bench/inputs.h"
 #include "catalog/reader.h"
-#include "compiled/compile.h"
+#include "compile/compile.h"
 #include "compiled/compiled_file.h"
-#include "compiled/digest.h"
 #include "yaml/document.h"
 
 namespace cbc::bench {

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "bench/benchmarks.h"
-#include "compiled/count_constraints.h"
+#include "compile/numbers.h"
 
 namespace cbc::bench {
 namespace {

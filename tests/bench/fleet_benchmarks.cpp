@@ -14,9 +14,8 @@
 #include "compiled/compiled_file.h"
 #include "coordinator/coordinator.h"
 #include "draw/catalog_graph.h"
-#include "draw/part.h"
-#include "draw/view.h"
-#include "report/graph_dot.h"
+#include "draw/diagram.h"
+#include "report/graph_report.h"
 
 namespace cbc::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "catalog/reader.h"
-#include "compiled/compile.h"
-#include "diagnostic/text.h"
+#include "compile/compile.h"
+#include "diagnostic/diagnostic.h"
 #include "script/reader.h"
 #include "support/read_file.h"
 #include "yaml/document.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "cbc/diagnostic.h"
 #include "compiled/compiled_catalog.h"
+#include "diagnostic/diagnostic.h"
 #include "script/script.h"
 
 namespace cbc::bench {

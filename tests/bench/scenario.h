@@ -12,7 +12,7 @@
 #include "cbc/event.h"
 #include "cbc/units.h"
 #include "coordinator/coordinator.h"
-#include "coordinator/question.h"
+#include "coordinator/problem_builder.h"
 #include "coordinator/record.h"
 
 namespace cbc::bench {

@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "file/filter.h"
 #include "golden/process.h"
 #include "support/scratch_folder.h"
+#include "support/system.h"
 
 namespace cbc::golden {
 namespace {

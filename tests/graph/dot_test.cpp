@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "file/filter.h"
 #include "graph/samples.h"
+#include "support/system.h"
 
 namespace cbc::graph_test {
 namespace {

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "catalog/allowed_values.h"
-#include "catalog/shapes.h"
+#include "catalog/reader.h"
 #include "cbc/event.h"
 #include "manual/page.h"
-#include "script/shapes.h"
+#include "script/script.h"
 
 namespace cbc::manual {
 namespace {

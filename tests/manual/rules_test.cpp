@@ -2,7 +2,7 @@
 // of the table this writes them anew:
 //
 //   CBC_UPDATE_GOLDEN=1 build/release/tests/cbc_manual_tests
-#include "cbc/rules.h"
+#include "diagnostic/rules.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -13,10 +13,10 @@
 #include <gtest/gtest.h>
 
 #include "catalog/reader.h"
-#include "compiled/compile.h"
+#include "compile/compile.h"
 #include "diff/catalog_diff.h"
-#include "draw/diff_graph.h"
-#include "draw/mark.h"
+#include "draw/catalog_graph.h"
+#include "draw/marks.h"
 #include "environment.h"
 #include "generator.h"
 #include "random.h"

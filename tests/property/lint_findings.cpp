@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "cbc/diagnostic.h"
 #include "demand.h"
+#include "diagnostic/diagnostic.h"
 #include "lint/lint.h"
 #include "yaml/document.h"
 

@@ -17,7 +17,7 @@
 
 #include "block_text.h"
 #include "catalog_outline.h"
-#include "cbc/rules.h"
+#include "diagnostic/rules.h"
 #include "environment.h"
 #include "lint/lint.h"
 #include "lint_catalogs.h"

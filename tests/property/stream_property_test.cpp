@@ -13,12 +13,11 @@
 #include <nlohmann/json.hpp>
 
 #include "catalog/reader.h"
-#include "compiled/compile.h"
-#include "coordinator/saved_state.h"
+#include "compile/compile.h"
 #include "generator.h"
 #include "random.h"
-#include "report/event_stream.h"
-#include "script/event_log.h"
+#include "report/event_json.h"
+#include "script/event_lines.h"
 #include "script/reader.h"
 #include "script/runner.h"
 #include "support/rounds.h"

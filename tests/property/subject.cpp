@@ -4,10 +4,9 @@
 #include <utility>
 
 #include "catalog/reader.h"
-#include "compiled/compile.h"
+#include "compile/compile.h"
 #include "compiled/compiled_file.h"
 #include "report/event_json.h"
-#include "report/explanation_json.h"
 #include "script/reader.h"
 #include "script/runner.h"
 #include "yaml/document.h"

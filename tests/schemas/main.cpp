@@ -12,10 +12,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "lint/lint.h"
 #include "property/lint_catalogs.h"
 #include "property/lint_mutations.h"
-#include "text/utf8.h"
 #include "yaml/document.h"
 
 namespace {

@@ -1,5 +1,3 @@
-#include "lint/allow_comments.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -12,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cbc/rules.h"
+#include "diagnostic/rules.h"
 #include "findings.h"
 #include "lint/controls.h"
 #include "support/rounds.h"

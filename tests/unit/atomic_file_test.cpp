@@ -1,5 +1,3 @@
-#include "file/atomic_file.h"
-
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -16,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "support/scratch_folder.h"
+#include "support/system.h"
 
 namespace cbc {
 namespace {

@@ -7,9 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "catalog/reader.h"
-#include "compiled/compile.h"
-#include "report/diff_json.h"
-#include "report/diff_text.h"
+#include "compile/compile.h"
+#include "report/graph_report.h"
 
 namespace cbc {
 namespace {

@@ -1,5 +1,3 @@
-#include "report/catalog_json.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <map>
@@ -12,7 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "catalog/reader.h"
-#include "compiled/compile.h"
+#include "compile/compile.h"
+#include "report/catalog_dump.h"
 #include "support/read_file.h"
 #include "unit/compiled_bytes.h"
 #include "unit/compiled_fixture.h"

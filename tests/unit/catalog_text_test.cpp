@@ -1,10 +1,9 @@
-#include "report/catalog_text.h"
-
 #include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
 
+#include "report/catalog_dump.h"
 #include "unit/compiled_bytes.h"
 #include "unit/compiled_fixture.h"
 

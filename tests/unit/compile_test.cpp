@@ -1,4 +1,4 @@
-#include "compiled/compile.h"
+#include "compile/compile.h"
 
 #include <random>
 #include <set>
@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "compiled/count_constraints.h"
-#include "compiled/log_cost.h"
-#include "compiled/parameters.h"
+#include "catalog/allowed_values.h"
+#include "compile/numbers.h"
+#include "compiled/compiled_catalog.h"
 #include "support/read_file.h"
 #include "unit/compiled_fixture.h"
 

@@ -6,8 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "cbc/version.h"
-#include "compiled/compile.h"
-#include "compiled/encoding.h"
+#include "compile/compile.h"
 #include "property/random.h"
 #include "support/content_place.h"
 #include "support/scratch_folder.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "catalog/reader.h"
-#include "compiled/compile.h"
+#include "compile/compile.h"
 #include "unit/findings.h"
 
 namespace cbc::test {

@@ -1,14 +1,12 @@
 // The effort that a conflict may take. That it is right is compared with brute force in
 // tests/property.
 
-#include "coordinator/conflict.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "report/memory_file.h"
-#include "report/solve_text.h"
+#include "coordinator/explainer.h"
+#include "report/solve_report.h"
 #include "script/runner.h"
 #include "unit/compiled_fixture.h"
 

@@ -1,11 +1,11 @@
-#include "text/decimal.h"
-
 #include <cstddef>
 #include <iterator>
 #include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "base/text.h"
 
 namespace cbc {
 namespace {

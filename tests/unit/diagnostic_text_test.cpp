@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cbc/rules.h"
-#include "diagnostic/text.h"
+#include "diagnostic/diagnostic.h"
+#include "diagnostic/rules.h"
 
 namespace cbc {
 namespace {

@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cbc/diagnostic.h"
-#include "cbc/rules.h"
-#include "diagnostic/reporter.h"
+#include "diagnostic/diagnostic.h"
+#include "diagnostic/rules.h"
 
 namespace cbc {
 namespace {

@@ -1,8 +1,8 @@
-#include "compiled/digest.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "compiled/compiled_file.h"
 
 namespace cbc {
 namespace {

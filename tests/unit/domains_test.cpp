@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "compiled/compile.h"
-#include "compiled/log_cost.h"
+#include "compile/compile.h"
+#include "compiled/compiled_catalog.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
 

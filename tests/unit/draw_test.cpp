@@ -5,17 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include "base/text.h"
 #include "catalog/reader.h"
-#include "compiled/compile.h"
+#include "compile/compile.h"
 #include "draw/catalog_graph.h"
-#include "draw/names.h"
-#include "draw/part.h"
-#include "draw/view.h"
+#include "draw/diagram.h"
 #include "property/random.h"
-#include "report/graph_dot.h"
-#include "report/graph_json.h"
-#include "report/graph_mermaid.h"
-#include "text/decimal.h"
+#include "report/graph_report.h"
 #include "yaml/document.h"
 
 namespace cbc::draw {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <type_traits>
 
-#include "compiled/parameters.h"
+#include "catalog/allowed_values.h"
 
 namespace cbc::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "catalog/catalog.h"
-#include "compiled/catalog_arrays.h"
+#include "compile/compile.h"
 #include "compiled/compiled_catalog.h"
 
 namespace cbc::test {

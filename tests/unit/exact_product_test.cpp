@@ -1,11 +1,10 @@
-#include "solver/exact_product.h"
-
 #include <vector>
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 #include "property/random.h"
+#include "solver/objective.h"
 
 namespace cbc {
 namespace {

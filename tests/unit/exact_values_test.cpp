@@ -1,10 +1,9 @@
-#include "report/exact_values.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "compiled/search_space.h"
+#include "compile/numbers.h"
+#include "report/sentences.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc {

@@ -1,10 +1,9 @@
-#include "script/expectation.h"
-
 #include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "script/runner.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc {

@@ -1,8 +1,8 @@
-#include "file/filter.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "support/system.h"
 
 namespace cbc {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cbc/diagnostic.h"
+#include "diagnostic/diagnostic.h"
 
 namespace cbc {
 

@@ -1,6 +1,6 @@
-#include "text/fingerprint.h"
-
 #include <gtest/gtest.h>
+
+#include "support/wording.h"
 
 namespace cbc {
 namespace {

@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/same_meaning.h"
-#include "cbc/rules.h"
+#include "catalog/draft.h"
+#include "diagnostic/rules.h"
 #include "lint/fixes.h"
 #include "lint/lint.h"
 #include "support/catalog_files.h"

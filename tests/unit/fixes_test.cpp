@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cbc/rules.h"
+#include "diagnostic/rules.h"
 #include "lint/lint.h"
 #include "unit/findings.h"
 

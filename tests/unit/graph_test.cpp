@@ -1,4 +1,4 @@
-#include "graph/graph.h"
+#include "support/graph.h"
 
 #include <algorithm>
 

@@ -1,12 +1,10 @@
-#include "compiled/identity.h"
-
 #include <string>
 #include <string_view>
 
 #include <gtest/gtest.h>
 
 #include "catalog/reader.h"
-#include "compiled/compile.h"
+#include "compile/compile.h"
 #include "compiled/compiled_file.h"
 
 namespace cbc {

@@ -1,8 +1,8 @@
-#include "text/json_nesting.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "support/json.h"
 
 namespace cbc {
 namespace {

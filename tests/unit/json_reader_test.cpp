@@ -1,5 +1,3 @@
-#include "yaml/json_reader.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <memory>

@@ -1,5 +1,3 @@
-#include "text/json_text.h"
-
 #include <cstdint>
 #include <limits>
 #include <random>
@@ -8,8 +6,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
+#include "support/json.h"
 #include "support/rounds.h"
-#include "text/decimal.h"
 
 namespace cbc {
 namespace {

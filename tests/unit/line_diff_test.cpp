@@ -1,5 +1,3 @@
-#include "text/line_diff.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
@@ -9,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lint/fixes.h"
 #include "support/scratch_folder.h"
 
 namespace cbc {

@@ -1,11 +1,10 @@
-#include "report/lint_gcc.h"
-
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "cbc/rules.h"
+#include "diagnostic/rules.h"
+#include "report/lint_report.h"
 
 namespace cbc {
 namespace {

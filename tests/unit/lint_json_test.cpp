@@ -1,12 +1,11 @@
-#include "report/lint_json.h"
-
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cbc/rules.h"
+#include "diagnostic/rules.h"
+#include "report/lint_report.h"
 
 namespace cbc {
 namespace {

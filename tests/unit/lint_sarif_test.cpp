@@ -1,5 +1,3 @@
-#include "report/lint_sarif.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -11,10 +9,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cbc/rules.h"
 #include "cbc/version.h"
-#include "report/rule_markdown.h"
-#include "report/rule_text.h"
+#include "diagnostic/rules.h"
+#include "report/lint_report.h"
 
 namespace cbc {
 namespace {

@@ -1,5 +1,3 @@
-#include "report/lint_summary.h"
-
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -7,6 +5,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "report/lint_report.h"
 
 namespace cbc {
 namespace {

@@ -1,5 +1,3 @@
-#include "report/lint_text.h"
-
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -8,7 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cbc/rules.h"
+#include "diagnostic/rules.h"
+#include "report/lint_report.h"
 
 namespace cbc {
 namespace {

@@ -1,12 +1,11 @@
-#include "solver/lookahead.h"
-
 #include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "compiled/compile.h"
-#include "compiled/log_cost.h"
+#include "compile/compile.h"
+#include "compiled/compiled_catalog.h"
+#include "solver/cost_bound.h"
 #include "solver/propagator.h"
 #include "support/rounds.h"
 #include "unit/brute_force.h"

@@ -1,9 +1,9 @@
-#include "draw/mark.h"
-
 #include <array>
 #include <optional>
 
 #include <gtest/gtest.h>
+
+#include "draw/catalog_graph.h"
 
 namespace cbc::draw {
 namespace {

@@ -1,9 +1,9 @@
-#include "text/nearest.h"
-
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "support/wording.h"
 
 namespace cbc {
 namespace {

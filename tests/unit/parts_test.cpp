@@ -1,10 +1,9 @@
-#include "solver/parts.h"
-
 #include <string>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "solver/components.h"
 #include "solver/propagator.h"
 #include "unit/compiled_fixture.h"
 

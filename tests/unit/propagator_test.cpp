@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "compiled/compile.h"
+#include "compile/compile.h"
 #include "support/rounds.h"
 #include "unit/brute_force.h"
 #include "unit/compiled_fixture.h"

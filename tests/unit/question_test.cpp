@@ -1,10 +1,9 @@
-#include "coordinator/question.h"
-
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "coordinator/problem_builder.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc {

@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "compiled/compile.h"
+#include "compile/compile.h"
 
 namespace cbc::test {
 

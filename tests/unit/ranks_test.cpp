@@ -1,11 +1,10 @@
-#include "coordinator/ranks.h"
-
 #include <algorithm>
 #include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "coordinator/problem_builder.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc {

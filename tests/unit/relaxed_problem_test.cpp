@@ -1,7 +1,5 @@
 // Problems with only some reasons in force, against a search through all assignments.
 
-#include "explain/relaxed_problem.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -11,8 +9,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "compiled/compile.h"
-#include "explain/constraints.h"
+#include "compile/compile.h"
+#include "explain/conflict_search.h"
+#include "explain/reasons.h"
 #include "support/rounds.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"

@@ -1,8 +1,8 @@
-#include "report/rule_markdown.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "report/lint_report.h"
 
 namespace cbc {
 namespace {

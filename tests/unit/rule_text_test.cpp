@@ -1,11 +1,11 @@
-#include "report/rule_text.h"
-
 #include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "report/lint_report.h"
 
 namespace cbc {
 namespace {

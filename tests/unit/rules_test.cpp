@@ -1,4 +1,4 @@
-#include "cbc/rules.h"
+#include "diagnostic/rules.h"
 
 #include <algorithm>
 #include <cctype>

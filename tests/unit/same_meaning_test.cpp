@@ -1,10 +1,9 @@
-#include "catalog/same_meaning.h"
-
 #include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
 
+#include "catalog/draft.h"
 #include "catalog/reader.h"
 #include "unit/findings.h"
 

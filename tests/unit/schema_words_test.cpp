@@ -7,20 +7,20 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "catalog/shapes.h"
-#include "cbc/diagnostic.h"
+#include "catalog/reader.h"
 #include "cbc/event.h"
-#include "cbc/rules.h"
 #include "coordinator/record.h"
-#include "coordinator/search_totals.h"
+#include "diagnostic/diagnostic.h"
+#include "diagnostic/rules.h"
 #include "diff/catalog_diff.h"
-#include "draw/mark.h"
-#include "explain/comparison.h"
-#include "explain/reason.h"
-#include "script/shapes.h"
+#include "draw/catalog_graph.h"
+#include "explain/alternatives.h"
+#include "explain/reasons.h"
+#include "script/runner.h"
+#include "script/script.h"
 #include "support/read_file.h"
-#include "sweep/counts.h"
-#include "yaml/fields.h"
+#include "sweep/sequence.h"
+#include "yaml/values.h"
 
 namespace cbc {
 namespace {

@@ -7,8 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "diagnostic/reporter.h"
-#include "script/parameters.h"
+#include "diagnostic/diagnostic.h"
 #include "script/reader.h"
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"

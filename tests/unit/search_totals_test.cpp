@@ -1,5 +1,3 @@
-#include "coordinator/search_totals.h"
-
 #include <chrono>
 #include <string>
 #include <vector>
@@ -8,7 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "coordinator/coordinator.h"
-#include "report/solve_stats.h"
+#include "report/solve_report.h"
+#include "script/runner.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc {

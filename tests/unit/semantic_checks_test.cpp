@@ -1,5 +1,3 @@
-#include "lint/semantic_checks.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lint/checks.h"
 #include "lint/lint.h"
 #include "unit/findings.h"
 #include "yaml/document.h"

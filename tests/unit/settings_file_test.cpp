@@ -1,5 +1,3 @@
-#include "lint/settings_file.h"
-
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -9,8 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cbc/rules.h"
+#include "diagnostic/rules.h"
 #include "findings.h"
+#include "lint/controls.h"
 #include "support/scratch_folder.h"
 
 namespace cbc {

@@ -1,11 +1,11 @@
-#include "lint/severity_settings.h"
-
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "lint/controls.h"
 
 namespace cbc {
 namespace {

@@ -1,11 +1,9 @@
-#include "report/solve_github.h"
-
 #include <string>
 #include <string_view>
 
 #include <gtest/gtest.h>
 
-#include "report/memory_file.h"
+#include "report/solve_report.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc {

@@ -1,5 +1,3 @@
-#include "report/solve_html.h"
-
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -7,8 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "report/memory_file.h"
-#include "report/solve_json.h"
+#include "report/solve_report.h"
 #include "script/reader.h"
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "compiled/compile.h"
+#include "compile/compile.h"
 #include "solver/checker.h"
 #include "solver/solver.h"
 #include "unit/allocations.h"

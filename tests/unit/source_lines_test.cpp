@@ -1,5 +1,3 @@
-#include "yaml/source_lines.h"
-
 #include <cstddef>
 #include <iterator>
 #include <memory>
@@ -10,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "support/rounds.h"
+#include "yaml/source.h"
 
 namespace cbc::yaml {
 namespace {

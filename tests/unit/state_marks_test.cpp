@@ -1,14 +1,12 @@
-#include "draw/state_marks.h"
-
 #include <set>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "draw/labels.h"
-#include "draw/view.h"
-#include "report/state_recorder.h"
+#include "draw/diagram.h"
+#include "draw/marks.h"
+#include "report/solve_report.h"
 #include "script/reader.h"
 #include "script/runner.h"
 #include "unit/compiled_fixture.h"

@@ -13,13 +13,10 @@
 #include <nlohmann/json.hpp>
 
 #include "report/event_json.h"
-#include "report/sweep_json.h"
-#include "report/sweep_text.h"
+#include "report/sweep_report.h"
 #include "script/reader.h"
 #include "script/runner.h"
 #include "support/read_file.h"
-#include "sweep/merge.h"
-#include "sweep/random_source.h"
 #include "sweep/sequence.h"
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"

@@ -1,10 +1,9 @@
-#include "coordinator/timers.h"
-
 #include <map>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "coordinator/state.h"
 #include "property/random.h"
 
 namespace cbc {

@@ -1,12 +1,10 @@
-#include "text/utf8.h"
-
 #include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "text/position_map.h"
-#include "text/quote.h"
+#include "base/text.h"
+#include "diagnostic/diagnostic.h"
 
 namespace cbc {
 namespace {

@@ -1,5 +1,3 @@
-#include "compiled/verify.h"
-
 #include <array>
 #include <filesystem>
 #include <map>
@@ -12,8 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "catalog/reader.h"
-#include "compiled/compile.h"
-#include "compiled/log_cost.h"
+#include "compile/compile.h"
+#include "compiled/compiled_catalog.h"
+#include "compiled/compiled_file.h"
 #include "support/catalog_files.h"
 #include "support/read_file.h"
 #include "support/rounds.h"

@@ -1,6 +1,6 @@
-#include "text/wrap.h"
-
 #include <gtest/gtest.h>
+
+#include "support/wording.h"
 
 namespace cbc {
 namespace {

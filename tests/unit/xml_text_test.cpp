@@ -1,8 +1,8 @@
-#include "report/xml_text.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "report/solve_report.h"
 
 namespace cbc {
 namespace {

@@ -1,0 +1,177 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/input.h"
+#include "compiled/compiled_catalog.h"
+#include "coordinator/coordinator.h"
+#include "coordinator/record.h"
+#include "report/event_json.h"
+#include "report/solve_report.h"
+#include "script/runner.h"
+#include "script/script.h"
+#include "sweep/sequence.h"
+#include "yaml/document.h"
+
+namespace CLI {
+class App;
+}
+
+namespace cbc::cli {
+
+/// The options of `cbc solve` that make it a sweep.
+struct SweepOptions {
+  std::optional<std::uint64_t> sequences;  ///< set: a sweep
+  bool merge = false;
+  std::uint64_t seed = 1;
+  std::uint32_t events = SweepShape{}.events;
+  std::int32_t priorities = SweepShape{}.priorities;
+  std::string failures = "0.3";
+  std::string faults = "0.1";
+  std::string shard = "1/1";
+  std::optional<std::string> slowest;
+  std::optional<std::string> slowest_by_time;
+
+  [[nodiscard]] bool is_wanted() const { return sequences.has_value() || merge; }
+};
+
+void add_sweep_options(CLI::App& command, SweepOptions& options);
+
+/// All of the settings that these options say; the search is set by others.
+[[nodiscard]] SweepSettings settings_of(const SweepOptions& options);
+
+}  // namespace cbc::cli
+
+namespace CLI {
+class App;
+}
+
+namespace cbc::cli {
+
+/// What to explain, as the command line has it.
+struct ExplainOptions {
+  std::vector<std::string> why;  ///< names of tasks and behaviors
+  std::uint32_t alternatives = 0;
+};
+
+void add_explain_options(CLI::App& command, ExplainOptions& options);
+
+/// The same for one catalog, that knows the names.
+[[nodiscard]] ExplanationOptions explanation_for(const CompiledCatalog& catalog,
+                                                 const ExplainOptions& options);
+
+/// Whether the catalog has all names; says on standard error which it has not.
+[[nodiscard]] bool knows_names(const CompiledCatalog& catalog, const ExplainOptions& options);
+
+}  // namespace cbc::cli
+
+namespace CLI {
+class App;
+}
+
+namespace cbc::cli {
+
+/// The options of `cbc solve` for events in a pipe, and for missions that go on.
+struct StreamOptions {
+  std::optional<std::string> state_in;
+  std::optional<std::string> state_out;
+  std::optional<std::string> replay;
+};
+
+void add_stream_options(CLI::App& command, StreamOptions& options);
+
+/// The options of `cbc solve`, as the command line has them.
+struct SolveOptions {
+  std::vector<std::string> paths;
+  std::string format = "text";
+  std::optional<std::string> html;
+  std::optional<std::uint64_t> jobs;
+  bool stats = false;
+  ExplainOptions explain;
+  std::uint64_t max_solutions = 0;
+  std::string time_limit;
+  std::uint64_t max_nodes = 0;
+  std::optional<std::uint64_t> tie_seed;
+  std::uint64_t max_clock_events = CoordinatorOptions{}.max_clock_events;
+  StreamOptions stream;
+  SweepOptions sweep;
+};
+
+/// What they say to the coordinator of a run on this catalog, whose names they know.
+[[nodiscard]] CoordinatorOptions coordinator_options(const SolveOptions& options,
+                                                     const CompiledCatalog& catalog);
+
+/// What events have in JSON beside what they always have.
+[[nodiscard]] EventAdditions event_additions(const SolveOptions& options);
+
+/// How many threads may work at once; at least 1.
+[[nodiscard]] std::size_t thread_count(const SolveOptions& options);
+
+/// A script and the catalog it runs on.
+struct Mission {
+  std::shared_ptr<const CompiledCatalog> catalog;
+  std::optional<std::string> named_catalog;  ///< path of the catalog that the script names
+  Script script;
+};
+
+/// Finds out what the files of a command line are, reads all of them, and checks every script
+/// against its catalog before anything runs. Findings and problems go to standard error.
+class MissionLoader {
+ public:
+  /// `paths`: a catalog (which may be missing if the scripts name theirs), then scripts; "-" is a
+  /// script from standard input, a folder stands for the scripts in it. Empty if anything is wrong.
+  [[nodiscard]] std::optional<std::vector<Mission>> load(const std::vector<std::string>& paths);
+
+  /// What was found in the files.
+  [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }
+
+ private:
+  [[nodiscard]] std::shared_ptr<const CompiledCatalog> catalog_of(const std::string& script_path,
+                                                                  const yaml::Document& script);
+  void add_script(const std::string& path, const yaml::Document& document);
+  void add_folder(const std::string& path);
+  void add_path(const std::string& path);
+  void complain_of_catalog(const std::string& path);
+
+  InputFiles files_;
+  CatalogLoader catalogs_{files_};
+  std::shared_ptr<const CompiledCatalog> given_catalog_;
+  bool is_given_catalog_bad_ = false;
+  std::vector<Mission> missions_;
+  bool has_failed_ = false;
+};
+
+/// Runs scripts to their ends, and reports them in one of the formats for whole runs. Returns the
+/// exit status.
+[[nodiscard]] int solve_missions(const SolveOptions& options);
+
+/// Runs a mission, and tells the report of it from its begin to its end. May be called on several
+/// threads at once, with a report for each.
+using RunMission = std::function<RunResult(const Mission& mission, SolveReport& report)>;
+
+/// Is told of each run that is in the report.
+using AfterRun = std::function<void(const Mission& mission, const RunResult& result)>;
+
+/// Runs all missions, up to `jobs` at once if the report allows for it. The report, and
+/// `after_run`, are told of them in their order, and what comes of it does not depend on `jobs`. On
+/// a terminal a line tells how far it is, if it takes long.
+void run_all(const std::vector<Mission>& missions, std::size_t jobs, SolveReport& report,
+             const RunMission& run, const AfterRun& after_run);
+
+/// `cbc solve` as a part of a pipe: `--format jsonl`, with states saved and restored.
+
+/// Runs one script, or events from standard input, and writes each event as a line. The paths are
+/// a catalog and a script, "-" for a stream; or a script that names its catalog. Returns the exit
+/// status.
+[[nodiscard]] int solve_stream(const SolveOptions& options);
+
+/// Runs the events of a recorded stream again, and compares. The path is that of the catalog.
+[[nodiscard]] int replay_stream(const SolveOptions& options);
+
+}  // namespace cbc::cli

@@ -1,0 +1,77 @@
+#include "compiled/compiled_catalog.h"
+
+#include <bit>
+
+namespace cbc {
+namespace {
+
+// Logarithms are found in whole numbers: those of a mathematical library may differ in their last
+// bit from machine to machine, and compiled catalogs must not.
+
+__extension__ using Wide = unsigned __int128;  // -Wpedantic knows no such type
+
+constexpr unsigned bits = 60;  ///< after the binary point
+constexpr std::uint64_t one = std::uint64_t{1} << bits;
+constexpr std::uint64_t log_of_two = 799'144'290'325'165'979;  ///< ln(2) * 2^60
+
+std::uint64_t multiply(std::uint64_t a, std::uint64_t b) {
+  return static_cast<std::uint64_t>((Wide{a} * b) >> bits);
+}
+
+/// ln(m) = 2 artanh(z) = 2 (z + z^3 / 3 + z^5 / 5 + ...) with z = (m - 1) / (m + 1), for
+/// n = m * 2^exponent and m in [1, 2), so that z is at most 1/3.
+std::int64_t log_of_prime(Millionths prime) {
+  const auto exponent = static_cast<unsigned>(std::bit_width(prime)) - 1;
+  const std::uint64_t m = std::uint64_t{prime} << (bits - exponent);
+  const auto z = static_cast<std::uint64_t>((Wide{m - one} << bits) / (m + one));
+  const std::uint64_t square = multiply(z, z);
+  std::uint64_t sum = 0;
+  std::uint64_t divisor = 1;
+  for (std::uint64_t power = z; power > 0; power = multiply(power, square)) {
+    sum += power / divisor;
+    divisor += 2;
+  }
+  const Wide log = Wide{exponent} * log_of_two + 2 * Wide{sum};
+  constexpr unsigned surplus = bits - 40;
+  return static_cast<std::int64_t>((log + (Wide{1} << (surplus - 1))) >> surplus);
+}
+
+std::int64_t sum_of_prime_logs(Millionths number) {
+  std::int64_t sum = 0;
+  for (Millionths divisor = 2; divisor * divisor <= number; ++divisor) {
+    if (number % divisor != 0) continue;
+    const std::int64_t log = log_of_prime(divisor);
+    for (; number % divisor == 0; number /= divisor) sum += log;
+  }
+  return number > 1 ? sum + log_of_prime(number) : sum;
+}
+
+}  // namespace
+
+std::int64_t log_cost(Millionths degree) {
+  if (degree == 0) return 0;
+  return sum_of_prime_logs(one_million) - sum_of_prime_logs(degree);
+}
+
+namespace {
+
+std::optional<std::uint32_t> find(const Texts& names, std::span<const std::uint32_t> by_name,
+                                  std::string_view name) {
+  const auto found = std::lower_bound(
+      by_name.begin(), by_name.end(), name,
+      [&](std::uint32_t place, std::string_view wanted) { return names[place] < wanted; });
+  if (found == by_name.end() || names[*found] != name) return std::nullopt;
+  return *found;
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> CompiledCatalog::find_task(std::string_view name) const {
+  return find(task_names, tasks_by_name, name);
+}
+
+std::optional<std::uint32_t> CompiledCatalog::find_behavior(std::string_view name) const {
+  return find(behavior_names, behaviors_by_name, name);
+}
+
+}  // namespace cbc

@@ -1,0 +1,527 @@
+#include "coordinator/coordinator.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "coordinator/explainer.h"
+#include "coordinator/problem_builder.h"
+
+namespace cbc {
+
+Coordinator::Coordinator(const CompiledCatalog& catalog, const CoordinatorOptions& options,
+                         EventListener& listener)
+    : catalog_(catalog),
+      options_(options),
+      listener_(listener),
+      ranks_(options.tie_seed ? draw_ranks(catalog, *options.tie_seed)
+                              : std::vector<std::uint32_t>{}),
+      state_(catalog),
+      question_(catalog, state_),
+      transition_(catalog, state_, record_),
+      solver_(catalog, options.search, ranks_),
+      checker_(catalog) {}
+
+void Coordinator::begin(std::span<const Availability> situation) {
+  for (const Availability& entry : situation) {
+    state_.set_available(catalog_.behavior_ids[entry.behavior], entry.available);
+  }
+  for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) enqueue_group(group);
+}
+
+void Coordinator::resume(const Snapshot& snapshot) {
+  now_ = snapshot.now;
+  record_.index = snapshot.events;
+  for (const BehaviorId behavior : snapshot.unavailable) state_.set_available(behavior, false);
+  for (const BehaviorId behavior : snapshot.faulty) state_.set_faulty(behavior, true);
+  for (const auto& [behavior, time] : snapshot.active) state_.set_active(behavior, time);
+  for (const Snapshot::RunningTask& entry : snapshot.running) {
+    state_.set_place(entry.task, entry.place, entry.since);
+    if (const auto& request = entry.request) {
+      state_.set_request(entry.task, request->priority, request->event, request->parameters);
+    }
+    // As of before all times, so that a timeout that is due right now is set as well.
+    if (entry.waits_for_timeout) state_.update_timeout(entry.task, -1);
+  }
+  for (const auto& [task, due] : snapshot.queue) state_.enqueue(task, due);
+}
+
+Snapshot Coordinator::snapshot() const {
+  Snapshot snapshot;
+  snapshot.now = now_;
+  snapshot.events = record_.index;
+  snapshot.reactive_delay = options_.reactive_delay;
+  for (const std::uint32_t index : state_.running()) {
+    const TaskId task = catalog_.task_ids[index];
+    Snapshot::RunningTask& entry = snapshot.running.emplace_back();
+    entry = {task, state_.place(task), state_.taken_at(task), {}, state_.timeouts().has(index)};
+    if (state_.has_request(task)) entry.request = state_.request(task);
+  }
+  for (const BehaviorId behavior : catalog_.behavior_ids) {
+    if (state_.is_active(behavior)) {
+      snapshot.active.emplace_back(behavior, state_.activated_at(behavior));
+    }
+    if (!state_.is_available(behavior)) snapshot.unavailable.push_back(behavior);
+    if (state_.is_faulty(behavior)) snapshot.faulty.push_back(behavior);
+  }
+  for (const auto& [due, index] : state_.queue().entries()) {
+    snapshot.queue.emplace_back(catalog_.task_ids[index], due);
+  }
+  std::sort(snapshot.queue.begin(), snapshot.queue.end(), [this](const auto& a, const auto& b) {
+    return catalog_.tasks[a.first].catalog_index < catalog_.tasks[b.first].catalog_index;
+  });
+  return snapshot;
+}
+
+// The clock.
+
+Coordinator::Status Coordinator::advance_to(Microseconds time) {
+  if (const Status status = finish_lost(); status != Status::ok) return status;
+  for (auto due = next_due(); due && *due < time; due = next_due()) {
+    if (const Status status = process_next_due(); status != Status::ok) return status;
+  }
+  now_ = time;
+  return Status::ok;
+}
+
+Coordinator::Status Coordinator::settle() {
+  if (const Status status = finish_lost(); status != Status::ok) return status;
+  for (auto due = next_due(); due && *due <= now_; due = next_due()) {
+    if (const Status status = process_next_due(); status != Status::ok) return status;
+  }
+  return Status::ok;
+}
+
+std::optional<Microseconds> Coordinator::next_due() const {
+  const Timers& timeouts = state_.timeouts();
+  const Timers& queue = state_.queue();
+  if (!lost_.empty()) return now_;
+  if (timeouts.empty() && queue.empty()) return std::nullopt;
+  if (timeouts.empty()) return queue.first_due();
+  if (queue.empty()) return timeouts.first_due();
+  return std::min(timeouts.first_due(), queue.first_due());
+}
+
+/// At one instant timeouts come before reactive starts.
+Coordinator::Status Coordinator::process_next_due() {
+  const Timers& timeouts = state_.timeouts();
+  const Timers& queue = state_.queue();
+  now_ = *next_due();
+  const bool is_timeout = !timeouts.empty() && timeouts.first_due() == now_;
+  const TaskId task = catalog_.task_ids[is_timeout ? timeouts.first() : queue.first()];
+  if (!is_timeout && !may_start(task)) {
+    state_.dequeue(task);
+    return Status::ok;
+  }
+  if (clock_events_ == options_.max_clock_events) return Status::too_many_clock_events;
+  const Status status = is_timeout ? time_out(task) : start_reactive(task);
+  return status == Status::ok ? finish_lost() : status;
+}
+
+Coordinator::Status Coordinator::time_out(TaskId task) {
+  state_.drop_timeout(task);
+  open_clock_record(Origin::timeout, Verb::finish);
+  return finish(state_.behavior(task), FinishCause::time_out);
+}
+
+Coordinator::Status Coordinator::start_reactive(TaskId task) {
+  state_.dequeue(task);
+  open_clock_record(Origin::reactive, Verb::start);
+  return start(task, 0, std::string_view{}, true);
+}
+
+/// Whether a reactive task that is due starts, as far as can be told without search.
+bool Coordinator::may_start(TaskId task) const {
+  return !state_.is_running(task) && !state_.excludes_running_task(task) &&
+         state_.has_available_behavior(task);
+}
+
+/// Behaviors that a rejected event could not activate again finish right after it, before anything
+/// else does.
+Coordinator::Status Coordinator::finish_lost() {
+  while (!lost_.empty()) {
+    if (clock_events_ == options_.max_clock_events) return Status::too_many_clock_events;
+    const BehaviorId behavior = lost_.back();
+    lost_.pop_back();
+    open_clock_record(Origin::fault, Verb::finish);
+    const Status status = finish(behavior, FinishCause::process_failure);
+    if (status != Status::ok) return status;
+  }
+  return Status::ok;
+}
+
+// Events.
+
+Coordinator::Status Coordinator::handle(const Event& event) {
+  open_record(Origin::script, event.verb);
+  const Status status = take(event);
+  return status == Status::ok ? finish_lost() : status;
+}
+
+Coordinator::Status Coordinator::take(const Event& event) {
+  switch (event.verb) {
+    case Verb::start:
+      return start(catalog_.task_ids[event.subject], event.priority.value_or(1), event.parameters,
+                   false);
+    case Verb::stop:
+      return stop(catalog_.task_ids[event.subject], event.priority);
+    case Verb::finish:
+      return finish(catalog_.behavior_ids[event.subject], event.cause);
+    case Verb::situation:
+      change_situation(event.situation);
+      return report();
+    case Verb::fault:
+      record_.behavior = catalog_.behavior_ids[event.subject];
+      state_.set_faulty(record_.behavior, true);
+      return report();
+    case Verb::repair:
+      repair(catalog_.behavior_ids[event.subject]);
+      return report();
+    case Verb::wait:
+      return report();
+  }
+  return Status::ok;
+}
+
+void Coordinator::open_record(Origin origin, Verb verb) {
+  const std::uint64_t index = record_.index + 1;
+  record_.changes.clear();
+  record_.tasks_of_changes.clear();
+  record_.stopped_tasks.clear();
+  record_.objective.reset();
+  record_.search = nullptr;
+  record_.conflict.clear();
+  record_.explanation.clear();
+  record_.index = index;
+  record_.time = now_;
+  record_.origin = origin;
+  record_.verb = verb;
+  record_.task = none;
+  record_.behavior = none;
+  record_.priority = 0;
+  record_.outcome = Outcome::unchanged;
+}
+
+/// For an event that nobody asked for, and that is not one too many.
+void Coordinator::open_clock_record(Origin origin, Verb verb) {
+  ++clock_events_;
+  open_record(origin, verb);
+}
+
+Coordinator::Status Coordinator::report() {
+  listener_.on_event(record_);
+  return Status::ok;
+}
+
+Coordinator::Status Coordinator::start(TaskId task, std::int32_t priority,
+                                       std::optional<std::string_view> parameters,
+                                       bool is_reactive) {
+  record_.task = task;
+  record_.priority = priority;
+  const Request* const request = state_.has_request(task) ? &state_.request(task) : nullptr;
+  if (request != nullptr && request->priority > priority) {
+    return reject_by_priority(task, request->priority);
+  }
+  Trigger trigger;
+  trigger.kind = Trigger::Kind::start;
+  trigger.group = catalog_.tasks[task].group;
+  trigger.task = task;
+  trigger.priority = priority;
+  trigger.is_reactive = is_reactive;
+  if (parameters) {
+    trigger.parameters = *parameters;
+  } else if (request != nullptr) {
+    trigger.parameters = request->parameters;
+  }
+  return coordinate(trigger);
+}
+
+Coordinator::Status Coordinator::stop(TaskId task, std::optional<std::int32_t> priority) {
+  record_.task = task;
+  const Request* const request = state_.has_request(task) ? &state_.request(task) : nullptr;
+  record_.priority = priority.value_or(request != nullptr ? request->priority : 0);
+  if (!state_.is_running(task)) {
+    state_.dequeue(task);
+    return report();
+  }
+  if (request != nullptr && request->priority > record_.priority) {
+    return reject_by_priority(task, request->priority);
+  }
+  Trigger trigger;
+  trigger.kind = Trigger::Kind::stop;
+  trigger.group = catalog_.tasks[task].group;
+  trigger.task = task;
+  trigger.priority = record_.priority;
+  return coordinate(trigger);
+}
+
+/// The task's own request is stronger than the event.
+Coordinator::Status Coordinator::reject_by_priority(TaskId task, std::int32_t priority) {
+  record_.outcome = Outcome::rejected;
+  Reason& reason = record_.conflict.emplace_back();
+  reason.kind = Reason::Kind::priority;
+  reason.task = task;
+  reason.priority = priority;
+  return report();
+}
+
+Coordinator::Status Coordinator::finish(BehaviorId behavior, FinishCause cause) {
+  record_.behavior = behavior;
+  record_.cause = cause;
+  if (!state_.is_active(behavior)) return report();
+  Trigger trigger;
+  trigger.kind = Trigger::Kind::finish;
+  trigger.group = catalog_.group_of(behavior);
+  trigger.behavior = behavior;
+  trigger.cause = cause;
+  return coordinate(trigger);
+}
+
+void Coordinator::change_situation(std::span<const Availability> situation) {
+  for (const Availability& entry : situation) {
+    const BehaviorId behavior = catalog_.behavior_ids[entry.behavior];
+    const bool becomes_available = entry.available && !state_.is_available(behavior);
+    state_.set_available(behavior, entry.available);
+    if (becomes_available) {
+      enqueue_group(catalog_.group_of(behavior));
+    }
+  }
+}
+
+void Coordinator::repair(BehaviorId behavior) {
+  record_.behavior = behavior;
+  if (!state_.is_faulty(behavior)) return;
+  state_.set_faulty(behavior, false);
+  enqueue_group(catalog_.group_of(behavior));
+}
+
+// Coordination.
+
+Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
+  question_.load(trigger, record_.index);
+  transition_.load(trigger, question_.active_before());
+  if (trigger.kind == Trigger::Kind::finish) state_.set_inactive(trigger.behavior);
+  for (;;) {
+    const Problem* const problem = options_.measure_time ? timed_search(trigger) : search(trigger);
+    if (problem == nullptr) return reject(trigger);
+    if (const auto violation = checker_.find_violation(*problem, solution_)) {
+      internal_error_ = describe_refusal(*violation);
+      return Status::refused_answer;
+    }
+    const auto failed = transition_.apply(solution_, behavior_to_restart(trigger), now_);
+    if (!failed) {
+      explain(trigger, *problem);
+      accept(trigger, *problem);
+      return report();
+    }
+    question_.exclude(*failed);
+  }
+}
+
+/// What a report of an internal error needs: the event, what is wrong, and the answer.
+std::string Coordinator::describe_refusal(const std::string& violation) const {
+  std::string text = fmt::format("event {} ({}): {}; the answer was", record_.index,
+                                 name_of(record_.verb), violation);
+  const TaskId first = catalog_.group_tasks[search_.group];
+  for (std::uint32_t task = 0; task < solution_.size(); ++task) {
+    const std::uint32_t place = solution_[task];
+    if (place == none) continue;
+    text += fmt::format(
+        " {}={}", printable(catalog_.name_of_task(first + task)),
+        place < catalog_.values[first + task].size()
+            ? printable(catalog_.name_of_behavior(catalog_.values[first + task][place].behavior))
+            : "?");
+  }
+  return text;
+}
+
+/// Solves the problem of the trigger. A finish is tried again at higher protection levels, up to
+/// the level that protects nothing. Returns the problem that was solved, or null.
+const Problem* Coordinator::search(const Trigger& trigger) {
+  std::int32_t protection = question_.first_protection();
+  if (record_.search == nullptr) {
+    search_.result = {};
+    search_.elapsed.reset();
+  }
+  record_.search = &search_;
+  search_.group = trigger.group;
+  for (;;) {
+    const Problem& problem = question_.ask(protection);
+    const SearchResult result = solver_.solve(problem, solution_);
+    search_.protection = protection;
+    search_.is_escalated = protection != question_.first_protection();
+    search_.result.status = result.status;
+    search_.result.solutions += result.solutions;
+    search_.result.nodes += result.nodes;
+    search_.result.propagations += result.propagations;
+    if (has_solution(result.status)) {
+      note_domain_sizes(problem);
+      return &problem;
+    }
+    const auto next =
+        trigger.kind == Trigger::Kind::finish && result.status == SearchStatus::infeasible
+            ? question_.next_protection(protection)
+            : std::nullopt;
+    if (!next) {
+      note_domain_sizes(problem);
+      return nullptr;
+    }
+    protection = *next;
+  }
+}
+
+/// The same, by the clock of the machine.
+const Problem* Coordinator::timed_search(const Trigger& trigger) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Problem* const problem = search(trigger);
+  const std::chrono::nanoseconds elapsed = std::chrono::steady_clock::now() - begin;
+  search_.elapsed = search_.elapsed.value_or(std::chrono::nanoseconds(0)) + elapsed;
+  return problem;
+}
+
+void Coordinator::note_domain_sizes(const Problem& problem) {
+  const TaskId first = catalog_.group_tasks[problem.group];
+  search_.domain_sizes.clear();
+  for (std::uint32_t task = 0; task < problem.may_stop.size(); ++task) {
+    std::uint32_t size = problem.may_stop[task];
+    for (std::uint32_t word = catalog_.words[first + task]; word < catalog_.words[first + task + 1];
+         ++word) {
+      size +=
+          static_cast<std::uint32_t>(std::popcount(problem.domains[word - catalog_.words[first]]));
+    }
+    search_.domain_sizes.push_back(size);
+  }
+}
+
+/// The behavior that the started task keeps and that has to take over changed parameters.
+BehaviorId Coordinator::behavior_to_restart(const Trigger& trigger) const {
+  if (trigger.kind != Trigger::Kind::start || !state_.is_running(trigger.task)) return none;
+  const std::uint32_t place = solution_[trigger.task - catalog_.group_tasks[trigger.group]];
+  if (place != state_.place(trigger.task)) return none;
+  const std::string_view present = state_.has_request(trigger.task)
+                                       ? std::string_view(state_.request(trigger.task).parameters)
+                                       : std::string_view();
+  return trigger.parameters == present ? none : state_.behavior(trigger.task);
+}
+
+void Coordinator::accept(const Trigger& trigger, const Problem& problem) {
+  record_.outcome = Outcome::accepted;
+  const TaskId first = catalog_.group_tasks[trigger.group];
+  const TaskId end = catalog_.group_tasks[trigger.group + 1];
+  std::uint32_t elsewhere = state_.request_count();
+  for (TaskId task = first; task < end; ++task) {
+    if (state_.has_request(task)) --elsewhere;
+  }
+  ObjectiveValues& objective = record_.objective.emplace();
+  objective.requests = elsewhere + static_cast<std::uint32_t>(problem.requests.size());
+  objective.changes = transition_.count_changes();
+  assign(trigger);
+  objective.satisfied = state_.request_count();
+  objective.idle_total = state_.idle_total();
+  objective.idle_running = state_.idle_running();
+  update_timeouts(trigger.group);
+  update_queue();
+}
+
+/// Explains the solution, as far as that is asked for. Displaced requests are looked for first, so
+/// that nothing is set up where there are none.
+void Coordinator::explain(const Trigger& trigger, const Problem& problem) {
+  if (!options_.explain.asks_for_any() || search_.result.status != SearchStatus::optimal) return;
+  const bool is_only_of_displaced =
+      options_.explain.why.empty() && options_.explain.alternatives == 0;
+  const auto is_displaced = [&](std::uint32_t task) { return solution_[task] == none; };
+  if (is_only_of_displaced &&
+      std::none_of(problem.requests.begin(), problem.requests.end(), is_displaced)) {
+    return;
+  }
+  if (!explainer_) explainer_.emplace(catalog_, ranks_, options_.explain);
+  explainer_->explain({state_, trigger, search_.protection, question_.excluded()}, problem,
+                      solution_, record_.explanation);
+}
+
+/// Nothing changes, but for behaviors that could not be activated again, which are lost.
+Coordinator::Status Coordinator::reject(const Trigger& trigger) {
+  record_.outcome = Outcome::rejected;
+  if (options_.find_conflicts && search_.result.status == SearchStatus::infeasible) {
+    record_.conflict =
+        find_conflict(catalog_, {state_, trigger, search_.protection, question_.excluded()});
+  }
+  // The first comes last, to finish next.
+  const std::vector<BehaviorId>& lost = transition_.take_back(now_);
+  lost_.insert(lost_.end(), lost.rbegin(), lost.rend());
+  if (trigger.kind == Trigger::Kind::finish) state_.leave_active(trigger.behavior);
+  update_timeouts(trigger.group);
+  return report();
+}
+
+/// Gives the tasks of the group the values of the solution.
+void Coordinator::assign(const Trigger& trigger) {
+  started_.clear();
+  stopped_.clear();
+  stopped_by_others_.clear();
+  const TaskId first = catalog_.group_tasks[trigger.group];
+  for (std::uint32_t place = 0; place < solution_.size(); ++place) {
+    const TaskId task = first + place;
+    const bool was_running = state_.is_running(task);
+    const bool has_finished = question_.has_finished(task);
+    state_.set_place(task, solution_[place], now_);
+    if (was_running == state_.is_running(task)) continue;
+    if (!was_running) {
+      started_.push_back(task);
+      continue;
+    }
+    stopped_.push_back(task);
+    record_.stopped_tasks.push_back(
+        {task, has_finished ? trigger.cause : FinishCause::interrupted});
+    if (!has_finished && task != trigger.task) stopped_by_others_.push_back(task);
+  }
+  if (trigger.kind == Trigger::Kind::start) {
+    state_.set_request(trigger.task, trigger.priority, record_.index, trigger.parameters);
+  }
+}
+
+void Coordinator::update_timeouts(std::uint32_t group) {
+  for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
+    state_.update_timeout(task, now_);
+  }
+}
+
+// The queue of reactive tasks (semantics: section 6).
+
+void Coordinator::update_queue() {
+  for (const TaskId task : stopped_) enqueue_rivals(task);
+  for (const TaskId task : stopped_by_others_) {
+    enqueue_if_reactive(task);
+  }
+  for (const TaskId task : started_) dequeue_with_rivals(task);
+}
+
+void Coordinator::enqueue_if_reactive(TaskId task) {
+  if (catalog_.tasks[task].reactive_start) state_.enqueue(task, now_ + options_.reactive_delay);
+}
+
+void Coordinator::enqueue_rivals(TaskId task) {
+  for (const std::uint32_t clique : catalog_.task_cliques[task]) {
+    for (const TaskId rival : catalog_.cliques[clique]) {
+      if (rival != task) enqueue_if_reactive(rival);
+    }
+  }
+}
+
+void Coordinator::dequeue_with_rivals(TaskId task) {
+  state_.dequeue(task);
+  for (const std::uint32_t clique : catalog_.task_cliques[task]) {
+    for (const TaskId rival : catalog_.cliques[clique]) state_.dequeue(rival);
+  }
+}
+
+void Coordinator::enqueue_group(std::uint32_t group) {
+  for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
+    enqueue_if_reactive(task);
+  }
+}
+
+}  // namespace cbc

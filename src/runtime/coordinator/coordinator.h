@@ -1,0 +1,146 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cbc/event.h"
+#include "cbc/units.h"
+#include "compiled/compiled_catalog.h"
+#include "coordinator/explainer.h"
+#include "coordinator/problem_builder.h"
+#include "coordinator/record.h"
+#include "coordinator/state.h"
+#include "coordinator/transition.h"
+#include "solver/checker.h"
+#include "solver/solver.h"
+
+namespace cbc {
+
+struct CoordinatorOptions {
+  SearchOptions search;
+  Microseconds reactive_delay = 80'000;        ///< delta of section 6; over 0
+  std::uint64_t max_clock_events = 1'000'000;  ///< events that no script asked for
+  bool find_conflicts = true;                  ///< finds the reasons of rejections
+  ExplanationOptions explain;                  ///< of accepted events
+  bool measure_time = false;                   ///< notes what searches take
+  /// Orders behaviors of equal suitability at random instead of in catalog order.
+  std::optional<std::uint64_t> tie_seed;
+};
+
+/// Is told of every event, in order.
+class EventListener {
+ public:
+  virtual ~EventListener() = default;
+  virtual void on_event(const EventRecord& record) = 0;
+};
+
+/// Finds and applies the best consistent set of active behaviors on every event.
+///
+/// Instants never go back. After too_many_clock_events those that are due are still to come: a
+/// later call goes on with them, if restart_count() allows for more. After refused_answer the
+/// coordinator must not be used any more.
+///
+/// Nothing is allocated on an event, but for reasons and explanations, once the buffers have the
+/// sizes that the events need.
+class Coordinator {
+ public:
+  enum class [[nodiscard]] Status : std::uint8_t{
+      ok, too_many_clock_events,
+      refused_answer  ///< the checker refused an answer of the solver; see internal_error()
+  };
+
+  /// `catalog` and `listener` must outlive the coordinator.
+  Coordinator(const CompiledCatalog& catalog, const CoordinatorOptions& options,
+              EventListener& listener);
+  Coordinator(const Coordinator&) = delete;
+  Coordinator& operator=(const Coordinator&) = delete;
+
+  /// Before the first event: sets the situation and queues the reactive tasks.
+  void begin(std::span<const Availability> situation);
+
+  /// Instead of begin: goes on from the state of another coordinator, which find_inconsistency
+  /// accepts. The reactive delay is that of the options.
+  void resume(const Snapshot& snapshot);
+  /// All that there is to go on from, but for the outcome. The last call returned ok.
+  [[nodiscard]] Snapshot snapshot() const;
+
+  /// Moves the clock to `time` (not before now), and before that through everything that falls due
+  /// earlier.
+  Status advance_to(Microseconds time);
+  /// Processes what is due at the present instant.
+  Status settle();
+  /// Handles one event at the present instant. Subjects are places in the catalog. If it returns
+  /// too_many_clock_events, the event itself is done.
+  Status handle(const Event& event);
+  /// Allows for max_clock_events from here on.
+  void restart_count() { clock_events_ = 0; }
+
+  [[nodiscard]] Microseconds now() const { return now_; }
+  /// When something falls due next; nothing may come of it.
+  [[nodiscard]] std::optional<Microseconds> next_due() const;
+  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] const std::string& internal_error() const { return internal_error_; }
+
+ private:
+  Status process_next_due();
+  Status time_out(TaskId task);
+  Status start_reactive(TaskId task);
+  Status finish_lost();
+  [[nodiscard]] bool may_start(TaskId task) const;
+
+  void open_record(Origin origin, Verb verb);
+  void open_clock_record(Origin origin, Verb verb);
+  Status report();
+
+  Status take(const Event& event);
+  Status start(TaskId task, std::int32_t priority, std::optional<std::string_view> parameters,
+               bool is_reactive);
+  Status stop(TaskId task, std::optional<std::int32_t> priority);
+  Status reject_by_priority(TaskId task, std::int32_t priority);
+  Status finish(BehaviorId behavior, FinishCause cause);
+  void change_situation(std::span<const Availability> situation);
+  void repair(BehaviorId behavior);
+
+  Status coordinate(const Trigger& trigger);
+  [[nodiscard]] const Problem* search(const Trigger& trigger);
+  [[nodiscard]] const Problem* timed_search(const Trigger& trigger);
+  [[nodiscard]] std::string describe_refusal(const std::string& violation) const;
+  void note_domain_sizes(const Problem& problem);
+  [[nodiscard]] BehaviorId behavior_to_restart(const Trigger& trigger) const;
+  void accept(const Trigger& trigger, const Problem& problem);
+  void explain(const Trigger& trigger, const Problem& problem);
+  Status reject(const Trigger& trigger);
+  void assign(const Trigger& trigger);
+  void update_timeouts(std::uint32_t group);
+  void update_queue();
+  void enqueue_if_reactive(TaskId task);
+  void enqueue_rivals(TaskId task);
+  void dequeue_with_rivals(TaskId task);
+  void enqueue_group(std::uint32_t group);
+
+  const CompiledCatalog& catalog_;
+  const CoordinatorOptions options_;
+  EventListener& listener_;
+  std::vector<std::uint32_t> ranks_;  ///< by value, if there is a tie seed
+  State state_;
+  EventRecord record_;
+  SearchRecord search_;
+  Question question_;
+  Transition transition_;
+  Solver solver_;
+  Checker checker_;
+  std::optional<Explainer> explainer_;
+  Assignment solution_;
+  std::vector<TaskId> started_;
+  std::vector<TaskId> stopped_;
+  std::vector<TaskId> stopped_by_others_;  ///< of these, what did not end by itself
+  std::vector<BehaviorId> lost_;           ///< could not be activated again; the last finishes next
+  Microseconds now_ = 0;
+  std::uint64_t clock_events_ = 0;
+  std::string internal_error_;
+};
+
+}  // namespace cbc

@@ -1,0 +1,316 @@
+#include "coordinator/explainer.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "explain/conflict_search.h"
+#include "explain/reasons.h"
+
+namespace cbc {
+namespace {
+
+/// With more possible reasons than this, finding a minimal set takes too long.
+constexpr std::size_t most_candidates = 20'000;
+/// The same for RelaxedProblem::effort, of all questions about one event: some tenths of a second.
+constexpr std::uint64_t most_effort = 50'000'000;
+
+/// All that may speak against the event.
+class Candidates {
+ public:
+  Candidates(const CompiledCatalog& catalog, const Circumstances& circumstances)
+      : catalog_(catalog),
+        state_(circumstances.state),
+        trigger_(circumstances.trigger),
+        protection_(circumstances.protection),
+        failed_(circumstances.failed),
+        relevant_(catalog, trigger_.group) {}
+
+  std::vector<Reason> collect(std::span<const Demands> ways) && {
+    find_relevant_tasks(ways);
+    for (const TaskId task : relevant_.tasks()) {
+      add_exclusions(catalog_, task, relevant_, most_candidates + 1, reasons_);
+      add_state(task);
+      add_minimum(catalog_, task, reasons_);
+    }
+    for (const BehaviorId behavior : relevant_.behaviors()) {
+      add_condition(behavior);
+      add_requirements(catalog_, behavior, reasons_);
+    }
+    return std::move(reasons_);
+  }
+
+ private:
+  [[nodiscard]] bool is_protected(TaskId task) const {
+    return task != trigger_.task && !has_finished(state_, trigger_, task) &&
+           cbc::is_protected(state_, trigger_, task, protection_);
+  }
+
+  void find_relevant_tasks(std::span<const Demands> ways) {
+    for (const Demands& demands : ways) {
+      for (const Demand& demand : demands) relevant_.add(demand.task);
+    }
+    for (TaskId task = catalog_.group_tasks[trigger_.group];
+         task < catalog_.group_tasks[trigger_.group + 1]; ++task) {
+      if (task == trigger_.task || is_protected(task)) relevant_.add(task);
+    }
+    relevant_.close();
+  }
+
+  void add_state(TaskId task) {
+    if (task == trigger_.task) return;
+    Reason reason;
+    reason.task = task;
+    if (is_protected(task)) {
+      reason.kind = Reason::Kind::is_protected;
+      reason.priority = state_.request(task).priority;
+      reasons_.push_back(reason);
+    } else if (!state_.is_running(task) && catalog_.tasks[task].start_on_request) {
+      reason.kind = Reason::Kind::on_request;
+      reasons_.push_back(reason);
+    }
+  }
+
+  void add_condition(BehaviorId behavior) {
+    Reason reason;
+    reason.behavior = behavior;
+    if (std::find(failed_.begin(), failed_.end(), behavior) != failed_.end()) {
+      // The one that a finish event is about is in this list if it failed.
+      reason.kind = behavior == trigger_.behavior ? Reason::Kind::finished : Reason::Kind::faulty;
+      reasons_.push_back(reason);
+    } else if (!state_.is_available(behavior)) {
+      reason.kind = Reason::Kind::unavailable;
+      reasons_.push_back(reason);
+    }
+  }
+
+  const CompiledCatalog& catalog_;
+  const State& state_;
+  const Trigger& trigger_;
+  const std::int32_t protection_;
+  const std::span<const BehaviorId> failed_;
+  RelevantTasks relevant_;
+  std::vector<Reason> reasons_;
+};
+
+/// The problems of several ways, of which none may have a solution, with a limit of effort for all
+/// questions together.
+class Ways {
+ public:
+  explicit Ways(std::vector<RelaxedProblem>& problems) : problems_(problems) {}
+
+  /// Where that is not certain, the answer is yes, so that no reason is taken for needless.
+  [[nodiscard]] bool has_solution(std::span<const Reason> reasons) {
+    return std::any_of(problems_.begin(), problems_.end(), [&](RelaxedProblem& problem) {
+      if (is_exhausted()) return true;
+      const std::uint64_t before = problem.effort();
+      const Feasibility answer = problem.solve(reasons);
+      effort_left_ -= std::min(problem.effort() - before, effort_left_);
+      return answer != Feasibility::no;
+    });
+  }
+
+  /// Leaves only reasons that have a part in a proof that there is no solution. False if there is
+  /// none.
+  [[nodiscard]] bool narrow(std::vector<Reason>& reasons) {
+    for (std::size_t before = reasons.size() + 1; reasons.size() < before;) {
+      before = reasons.size();
+      if (has_solution(reasons)) return false;
+      std::vector<Reason> used;
+      for (std::size_t place = 0; place < reasons.size(); ++place) {
+        const bool is_used = std::any_of(
+            problems_.begin(), problems_.end(),
+            [place](const RelaxedProblem& problem) { return problem.is_used()[place] != 0; });
+        if (is_used) used.push_back(reasons[place]);
+      }
+      reasons = std::move(used);
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool is_exhausted() const { return effort_left_ == 0; }
+
+ private:
+  std::vector<RelaxedProblem>& problems_;
+  std::uint64_t effort_left_ = most_effort;
+};
+
+/// What the event alone asks for.
+Demands demands_of(const CompiledCatalog& catalog, const State& state, const Trigger& trigger) {
+  switch (trigger.kind) {
+    case Trigger::Kind::start:
+      return {{Demand::Kind::run, trigger.task, none}};
+    case Trigger::Kind::stop:
+      return {{Demand::Kind::stop, trigger.task, none}};
+    case Trigger::Kind::finish:
+      break;
+  }
+  Demands demands;
+  if (trigger.cause != FinishCause::goal_achieved) return demands;
+  for (const ValueId value : catalog.performs[trigger.behavior]) {
+    const TaskId task = catalog.task_of(value);
+    if (has_finished(state, trigger, task)) demands.push_back({Demand::Kind::stop, task, none});
+  }
+  return demands;
+}
+
+}  // namespace
+
+std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
+                                                const Circumstances& circumstances,
+                                                std::span<const Demands> ways) {
+  const Trigger& trigger = circumstances.trigger;
+  std::vector<Reason> candidates = Candidates(catalog, circumstances).collect(ways);
+  if (candidates.size() > most_candidates) return std::nullopt;
+
+  // Keeping a behavior is no activation, unless it has just finished.
+  std::vector<std::uint32_t> present;
+  for (TaskId task = catalog.group_tasks[trigger.group];
+       task < catalog.group_tasks[trigger.group + 1]; ++task) {
+    const bool is_kept = !has_finished(circumstances.state, trigger, task);
+    present.push_back(is_kept ? circumstances.state.place(task) : none);
+  }
+  std::vector<RelaxedProblem> problems;
+  problems.reserve(ways.size());
+  for (const Demands& way : ways) {
+    Demands demands = demands_of(catalog, circumstances.state, trigger);
+    demands.insert(demands.end(), way.begin(), way.end());
+    problems.emplace_back(catalog, trigger.group, present, std::move(demands));
+  }
+  Ways all(problems);
+  if (!all.has_solution({})) return std::vector<Reason>();
+  if (!all.narrow(candidates)) return std::nullopt;
+  std::vector<Reason> reasons = minimal_set(
+      candidates, [&all](std::span<const Reason> some) { return all.has_solution(some); });
+  if (all.is_exhausted()) return std::nullopt;
+  return reasons;
+}
+
+std::vector<Reason> find_conflict(const CompiledCatalog& catalog,
+                                  const Circumstances& circumstances) {
+  const Trigger& trigger = circumstances.trigger;
+  if (trigger.kind == Trigger::Kind::start && catalog.values[trigger.task].empty()) {
+    Reason reason;
+    reason.kind = Reason::Kind::no_behavior;
+    reason.task = trigger.task;
+    return {reason};
+  }
+  const Demands nothing_else;
+  return find_reasons(catalog, circumstances, std::span(&nothing_else, 1))
+      .value_or(std::vector<Reason>());
+}
+
+Explainer::Explainer(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks,
+                     ExplanationOptions options)
+    : catalog_(catalog), options_(std::move(options)), search_(catalog, ranks) {}
+
+void Explainer::explain(const Circumstances& circumstances, const Problem& problem,
+                        const Assignment& solution, Explanation& explanation) {
+  search_.load(problem, elsewhere(circumstances.state, problem.group));
+  explanation.chosen = search_.comparison().evaluate(solution);
+  if (options_.displaced) explain_displaced(circumstances, problem, explanation);
+  for (const Subject& subject : options_.why) {
+    if (!is_in_group(subject, problem.group)) continue;
+    if (subject.is_task) {
+      explain_task(circumstances, catalog_.task_ids[subject.place], explanation);
+    } else {
+      explain_behavior(circumstances, catalog_.behavior_ids[subject.place], explanation);
+    }
+  }
+  if (options_.alternatives > 0) {
+    explanation.alternatives = search_.list_best(solution, options_.alternatives);
+    explanation.is_list_cut = search_.is_cut();
+  }
+}
+
+bool Explainer::is_in_group(const Subject& subject, std::uint32_t group) const {
+  if (subject.is_task) return catalog_.tasks[catalog_.task_ids[subject.place]].group == group;
+  return catalog_.group_of(catalog_.behavior_ids[subject.place]) == group;
+}
+
+/// Requests outside the group are satisfied, and nothing changes there.
+ObjectiveValues Explainer::elsewhere(const State& state, std::uint32_t group) const {
+  ObjectiveValues values;
+  values.requests = state.request_count();
+  values.idle_total = state.idle_total();
+  values.idle_running = state.idle_running();
+  for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
+    if (state.has_request(task)) --values.requests;
+    if (state.is_running(task) && catalog_.tasks[task].start_on_request == 0) {
+      --values.idle_running;
+    }
+  }
+  values.satisfied = values.requests;
+  return values;
+}
+
+void Explainer::explain_displaced(const Circumstances& circumstances, const Problem& problem,
+                                  Explanation& explanation) {
+  for (const std::uint32_t task : problem.requests) {
+    if (explanation.chosen.places[task] != none) continue;
+    const TaskId id = catalog_.group_tasks[problem.group] + task;
+    const Demands runs{{Demand::Kind::run, id, none}};
+    explanation.displaced.push_back(
+        {id, why_not(circumstances, explanation.chosen, std::span(&runs, 1))});
+  }
+}
+
+void Explainer::explain_task(const Circumstances& circumstances, TaskId task,
+                             Explanation& explanation) {
+  const TaskId first = catalog_.group_tasks[catalog_.tasks[task].group];
+  const std::uint32_t place = explanation.chosen.places[task - first];
+  Demand otherwise;
+  otherwise.kind = place == none ? Demand::Kind::run : Demand::Kind::has_not;
+  otherwise.task = task;
+  otherwise.place = place;
+  const Demands demands{otherwise};
+  Why why;
+  why.task = task;
+  why.chosen = place == none ? none : catalog_.values[task][place].behavior;
+  if (catalog_.values[task].empty()) {
+    Reason& reason = why.why_not.conflict.emplace_back();
+    reason.kind = Reason::Kind::no_behavior;
+    reason.task = task;
+  } else {
+    why.why_not = why_not(circumstances, explanation.chosen, std::span(&demands, 1));
+  }
+  explanation.why.push_back(std::move(why));
+}
+
+/// It is active if one of its tasks has it, and not active if none has it.
+void Explainer::explain_behavior(const Circumstances& circumstances, BehaviorId behavior,
+                                 Explanation& explanation) {
+  const TaskId first = catalog_.group_tasks[catalog_.group_of(behavior)];
+  std::vector<Demands> with;
+  Demands without;
+  Why why;
+  why.behavior = behavior;
+  for (const ValueId value : catalog_.performs[behavior]) {
+    const TaskId task = catalog_.task_of(value);
+    const std::uint32_t place = value - catalog_.values.begin[task];
+    if (explanation.chosen.places[task - first] == place) why.is_active = true;
+    with.push_back({{Demand::Kind::has, task, place}});
+    without.push_back({Demand::Kind::has_not, task, place});
+  }
+  why.why_not = why_not(circumstances, explanation.chosen,
+                        why.is_active ? std::span<const Demands>(&without, 1) : with);
+  explanation.why.push_back(std::move(why));
+}
+
+WhyNot Explainer::why_not(const Circumstances& circumstances, const Configuration& chosen,
+                          std::span<const Demands> ways) {
+  WhyNot answer;
+  answer.alternative = search_.find_best(ways);
+  if (search_.is_cut()) {
+    answer.is_cut = true;
+  } else if (answer.alternative) {
+    answer.difference = search_.comparison().compare(chosen, *answer.alternative);
+  } else if (auto reasons = find_reasons(catalog_, circumstances, ways)) {
+    answer.conflict = std::move(*reasons);
+  } else {
+    answer.is_cut = true;
+  }
+  return answer;
+}
+
+}  // namespace cbc

@@ -1,0 +1,182 @@
+#include "coordinator/problem_builder.h"
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+namespace cbc {
+
+bool is_protected(const State& state, const Trigger& trigger, TaskId task,
+                  std::int32_t protection) {
+  if (!state.has_request(task)) return false;
+  return trigger.is_reactive || state.request(task).priority > protection;
+}
+
+bool has_finished(const State& state, const Trigger& trigger, TaskId task) {
+  return trigger.kind == Trigger::Kind::finish && state.behavior(task) == trigger.behavior;
+}
+
+Question::Question(const CompiledCatalog& catalog, const State& state)
+    : catalog_(catalog), state_(state) {}
+
+void Question::load(const Trigger& trigger, std::uint64_t event) {
+  trigger_ = trigger;
+  first_task_ = catalog_.group_tasks[trigger.group];
+  end_task_ = catalog_.group_tasks[trigger.group + 1];
+  excluded_.clear();
+  problem_.group = trigger.group;
+  problem_.present.clear();
+  for (TaskId task = first_task_; task < end_task_; ++task) {
+    problem_.present.push_back(state_.place(task));
+  }
+  find_active();
+  rank_requests(event);
+
+  first_protection_ = trigger.kind == Trigger::Kind::finish ? 0 : trigger.priority;
+  if (trigger.kind != Trigger::Kind::finish) return;
+  for (const ValueId value : catalog_.performs[trigger.behavior]) {
+    const TaskId task = catalog_.task_of(value);
+    if (has_finished(task) && state_.has_request(task)) {
+      first_protection_ = std::max(first_protection_, state_.request(task).priority);
+    }
+  }
+  if (trigger.cause != FinishCause::goal_achieved &&
+      trigger.cause != FinishCause::situation_change) {
+    exclude(trigger.behavior);
+  }
+}
+
+void Question::find_active() {
+  const BehaviorId first = catalog_.group_behaviors[trigger_.group];
+  is_listed_.assign(catalog_.group_behaviors[trigger_.group + 1] - first, 0);
+  problem_.active.clear();
+  for (TaskId task = first_task_; task < end_task_; ++task) {
+    const BehaviorId behavior = state_.behavior(task);
+    if (behavior == none || has_finished(task) || is_listed_[behavior - first] != 0) continue;
+    is_listed_[behavior - first] = 1;
+    problem_.active.push_back(behavior);
+  }
+  std::sort(problem_.active.begin(), problem_.active.end());
+}
+
+/// The active requests: those of running tasks, the new one included, the one just stopped or done
+/// excluded; highest priority first, then the most recent.
+void Question::rank_requests(std::uint64_t event) {
+  const auto priority_of = [&](std::uint32_t task) {
+    const TaskId id = first_task_ + task;
+    return id == trigger_.task ? trigger_.priority : state_.request(id).priority;
+  };
+  const auto event_of = [&](std::uint32_t task) {
+    const TaskId id = first_task_ + task;
+    return id == trigger_.task ? event : state_.request(id).event;
+  };
+  problem_.requests.clear();
+  for (TaskId task = first_task_; task < end_task_; ++task) {
+    const bool is_new = trigger_.kind == Trigger::Kind::start && task == trigger_.task;
+    const bool is_stopped = trigger_.kind == Trigger::Kind::stop && task == trigger_.task;
+    const bool is_done = trigger_.cause == FinishCause::goal_achieved && has_finished(task);
+    if (is_new || (state_.has_request(task) && !is_stopped && !is_done)) {
+      problem_.requests.push_back(task - first_task_);
+    }
+  }
+  std::sort(problem_.requests.begin(), problem_.requests.end(),
+            [&](std::uint32_t a, std::uint32_t b) {
+              return priority_of(a) != priority_of(b) ? priority_of(a) > priority_of(b)
+                                                      : event_of(a) > event_of(b);
+            });
+}
+
+std::optional<std::int32_t> Question::next_protection(std::int32_t level) const {
+  std::optional<std::int32_t> next;
+  for (TaskId task = first_task_; task < end_task_; ++task) {
+    if (has_finished(task) || !state_.has_request(task)) continue;
+    const std::int32_t priority = state_.request(task).priority;
+    if (priority > level && (!next || priority < *next)) next = priority;
+  }
+  return next;
+}
+
+const Problem& Question::ask(std::int32_t protection) {
+  const auto words_begin = state_.available_words().begin();
+  problem_.domains.assign(words_begin + catalog_.words[first_task_],
+                          words_begin + catalog_.words[end_task_]);
+  problem_.may_stop.assign(end_task_ - first_task_, 1);
+  for (TaskId task = first_task_; task < end_task_; ++task) {
+    open_domain(task);
+    limit_domain(task, protection);
+  }
+  clear_excluded();
+  return problem_;
+}
+
+/// S(x): the available behaviors (which are in it already), and the present one unless it has just
+/// finished.
+void Question::open_domain(TaskId task) {
+  if (state_.is_running(task) && !has_finished(task)) {
+    const std::uint32_t place = state_.place(task);
+    word_of(task, place) |= std::uint64_t{1} << (place % 64);
+  }
+}
+
+void Question::limit_domain(TaskId task, std::int32_t protection) {
+  std::uint8_t& may_stop = problem_.may_stop[task - first_task_];
+  if (task == trigger_.task) {
+    if (trigger_.kind == Trigger::Kind::stop) {
+      empty_domain(task);
+    } else {
+      may_stop = 0;
+    }
+  } else if (has_finished(task)) {
+    if (trigger_.cause == FinishCause::goal_achieved) empty_domain(task);
+  } else if (!state_.is_running(task)) {
+    if (catalog_.tasks[task].start_on_request) empty_domain(task);
+  } else if (is_protected(state_, trigger_, task, protection)) {
+    may_stop = 0;
+  }
+}
+
+void Question::clear_excluded() {
+  for (const BehaviorId behavior : excluded_) {
+    for (const ValueId value : catalog_.performs[behavior]) {
+      const TaskId task = catalog_.task_of(value);
+      const std::uint32_t place = value - catalog_.values.begin[task];
+      word_of(task, place) &= ~(std::uint64_t{1} << (place % 64));
+    }
+  }
+}
+
+std::uint64_t& Question::word_of(TaskId task, std::uint32_t place) {
+  return problem_.domains[catalog_.words[task] - catalog_.words[first_task_] + place / 64];
+}
+
+void Question::empty_domain(TaskId task) {
+  const auto first =
+      problem_.domains.begin() + (catalog_.words[task] - catalog_.words[first_task_]);
+  std::fill(first, first + (catalog_.words[task + 1] - catalog_.words[task]), 0);
+}
+
+std::vector<std::uint32_t> draw_ranks(const CompiledCatalog& catalog, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<std::uint32_t> ranks(catalog.values.items.size());
+  std::vector<std::uint64_t> lots;
+  std::vector<std::uint32_t> order;
+  for (const TaskId task : catalog.task_ids) {
+    const auto values = catalog.values[task];
+    lots.resize(values.size());
+    std::generate(lots.begin(), lots.end(), std::ref(random));
+    order.resize(values.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      if (values[a].suitability != values[b].suitability) {
+        return values[a].suitability > values[b].suitability;
+      }
+      return lots[a] != lots[b] ? lots[a] < lots[b] : a < b;
+    });
+    for (std::uint32_t rank = 0; rank < order.size(); ++rank) {
+      ranks[catalog.values.begin[task] + order[rank]] = rank;
+    }
+  }
+  return ranks;
+}
+
+}  // namespace cbc

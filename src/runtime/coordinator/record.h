@@ -1,0 +1,129 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "cbc/event.h"
+#include "cbc/units.h"
+#include "compiled/compiled_catalog.h"
+#include "explain/alternatives.h"
+#include "explain/reasons.h"
+#include "solver/problem.h"
+
+namespace cbc {
+
+/// A task or a behavior, by its place in the catalog.
+struct Subject {
+  bool is_task = true;
+  std::uint32_t place = 0;
+};
+
+/// What to explain of accepted events. Only answers that are proven best are explained.
+struct ExplanationOptions {
+  bool displaced = false;          ///< why requested tasks do not run any more
+  std::vector<Subject> why;        ///< why these have the value they have
+  std::uint32_t alternatives = 0;  ///< number of best configurations to list
+
+  [[nodiscard]] bool asks_for_any() const { return displaced || !why.empty() || alternatives > 0; }
+};
+
+/// Why something was not chosen: the best alternative with it loses, or there is none.
+struct WhyNot {
+  bool is_cut = false;  ///< a limit of effort came first; the rest is empty
+  std::optional<Configuration> alternative;
+  Difference difference;  ///< of what was chosen to the alternative, if there is one
+  /// If there is none, a minimal set of reasons. Empty: the event itself rules it out.
+  std::vector<Reason> conflict;
+};
+
+/// A task with an active request that does not run any more.
+struct Displacement {
+  TaskId task = none;
+  WhyNot why_not;
+};
+
+/// Why a task has its value and no other, or a behavior is active or not.
+struct Why {
+  TaskId task = none;
+  BehaviorId behavior = none;  ///< if it is asked about
+  BehaviorId chosen = none;    ///< behavior of the task, if that is asked about
+  bool is_active = false;      ///< of the behavior
+  WhyNot why_not;
+};
+
+/// What was asked for about one event.
+struct Explanation {
+  std::vector<Displacement> displaced;
+  std::vector<Why> why;
+  std::vector<Configuration> alternatives;  ///< the best first, which is the one chosen
+  bool is_list_cut = false;                 ///< a limit of effort came before the last of them
+  Configuration chosen;                     ///< set if there are displaced or why
+
+  void clear() {
+    displaced.clear();
+    why.clear();
+    alternatives.clear();
+    is_list_cut = false;
+  }
+};
+
+[[nodiscard]] std::string_view name_of(SearchStatus status);
+
+/// One activation or deactivation, in the order applied.
+struct Change {
+  bool is_activation = false;
+  BehaviorId behavior = 0;
+  std::uint32_t first_task = 0;  ///< of its tasks, in EventRecord::tasks_of_changes
+  std::uint32_t task_count = 0;
+  ChangeCause cause = ChangeCause::requested;
+  std::optional<std::int32_t> priority;
+  bool success = true;
+};
+
+struct StoppedTask {
+  TaskId task = 0;
+  FinishCause cause = FinishCause::interrupted;
+};
+
+struct SearchRecord {
+  SearchResult result;  ///< of the last search; its counts over all searches of the event
+  std::uint32_t group = 0;
+  std::int32_t protection = 0;
+  bool is_escalated = false;                ///< there was no solution at the first protection level
+  std::vector<std::uint32_t> domain_sizes;  ///< their product is the search space
+  /// What all searches of the event took, with the making of their problems; empty unless measured.
+  std::optional<std::chrono::nanoseconds> elapsed;
+};
+
+/// What one event did. Valid until the coordinator handles the next one, whose record takes over
+/// the memory.
+struct EventRecord {
+  std::uint64_t index = 0;  ///< counts all events from 1
+  Microseconds time = 0;
+  Origin origin = Origin::script;
+  Verb verb = Verb::wait;
+  TaskId task = none;          ///< of start and stop
+  BehaviorId behavior = none;  ///< of finish, fault and repair
+  std::int32_t priority = 0;   ///< of start and stop
+  FinishCause cause = FinishCause::goal_achieved;
+
+  Outcome outcome = Outcome::unchanged;
+  std::vector<Change> changes;
+  std::vector<TaskId> tasks_of_changes;
+  std::vector<StoppedTask> stopped_tasks;
+  std::optional<ObjectiveValues> objective;
+  const SearchRecord* search = nullptr;  ///< null: there was none
+  std::vector<Reason> conflict;          ///< of a rejected event: a minimal set of reasons
+  Explanation explanation;               ///< of an accepted event, what was asked for
+
+  /// The tasks that one of the changes is about.
+  [[nodiscard]] std::span<const TaskId> tasks_of(const Change& change) const {
+    return std::span(tasks_of_changes).subspan(change.first_task, change.task_count);
+  }
+};
+
+}  // namespace cbc

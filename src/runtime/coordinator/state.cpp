@@ -1,0 +1,332 @@
+#include "coordinator/state.h"
+
+#include <algorithm>
+#include <bit>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "solver/checker.h"
+
+namespace cbc {
+
+Timers::Timers(std::size_t items) : place_(items, absent) { heap_.reserve(items); }
+
+void Timers::set(Item item, Microseconds due) {
+  if (!has(item)) {
+    heap_.emplace_back(due, item);
+    place_[item] = static_cast<std::uint32_t>(heap_.size() - 1);
+  } else {
+    heap_[place_[item]].first = due;
+  }
+  sift_up(place_[item]);
+  sift_down(place_[item]);
+}
+
+void Timers::remove(Item item) {
+  if (!has(item)) return;
+  const std::uint32_t place = place_[item];
+  place_[item] = absent;
+  const auto last = heap_.back();
+  heap_.pop_back();
+  if (place == heap_.size()) return;
+  put(place, last);
+  sift_up(place);
+  sift_down(place_[last.second]);
+}
+
+void Timers::put(std::uint32_t place, const std::pair<Microseconds, Item>& entry) {
+  heap_[place] = entry;
+  place_[entry.second] = place;
+}
+
+void Timers::sift_up(std::uint32_t place) {
+  const auto entry = heap_[place];
+  while (place > 0 && entry < heap_[(place - 1) / 2]) {
+    put(place, heap_[(place - 1) / 2]);
+    place = (place - 1) / 2;
+  }
+  put(place, entry);
+}
+
+void Timers::sift_down(std::uint32_t place) {
+  const auto entry = heap_[place];
+  for (;;) {
+    std::uint32_t child = 2 * place + 1;
+    if (child >= heap_.size()) break;
+    if (child + 1 < heap_.size() && heap_[child + 1] < heap_[child]) ++child;
+    if (entry <= heap_[child]) break;
+    put(place, heap_[child]);
+    place = child;
+  }
+  put(place, entry);
+}
+
+State::State(const CompiledCatalog& catalog)
+    : catalog_(catalog),
+      places_(catalog.tasks.size(), none),
+      taken_at_(catalog.tasks.size(), 0),
+      has_request_(catalog.tasks.size(), 0),
+      requests_(catalog.tasks.size()),
+      running_((catalog.tasks.size() + 63) / 64, 0),
+      available_(catalog.behaviors.size(), 1),
+      available_words_(catalog.words.back(), 0),
+      faulty_(catalog.behaviors.size(), 0),
+      active_(catalog.behaviors.size(), 0),
+      activated_at_(catalog.behaviors.size(), 0),
+      timeouts_(catalog.tasks.size()),
+      queue_(catalog.tasks.size()) {
+  for (const CompiledTask& task : catalog.tasks) {
+    if (!task.start_on_request) ++idle_total_;
+  }
+  for (BehaviorId behavior = 0; behavior < catalog.behaviors.size(); ++behavior) {
+    set_available(behavior, true);
+  }
+}
+
+void State::set_place(TaskId task, std::uint32_t place, Microseconds now) {
+  if (places_[task] == place) return;
+  const bool was_running = is_running(task);
+  places_[task] = place;
+  taken_at_[task] = now;
+  if (was_running == is_running(task)) return;
+
+  const CompiledTask& compiled = catalog_.tasks[task];
+  running_[compiled.catalog_index / 64] ^= std::uint64_t{1} << (compiled.catalog_index % 64);
+  if (was_running) {
+    if (!compiled.start_on_request) --idle_running_;
+    if (has_request(task)) --request_count_;
+    has_request_[task] = 0;
+  } else {
+    if (!compiled.start_on_request) ++idle_running_;
+  }
+}
+
+std::vector<std::uint32_t> State::running() const {
+  std::size_t count = 0;
+  for (const std::uint64_t word : running_) count += static_cast<std::size_t>(std::popcount(word));
+  std::vector<std::uint32_t> tasks;
+  tasks.reserve(count);
+  for (std::uint32_t word = 0; word < running_.size(); ++word) {
+    for (std::uint64_t bits = running_[word]; bits != 0; bits &= bits - 1) {
+      tasks.push_back(word * 64 + static_cast<std::uint32_t>(std::countr_zero(bits)));
+    }
+  }
+  return tasks;
+}
+
+void State::set_request(TaskId task, std::int32_t priority, std::uint64_t event,
+                        std::string_view parameters) {
+  if (!has_request(task)) ++request_count_;
+  has_request_[task] = 1;
+  requests_[task].priority = priority;
+  requests_[task].event = event;
+  requests_[task].parameters = parameters;
+}
+
+void State::set_available(BehaviorId behavior, bool available) {
+  available_[behavior] = available ? 1 : 0;
+  for (const ValueId value : catalog_.performs[behavior]) {
+    const TaskId task = catalog_.task_of(value);
+    const std::uint32_t place = value - catalog_.values.begin[task];
+    const std::uint64_t bit = std::uint64_t{1} << (place % 64);
+    std::uint64_t& word = available_words_[catalog_.words[task] + place / 64];
+    word = available ? word | bit : word & ~bit;
+  }
+}
+
+bool State::has_available_behavior(TaskId task) const {
+  const auto first = available_words_.begin() + catalog_.words[task];
+  const auto end = available_words_.begin() + catalog_.words[task + 1];
+  return std::any_of(first, end, [](std::uint64_t word) { return word != 0; });
+}
+
+void State::set_active(BehaviorId behavior, Microseconds now) {
+  active_[behavior] = 1;
+  activated_at_[behavior] = now;
+}
+
+void State::update_timeout(TaskId task, Microseconds now) {
+  const CompiledTask& compiled = catalog_.tasks[task];
+  Microseconds timeout = 0;
+  if (is_running(task) && !compiled.keep_running) {
+    const Microseconds own = catalog_.behaviors[behavior(task)].timeout;
+    timeout = own > 0 ? own : compiled.timeout;
+  }
+  if (timeout == 0) {
+    timeouts_.remove(compiled.catalog_index);
+    return;
+  }
+  const Microseconds due = std::max(activated_at_[behavior(task)], taken_at_[task]) + timeout;
+  // What is not waited for any more and was due by now has been dealt with.
+  if (due > now || timeouts_.has(compiled.catalog_index)) {
+    timeouts_.set(compiled.catalog_index, due);
+  }
+}
+
+void State::enqueue(TaskId task, Microseconds due) {
+  const std::uint32_t item = catalog_.tasks[task].catalog_index;
+  if (!is_running(task) && !queue_.has(item)) queue_.set(item, due);
+}
+
+bool State::excludes_running_task(TaskId task) const {
+  for (const std::uint32_t clique : catalog_.task_cliques[task]) {
+    for (const TaskId other : catalog_.cliques[clique]) {
+      if (other != task && is_running(other)) return true;
+    }
+  }
+  return false;
+}
+
+namespace {
+
+class SnapshotCheck {
+ public:
+  SnapshotCheck(const CompiledCatalog& catalog, const Snapshot& snapshot)
+      : catalog_(catalog),
+        snapshot_(snapshot),
+        places_(catalog.tasks.size(), none),
+        activated_at_(catalog.behaviors.size(), never) {}
+
+  std::optional<std::string> run() && {
+    check_clock();
+    for (const auto& [behavior, time] : snapshot_.active) check_activation(behavior, time);
+    for (const Snapshot::RunningTask& entry : snapshot_.running) check_task(entry);
+    check_active();
+    for (const auto& [task, due] : snapshot_.queue) check_queued(task, due);
+    if (problem_.empty()) check_constraints();
+    if (problem_.empty()) return std::nullopt;
+    return std::move(problem_);
+  }
+
+ private:
+  static constexpr Microseconds never = -1;
+
+  /// The first one counts.
+  void refuse(std::string problem) {
+    if (problem_.empty()) problem_ = std::move(problem);
+  }
+  [[nodiscard]] bool is_past(Microseconds time) const { return time >= 0 && time <= snapshot_.now; }
+  [[nodiscard]] static std::string seconds(Microseconds time) {
+    return format_decimal(time, 6) + " s";
+  }
+
+  void check_clock() {
+    if (snapshot_.now < 0 || snapshot_.now > longest_time) {
+      refuse("its time is not between 0 and " + seconds(longest_time));
+    }
+    if (snapshot_.reactive_delay <= 0 || snapshot_.reactive_delay > longest_time) {
+      refuse("its reactive delay is not over 0 and at most " + seconds(longest_time));
+    }
+    if (snapshot_.events > UINT64_MAX / 2) refuse("its number of events is beyond reach");
+  }
+
+  void check_activation(BehaviorId behavior, Microseconds time) {
+    const std::string name = quote(catalog_.name_of_behavior(behavior));
+    if (activated_at_[behavior] != never) refuse(fmt::format("behavior {} is active twice", name));
+    if (!is_past(time)) {
+      refuse(
+          fmt::format("behavior {} became active after the time of the state, or before 0", name));
+      return;
+    }
+    activated_at_[behavior] = time;
+  }
+
+  void check_task(const Snapshot::RunningTask& entry) {
+    const std::string name = quote(catalog_.name_of_task(entry.task));
+    const BehaviorId behavior = catalog_.values[entry.task][entry.place].behavior;
+    if (places_[entry.task] != none) refuse(fmt::format("task {} runs twice", name));
+    places_[entry.task] = entry.place;
+    if (!is_past(entry.since)) {
+      refuse(fmt::format("task {} runs since a time after that of the state, or before 0", name));
+      return;
+    }
+    if (activated_at_[behavior] == never) {
+      refuse(fmt::format("task {} runs with {}, which is not active", name,
+                         quote(catalog_.name_of_behavior(behavior))));
+    }
+    if (entry.request) check_request(name, *entry.request);
+    check_timeout(name, entry);
+  }
+
+  void check_request(const std::string& name, const Request& request) {
+    if (request.priority < 0) refuse(fmt::format("the request of {} has no priority", name));
+    if (request.event == 0 || request.event > snapshot_.events) {
+      refuse(fmt::format("the request of {} is of an event that was not", name));
+    } else if (!events_.insert(request.event).second) {
+      refuse(fmt::format("the request of {} is of the same event as another one", name));
+    }
+  }
+
+  void check_timeout(const std::string& name, const Snapshot::RunningTask& entry) {
+    const CompiledTask& task = catalog_.tasks[entry.task];
+    const BehaviorId behavior = catalog_.values[entry.task][entry.place].behavior;
+    const Microseconds own = catalog_.behaviors[behavior].timeout;
+    const Microseconds timeout = task.keep_running != 0 ? 0 : own > 0 ? own : task.timeout;
+    const Microseconds due =
+        timeout == 0 ? never : std::max(entry.since, activated_at_[behavior]) + timeout;
+    if (entry.waits_for_timeout ? due < snapshot_.now : due > snapshot_.now) {
+      refuse(fmt::format("task {} {} for a timeout", name,
+                         entry.waits_for_timeout ? "cannot wait" : "does not wait"));
+    }
+  }
+
+  void check_active() {
+    std::vector<std::uint8_t> is_used(catalog_.behaviors.size(), 0);
+    for (const Snapshot::RunningTask& entry : snapshot_.running) {
+      is_used[catalog_.values[entry.task][entry.place].behavior] = 1;
+    }
+    for (const auto& [behavior, time] : snapshot_.active) {
+      if (is_used[behavior] != 0) continue;
+      refuse(fmt::format("behavior {} is active, but performs no task",
+                         quote(catalog_.name_of_behavior(behavior))));
+    }
+  }
+
+  void check_queued(TaskId task, Microseconds due) {
+    const std::string name = quote(catalog_.name_of_task(task));
+    if (catalog_.tasks[task].reactive_start == 0) {
+      refuse(fmt::format("task {} is in the queue, but does not start reactively", name));
+    }
+    if (places_[task] != none) refuse(fmt::format("task {} is in the queue, but runs", name));
+    if (!queued_.insert(task).second) {
+      refuse(fmt::format("task {} is in the queue twice", name));
+    }
+    if (due < snapshot_.now || due - snapshot_.now > snapshot_.reactive_delay) {
+      refuse(fmt::format("task {} is in the queue for a time that cannot be", name));
+    }
+  }
+
+  /// By the code that checks the answers of the solver.
+  void check_constraints() {
+    Checker checker(catalog_);
+    for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) {
+      const TaskId first = catalog_.group_tasks[group];
+      const TaskId end = catalog_.group_tasks[group + 1];
+      Problem anything;
+      anything.group = group;
+      anything.domains.assign(catalog_.words[end] - catalog_.words[first], ~std::uint64_t{0});
+      anything.may_stop.assign(end - first, 1);
+      const Assignment answer(places_.begin() + first, places_.begin() + end);
+      if (auto violation = checker.find_violation(anything, answer)) refuse(std::move(*violation));
+    }
+  }
+
+  const CompiledCatalog& catalog_;
+  const Snapshot& snapshot_;
+  Assignment places_;                       ///< by task
+  std::vector<Microseconds> activated_at_;  ///< by behavior
+  std::set<std::uint64_t> events_;          ///< those of the requests
+  std::set<TaskId> queued_;
+  std::string problem_;
+};
+
+}  // namespace
+
+std::optional<std::string> find_inconsistency(const CompiledCatalog& catalog,
+                                              const Snapshot& snapshot) {
+  return SnapshotCheck(catalog, snapshot).run();
+}
+
+}  // namespace cbc

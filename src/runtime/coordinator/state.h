@@ -1,0 +1,167 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cbc/event.h"
+#include "cbc/units.h"
+#include "compiled/compiled_catalog.h"
+
+namespace cbc {
+
+/// At most one due time for each of a fixed number of items; the earliest comes first, of equal
+/// ones the lowest item. A binary heap that knows where each item is, so that nothing is allocated
+/// after construction.
+class Timers {
+ public:
+  using Item = std::uint32_t;
+
+  explicit Timers(std::size_t items);
+
+  void set(Item item, Microseconds due);
+  void remove(Item item);
+
+  [[nodiscard]] bool empty() const { return heap_.empty(); }
+  [[nodiscard]] bool has(Item item) const { return place_[item] != absent; }
+  [[nodiscard]] Item first() const { return heap_.front().second; }
+  [[nodiscard]] Microseconds first_due() const { return heap_.front().first; }
+  /// Needs has(item).
+  [[nodiscard]] Microseconds due(Item item) const { return heap_[place_[item]].first; }
+  /// All entries, in no particular order.
+  [[nodiscard]] const std::vector<std::pair<Microseconds, Item>>& entries() const { return heap_; }
+
+ private:
+  static constexpr std::uint32_t absent = UINT32_MAX;
+
+  void put(std::uint32_t place, const std::pair<Microseconds, Item>& entry);
+  void sift_up(std::uint32_t place);
+  void sift_down(std::uint32_t place);
+
+  std::vector<std::pair<Microseconds, Item>> heap_;
+  std::vector<std::uint32_t> place_;  ///< by item
+};
+
+/// The request of a running task.
+struct Request {
+  std::int32_t priority = 0;
+  std::uint64_t event = 0;  ///< number of the event that set it: a later one is more recent
+  std::string parameters;   ///< canonical form
+};
+
+/// State of a coordinator (semantics: section 2): what runs, what was requested, what can be
+/// activated, and what falls due.
+class State {
+ public:
+  explicit State(const CompiledCatalog& catalog);
+
+  // Values of the tasks.
+
+  [[nodiscard]] bool is_running(TaskId task) const { return places_[task] != none; }
+  /// Place of the task's behavior among its values, or none.
+  [[nodiscard]] std::uint32_t place(TaskId task) const { return places_[task]; }
+  [[nodiscard]] BehaviorId behavior(TaskId task) const {
+    return is_running(task) ? catalog_.values[task][places_[task]].behavior : none;
+  }
+  /// Running tasks by their place in the catalog, ascending. Looks through the whole catalog.
+  [[nodiscard]] std::vector<std::uint32_t> running() const;
+  /// Running tasks that are not start_on_request: a of f3.
+  [[nodiscard]] std::uint32_t idle_running() const { return idle_running_; }
+  [[nodiscard]] std::uint32_t idle_total() const { return idle_total_; }
+
+  /// When a running task took its behavior.
+  [[nodiscard]] Microseconds taken_at(TaskId task) const { return taken_at_[task]; }
+  /// Gives the task a value (a place, or none). A task that stops loses its request.
+  void set_place(TaskId task, std::uint32_t place, Microseconds now);
+
+  // Requests.
+
+  [[nodiscard]] bool has_request(TaskId task) const { return has_request_[task] != 0; }
+  [[nodiscard]] const Request& request(TaskId task) const { return requests_[task]; }
+  [[nodiscard]] std::uint32_t request_count() const { return request_count_; }
+  /// The task is running.
+  void set_request(TaskId task, std::int32_t priority, std::uint64_t event,
+                   std::string_view parameters);
+
+  // Behaviors.
+
+  [[nodiscard]] bool is_available(BehaviorId behavior) const { return available_[behavior] != 0; }
+  void set_available(BehaviorId behavior, bool available);
+  [[nodiscard]] bool has_available_behavior(TaskId task) const;
+  /// The available values of all tasks, as domain words.
+  [[nodiscard]] const std::vector<std::uint64_t>& available_words() const {
+    return available_words_;
+  }
+  [[nodiscard]] bool is_faulty(BehaviorId behavior) const { return faulty_[behavior] != 0; }
+  void set_faulty(BehaviorId behavior, bool faulty) { faulty_[behavior] = faulty ? 1 : 0; }
+  [[nodiscard]] bool is_active(BehaviorId behavior) const { return active_[behavior] != 0; }
+  /// When an active behavior was activated.
+  [[nodiscard]] Microseconds activated_at(BehaviorId behavior) const {
+    return activated_at_[behavior];
+  }
+  void set_inactive(BehaviorId behavior) { active_[behavior] = 0; }
+  void set_active(BehaviorId behavior, Microseconds now);
+  /// Counts the behavior as active though its activation failed.
+  void leave_active(BehaviorId behavior) { active_[behavior] = 1; }
+
+  // What falls due. Items are places in the catalog.
+
+  /// When the present behavior of each task times out.
+  [[nodiscard]] const Timers& timeouts() const { return timeouts_; }
+  void update_timeout(TaskId task, Microseconds now);
+  /// The timeout has been dealt with; it is due again when the behavior is activated again.
+  void drop_timeout(TaskId task) { timeouts_.remove(catalog_.tasks[task].catalog_index); }
+  /// The queue Q of reactive tasks.
+  [[nodiscard]] const Timers& queue() const { return queue_; }
+  void enqueue(TaskId task, Microseconds due);
+  void dequeue(TaskId task) { queue_.remove(catalog_.tasks[task].catalog_index); }
+
+  [[nodiscard]] bool excludes_running_task(TaskId task) const;
+
+ private:
+  const CompiledCatalog& catalog_;
+  std::vector<std::uint32_t> places_;      ///< by task
+  std::vector<Microseconds> taken_at_;     ///< by task: when it took its behavior
+  std::vector<std::uint8_t> has_request_;  ///< by task
+  std::vector<Request> requests_;          ///< by task
+  std::vector<std::uint64_t> running_;     ///< bit set of places in the catalog
+  std::uint32_t idle_running_ = 0;
+  std::uint32_t idle_total_ = 0;
+  std::uint32_t request_count_ = 0;
+  std::vector<std::uint8_t> available_;  ///< by behavior
+  std::vector<std::uint64_t> available_words_;
+  std::vector<std::uint8_t> faulty_;        ///< by behavior
+  std::vector<std::uint8_t> active_;        ///< by behavior
+  std::vector<Microseconds> activated_at_;  ///< by behavior
+  Timers timeouts_;
+  Timers queue_;
+};
+
+/// All that a coordinator, and whoever runs a script with it, knows between two events.
+struct Snapshot {
+  struct RunningTask {
+    TaskId task = 0;
+    std::uint32_t place = 0;  ///< of its behavior among its values
+    Microseconds since = 0;   ///< when it took the behavior
+    std::optional<Request> request;
+    bool waits_for_timeout = false;
+  };
+  Microseconds now = 0;
+  std::uint64_t events = 0;  ///< number of the last one
+  Microseconds reactive_delay = 0;
+  std::optional<Outcome> outcome;  ///< of the last scripted start, stop or finish; see Runner
+  std::vector<RunningTask> running;
+  std::vector<std::pair<BehaviorId, Microseconds>> active;  ///< with the time of the activation
+  std::vector<BehaviorId> unavailable;
+  std::vector<BehaviorId> faulty;
+  std::vector<std::pair<TaskId, Microseconds>> queue;  ///< with due times
+};
+
+/// Why no coordinator can be in this state, or nothing. Tasks, behaviors and places are those of
+/// the catalog; everything else may be anything.
+[[nodiscard]] std::optional<std::string> find_inconsistency(const CompiledCatalog& catalog,
+                                                            const Snapshot& snapshot);
+
+}  // namespace cbc

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "coordinator/problem_builder.h"
+#include "coordinator/record.h"
+#include "coordinator/state.h"
+#include "solver/problem.h"
+
+namespace cbc {
+
+/// Brings the active behaviors of a group from one set to another, operation by operation
+/// (semantics: section 5), and keeps the list of what was done.
+class Transition {
+ public:
+  /// `record` receives the operations of the event.
+  Transition(const CompiledCatalog& catalog, State& state, EventRecord& record);
+
+  /// Takes up an event. `active_before` outlives the transition of the event.
+  void load(const Trigger& trigger, const std::vector<BehaviorId>& active_before);
+
+  /// Applies a solution from what is active by now. `restart`: an active behavior that takes over
+  /// changed parameters, or none. If an activation fails, its behavior is returned and what is
+  /// left undone stays so.
+  [[nodiscard]] std::optional<BehaviorId> apply(const Assignment& solution, BehaviorId restart,
+                                                Microseconds now);
+
+  /// Goes back to what was active before the event. Returns the behaviors that could not be
+  /// activated again, in catalog order; they are left counted as active.
+  [[nodiscard]] const std::vector<BehaviorId>& take_back(Microseconds now);
+
+  /// Number of behaviors that the solution applied last activates and deactivates: c of f4.
+  [[nodiscard]] std::uint32_t count_changes() const;
+
+ private:
+  void find_wanted(const Assignment& solution);
+  void plan();
+  [[nodiscard]] bool is_wanted(BehaviorId behavior) const {
+    return wanted_[behavior - first_behavior_] != 0;
+  }
+  [[nodiscard]] bool was_active(BehaviorId behavior) const {
+    return was_active_[behavior - first_behavior_] != 0;
+  }
+
+  void deactivate(BehaviorId behavior, const Assignment* solution, bool is_restart);
+  [[nodiscard]] bool activate(BehaviorId behavior, const Assignment* solution, bool is_restart,
+                              Microseconds now);
+  [[nodiscard]] BehaviorId behavior_in(const Assignment& solution, TaskId task) const;
+  Change& add_change(bool is_activation, BehaviorId behavior);
+  void add_task(Change& change, TaskId task);
+  void find_tasks_of_activation(Change& change, const Assignment* solution);
+  void find_tasks_of_deactivation(Change& change);
+  void explain_activation(Change& change) const;
+  void explain_deactivation(Change& change, const Assignment& solution) const;
+  [[nodiscard]] std::optional<std::int32_t> priority_before(TaskId task) const;
+  [[nodiscard]] std::optional<std::int32_t> priority_after(TaskId task) const;
+
+  const CompiledCatalog& catalog_;
+  State& state_;
+  EventRecord& record_;
+  Trigger trigger_;
+  TaskId first_task_ = 0;
+  BehaviorId first_behavior_ = 0;
+  BehaviorId end_behavior_ = 0;
+  std::vector<std::uint8_t> was_active_;  ///< by behavior of the group
+  std::vector<std::uint8_t> wanted_;      ///< by behavior of the group
+  std::vector<BehaviorId> to_deactivate_;
+  std::vector<BehaviorId> to_activate_;
+  std::vector<BehaviorId> lost_;
+};
+
+}  // namespace cbc

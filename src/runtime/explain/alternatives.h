@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "explain/reasons.h"
+#include "solver/objective.h"
+#include "solver/problem.h"
+#include "solver/solver.h"
+
+namespace cbc {
+
+/// The objectives of a solution, over the whole catalog. f2 is a property of the values.
+struct ObjectiveValues {
+  std::uint32_t satisfied = 0;     ///< r of f1
+  std::uint32_t requests = 0;      ///< n of f1
+  std::uint32_t idle_total = 0;    ///< t of f3
+  std::uint32_t idle_running = 0;  ///< a of f3
+  std::uint32_t changes = 0;       ///< c of f4
+};
+
+/// A solution of the problem of a group, with its objectives.
+struct Configuration {
+  Assignment places;
+  ObjectiveValues objective;
+};
+
+/// What decides between two solutions, in order.
+enum class Criterion : std::uint8_t {
+  requests,       ///< f1
+  request_order,  ///< the first request that only one of them satisfies
+  suitability,    ///< f2
+  idle,           ///< f3
+  changes,        ///< f4
+  canonical       ///< the first task with different values
+};
+
+[[nodiscard]] std::string_view name_of(Criterion criterion);
+
+/// How two solutions compare.
+struct Difference {
+  Criterion criterion = Criterion::canonical;
+  bool first_is_better = false;
+  TaskId task = none;        ///< of request_order: satisfied by the better one; of canonical
+  TaskId other_task = none;  ///< of request_order: the first satisfied by the worse one only
+};
+
+/// Compares solutions of one problem by the objectives, exactly. It shares nothing with the search
+/// but the canonical order.
+class Comparison {
+ public:
+  Comparison(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks)
+      : catalog_(catalog), order_(catalog, ranks) {}
+
+  /// Takes up a problem, which must outlive its use. `elsewhere`: the objectives of all that is
+  /// outside the group; idle_total is that of the whole catalog.
+  void load(const Problem& problem, const ObjectiveValues& elsewhere);
+
+  [[nodiscard]] Configuration evaluate(Assignment places) const;
+
+  /// The two differ.
+  [[nodiscard]] Difference compare(const Configuration& a, const Configuration& b);
+
+ private:
+  [[nodiscard]] std::uint32_t count_changes(const Assignment& places) const;
+  [[nodiscard]] std::strong_ordering compare_suitability(const Assignment& a, const Assignment& b);
+
+  const CompiledCatalog& catalog_;
+  CanonicalOrder order_;
+  const Problem* problem_ = nullptr;
+  ObjectiveValues elsewhere_;
+  TaskId first_task_ = 0;
+  ExactProduct first_;
+  ExactProduct second_;
+};
+
+/// Finds the best solutions of a problem under demands, and the best of all, with a limit of effort
+/// that does not depend on the clock.
+class ConfigurationSearch {
+ public:
+  /// `ranks`: as for the solver that the answers are compared with. Outlived by both.
+  ConfigurationSearch(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks);
+
+  /// Takes up a problem, which must outlive its use. See Comparison for `elsewhere`.
+  void load(const Problem& problem, const ObjectiveValues& elsewhere);
+
+  /// The best solution of all that meet one of the `ways`; none if there is none. Meaningless where
+  /// is_cut() says so.
+  [[nodiscard]] std::optional<Configuration> find_best(std::span<const Demands> ways);
+
+  /// The `count` best solutions, or all if there are fewer, `best` first. Where is_cut() says so,
+  /// only as many as are certain.
+  [[nodiscard]] std::vector<Configuration> list_best(const Assignment& best, std::size_t count);
+
+  /// Whether the limit of effort came before the last answer was certain.
+  [[nodiscard]] bool is_cut() const { return is_cut_; }
+
+  [[nodiscard]] Comparison& comparison() { return comparison_; }
+
+ private:
+  /// A part of the problem, and its best solution.
+  struct Part {
+    Problem problem;
+    Configuration best;
+  };
+
+  void begin();
+  [[nodiscard]] std::optional<Configuration> solve(const Problem& part);
+  void split(Part part, std::size_t most, std::vector<Part>& parts);
+  void insert(Part part, std::size_t most, std::vector<Part>& parts);
+
+  const CompiledCatalog& catalog_;
+  Solver solver_;
+  Comparison comparison_;
+  const Problem* whole_ = nullptr;
+  std::uint64_t effort_ = 0;
+  bool is_cut_ = false;
+};
+
+}  // namespace cbc

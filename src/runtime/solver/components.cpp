@@ -1,0 +1,170 @@
+#include "solver/components.h"
+
+#include <algorithm>
+
+namespace cbc {
+
+Parts::Parts(const CompiledCatalog& catalog, const Domains& domains)
+    : catalog_(catalog),
+      domains_(domains),
+      has_zeros_(catalog.group_count(), 0),
+      clique_seen_(catalog.cliques.size(), 0),
+      clique_task_(catalog.cliques.size(), 0) {
+  for (TaskId task = 0; task < catalog.tasks.size(); ++task) {
+    for (const Value& value : catalog.values[task]) {
+      if (value.suitability == 0) has_zeros_[catalog.tasks[task].group] = 1;
+    }
+  }
+  const std::size_t tasks = most_in_a_group(catalog.group_tasks);
+  const std::size_t behaviors = most_in_a_group(catalog.group_behaviors);
+  depth_of_.resize(tasks, 0);
+  opened_.resize(tasks, 0);
+  open_.reserve(tasks);
+  joined_to_.resize(tasks, 0);
+  behavior_seen_.resize(behaviors, 0);
+  behavior_task_.resize(behaviors, 0);
+  reached_.resize(tasks, 0);
+  reach_.reserve(tasks);
+}
+
+void Parts::load(const Problem& problem) {
+  depth_ = 0;
+  std::fill_n(depth_of_.begin(), domains_.task_count(), 0);
+  // A suitability of 0 makes f2 of all parts together 0, so that they are not independent.
+  can_split_ = has_zeros_[problem.group] == 0;
+}
+
+bool Parts::enter_part_of(std::uint32_t task) {
+  if (!can_split_ || depth_ == deepest) return false;
+  ++number_;
+  find_open_tasks();
+  join_by_cliques();
+  join_by_behaviors();
+  join_by_performance();
+  const std::uint32_t root = root_of(task);
+  const bool is_split = std::any_of(open_.begin(), open_.end(), [&](std::uint32_t other) {
+    return domains_.needed(other) && root_of(other) != root;
+  });
+  if (!is_split) return false;
+  ++depth_;
+  for (const std::uint32_t other : open_) {
+    if (root_of(other) == root) depth_of_[other] = depth_;
+  }
+  return true;
+}
+
+void Parts::leave() {
+  --depth_;
+  for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
+    depth_of_[task] = std::min(depth_of_[task], depth_);
+  }
+}
+
+/// Open: the needed tasks of the part with several behaviors left, and what may come to be needed
+/// through them.
+void Parts::find_open_tasks() {
+  open_.clear();
+  for (const std::uint32_t task : domains_.needed_tasks()) {
+    if (domains_.count(task) > 1 && contains(task, depth_)) open(task);
+  }
+  // NOLINTNEXTLINE(modernize-loop-convert): the list grows
+  for (std::size_t next = 0; next < open_.size(); ++next) {
+    const std::uint32_t task = open_[next];
+    for (const Arc& arc : catalog_.arcs[domains_.first_task() + task]) {
+      const std::uint32_t target = arc.target - domains_.first_task();
+      if (is_fixed(target) || !may_use(task, arc)) continue;
+      open(target);
+      join(task, target);
+    }
+  }
+}
+
+void Parts::open(std::uint32_t task) {
+  if (is_open(task)) return;
+  opened_[task] = number_;
+  joined_to_[task] = task;
+  open_.push_back(task);
+}
+
+/// The rivals of needed tasks are closed already; this is about those that may come to be needed.
+void Parts::join_by_cliques() {
+  for (const std::uint32_t task : open_) {
+    for (const std::uint32_t clique : catalog_.task_cliques[domains_.first_task() + task]) {
+      if (clique_seen_[clique] == number_) {
+        join(task, clique_task_[clique]);
+      } else {
+        clique_seen_[clique] = number_;
+        clique_task_[clique] = task;
+      }
+    }
+  }
+}
+
+/// A behavior of several tasks is one change of f4, however many of them choose it.
+void Parts::join_by_behaviors() {
+  for (const std::uint32_t task : open_) {
+    const auto values = domains_.values(task);
+    for (std::uint32_t place = 0; place < values.size(); ++place) {
+      const BehaviorId behavior = values[place].behavior;
+      if (catalog_.performs[behavior].size() == 1 || !domains_.has(task, place)) continue;
+      const std::uint32_t local = behavior - domains_.first_behavior();
+      if (behavior_seen_[local] == number_) {
+        join(task, behavior_task_[local]);
+      } else {
+        behavior_seen_[local] = number_;
+        behavior_task_[local] = task;
+      }
+    }
+  }
+}
+
+/// A minimum performance connects all that the performance may depend on, through fixed tasks too.
+void Parts::join_by_performance() {
+  for (const std::uint32_t task : domains_.needed_tasks()) {
+    if (has_rules(task)) join_reach_of(task);
+  }
+  for (const std::uint32_t task : open_) {
+    if (has_rules(task)) join_reach_of(task);
+  }
+}
+
+void Parts::join_reach_of(std::uint32_t task) {
+  ++reach_number_;
+  reach_.assign(1, task);
+  reached_[task] = reach_number_;
+  std::uint32_t first_open = none;
+  for (std::size_t next = 0; next < reach_.size(); ++next) {
+    const std::uint32_t member = reach_[next];
+    if (is_open(member)) {
+      if (first_open == none) first_open = member;
+      join(first_open, member);
+    }
+    for (const Arc& arc : catalog_.arcs[domains_.first_task() + member]) {
+      const std::uint32_t target = arc.target - domains_.first_task();
+      if (reached_[target] == reach_number_ || !may_use(member, arc)) continue;
+      reached_[target] = reach_number_;
+      reach_.push_back(target);
+    }
+  }
+}
+
+/// Whether a behavior that is left of the task requires the target of the arc.
+bool Parts::may_use(std::uint32_t task, const Arc& arc) const {
+  const auto words = domains_.words(task);
+  for (std::size_t word = 0; word < words.size(); ++word) {
+    if ((words[word] & catalog_.masks[arc.mask + word]) != 0) return true;
+  }
+  return false;
+}
+
+void Parts::join(std::uint32_t a, std::uint32_t b) { joined_to_[root_of(a)] = root_of(b); }
+
+std::uint32_t Parts::root_of(std::uint32_t task) {
+  while (joined_to_[task] != task) {
+    joined_to_[task] = joined_to_[joined_to_[task]];
+    task = joined_to_[task];
+  }
+  return task;
+}
+
+}  // namespace cbc

@@ -1,0 +1,268 @@
+#include "solver/objective.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "compiled/compiled_catalog.h"
+
+namespace cbc {
+
+void ExactProduct::reserve(std::size_t factors) {
+  constexpr std::size_t bits_of_factor = 20;
+  limbs_.reserve(factors * bits_of_factor / 32 + 2);
+}
+
+void ExactProduct::clear() {
+  limbs_.assign(1, 1);
+  factors_ = 0;
+}
+
+void ExactProduct::multiply(Millionths degree) {
+  scale(degree);
+  ++factors_;
+}
+
+void ExactProduct::scale(std::uint32_t factor) {
+  std::uint64_t carry = 0;
+  for (std::uint32_t& limb : limbs_) {
+    carry += std::uint64_t{limb} * factor;
+    limb = static_cast<std::uint32_t>(carry);
+    carry >>= 32;
+  }
+  if (carry != 0) limbs_.push_back(static_cast<std::uint32_t>(carry));
+  while (limbs_.size() > 1 && limbs_.back() == 0) limbs_.pop_back();
+}
+
+std::strong_ordering ExactProduct::compare(ExactProduct& a, ExactProduct& b) {
+  while (a.factors_ < b.factors_) a.multiply(one_million);
+  while (b.factors_ < a.factors_) b.multiply(one_million);
+  if (a.limbs_.size() != b.limbs_.size()) return a.limbs_.size() <=> b.limbs_.size();
+  for (std::size_t limb = a.limbs_.size(); limb-- > 0;) {
+    if (a.limbs_[limb] != b.limbs_[limb]) return a.limbs_[limb] <=> b.limbs_[limb];
+  }
+  return std::strong_ordering::equal;
+}
+
+namespace {
+
+bool has(const std::uint64_t* words, std::uint32_t place) {
+  return ((words[place / 64] >> (place % 64)) & 1) != 0;
+}
+
+/// Place of the most suitable behavior; there is one.
+std::uint32_t first_place(const std::uint64_t* words) {
+  std::uint32_t word = 0;
+  while (words[word] == 0) ++word;
+  return word * 64 + static_cast<std::uint32_t>(std::countr_zero(words[word]));
+}
+
+}  // namespace
+
+CanonicalOrder::CanonicalOrder(const CompiledCatalog& catalog,
+                               const std::vector<std::uint32_t>& ranks)
+    : catalog_(catalog), ranks_(ranks) {
+  const std::size_t tasks = most_in_a_group(catalog.group_tasks);
+  empty_first_.reserve(tasks);
+  kept_first_.reserve(tasks);
+}
+
+void CanonicalOrder::load(const Problem& problem) {
+  const Problem& whole = problem.part_of != nullptr ? *problem.part_of : problem;
+  first_task_ = catalog_.group_tasks[whole.group];
+  const auto tasks = static_cast<std::uint32_t>(whole.present.size());
+  empty_first_.resize(tasks);
+  kept_first_.resize(tasks);
+  for (std::uint32_t task = 0; task < tasks; ++task) {
+    const TaskId id = first_task_ + task;
+    const std::uint64_t* const words =
+        whole.domains.data() + (catalog_.words[id] - catalog_.words[first_task_]);
+    const std::uint32_t present = whole.present[task];
+    empty_first_[task] = present == none && whole.may_stop[task] != 0;
+    const bool is_best = present != none && has(words, present) &&
+                         catalog_.values[id][present].suitability ==
+                             catalog_.values[id][first_place(words)].suitability;
+    kept_first_[task] = is_best ? present : none;
+  }
+}
+
+Objective::Objective(const CompiledCatalog& catalog, const Domains& domains, const Parts& parts,
+                     const std::vector<std::uint32_t>& ranks)
+    : catalog_(catalog), domains_(domains), parts_(parts), order_(catalog, ranks) {
+  const std::size_t tasks = most_in_a_group(catalog.group_tasks);
+  const std::size_t behaviors = most_in_a_group(catalog.group_behaviors);
+  is_request_.reserve(tasks);
+  active_.reserve(behaviors);
+  free_.reserve(tasks + most_values_in_a_group(catalog) / 64);
+  counted_.resize(behaviors, 0);
+  ours_.reserve(tasks);
+  theirs_.reserve(tasks);
+}
+
+void Objective::load(const Problem& problem) {
+  problem_ = &problem;
+  order_.load(problem);
+  const std::uint32_t tasks = domains_.task_count();
+  const BehaviorId first_behavior = domains_.first_behavior();
+  const std::uint32_t behaviors = catalog_.group_behaviors[problem.group + 1] - first_behavior;
+
+  is_request_.assign(tasks, 0);
+  for (const std::uint32_t task : problem.requests) is_request_[task] = 1;
+  active_.assign(behaviors, 0);
+  for (const BehaviorId behavior : problem.active) active_[behavior - first_behavior] = 1;
+
+  free_.assign(problem.domains.size(), 0);
+  for (std::uint32_t task = 0; task < tasks; ++task) {
+    const auto values = domains_.values(task);
+    for (std::uint32_t place = 0; place < values.size(); ++place) {
+      const BehaviorId behavior = values[place].behavior;
+      if (was_active(behavior) || catalog_.performs[behavior].size() > 1) {
+        free_[domains_.word_begin(task) + place / 64] |= std::uint64_t{1} << (place % 64);
+      }
+    }
+  }
+}
+
+/// Whether the task may run in a best solution of the present subtree.
+bool Objective::may_run(std::uint32_t task) const {
+  return domains_.needed(task) || (is_request_[task] != 0 && domains_.count(task) > 0);
+}
+
+bool Objective::may_beat(const Incumbent& incumbent, std::uint32_t depth) {
+  if (!incumbent.exists) return true;
+  if (const auto order = compare_requests(incumbent); order != 0) return order < 0;
+  if (const auto order = compare_suitability(incumbent); order != 0) return order < 0;
+  const std::uint32_t idle = domains_.sums().idle;
+  if (idle != incumbent.sums.idle) return idle < incumbent.sums.idle;
+  const std::uint32_t changes = least_changes();
+  if (changes != incumbent.changes) return changes < incumbent.changes;
+  return compare_keys(incumbent, depth) < 0;
+}
+
+/// f1 and, where it is equal, the requests from the most important one down. "less" is better.
+std::strong_ordering Objective::compare_requests(const Incumbent& incumbent) const {
+  std::uint32_t possible = 0;
+  auto order = std::strong_ordering::equal;
+  for (const std::uint32_t task : problem_->requests) {
+    const bool ours = domains_.count(task) > 0;
+    const bool theirs = incumbent.places[task] != none;
+    if (ours) ++possible;
+    if (order == 0 && ours != theirs) {
+      order = ours ? std::strong_ordering::less : std::strong_ordering::greater;
+    }
+  }
+  if (possible != incumbent.satisfied) return incumbent.satisfied <=> possible;
+  return order;
+}
+
+/// f2. "less" is better.
+std::strong_ordering Objective::compare_suitability(const Incumbent& incumbent) {
+  const Domains::Sums& ours = domains_.sums();
+  const Domains::Sums& theirs = incumbent.sums;
+  const bool is_zero = ours.zeros > 0;
+  const bool incumbent_is_zero = theirs.zeros > 0;
+  if (is_zero || incumbent_is_zero) return is_zero <=> incumbent_is_zero;
+  const std::int64_t slack =
+      log_cost_error * (std::int64_t{ours.factors} + std::int64_t{theirs.factors});
+  if (ours.cost > theirs.cost + slack) return std::strong_ordering::greater;
+  if (ours.cost < theirs.cost - slack) return std::strong_ordering::less;
+  if (slack == 0) return std::strong_ordering::equal;
+  return compare_exactly(incumbent);
+}
+
+std::strong_ordering Objective::compare_exactly(const Incumbent& incumbent) {
+  ours_.clear();
+  theirs_.clear();
+  for (const std::uint32_t task : domains_.needed_tasks()) {
+    const std::uint32_t place = incumbent.places[task];
+    const Millionths ours = domains_.value(task, domains_.best(task)).suitability;
+    const Millionths theirs = place == none ? one_million : domains_.value(task, place).suitability;
+    if (ours == theirs) continue;
+    ours_.multiply(ours);
+    theirs_.multiply(theirs);
+  }
+  for (const std::uint32_t task : incumbent.running) {
+    if (!domains_.needed(task)) {
+      theirs_.multiply(domains_.value(task, incumbent.places[task]).suitability);
+    }
+  }
+  return ExactProduct::compare(theirs_, ours_);
+}
+
+/// f4: the fewest changes of any solution that ties with the incumbent so far. In such a solution
+/// only needed tasks and requests run.
+std::uint32_t Objective::least_changes() { return least_activations() + least_deactivations(); }
+
+std::uint32_t Objective::least_activations() {
+  ++count_number_;
+  std::uint32_t activations = 0;
+  for (const std::uint32_t task : domains_.needed_tasks()) {
+    const auto words = domains_.words(task);
+    const std::uint64_t* const free = &free_[domains_.word_begin(task)];
+    bool is_free = false;
+    for (std::size_t word = 0; word < words.size(); ++word) {
+      if ((words[word] & free[word]) != 0) is_free = true;
+    }
+    if (is_free) {
+      // Of a behavior of several tasks, chosen for good, one activation is counted.
+      if (domains_.count(task) > 1) continue;
+      const BehaviorId behavior = domains_.value(task, domains_.best(task)).behavior;
+      if (was_active(behavior)) continue;
+      std::uint64_t& counted = counted_[behavior - domains_.first_behavior()];
+      if (counted == count_number_) continue;
+      counted = count_number_;
+    }
+    ++activations;
+  }
+  return activations;
+}
+
+std::uint32_t Objective::least_deactivations() const {
+  std::uint32_t deactivations = 0;
+  for (const BehaviorId behavior : problem_->active) {
+    bool may_stay = false;
+    for (const ValueId value : catalog_.performs[behavior]) {
+      const TaskId task = catalog_.task_of(value);
+      const std::uint32_t local = task - domains_.first_task();
+      if (may_run(local) && domains_.has(local, value - catalog_.values.begin[task])) {
+        may_stay = true;
+      }
+    }
+    if (!may_stay) ++deactivations;
+  }
+  return deactivations;
+}
+
+/// Rule 5: compares the best keys that are left, task by task. "less" is better.
+std::strong_ordering Objective::compare_keys(const Incumbent& incumbent,
+                                             std::uint32_t depth) const {
+  for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
+    if (!parts_.contains(task, depth)) continue;
+    std::uint32_t least = domains_.needed(task) ? none : key(task, none);
+    if (may_run(task)) {
+      const auto values = domains_.values(task);
+      for (std::uint32_t place = 0; place < values.size(); ++place) {
+        if (domains_.has(task, place)) least = std::min(least, key(task, place));
+      }
+    }
+    const std::uint32_t theirs = key(task, incumbent.places[task]);
+    if (least != theirs) return least <=> theirs;
+  }
+  return std::strong_ordering::equal;
+}
+
+void Objective::record(Incumbent& incumbent) {
+  incumbent.exists = true;
+  incumbent.places.assign(domains_.task_count(), none);
+  incumbent.running.assign(domains_.needed_tasks().begin(), domains_.needed_tasks().end());
+  for (const std::uint32_t task : incumbent.running) {
+    incumbent.places[task] = domains_.best(task);
+  }
+  incumbent.satisfied = 0;
+  for (const std::uint32_t task : problem_->requests) {
+    if (domains_.count(task) > 0) ++incumbent.satisfied;
+  }
+  incumbent.sums = domains_.sums();
+  incumbent.changes = least_changes();
+}
+
+}  // namespace cbc

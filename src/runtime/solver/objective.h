@@ -1,0 +1,127 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "cbc/units.h"
+#include "compiled/compiled_catalog.h"
+#include "solver/components.h"
+#include "solver/domains.h"
+#include "solver/problem.h"
+
+namespace cbc {
+
+/// An exact product of degrees, to decide what sums of logarithms leave open.
+class ExactProduct {
+ public:
+  /// Makes products of up to `factors` factors without further allocation.
+  void reserve(std::size_t factors);
+  void clear();
+  void multiply(Millionths degree);
+
+  /// Compares the products. Both may grow by factors of 1 in doing so.
+  static std::strong_ordering compare(ExactProduct& a, ExactProduct& b);
+
+ private:
+  void scale(std::uint32_t factor);
+
+  std::vector<std::uint32_t> limbs_{1};  ///< product of the numerators, lowest limb first
+  std::uint32_t factors_ = 0;            ///< the denominator is 10^6 to this power
+};
+
+/// The order of the values of each task that decides where all objectives are equal (rule 5).
+class CanonicalOrder {
+ public:
+  /// `ranks`: by value, place in the order of its task; empty: as the values stand.
+  CanonicalOrder(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks);
+
+  /// Takes up a problem. Allocates nothing.
+  void load(const Problem& problem);
+
+  /// Order of a value (or none) of a task: lower is better, and no two values have the same.
+  [[nodiscard]] std::uint32_t key(std::uint32_t task, std::uint32_t place) const {
+    if (place == none) return empty_first_[task] != 0 ? 0 : none;
+    if (place == kept_first_[task]) return 0;
+    if (ranks_.empty()) return place + 1;
+    return ranks_[catalog_.values.begin[first_task_ + task] + place] + 1;
+  }
+
+ private:
+  const CompiledCatalog& catalog_;
+  const std::vector<std::uint32_t>& ranks_;
+  TaskId first_task_ = 0;
+  std::vector<std::uint8_t> empty_first_;  ///< by task: "not running" comes first
+  std::vector<std::uint32_t> kept_first_;  ///< by task: the place that comes first, or none
+};
+
+/// A solution and its objectives, to be compared with.
+struct Incumbent {
+  bool exists = false;
+  Assignment places;                   ///< by task
+  std::vector<std::uint32_t> running;  ///< tasks that run
+  std::uint32_t satisfied = 0;         ///< r of f1
+  Domains::Sums sums;                  ///< f2, and a of f3
+  std::uint32_t changes = 0;           ///< c of f4
+};
+
+/// The lexicographic objective f1 to f4 and the canonical order (rule 5).
+class Objective {
+ public:
+  /// `ranks`: by value, place in the order of its task; empty: as the values stand.
+  Objective(const CompiledCatalog& catalog, const Domains& domains, const Parts& parts,
+            const std::vector<std::uint32_t>& ranks);
+
+  /// To be called after Domains::load.
+  void load(const Problem& problem);
+
+  /// Whether a solution in the present subtree may be better than `incumbent`, the best of the part
+  /// entered at `depth`. Exact, i.e. whether *the* solution is better, where each needed task of
+  /// the part has one behavior left and no request is undecided.
+  [[nodiscard]] bool may_beat(const Incumbent& incumbent, std::uint32_t depth);
+
+  /// Whether it satisfies the same requests as `incumbent`, so that f2 comes next.
+  [[nodiscard]] bool ties_on_requests(const Incumbent& incumbent) const {
+    return compare_requests(incumbent) == 0;
+  }
+
+  /// Takes the solution of the present part, in which each needed task has one behavior left.
+  /// Needed tasks outside of it count with their most suitable behavior, as they do in may_beat.
+  void record(Incumbent& incumbent);
+
+  /// Order of a value (or none) of a task in rule 5: lower is better.
+  [[nodiscard]] std::uint32_t key(std::uint32_t task, std::uint32_t place) const {
+    return order_.key(task, place);
+  }
+
+  [[nodiscard]] bool was_active(BehaviorId behavior) const {
+    return active_[behavior - domains_.first_behavior()] != 0;
+  }
+
+ private:
+  [[nodiscard]] std::strong_ordering compare_requests(const Incumbent& incumbent) const;
+  [[nodiscard]] std::strong_ordering compare_suitability(const Incumbent& incumbent);
+  [[nodiscard]] std::strong_ordering compare_exactly(const Incumbent& incumbent);
+  [[nodiscard]] std::strong_ordering compare_keys(const Incumbent& incumbent,
+                                                  std::uint32_t depth) const;
+  [[nodiscard]] std::uint32_t least_changes();
+  [[nodiscard]] std::uint32_t least_activations();
+  [[nodiscard]] std::uint32_t least_deactivations() const;
+  [[nodiscard]] bool may_run(std::uint32_t task) const;
+
+  const CompiledCatalog& catalog_;
+  const Domains& domains_;
+  const Parts& parts_;
+  const Problem* problem_ = nullptr;
+
+  CanonicalOrder order_;
+  std::vector<std::uint8_t> is_request_;  ///< by task
+  std::vector<std::uint8_t> active_;      ///< by behavior of the group: active before the event
+  std::vector<std::uint64_t> free_;     ///< as domains: choosing it may be no activation of its own
+  std::vector<std::uint64_t> counted_;  ///< by behavior of the group: last count it was in
+  std::uint64_t count_number_ = 0;
+  ExactProduct ours_;
+  ExactProduct theirs_;
+};
+
+}  // namespace cbc

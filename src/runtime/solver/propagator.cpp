@@ -1,0 +1,172 @@
+#include "solver/propagator.h"
+
+#include "compiled/compiled_catalog.h"
+
+namespace cbc {
+
+Propagator::Propagator(const CompiledCatalog& catalog, Domains& domains)
+    : catalog_(catalog), domains_(domains), has_rules_(catalog.group_count(), 0) {
+  const std::size_t most_tasks = most_in_a_group(catalog.group_tasks);
+  for (const CompiledTask& task : catalog.tasks) {
+    if (task.has_performance_rules) has_rules_[task.group] = 1;
+  }
+  closure_.reserve(most_tasks);
+  in_closure_.resize(most_tasks, 0);
+  product_.reserve(most_tasks);
+  minimum_.reserve(most_tasks);
+}
+
+void Propagator::load(const Problem& problem) {
+  first_task_ = catalog_.group_tasks[problem.group];
+  has_performance_rules_ = has_rules_[problem.group] != 0;
+  propagations_ = 0;
+}
+
+bool Propagator::propagate() {
+  do {
+    while (domains_.has_changed()) {
+      if (!revise(domains_.next_changed())) return false;
+    }
+    if (has_performance_rules_ && !revise_performance()) return false;
+  } while (domains_.has_changed());
+  return true;
+}
+
+bool Propagator::revise(std::uint32_t task) {
+  ++propagations_;
+  if (domains_.count(task) == 0) return close_dependents(task);
+  return close_rivals(task) && need_requirements(task);
+}
+
+bool Propagator::close_dependents(std::uint32_t task) {
+  for (const std::uint32_t number : catalog_.incoming[first_task_ + task]) {
+    const Arc& arc = catalog_.arcs.items[number];
+    if (!domains_.remove_all(arc.source - first_task_, &catalog_.masks[arc.mask])) return false;
+  }
+  return true;
+}
+
+bool Propagator::close_rivals(std::uint32_t task) {
+  for (const std::uint32_t clique : catalog_.task_cliques[first_task_ + task]) {
+    for (const TaskId member : catalog_.cliques[clique]) {
+      const std::uint32_t rival = member - first_task_;
+      if (rival != task && !domains_.close(rival)) return false;
+    }
+  }
+  return true;
+}
+
+bool Propagator::need_requirements(std::uint32_t task) {
+  for (const Arc& arc : catalog_.arcs[first_task_ + task]) {
+    if (domains_.all_within(task, &catalog_.masks[arc.mask]) &&
+        !domains_.need(arc.target - first_task_)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool Propagator::revise_performance() {
+  // By index: the rules add needed tasks only through later calls of revise().
+  for (const std::uint32_t task : domains_.needed_tasks()) {
+    if (catalog_.tasks[first_task_ + task].has_performance_rules && !revise_performance_of(task)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool Propagator::revise_performance_of(std::uint32_t task) {
+  ++propagations_;
+  const CompiledTask& compiled = catalog_.tasks[first_task_ + task];
+  if (compiled.minimum_performance > 0 &&
+      !enforce(task, compiled.minimum_performance, compiled.minimum_cost)) {
+    return false;
+  }
+  const auto values = domains_.values(task);
+  for (std::uint32_t place = 0; place < values.size(); ++place) {
+    if (!domains_.has(task, place)) continue;
+    for (const CompiledRequirement& rule : catalog_.requirements[values[place].behavior]) {
+      if (rule.minimum_performance == 0) continue;
+      const std::uint32_t target = rule.task - first_task_;
+      if (domains_.count(task) == 1) {
+        if (!enforce(target, rule.minimum_performance, rule.minimum_cost)) return false;
+      } else if (is_below(bound_performance(target), rule.minimum_performance, rule.minimum_cost)) {
+        if (!domains_.remove(task, place)) return false;
+        break;
+      }
+    }
+  }
+  return true;
+}
+
+Propagator::Bound Propagator::bound_performance(std::uint32_t task) {
+  ++closure_number_;
+  closure_.clear();
+  closure_.push_back(task);
+  in_closure_[task] = closure_number_;
+  Bound bound;
+  for (std::size_t next = 0; next < closure_.size(); ++next) {
+    const std::uint32_t member = closure_[next];
+    if (domains_.count(member) == 0) {
+      bound.reachable = false;
+      return bound;
+    }
+    const Value& best = domains_.value(member, domains_.best(member));
+    bound.cost += best.cost;
+    if (best.suitability == 0) bound.zero = true;
+    if (best.suitability != one_million) ++bound.factors;
+    for (const Arc& arc : catalog_.arcs[first_task_ + member]) {
+      const std::uint32_t target = arc.target - first_task_;
+      if (in_closure_[target] == closure_number_) continue;
+      if (!domains_.all_within(member, &catalog_.masks[arc.mask])) continue;
+      in_closure_[target] = closure_number_;
+      closure_.push_back(target);
+    }
+  }
+  return bound;
+}
+
+bool Propagator::is_below(const Bound& bound, Millionths minimum, std::int64_t minimum_cost) {
+  if (!bound.reachable || bound.zero) return true;
+  const std::int64_t slack = log_cost_error * (bound.factors + 1);
+  if (bound.cost > minimum_cost + slack) return true;
+  if (bound.cost < minimum_cost - slack) return false;
+  product_.clear();
+  for (const std::uint32_t member : closure_) {
+    const Millionths best = domains_.value(member, domains_.best(member)).suitability;
+    if (best != one_million) product_.multiply(best);
+  }
+  minimum_.clear();
+  minimum_.multiply(minimum);
+  return ExactProduct::compare(product_, minimum_) < 0;
+}
+
+bool Propagator::enforce(std::uint32_t task, Millionths minimum, std::int64_t minimum_cost) {
+  const Bound bound = bound_performance(task);
+  if (is_below(bound, minimum, minimum_cost)) return false;
+  // Values that push the product below the minimum, whatever else is chosen. What is too close to
+  // tell stays: the test above decides it once it is chosen.
+  for (const std::uint32_t member : closure_) {
+    if (domains_.count(member) == 1) continue;
+    const std::int64_t best_cost = domains_.value(member, domains_.best(member)).cost;
+    const auto values = domains_.values(member);
+    for (std::uint32_t place = domains_.best(member) + 1; place < values.size(); ++place) {
+      if (!domains_.has(member, place)) continue;
+      std::int64_t cost = bound.cost - best_cost + values[place].cost;
+      std::uint32_t factors = bound.factors + 2;
+      for (const CompiledRequirement& rule : catalog_.requirements[values[place].behavior]) {
+        const std::uint32_t required = rule.task - first_task_;
+        if (in_closure_[required] == closure_number_ || domains_.count(required) == 0) continue;
+        cost += domains_.value(required, domains_.best(required)).cost;
+        ++factors;
+      }
+      const bool is_too_little =
+          values[place].suitability == 0 || cost > minimum_cost + log_cost_error * factors;
+      if (is_too_little && !domains_.remove(member, place)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace cbc

@@ -1,0 +1,485 @@
+#include "catalog/reader.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "base/text.h"
+#include "catalog/catalog.h"
+#include "catalog/draft.h"
+#include "diagnostic/diagnostic.h"
+#include "diagnostic/rules.h"
+#include "support/wording.h"
+#include "yaml/document.h"
+#include "yaml/values.h"
+
+namespace cbc::shape {
+namespace {
+
+using yaml::Key;
+using yaml::Shape;
+
+std::optional<std::string_view> present_goal(const yaml::Node& category) {
+  if (category.text == "goal_based") return "achieve_goal";
+  if (category.text == "recurrent") return "keep_running";
+  return std::nullopt;
+}
+
+constexpr Key catalog_keys[] = {
+    {"default_values"}, {"behaviors"}, {"tasks"}, {"exclusivity_constraints"}};
+constexpr Key default_values_keys[] = {{"tasks"}, {"behaviors"}};
+constexpr Key task_defaults_keys[] = {{"execution_goal"},
+                                      {"start_on_request"},
+                                      {"reactive_start"},
+                                      {"timeout"},
+                                      {"category", "execution_goal", present_goal},
+                                      {"automatic_activation", "start_on_request", yaml::opposite},
+                                      {"default", "reactive_start"}};
+constexpr Key behavior_defaults_keys[] = {
+    {"suitability"}, {"package"}, {"efficacy", "suitability"}};
+constexpr Key behavior_keys[] = {
+    {"behavior"}, {"package"}, {"task"},        {"tasks"},
+    {"requires"}, {"timeout"}, {"suitability"}, {"efficacy", "suitability"}};
+constexpr Key performance_keys[] = {{"task"}, {"suitability"}, {"efficacy", "suitability"}};
+constexpr Key requirement_keys[] = {{"task"}, {"minimum_performance"}};
+constexpr Key task_keys[] = {{"task"},
+                             {"execution_goal"},
+                             {"start_on_request"},
+                             {"reactive_start"},
+                             {"timeout"},
+                             {"minimum_performance"},
+                             {"parameters"},
+                             {"category", "execution_goal", present_goal},
+                             {"automatic_activation", "start_on_request", yaml::opposite},
+                             {"default", "reactive_start"}};
+constexpr Key parameter_keys[] = {{"parameter"}, {"allowed_values"}};
+constexpr Key exclusivity_list_keys[] = {{"mutually_exclusive"}};
+
+constexpr const Shape* in_catalog[] = {&behavior, &task, &exclusivity_list};
+constexpr const Shape* in_default_values[] = {&task_defaults, &behavior_defaults};
+constexpr const Shape* in_behavior[] = {&requirement, &performance};
+constexpr const Shape* in_task[] = {&parameter};
+
+}  // namespace
+
+const Shape catalog{"a catalog", catalog_keys, nullptr, in_catalog};
+const Shape default_values{"default_values", default_values_keys, &catalog, in_default_values};
+const Shape task_defaults{"the defaults of tasks", task_defaults_keys, &default_values};
+const Shape behavior_defaults{"the defaults of behaviors", behavior_defaults_keys, &default_values};
+const Shape behavior{"a behavior", behavior_keys, &catalog, in_behavior};
+const Shape performance{"a task of a behavior", performance_keys, &behavior};
+const Shape requirement{"a requirement", requirement_keys, &behavior};
+const Shape task{"a task", task_keys, &catalog, in_task};
+const Shape parameter{"a parameter", parameter_keys, &task};
+const Shape exclusivity_list{"an exclusivity constraint", exclusivity_list_keys, &catalog};
+
+}  // namespace cbc::shape
+
+namespace cbc {
+
+/// Applies defaults to the attributes that tasks give themselves.
+class TaskAttributes {
+ public:
+  /// `defaults` must outlive this object.
+  TaskAttributes(const draft::TaskAttributes& defaults, Reporter& reporter)
+      : defaults_(defaults), reporter_(reporter) {}
+
+  /// Fills in a task from its entry, which stands at `range`. Reports both start flags at once.
+  void apply(const Range& range, const draft::TaskAttributes& own, Task& task);
+
+  /// What a later entry of a task changes, for people: "timeout 15 s, was 180 s". Empty if nothing.
+  [[nodiscard]] std::string describe_changes(const draft::Task& before,
+                                             const draft::Task& now) const;
+
+ private:
+  void report_both_flags(const Range& range, const draft::TaskAttributes& own, const Task& task);
+
+  const draft::TaskAttributes& defaults_;
+  Reporter& reporter_;
+};
+
+namespace {
+
+struct Flags {
+  bool start_on_request = true;
+  bool reactive_start = false;
+};
+
+Flags flags_of(const draft::TaskAttributes& own, const draft::TaskAttributes& defaults) {
+  Flags flags;
+  if (own.reactive_start) {
+    flags.reactive_start = own.reactive_start->value;
+  } else if (defaults.reactive_start) {
+    flags.reactive_start = defaults.reactive_start->value;
+  }
+  if (own.start_on_request) {
+    flags.start_on_request = own.start_on_request->value;
+  } else if (own.reactive_start && own.reactive_start->value) {
+    flags.start_on_request = false;
+  } else if (defaults.start_on_request) {
+    flags.start_on_request = defaults.start_on_request->value;
+  }
+  return flags;
+}
+
+std::string name_of(ExecutionGoal goal) {
+  return goal == ExecutionGoal::achieve_goal ? "achieve_goal" : "keep_running";
+}
+
+std::string name_of(bool flag) { return flag ? "TRUE" : "FALSE"; }
+
+std::string name_of(const std::optional<draft::Timeout>& timeout) {
+  return timeout ? format_decimal(timeout->value, 6) + " s" : "none";
+}
+
+std::string name_of_minimum(const draft::Percent& minimum) {
+  return minimum.value == 0 ? "none" : format_decimal(minimum.value, 4) + " %";
+}
+
+bool same_parameters(const std::vector<Parameter>& a, const std::vector<Parameter>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Parameter& x, const Parameter& y) {
+                      return x.name == y.name && x.allowed_values == y.allowed_values &&
+                             x.allowed_is_list == y.allowed_is_list;
+                    });
+}
+
+class Changes {
+ public:
+  void compare(const std::string& attribute, const std::string& before, const std::string& now) {
+    if (before != now) add(attribute + " " + now + ", was " + before);
+  }
+
+  void add(const std::string& change) {
+    if (!text_.empty()) text_ += "; ";
+    text_ += change;
+  }
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace
+
+void TaskAttributes::apply(const Range& range, const draft::TaskAttributes& own, Task& task) {
+  task.is_unclear = own.is_unclear || defaults_.is_unclear;
+  const Flags flags = flags_of(own, defaults_);
+  task.start_on_request = flags.start_on_request;
+  task.reactive_start = flags.reactive_start;
+  task.execution_goal =
+      own.execution_goal.value_or(defaults_.execution_goal.value_or(ExecutionGoal::achieve_goal));
+  if (own.timeout) task.own_timeout_range = own.timeout->range;
+  if (const auto& timeout = own.timeout ? own.timeout : defaults_.timeout) {
+    task.timeout = timeout->value;
+  }
+  const bool is_certain = !task.is_unclear || (own.start_on_request && own.reactive_start);
+  if (flags.start_on_request && flags.reactive_start && is_certain) {
+    report_both_flags(range, own, task);
+  }
+}
+
+// The finding stands at what the task itself says; where it says nothing, at the defaults, once for
+// all tasks.
+void TaskAttributes::report_both_flags(const Range& range, const draft::TaskAttributes& own,
+                                       const Task& task) {
+  if (!own.start_on_request && !own.reactive_start) {
+    reporter_.report(rule::on_request_and_reactive, defaults_.reactive_start->range,
+                     "by default tasks have both reactive_start and start_on_request; one of them "
+                     "must be FALSE",
+                     {reporter_.note(range, "task " + quote(task.name) + " has both of them")});
+    return;
+  }
+  const std::string message = "task " + quote(task.name) +
+                              " has both reactive_start and start_on_request; one of them must be "
+                              "FALSE";
+  std::vector<Note> notes;
+  Range place = range;
+  if (own.start_on_request && own.reactive_start) {
+    place = std::max(own.reactive_start->range, own.start_on_request->range);
+    notes.push_back(reporter_.note(std::min(own.reactive_start->range, own.start_on_request->range),
+                                   "the other one is given here"));
+  } else if (own.start_on_request) {
+    place = own.start_on_request->range;
+    notes.push_back(reporter_.note(defaults_.reactive_start->range,
+                                   "reactive_start is given here for all tasks"));
+  }
+  reporter_.report(rule::on_request_and_reactive, place, message, std::move(notes));
+}
+
+std::string TaskAttributes::describe_changes(const draft::Task& before,
+                                             const draft::Task& now) const {
+  const auto goal = [this](const draft::Task& task) {
+    return name_of(task.attributes.execution_goal.value_or(
+        defaults_.execution_goal.value_or(ExecutionGoal::achieve_goal)));
+  };
+  const auto timeout = [this](const draft::Task& task) {
+    return name_of(task.attributes.timeout ? task.attributes.timeout : defaults_.timeout);
+  };
+  const Flags old_flags = flags_of(before.attributes, defaults_);
+  const Flags new_flags = flags_of(now.attributes, defaults_);
+  Changes changes;
+  changes.compare("execution_goal", goal(before), goal(now));
+  changes.compare("start_on_request", name_of(old_flags.start_on_request),
+                  name_of(new_flags.start_on_request));
+  changes.compare("reactive_start", name_of(old_flags.reactive_start),
+                  name_of(new_flags.reactive_start));
+  changes.compare("timeout", timeout(before), timeout(now));
+  changes.compare("minimum_performance", name_of_minimum(before.minimum_performance),
+                  name_of_minimum(now.minimum_performance));
+  if (!same_parameters(before.parameters, now.parameters)) {
+    changes.add(now.parameters.empty() ? "no parameters" : "other parameters");
+  }
+  return changes.text();
+}
+
+namespace {
+
+// Makes a catalog of a draft: gives tasks and behaviors their places, resolves names, applies
+// defaults.
+class Resolver {
+ public:
+  Resolver(const draft::Catalog& draft, Reporter& reporter)
+      : draft_(draft), reporter_(reporter), attributes_(draft.task_defaults, reporter) {}
+
+  Catalog resolve() {
+    catalog_.has_task_section = draft_.has_task_section;
+    define_listed_tasks();
+    define_implicit_tasks();
+    for (const draft::Behavior& behavior : draft_.behaviors) add_behavior(behavior);
+    for (const draft::ExclusivityList& list : draft_.exclusivity) add_exclusivity_list(list);
+    report_undefined();
+    return std::move(catalog_);
+  }
+
+  /// The names that the catalog leaves out.
+  std::vector<UndefinedTask> undefined_tasks() { return std::move(undefined_tasks_); }
+
+ private:
+  struct Undefined {
+    draft::Name name;
+    std::string where;
+  };
+
+  void define_listed_tasks() {
+    std::vector<const draft::Task*> last;  // entry of each task that counts
+    for (const draft::Task& entry : draft_.tasks) {
+      const auto index = static_cast<TaskIndex>(last.size());
+      const auto [known, is_new] = tasks_.try_emplace(entry.name.text, index);
+      if (is_new) {
+        Task task;
+        task.name = entry.name.text;
+        task.range = entry.name.range;
+        catalog_.tasks.push_back(std::move(task));
+        last.push_back(&entry);
+      } else {
+        report_duplicate_task(*last[known->second], entry, catalog_.tasks[known->second]);
+        last[known->second] = &entry;
+      }
+    }
+    for (std::size_t index = 0; index < last.size(); ++index) {
+      Task& task = catalog_.tasks[index];
+      attributes_.apply(last[index]->name.range, last[index]->attributes, task);
+      task.minimum_performance = last[index]->minimum_performance.value;
+      task.minimum_performance_range = last[index]->minimum_performance.range;
+      task.parameters = last[index]->parameters;
+    }
+  }
+
+  void report_duplicate_task(const draft::Task& before, const draft::Task& now, const Task& first) {
+    std::string message = "task " + quote(now.name.text) + " is listed twice";
+    const std::string changes = attributes_.describe_changes(before, now);
+    std::vector<Edit> edits;
+    if (changes.empty()) {
+      message += ", with the same attributes";
+      if (now.entry) edits.push_back({Edit::Kind::remove_entry, *now.entry, {}});
+    } else {
+      message += "; the last entry counts: " + changes;
+    }
+    reporter_.report(rule::duplicate_task, now.name.range, std::move(message),
+                     {reporter_.note(first.range, "first listed here")}, std::move(edits));
+  }
+
+  void define_implicit_tasks() {
+    for (const draft::Behavior& behavior : draft_.behaviors) {
+      for (const draft::Performance& performance : behavior.performs) {
+        const auto index = static_cast<TaskIndex>(catalog_.tasks.size());
+        if (!tasks_.try_emplace(performance.task.text, index).second) continue;
+        Task task;
+        task.name = performance.task.text;
+        task.range = performance.task.range;
+        task.implicit = true;
+        attributes_.apply(task.range, {}, task);
+        // It may have an entry that could not be read.
+        task.is_unclear |= draft_.lacks_a_section || draft_.nameless_tasks > 0;
+        catalog_.tasks.push_back(std::move(task));
+      }
+    }
+  }
+
+  void add_behavior(const draft::Behavior& entry) {
+    if (!entry.name.text.empty()) {
+      const auto [known, is_new] = behaviors_.try_emplace(entry.name.text, entry.name.range);
+      if (!is_new) {
+        reporter_.report(rule::duplicate_behavior, entry.name.range,
+                         "behavior " + quote(entry.name.text) + " is defined twice",
+                         {reporter_.note(known->second, "first defined here")});
+      }
+    }
+    Behavior behavior;
+    behavior.name = entry.name.text;
+    behavior.range = entry.name.range;
+    behavior.package = entry.package.value_or(draft_.default_package.value_or(""));
+    if (entry.timeout) {
+      behavior.timeout = entry.timeout->value;
+      behavior.timeout_range = entry.timeout->range;
+    }
+    for (const draft::Performance& performance : entry.performs) {
+      behavior.performs.push_back(resolve(performance, entry));
+    }
+    for (const draft::Requirement& requirement : entry.requirements) {
+      const auto task = find_task(requirement.task, "required by behavior ", entry.name.text);
+      if (task) {
+        behavior.requirements.push_back({*task, requirement.minimum_performance.value,
+                                         requirement.minimum_performance.range,
+                                         requirement.task.range, requirement.entry});
+      } else {
+        undefined_tasks_.push_back({std::string(requirement.task.text),
+                                    static_cast<BehaviorIndex>(catalog_.behaviors.size()),
+                                    requirement.minimum_performance.value, 0});
+      }
+    }
+    catalog_.behaviors.push_back(std::move(behavior));
+  }
+
+  Performance resolve(const draft::Performance& performance, const draft::Behavior& behavior) {
+    Performance resolved;
+    resolved.task = tasks_.at(performance.task.text);
+    resolved.range = performance.task.range;
+    for (const auto* suitability :
+         {&performance.suitability, &behavior.suitability, &draft_.default_suitability}) {
+      if (!*suitability) continue;
+      resolved.suitability = (*suitability)->value;
+      resolved.suitability_range = (*suitability)->range;
+      break;
+    }
+    return resolved;
+  }
+
+  void add_exclusivity_list(const draft::ExclusivityList& entry) {
+    ExclusivityList list;
+    list.range = entry.range;
+    list.entry = entry.entry;
+    list.is_complete = entry.is_complete;
+    for (const draft::Name& name : entry.tasks) {
+      if (const auto task = find_task(name, "named in an exclusivity list", {})) {
+        list.tasks.push_back(*task);
+        list.ranges.push_back(name.range);
+      } else {
+        list.entry.reset();
+        list.is_complete = false;
+        undefined_tasks_.push_back(
+            {std::string(name.text), std::nullopt, 0, catalog_.exclusivity.size()});
+      }
+    }
+    catalog_.exclusivity.push_back(std::move(list));
+  }
+
+  std::optional<TaskIndex> find_task(const draft::Name& name, std::string_view where,
+                                     std::string_view behavior) {
+    const auto found = tasks_.find(name.text);
+    if (found != tasks_.end()) return found->second;
+    undefined_.push_back({name, std::string(where)});
+    if (!behavior.empty()) undefined_.back().where += quote(behavior);
+    return std::nullopt;
+  }
+
+  // A name that resembles no other may be defined where the file could not be understood; then the
+  // fault is that one, and has been reported.
+  void report_undefined() {
+    if (undefined_.empty() || draft_.lacks_a_section) return;
+    std::vector<std::string_view> names;
+    names.reserve(catalog_.tasks.size());
+    for (const Task& task : catalog_.tasks) names.push_back(task.name);
+    Suggestions suggestions(std::move(names));
+    std::unordered_map<std::string_view, std::optional<std::string_view>> suggested;
+    std::size_t strange = 0;
+    for (const Undefined& undefined : undefined_) {
+      const auto [entry, is_new] = suggested.try_emplace(undefined.name.text);
+      if (!is_new) continue;
+      entry->second = suggestions.nearest(undefined.name.text);
+      if (!entry->second) ++strange;
+    }
+    std::set<Range> reported;  // through aliases a name stands in several places of the tree
+    for (const Undefined& undefined : undefined_) {
+      const auto& suggestion = suggested.at(undefined.name.text);
+      if (!suggestion && strange <= draft_.nameless_tasks) continue;
+      if (!reported.insert(undefined.name.range).second) continue;
+      std::string message =
+          "task " + quote(undefined.name.text) + ", " + undefined.where + ", is not defined";
+      if (suggestion) {
+        message += did_you_mean(suggestion);
+      } else if (behaviors_.contains(undefined.name.text)) {
+        message += ": there is a behavior of this name, but no task";
+      }
+      reporter_.report(rule::undefined_task, undefined.name.range, std::move(message));
+    }
+  }
+
+  const draft::Catalog& draft_;
+  Reporter& reporter_;
+  TaskAttributes attributes_;
+  Catalog catalog_;
+  std::unordered_map<std::string_view, TaskIndex> tasks_;
+  std::unordered_map<std::string_view, Range> behaviors_;
+  std::vector<Undefined> undefined_;
+  std::vector<UndefinedTask> undefined_tasks_;
+};
+
+}  // namespace
+
+CatalogReading understand_catalog(const yaml::Document& document, Diagnostics& diagnostics) {
+  Reporter reporter(document.file(), diagnostics);
+  CatalogReading reading;
+  const draft::Catalog draft = draft::read(document.root(), reporter);
+  Resolver resolver(draft, reporter);
+  reading.catalog = resolver.resolve();
+  reading.undefined_tasks = resolver.undefined_tasks();
+  reading.catalog.file = document.file();
+  const std::size_t hiding = reporter.errors() - reporter.errors(rule::on_request_and_reactive);
+  reading.is_complete = hiding == 0;
+  reading.has_all_names = hiding == draft.value_errors;
+  const auto without_task = static_cast<std::size_t>(
+      std::count_if(reading.catalog.behaviors.begin(), reading.catalog.behaviors.end(),
+                    [](const Behavior& behavior) {
+                      return behavior.performs.empty() && !behavior.name.empty();
+                    }));
+  reading.has_all_behaviors = !draft.lacks_a_section && draft.nameless_tasks == without_task &&
+                              reporter.errors(rule::duplicate_key) == 0;
+  check_requirement_cycles(reading.catalog, reporter);
+  reading.is_acyclic = reporter.errors(rule::requirement_cycle) == 0;
+  check_exclusive_requirements(reading.catalog, reporter);
+  return reading;
+}
+
+std::optional<Catalog> read_catalog(const yaml::Document& document, Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.count(Severity::error);
+  CatalogReading reading = understand_catalog(document, diagnostics);
+  if (diagnostics.count(Severity::error) > errors) return std::nullopt;
+  return std::move(reading.catalog);
+}
+
+std::optional<Catalog> read_catalog(std::string_view text, std::string file,
+                                    Diagnostics& diagnostics) {
+  const auto document = yaml::parse(text, std::move(file), diagnostics);
+  if (document == nullptr) return std::nullopt;
+  return read_catalog(*document, diagnostics);
+}
+
+}  // namespace cbc

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "catalog/catalog.h"
+#include "diagnostic/diagnostic.h"
+#include "yaml/document.h"
+#include "yaml/values.h"
+
+/// The keys of each kind of mapping in a catalog.
+namespace cbc::shape {
+
+extern const yaml::Shape catalog;
+extern const yaml::Shape default_values;
+extern const yaml::Shape task_defaults;
+extern const yaml::Shape behavior_defaults;
+extern const yaml::Shape behavior;
+extern const yaml::Shape performance;
+extern const yaml::Shape requirement;
+extern const yaml::Shape task;
+extern const yaml::Shape parameter;
+extern const yaml::Shape exclusivity_list;
+
+}  // namespace cbc::shape
+
+namespace cbc {
+
+/// A name that stands where a task is required or excluded, and that no task has.
+struct UndefinedTask {
+  std::string name;
+  std::optional<BehaviorIndex> behavior;  ///< that requires it; empty: an exclusivity list has it
+  Millionths minimum_performance = 0;     ///< of the requirement; 0: none
+  std::size_t list = 0;                   ///< place in Catalog::exclusivity, if one has it
+};
+
+/// What could be made of a catalog.
+struct CatalogReading {
+  /// As far as it was understood.
+  Catalog catalog;
+  /// What it leaves out of requirements and exclusivity lists.
+  std::vector<UndefinedTask> undefined_tasks;
+  /// Whether it was understood as a whole, though it may break assumptions of the semantics.
+  bool is_complete = false;
+  /// Whether all entries and names were understood. Values may be missing, and then exclude
+  /// nothing.
+  bool has_all_names = false;
+  /// Whether all behaviors were understood, but for what the named ones without a task perform.
+  bool has_all_behaviors = false;
+  /// Whether its requirements have no cycle.
+  bool is_acyclic = false;
+};
+
+/// Understands as much of a catalog as there is. All problems of the text are reported into
+/// `diagnostics` at once.
+[[nodiscard]] CatalogReading understand_catalog(const yaml::Document& document,
+                                                Diagnostics& diagnostics);
+
+/// Understands a catalog. All problems of the text are reported into `diagnostics` at once; the
+/// result is empty if one of them is an error.
+[[nodiscard]] std::optional<Catalog> read_catalog(const yaml::Document& document,
+                                                  Diagnostics& diagnostics);
+
+/// The same from YAML text. `file` is the name used in messages.
+[[nodiscard]] std::optional<Catalog> read_catalog(std::string_view text, std::string file,
+                                                  Diagnostics& diagnostics);
+
+}  // namespace cbc

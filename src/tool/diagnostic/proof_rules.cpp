@@ -1,0 +1,301 @@
+#include "diagnostic/rules.h"
+
+namespace cbc {
+namespace {
+
+constexpr Rule proof_table[] = {
+    {.name = rule::dead_behavior,
+     .severity = Severity::warning,
+     .summary = "A behavior can never be active, though its task can run.",
+     .explanation =
+         "No assignment of behaviors to tasks that satisfies all constraints has this behavior, "
+         "even if all behaviors are available. The coordinator never chooses it: where only this "
+         "behavior would do, it rejects the request. Whether tasks start on request plays no part "
+         "in this.\n\n"
+         "The finding is proven by a search through all assignments. It gives a minimal set of "
+         "constraints that are the reason together: with any one of them left out, the others have "
+         "such an assignment.\n\n"
+         "A fault is reported once, where it is: there is no finding for a behavior that is dead "
+         "only because of another finding, such as conflicting-requirements or a dead-task. If all "
+         "behaviors of a task are dead, the finding is dead-task.",
+     .example = R"(default_values:
+  tasks: {execution_goal: keep_running, start_on_request: FALSE}
+behaviors:
+- behavior: LAND_ON_MARKER
+  task: LAND
+  requires:
+  - task: TRACK_MARKER
+  - task: LOOK_AHEAD
+- behavior: LAND_SLOWLY
+  task: LAND
+  suitability: 60
+- behavior: MARKER_TRACKER
+  task: TRACK_MARKER
+  requires:
+  - task: LOOK_DOWN
+- behavior: CAMERA
+  tasks:
+  - task: LOOK_AHEAD
+  - task: LOOK_DOWN
+tasks:
+- task: LAND
+  execution_goal: achieve_goal
+  start_on_request: TRUE
+- task: TRACK_MARKER
+- task: LOOK_AHEAD
+- task: LOOK_DOWN
+exclusivity_constraints:
+- mutually_exclusive: [LOOK_AHEAD, LOOK_DOWN]
+)",
+     .mending = "Relax one of the constraints that the finding names, or remove the behavior.",
+     .mended = R"(default_values:
+  tasks: {execution_goal: keep_running, start_on_request: FALSE}
+behaviors:
+- behavior: LAND_ON_MARKER
+  task: LAND
+  requires:
+  - task: TRACK_MARKER
+- behavior: LAND_SLOWLY
+  task: LAND
+  suitability: 60
+- behavior: MARKER_TRACKER
+  task: TRACK_MARKER
+  requires:
+  - task: LOOK_DOWN
+- behavior: CAMERA
+  tasks:
+  - task: LOOK_AHEAD
+  - task: LOOK_DOWN
+tasks:
+- task: LAND
+  execution_goal: achieve_goal
+  start_on_request: TRUE
+- task: TRACK_MARKER
+- task: LOOK_AHEAD
+- task: LOOK_DOWN
+exclusivity_constraints:
+- mutually_exclusive: [LOOK_AHEAD, LOOK_DOWN]
+)"},
+
+    {.name = rule::dead_task,
+     .severity = Severity::warning,
+     .summary = "A task can never run, though behaviors perform it.",
+     .explanation =
+         "No assignment of behaviors to tasks that satisfies all constraints has the task running, "
+         "even if all behaviors are available. The coordinator rejects every request of it. "
+         "Whether tasks start on request plays no part in this.\n\n"
+         "The finding is proven by a search through all assignments. It gives a minimal set of "
+         "constraints that are the reason together: with any one of them left out, the others have "
+         "such an assignment.\n\n"
+         "A fault is reported once, where it is: there is no finding for each behavior of the "
+         "task, nor for what requires it. For a task that is dead only because of another finding, "
+         "such as exclusive-requirement or unreachable-performance, there is none either.",
+     .example = R"(default_values:
+  tasks: {execution_goal: keep_running, start_on_request: FALSE}
+behaviors:
+- behavior: INSPECT_WITH_CAMERA
+  task: INSPECT_BRIDGE
+  requires:
+  - task: FOLLOW_PATH
+  - task: DETECT_CRACKS
+- behavior: FOLLOW_PATH_WITH_PID
+  task: FOLLOW_PATH
+- behavior: CRACK_DETECTOR
+  task: DETECT_CRACKS
+  requires:
+  - task: HOVER
+- behavior: HOVER_WITH_PID
+  task: HOVER
+tasks:
+- task: INSPECT_BRIDGE
+  execution_goal: achieve_goal
+  start_on_request: TRUE
+- task: FOLLOW_PATH
+- task: DETECT_CRACKS
+- task: HOVER
+exclusivity_constraints:
+- mutually_exclusive: [FOLLOW_PATH, HOVER]
+)",
+     .mending =
+         "Relax one of the constraints that the finding names, or add a behavior that does without "
+         "it.",
+     .mended = R"(default_values:
+  tasks: {execution_goal: keep_running, start_on_request: FALSE}
+behaviors:
+- behavior: INSPECT_WITH_CAMERA
+  task: INSPECT_BRIDGE
+  requires:
+  - task: DETECT_CRACKS
+- behavior: FOLLOW_PATH_WITH_PID
+  task: FOLLOW_PATH
+- behavior: CRACK_DETECTOR
+  task: DETECT_CRACKS
+  requires:
+  - task: HOVER
+- behavior: HOVER_WITH_PID
+  task: HOVER
+tasks:
+- task: INSPECT_BRIDGE
+  execution_goal: achieve_goal
+  start_on_request: TRUE
+- task: FOLLOW_PATH
+- task: DETECT_CRACKS
+- task: HOVER
+exclusivity_constraints:
+- mutually_exclusive: [FOLLOW_PATH, HOVER]
+)"},
+
+    {.name = rule::unreachable_performance,
+     .severity = Severity::warning,
+     .summary = "A minimum performance is higher than any choice of behaviors reaches.",
+     .explanation =
+         "The performance of a task is the suitability of its behavior times the suitabilities of "
+         "the behaviors of all tasks that it requires, directly or through others, each task once. "
+         "No choice of behaviors that satisfies the other constraints brings it up to this "
+         "minimum_performance. If the minimum stands in a requirement, the behavior that has it "
+         "can never be active; if it is that of a task, the task can never run.\n\n"
+         "The message gives the best performance that can be reached. It is exact, as "
+         "suitabilities are decimals and are multiplied as such.",
+     .example = R"(behaviors:
+- behavior: FOLLOW_PATH_WITH_PID
+  task: FOLLOW_PATH
+  requires:
+  - task: LOCALIZE
+    minimum_performance: 90
+- behavior: VISUAL_ODOMETRY
+  task: LOCALIZE
+  suitability: 95
+  requires:
+  - task: PROVIDE_IMAGES
+- behavior: FRONT_CAMERA
+  task: PROVIDE_IMAGES
+  suitability: 80
+tasks:
+- task: FOLLOW_PATH
+- task: LOCALIZE
+  execution_goal: keep_running
+  start_on_request: FALSE
+- task: PROVIDE_IMAGES
+  execution_goal: keep_running
+  start_on_request: FALSE
+)",
+     .mending = "Lower the minimum to what can be reached, here 95 % times 80 %, or add a better "
+                "behavior.",
+     .mended = R"(behaviors:
+- behavior: FOLLOW_PATH_WITH_PID
+  task: FOLLOW_PATH
+  requires:
+  - task: LOCALIZE
+    minimum_performance: 76
+- behavior: VISUAL_ODOMETRY
+  task: LOCALIZE
+  suitability: 95
+  requires:
+  - task: PROVIDE_IMAGES
+- behavior: FRONT_CAMERA
+  task: PROVIDE_IMAGES
+  suitability: 80
+tasks:
+- task: FOLLOW_PATH
+- task: LOCALIZE
+  execution_goal: keep_running
+  start_on_request: FALSE
+- task: PROVIDE_IMAGES
+  execution_goal: keep_running
+  start_on_request: FALSE
+)"},
+
+    {.name = rule::undecided,
+     .severity = Severity::note,
+     .summary = "The search for a proof met its limit, so a rule is left undecided.",
+     .explanation =
+         "Rules such as dead-behavior and redundant-requirement hold if there is no assignment of "
+         "behaviors to tasks of some kind, which a search has to prove. This search took as many "
+         "decisions as --max-nodes allows before it came to an end. So the catalog may break the "
+         "rule that the message names, or may not.\n\n"
+         "The example shows it only with a low limit, as in 'cbc lint --max-nodes 1'. With the "
+         "usual one nothing is wrong with it: of two neighboring sensors at most one is on, and "
+         "what has none does without.",
+     .example = R"(default_values:
+  tasks: {execution_goal: keep_running, start_on_request: FALSE}
+behaviors:
+- behavior: DELIVERY
+  task: DELIVER
+  requires: [{task: LOCALIZE}, {task: AVOID}, {task: MAP}, {task: TRACK}]
+- behavior: LOCALIZE_BY_LIDAR
+  task: LOCALIZE
+  requires: [{task: LIDAR}]
+- behavior: LOCALIZE_BY_WHEELS
+  task: LOCALIZE
+  suitability: 60
+- behavior: AVOID_BY_SONAR
+  task: AVOID
+  requires: [{task: SONAR}]
+- behavior: AVOID_BY_BUMPER
+  task: AVOID
+  suitability: 60
+- behavior: MAP_BY_RADAR
+  task: MAP
+  requires: [{task: RADAR}]
+- behavior: MAP_BY_PLAN
+  task: MAP
+  suitability: 60
+- behavior: TRACK_BY_CAMERA
+  task: TRACK
+  requires: [{task: CAMERA}]
+- behavior: TRACK_BY_SOUND
+  task: TRACK
+  suitability: 60
+- behavior: SENSOR_DRIVER
+  tasks: [{task: LIDAR}, {task: SONAR}, {task: RADAR}, {task: CAMERA}]
+tasks:
+- task: DELIVER
+  execution_goal: achieve_goal
+  start_on_request: TRUE
+- task: LOCALIZE
+- task: AVOID
+- task: MAP
+- task: TRACK
+- task: LIDAR
+- task: SONAR
+- task: RADAR
+- task: CAMERA
+exclusivity_constraints:
+- mutually_exclusive: [LIDAR, SONAR]
+- mutually_exclusive: [SONAR, RADAR]
+- mutually_exclusive: [RADAR, CAMERA]
+)",
+     .mending =
+         "Raise the limit with --max-nodes. Where that does not help, the catalog has more choices "
+         "than it needs: leave out alternatives that do not differ in what matters, and list all "
+         "tasks that exclude one another in one list.",
+     .mended = R"(default_values:
+  tasks: {execution_goal: keep_running, start_on_request: FALSE}
+behaviors:
+- behavior: DELIVERY
+  task: DELIVER
+  requires: [{task: LOCALIZE}, {task: AVOID}, {task: MAP}, {task: TRACK}]
+- behavior: LOCALIZE_BY_WHEELS
+  task: LOCALIZE
+- behavior: AVOID_BY_BUMPER
+  task: AVOID
+- behavior: MAP_BY_PLAN
+  task: MAP
+- behavior: TRACK_BY_SOUND
+  task: TRACK
+tasks:
+- task: DELIVER
+  execution_goal: achieve_goal
+  start_on_request: TRUE
+- task: LOCALIZE
+- task: AVOID
+- task: MAP
+- task: TRACK
+)"},
+};
+
+}  // namespace
+
+std::span<const Rule> proof_rules() { return proof_table; }
+
+}  // namespace cbc

@@ -1,0 +1,461 @@
+#include "draw/diagram.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "base/text.h"
+
+namespace cbc::draw {
+namespace {
+
+/// Characters with a meaning of their own in ids or in the formats that they are written to.
+bool is_special(char32_t character) {
+  return character == '%' || character == '#' || character == '\\' || character == '&';
+}
+
+void append_encoded(std::string& id, std::string_view bytes) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  for (const char byte : bytes) {
+    const unsigned value = static_cast<unsigned char>(byte);
+    id += '%';
+    id += digits[value / 16];
+    id += digits[value % 16];
+  }
+}
+
+}  // namespace
+
+std::string id_of(std::string_view kind, std::string_view name) {
+  std::string id(kind);
+  id += ':';
+  for (std::size_t offset = 0; offset < name.size();) {
+    const utf8::Decoded decoded = utf8::decode(name, offset);
+    const std::string_view bytes = name.substr(offset, decoded.bytes);
+    if (!decoded.valid || is_control(decoded.character) || is_special(decoded.character)) {
+      append_encoded(id, bytes);
+    } else {
+      id += bytes;
+    }
+    offset += decoded.bytes;
+  }
+  return id;
+}
+
+std::string label_of(std::string_view name) {
+  const bool is_blank = std::all_of(name.begin(), name.end(), [](char c) { return c == ' '; });
+  return is_blank ? quote(name) : printable(name);
+}
+
+std::string at_least(Millionths degree) { return "≥ " + format_percent(degree); }
+
+std::string with_sign(Mark mark, std::string label) {
+  std::string_view sign;
+  if (mark == Mark::added || mark == Mark::started) sign = "+";
+  if (mark == Mark::removed || mark == Mark::stopped) sign = "−";
+  if (mark == Mark::changed) sign = "~";
+  if (sign.empty()) return label;
+  return std::string(sign) + (label.empty() ? "" : " ") + std::move(label);
+}
+
+std::vector<std::string> caption_of(const Moment& moment) {
+  const std::string script = label_of(std::string_view(moment.script));
+  if (moment.index == 0) return {script + ", before the first event"};
+  return {script + ", after event " + std::to_string(moment.index) + " at " +
+              format_decimal(moment.time, 6) + " s",
+          moment.event};
+}
+
+std::string label_of(const CatalogGraph::Performance& performance) {
+  const Millionths suitability = performance.suitability;
+  if (performance.before) {
+    return format_decimal(*performance.before, 4) + " → " + format_percent(suitability);
+  }
+  return with_sign(performance.mark,
+                   suitability == one_million ? std::string() : format_percent(suitability));
+}
+
+std::string label_of(const CatalogGraph::Requirement& requirement) {
+  const Millionths minimum = requirement.minimum_performance;
+  const std::string label = minimum > 0 ? at_least(minimum) : std::string();
+  if (!requirement.before) return with_sign(requirement.mark, label);
+  const std::string before = *requirement.before > 0 ? at_least(*requirement.before) : "no minimum";
+  return before + " → " + (minimum > 0 ? label : "no minimum");
+}
+
+namespace {
+
+class Legend {
+ public:
+  explicit Legend(Diagram& diagram) : diagram_(diagram) {
+    for (const Node& node : diagram.nodes) {
+      has_tasks_ |= node.kind == NodeKind::task;
+      has_behaviors_ |= node.kind == NodeKind::behavior;
+      has_hubs_ |= node.kind == NodeKind::hub;
+      marks_.insert(node.mark);
+    }
+    for (const Edge& edge : diagram.edges) marks_.insert(edge.mark);
+  }
+
+  void add() {
+    cluster_ = static_cast<std::uint32_t>(diagram_.clusters.size());
+    diagram_.clusters.push_back({"cluster:legend#1", "legend"});
+    if (has_tasks_) task_ = add_node(NodeKind::task, "task");
+    if (has_behaviors_) behavior_ = add_node(NodeKind::behavior, "behavior");
+    if (has_tasks_ && has_behaviors_) {
+      add_edge(EdgeKind::performed_by, task_, behavior_, "performed by, suitability");
+    }
+    if (has(EdgeKind::requirement)) add_requirement();
+    if (has(EdgeKind::same_behavior)) {
+      add_edge(EdgeKind::same_behavior, task_,
+               add_node(NodeKind::task, "task of the same behavior"), "");
+    }
+    if (has(EdgeKind::exclusion)) add_exclusion();
+    for (const Mark mark : marks_) {
+      std::string label = describe(mark);
+      if (label.empty()) continue;
+      // Only behaviors are unavailable.
+      const bool is_task = has_tasks_ && mark != Mark::unavailable;
+      diagram_.nodes[add_node(is_task ? NodeKind::task : NodeKind::behavior, std::move(label))]
+          .mark = mark;
+    }
+  }
+
+ private:
+  [[nodiscard]] bool has(EdgeKind kind) const {
+    return std::any_of(diagram_.edges.begin(), diagram_.edges.end(),
+                       [kind](const Edge& edge) { return edge.kind == kind; });
+  }
+
+  void add_requirement() {
+    const std::uint32_t from = has_behaviors_ ? behavior_ : task_;
+    const NodeKind kind = has_tasks_ ? NodeKind::task : NodeKind::behavior;
+    add_edge(EdgeKind::requirement, from, add_node(kind, "required " + name_of(kind)),
+             "requires, minimum performance");
+  }
+
+  void add_exclusion() {
+    const NodeKind kind = has_tasks_ ? NodeKind::task : NodeKind::behavior;
+    const std::uint32_t from = has_tasks_ ? task_ : behavior_;
+    const std::uint32_t excluded = add_node(kind, "excluded " + name_of(kind));
+    add_edge(EdgeKind::exclusion, from, excluded, "not at the same time");
+    if (!has_hubs_) return;
+    const std::uint32_t hub = add_node(NodeKind::hub, "at most one of them");
+    for (int i = 0; i < 2; ++i) {
+      add_edge(EdgeKind::exclusion, hub, add_node(kind, "…"), "");
+    }
+  }
+
+  /// Empty for what needs no word.
+  [[nodiscard]] std::string describe(Mark mark) const {
+    if (mark == Mark::unavailable) return "unavailable or faulty";
+    if (mark == Mark::faint && diagram_.moment) return "inactive";
+    return std::string(draw::name_of(mark));
+  }
+
+  static std::string name_of(NodeKind kind) { return kind == NodeKind::task ? "task" : "behavior"; }
+
+  std::uint32_t add_node(NodeKind kind, std::string label) {
+    Node node;
+    node.kind = kind;
+    node.id = "legend:" + std::to_string(++count_);
+    node.label = std::move(label);
+    node.cluster = cluster_;
+    diagram_.nodes.push_back(std::move(node));
+    return static_cast<std::uint32_t>(diagram_.nodes.size() - 1);
+  }
+
+  void add_edge(EdgeKind kind, std::uint32_t from, std::uint32_t to, std::string label) {
+    Edge edge;
+    edge.kind = kind;
+    edge.from = from;
+    edge.to = to;
+    edge.label = std::move(label);
+    diagram_.edges.push_back(std::move(edge));
+  }
+
+  Diagram& diagram_;
+  bool has_tasks_ = false;
+  bool has_behaviors_ = false;
+  bool has_hubs_ = false;
+  std::set<Mark> marks_;
+  std::uint32_t cluster_ = 0;
+  std::uint32_t task_ = 0;
+  std::uint32_t behavior_ = 0;
+  int count_ = 0;
+};
+
+}  // namespace
+
+void add_legend(Diagram& diagram) {
+  if (!diagram.nodes.empty()) Legend(diagram).add();
+}
+
+std::vector<std::vector<const Node*>> cluster_members(const Diagram& diagram) {
+  std::vector<std::vector<const Node*>> members(diagram.clusters.size());
+  for (const Node& node : diagram.nodes) {
+    if (node.cluster != none) members[node.cluster].push_back(&node);
+  }
+  return members;
+}
+
+namespace {
+
+std::string cluster_name(const Node& node, Clustering clustering) {
+  if (clustering == Clustering::packages) return std::string(node.package);
+  return node.group == none ? std::string() : "group " + std::to_string(node.group);
+}
+
+}  // namespace
+
+Builder::Builder(const CatalogGraph& graph, const Part& part, const ViewOptions& options)
+    : graph_(graph),
+      part_(part),
+      task_nodes_(graph.tasks.size(), none),
+      behavior_nodes_(graph.behaviors.size(), none) {
+  diagram_.view = options.view;
+  diagram_.file = graph.file;
+}
+
+std::string Builder::unique_id(const std::string& id) {
+  const std::uint32_t uses = ++uses_of_id_[id];
+  return uses == 1 ? id : id + "#" + std::to_string(uses);
+}
+
+void Builder::add_node(Node node) {
+  node.id = unique_id(node.id);
+  diagram_.nodes.push_back(std::move(node));
+}
+
+void Builder::add_tasks() {
+  for (const std::uint32_t task : part_.tasks) {
+    const CatalogGraph::Task& from = graph_.tasks[task];
+    task_nodes_[task] = static_cast<std::uint32_t>(diagram_.nodes.size());
+    Node node;
+    node.kind = NodeKind::task;
+    node.id = id_of("task", from.name);
+    node.name = from.name;
+    node.group = from.group;
+    node.minimum_performance = from.minimum_performance;
+    node.priority = from.priority;
+    node.label = label_of(from.name);
+    node.mark = from.mark == Mark::plain && part_.is_beside[task] ? Mark::faint : from.mark;
+    if (from.minimum_performance > 0) node.notes.push_back(at_least(from.minimum_performance));
+    if (!from.is_defined) node.notes.emplace_back("not defined");
+    node.notes.insert(node.notes.end(), from.notes.begin(), from.notes.end());
+    node.is_defined = from.is_defined;
+    add_node(std::move(node));
+  }
+}
+
+void Builder::add_behaviors() {
+  for (const std::uint32_t behavior : part_.behaviors) {
+    const CatalogGraph::Behavior& from = graph_.behaviors[behavior];
+    behavior_nodes_[behavior] = static_cast<std::uint32_t>(diagram_.nodes.size());
+    Node node;
+    node.kind = NodeKind::behavior;
+    node.id = id_of("behavior", from.name);
+    node.name = from.name;
+    node.package = from.package;
+    node.group = from.group;
+    node.label = from.name.empty() ? "a behavior without a name" : label_of(from.name);
+    node.mark = from.mark;
+    node.notes = from.notes;
+    add_node(std::move(node));
+  }
+}
+
+Edge& Builder::add_edge(EdgeKind kind, std::uint32_t from, std::uint32_t to, Mark mark) {
+  Edge& edge = diagram_.edges.emplace_back();
+  edge.kind = kind;
+  edge.from = from;
+  edge.to = to;
+  const auto is_faint = [&](std::uint32_t node) {
+    const Mark of_node = diagram_.nodes[node].mark;
+    return of_node == Mark::faint || of_node == Mark::unavailable;
+  };
+  edge.label = with_sign(mark, {});
+  edge.mark = mark == Mark::plain && (is_faint(from) || is_faint(to)) ? Mark::faint : mark;
+  return edge;
+}
+
+void Builder::add_clusters(Clustering clustering) {
+  if (clustering == Clustering::nothing) return;
+  const std::size_t fewest = clustering == Clustering::groups ? 2 : 1;
+  std::map<std::string, std::size_t> sizes;
+  for (const Node& node : diagram_.nodes) ++sizes[cluster_name(node, clustering)];
+  std::map<std::string, std::uint32_t> places;
+  for (Node& node : diagram_.nodes) {
+    const std::string name = cluster_name(node, clustering);
+    if (name.empty() || sizes[name] < fewest) continue;
+    const auto place = static_cast<std::uint32_t>(diagram_.clusters.size());
+    const auto [entry, is_new] = places.try_emplace(name, place);
+    if (is_new) diagram_.clusters.push_back({id_of("cluster", name), label_of(name)});
+    node.cluster = entry->second;
+  }
+}
+
+namespace {
+
+/// More of them would hide what was asked for.
+constexpr std::size_t most_excluded_beside = 8;
+
+Part nothing(const CatalogGraph& graph) {
+  Part part;
+  part.has_task.resize(graph.tasks.size());
+  part.has_behavior.resize(graph.behaviors.size());
+  part.is_beside.resize(graph.tasks.size());
+  part.is_named.resize(graph.tasks.size());
+  return part;
+}
+
+class Surroundings {
+ public:
+  Surroundings(const CatalogGraph& graph, const std::vector<std::uint32_t>& tasks)
+      : graph_(graph), named_(tasks), part_(nothing(graph)) {
+    for (const std::uint32_t task : named_) {
+      part_.is_named[task] = true;
+      add_task(task);
+      add_behaviors_of(task);
+    }
+  }
+
+  void go_down(std::optional<std::uint32_t> depth) {
+    walk(depth, [&](std::uint32_t task, auto&& reach) {
+      add_behaviors_of(task);
+      for (const std::uint32_t place : graph_.performances_of_task[task]) {
+        const std::uint32_t behavior = graph_.performances[place].behavior;
+        for (const std::uint32_t required : graph_.requirements_of_behavior[behavior]) {
+          reach(graph_.requirements[required].task);
+        }
+      }
+    });
+  }
+
+  void go_up(std::optional<std::uint32_t> depth) {
+    walk(depth, [&](std::uint32_t task, auto&& reach) {
+      for (const std::uint32_t place : graph_.requirements_of_task[task]) {
+        const std::uint32_t behavior = graph_.requirements[place].behavior;
+        // At the last step only what is drawn already is connected.
+        const auto performed = graph_.performances_of_behavior[behavior];
+        bool is_reached = performed.empty();
+        for (const std::uint32_t link : performed) {
+          if (reach(graph_.performances[link].task)) is_reached = true;
+        }
+        if (is_reached) add_behavior(behavior);
+      }
+    });
+  }
+
+  Part finish() && {
+    for (const std::uint32_t behavior : part_.behaviors) {
+      for (const std::uint32_t link : graph_.performances_of_behavior[behavior]) {
+        add_beside(graph_.performances[link].task);
+      }
+    }
+    for (const std::uint32_t task : named_) {
+      for (const std::uint32_t list : graph_.exclusions_of_task[task]) {
+        const auto tasks = graph_.exclusions[list];
+        if (tasks.size() > most_excluded_beside) continue;
+        for (const std::uint32_t excluded : tasks) add_beside(excluded);
+      }
+    }
+    std::sort(part_.tasks.begin(), part_.tasks.end());
+    std::sort(part_.behaviors.begin(), part_.behaviors.end());
+    return std::move(part_);
+  }
+
+ private:
+  /// Step by step from the tasks asked for. `expand` calls a function for each task that is next
+  /// to one; the function says whether that one is within reach.
+  template <typename Expand>
+  void walk(std::optional<std::uint32_t> depth, const Expand& expand) {
+    std::vector<bool> is_known(graph_.tasks.size());
+    std::vector<std::uint32_t> present = named_;
+    for (const std::uint32_t task : present) is_known[task] = true;
+    for (std::uint32_t step = 0; !present.empty(); ++step) {
+      const bool is_last = depth && step >= *depth;
+      std::vector<std::uint32_t> next;
+      for (const std::uint32_t task : present) {
+        expand(task, [&](std::uint32_t found) {
+          if (is_known[found]) return true;
+          if (is_last) return false;
+          is_known[found] = true;
+          add_task(found);
+          next.push_back(found);
+          return true;
+        });
+      }
+      present = std::move(next);
+    }
+  }
+
+  void add_task(std::uint32_t task) {
+    if (part_.has_task[task]) return;
+    part_.has_task[task] = true;
+    part_.tasks.push_back(task);
+  }
+
+  void add_beside(std::uint32_t task) {
+    if (part_.has_task[task]) return;
+    add_task(task);
+    part_.is_beside[task] = true;
+  }
+
+  void add_behavior(std::uint32_t behavior) {
+    if (part_.has_behavior[behavior]) return;
+    part_.has_behavior[behavior] = true;
+    part_.behaviors.push_back(behavior);
+  }
+
+  void add_behaviors_of(std::uint32_t task) {
+    for (const std::uint32_t place : graph_.performances_of_task[task]) {
+      add_behavior(graph_.performances[place].behavior);
+    }
+  }
+
+  const CatalogGraph& graph_;
+  const std::vector<std::uint32_t>& named_;
+  Part part_;
+};
+
+}  // namespace
+
+Part whole(const CatalogGraph& graph) {
+  Part part = nothing(graph);
+  part.tasks.resize(graph.tasks.size());
+  std::iota(part.tasks.begin(), part.tasks.end(), 0U);
+  part.has_task.assign(graph.tasks.size(), true);
+  part.behaviors.resize(graph.behaviors.size());
+  std::iota(part.behaviors.begin(), part.behaviors.end(), 0U);
+  part.has_behavior.assign(graph.behaviors.size(), true);
+  return part;
+}
+
+Part part_of_group(const CatalogGraph& graph, std::uint32_t group) {
+  Part part = nothing(graph);
+  for (std::uint32_t task = 0; task < graph.tasks.size(); ++task) {
+    if (graph.tasks[task].group != group) continue;
+    part.has_task[task] = true;
+    part.tasks.push_back(task);
+  }
+  for (std::uint32_t behavior = 0; behavior < graph.behaviors.size(); ++behavior) {
+    if (graph.behaviors[behavior].group != group) continue;
+    part.has_behavior[behavior] = true;
+    part.behaviors.push_back(behavior);
+  }
+  return part;
+}
+
+Part part_around(const CatalogGraph& graph, const std::vector<std::uint32_t>& tasks,
+                 const Reach& reach) {
+  Surroundings surroundings(graph, tasks);
+  if (reach.down) surroundings.go_down(reach.depth);
+  if (reach.up) surroundings.go_up(reach.depth);
+  return std::move(surroundings).finish();
+}
+
+}  // namespace cbc::draw

@@ -1,0 +1,499 @@
+#include "lint/controls.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "base/text.h"
+#include "diagnostic/diagnostic.h"
+#include "diagnostic/rules.h"
+#include "support/wording.h"
+#include "yaml/document.h"
+#include "yaml/source.h"
+#include "yaml/values.h"
+
+namespace cbc {
+namespace {
+
+std::vector<std::string_view> names_of_rules() {
+  std::vector<std::string_view> names;
+  for (const Rule& rule : all_rules()) names.push_back(rule.name);
+  return names;
+}
+
+}  // namespace
+
+RuleNames::RuleNames() : suggestions_(names_of_rules()) {}
+
+std::string RuleNames::describe_unknown(std::string_view name) {
+  std::string message = "there is no rule " + quote(name);
+  message += did_you_mean(suggestions_.nearest(name));
+  return message;
+}
+
+std::string describe_fixed(const Rule& rule) {
+  return quote(rule.name) + " is always an error: a file that breaks this rule has no meaning";
+}
+
+namespace {
+
+const std::vector<std::string>& names_for(RuleSetting setting, const SeverityOptions& options) {
+  switch (setting) {
+    case RuleSetting::error:
+      return options.error;
+    case RuleSetting::warn:
+      return options.warn;
+    case RuleSetting::allow:
+      break;
+  }
+  return options.allow;
+}
+
+/// "a, b" has a blank before the second name.
+std::string without_blanks(const std::string& name) {
+  const std::size_t begin = name.find_first_not_of(' ');
+  if (begin == std::string::npos) return {};
+  return name.substr(begin, name.find_last_not_of(' ') + 1 - begin);
+}
+
+std::string name_of_option(RuleSetting setting) { return "--" + std::string(name_of(setting)); }
+
+}  // namespace
+
+std::string_view name_of(RuleSetting setting) {
+  switch (setting) {
+    case RuleSetting::error:
+      return "error";
+    case RuleSetting::warn:
+      return "warn";
+    case RuleSetting::allow:
+      break;
+  }
+  return "allow";
+}
+
+bool is_possible(const Rule& rule, RuleSetting setting) {
+  return !rule.is_fixed || setting == RuleSetting::error;
+}
+
+bool is_fixed(const Diagnostic& finding) {
+  const Rule& rule = *find_rule(finding.rule);
+  return rule.is_fixed || (finding.severity == Severity::error && rule.severity != Severity::error);
+}
+
+void SeveritySettings::set(const Rule& rule, RuleSetting setting) {
+  settings_[rule.name] = setting;
+}
+
+void SeveritySettings::override_with(const SeveritySettings& stronger) {
+  for (const auto& [rule, setting] : stronger.settings_) settings_[rule] = setting;
+  is_strict_ = is_strict_ || stronger.is_strict_;
+}
+
+std::optional<Severity> SeveritySettings::severity_of(const Diagnostic& finding) const {
+  const auto found = settings_.find(finding.rule);
+  if (found == settings_.end() || is_fixed(finding)) return finding.severity;
+  switch (found->second) {
+    case RuleSetting::error:
+      return Severity::error;
+    case RuleSetting::warn:
+      return Severity::warning;
+    case RuleSetting::allow:
+      break;
+  }
+  return std::nullopt;
+}
+
+SeveritySettings settings_of_options(const SeverityOptions& options,
+                                     std::vector<std::string>& errors) {
+  SeveritySettings settings;
+  RuleNames names;
+  std::map<std::string_view, RuleSetting> given;
+  for (const RuleSetting setting : rule_settings) {
+    const std::string option = name_of_option(setting);
+    for (const std::string& given_name : names_for(setting, options)) {
+      const std::string name = without_blanks(given_name);
+      const Rule* rule = find_rule(name);
+      if (rule == nullptr) {
+        errors.push_back(option + ": " + names.describe_unknown(name));
+        continue;
+      }
+      const auto [first, is_new] = given.try_emplace(rule->name, setting);
+      if (first->second != setting) {
+        errors.push_back(option + ": rule " + quote(name) + " is given to " +
+                         name_of_option(first->second) + ", too");
+      } else if (!is_possible(*rule, setting)) {
+        errors.push_back(option + ": " + describe_fixed(*rule));
+      } else {
+        settings.set(*rule, setting);
+      }
+    }
+  }
+  if (options.strict) settings.make_strict();
+  return settings;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr yaml::Key settings_keys[] = {{"error"}, {"warn"}, {"allow"}, {"strict"}};
+constexpr yaml::Shape settings_shape{"the settings", settings_keys};
+
+/// The folder of a file as it is to be searched from: without links and "..", where possible.
+fs::path folder_of(const fs::path& file) {
+  std::error_code error;
+  const fs::path folder = fs::absolute(fs::path(".") / file, error).parent_path();
+  const fs::path resolved = fs::weakly_canonical(folder, error);
+  return error ? folder.lexically_normal() : resolved;
+}
+
+/// Reads one settings file.
+class SettingsReader {
+ public:
+  explicit SettingsReader(Reporter& reporter) : reporter_(reporter) {}
+
+  SeveritySettings read(const yaml::Node& root) {
+    yaml::Fields fields(root, settings_shape, reporter_);
+    for (const RuleSetting setting : rule_settings) {
+      if (const yaml::Node* rules = fields.find(name_of(setting))) read_rules(*rules, setting);
+    }
+    if (const yaml::Node* strict = fields.find("strict")) {
+      if (yaml::read_boolean(*strict, "strict", reporter_).value_or(false)) settings_.make_strict();
+    }
+    fields.report_unknown(Severity::error);
+    return settings_;
+  }
+
+ private:
+  void read_rules(const yaml::Node& rules, RuleSetting setting) {
+    constexpr std::string_view expected = "a list of names of rules";
+    const std::string_view key = name_of(setting);
+    if (yaml::read_list(rules, key, expected, reporter_) == nullptr) return;
+    for (const yaml::Node* item : rules.items) {
+      if (const auto name = yaml::read_name(*item, key, expected, reporter_)) {
+        read_rule(*name, item->range, setting);
+      }
+    }
+  }
+
+  void read_rule(std::string_view name, const Range& range, RuleSetting setting) {
+    const Rule* rule = find_rule(name);
+    if (rule == nullptr) {
+      // Not a warning, as it is in a catalog: settings that are not understood are of no use.
+      reporter_.report_as(Severity::error, rule::unknown_rule, range,
+                          names_.describe_unknown(name));
+      return;
+    }
+    const auto [other, is_new] = given_.try_emplace(rule->name, range);
+    if (!is_new) {
+      // The lists may stand in any order.
+      reporter_.report(rule::invalid_value, std::max(range, other->second),
+                       "rule " + quote(name) + " is given twice",
+                       {reporter_.note(std::min(range, other->second), "first given here")});
+      other->second = std::min(range, other->second);
+    } else if (!is_possible(*rule, setting)) {
+      reporter_.report(rule::invalid_value, range, describe_fixed(*rule));
+    } else {
+      settings_.set(*rule, setting);
+    }
+  }
+
+  Reporter& reporter_;
+  RuleNames names_;
+  std::unordered_map<std::string_view, Range> given_;
+  SeveritySettings settings_;
+};
+
+}  // namespace
+
+std::optional<std::string> find_settings_file(const std::string& file) {
+  const fs::path path(file);
+  fs::path folder = folder_of(path);
+  for (;;) {
+    const fs::path candidate = folder / settings_file_name;
+    std::error_code error;
+    if (fs::is_regular_file(candidate, error)) {
+      if (path.is_absolute()) return candidate.string();
+      const fs::path here = fs::canonical(".", error);
+      return error ? candidate.string() : candidate.lexically_relative(here).string();
+    }
+    fs::path above = folder.parent_path();
+    if (above == folder) return std::nullopt;
+    folder = std::move(above);
+  }
+}
+
+std::optional<SeveritySettings> read_settings(std::string_view text, std::string file,
+                                              Diagnostics& diagnostics) {
+  const std::unique_ptr<const yaml::Document> document = yaml::parse(text, file, diagnostics);
+  if (document == nullptr) return std::nullopt;
+  const yaml::Node& root = document->root();
+  if (root.kind == yaml::Kind::null) return SeveritySettings{};
+  Reporter reporter(std::move(file), diagnostics);
+  if (root.kind != yaml::Kind::mapping) {
+    reporter.report(rule::wrong_type, root.range,
+                    "settings must be a mapping with the keys 'error', 'warn', 'allow' and "
+                    "'strict', found " +
+                        yaml::describe(root));
+    return std::nullopt;
+  }
+  SeveritySettings settings = SettingsReader(reporter).read(root);
+  if (reporter.errors() > 0) return std::nullopt;
+  return settings;
+}
+
+namespace {
+
+constexpr std::string_view mark = "cbc:";
+constexpr std::string_view verb = "allow";
+constexpr std::string_view reason_mark = "--";
+constexpr std::string_view blanks = " \t";
+
+/// Lines, counted from 1, the last one included.
+struct Lines {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+/// One rule in a comment.
+struct Allow {
+  const Rule* rule = nullptr;
+  Range range;  ///< of its name
+  Lines lines;  ///< on which findings are allowed
+  bool is_used = false;
+};
+
+/// Tells which lines the comments of a text are about.
+class Scopes {
+ public:
+  explicit Scopes(const std::vector<yaml::SourceLine>& lines)
+      : lines_(lines), last_content_(lines.size() + 1), entries_(lines.size() + 1) {
+    for (std::size_t number = 1; number <= lines.size(); ++number) {
+      last_content_[number] = lines[number - 1].has_content ? number : last_content_[number - 1];
+    }
+    find_entries();
+  }
+
+  /// For the comment of a line. Any two results are disjoint, or one contains the other.
+  [[nodiscard]] Lines of_comment(std::size_t number) const {
+    if (lines_[number - 1].has_content) return {number, number};
+    // Comments above are about the same entry, and those above this one can be allowed by it.
+    return {last_content_[number] + 1, std::max(number, entries_[number])};
+  }
+
+ private:
+  /// An entry ends before the next one that is not deeper.
+  void find_entries() {
+    struct Entry {
+      std::size_t depth = 0;
+      std::size_t number = 0;
+    };
+    std::vector<Entry> below;  // the entries that end those above them, the nearest last
+    std::size_t last_line = 0;
+    for (std::size_t number = lines_.size(); number > 0; --number) {
+      entries_[number] = last_line;
+      const std::optional<std::size_t> depth = lines_[number - 1].depth;
+      if (!depth) continue;
+      while (!below.empty() && below.back().depth > *depth) below.pop_back();
+      last_line = last_content_[below.empty() ? lines_.size() : below.back().number - 1];
+      below.push_back({*depth, number});
+    }
+  }
+
+  const std::vector<yaml::SourceLine>& lines_;
+  // By line, which count from 1:
+  std::vector<std::size_t> last_content_;  ///< the last line up to this one with content, or 0
+  std::vector<std::size_t> entries_;       ///< the last line of the entry that begins below, or 0
+};
+
+/// Reads the comments of a file that are meant for this program, in order.
+class CommentReader {
+ public:
+  CommentReader(std::string_view text, Reporter& reporter)
+      : text_(text), positions_(text), reporter_(reporter) {}
+
+  std::vector<Allow> read(const yaml::Document* document) {
+    // Most files have no such comment, and are not looked at closely.
+    if (text_.find(mark) == std::string_view::npos) return {};
+    const std::vector<yaml::SourceLine> lines = yaml::split_lines(text_, document);
+    const Scopes scopes(lines);
+    for (std::size_t number = 1; number <= lines.size(); ++number) {
+      const yaml::SourceLine& line = lines[number - 1];
+      if (line.comment) read_comment(*line.comment, line.end, scopes.of_comment(number));
+    }
+    return std::move(allows_);
+  }
+
+ private:
+  void read_comment(std::size_t begin, std::size_t end, const Lines& lines) {
+    next_ = begin + 1;
+    end_ = end;
+    skip_blanks();
+    if (!rest().starts_with(mark)) return;
+    next_ += mark.size();
+    skip_blanks();
+    const std::string_view word = next_word();
+    if (word != verb) {
+      report_other_word(word, begin);
+    } else if (!read_rules(lines)) {
+      report(range_of(text_.substr(begin, end - begin)),
+             "the comment names no rule: expected 'cbc: allow RULE'");
+    }
+  }
+
+  /// Returns whether there were any names.
+  bool read_rules(const Lines& lines) {
+    for (bool is_first = true;; is_first = false) {
+      while (next_ < end_ && (is_blank(text_[next_]) || text_[next_] == ',')) ++next_;
+      if (is_at_end()) return !is_first;
+      const std::string_view name = next_word();
+      const Rule* rule = find_rule(name);
+      if (rule == nullptr) {
+        report(range_of(name), names_.describe_unknown(name));
+      } else {
+        allows_.push_back({rule, range_of(name), lines});
+      }
+      skip_blanks();
+      if (is_at_end()) return true;
+      if (text_[next_] == ',') continue;
+      // What is said after an unknown name has no other fault than that name.
+      const std::string_view other = next_word();
+      if (rule != nullptr) {
+        report(range_of(other),
+               "expected ',' and another rule, or '-- ' and a reason, found " + quote(other));
+      }
+      return true;
+    }
+  }
+
+  void report_other_word(std::string_view word, std::size_t begin) {
+    if (word.empty()) {
+      report(range_of(text_.substr(begin, end_ - begin)),
+             "the comment says nothing: expected 'cbc: allow RULE'");
+      return;
+    }
+    const std::string_view known[] = {verb};
+    std::string message = "expected 'allow' after 'cbc:', found " + quote(word);
+    if (nearest(word, known)) message += "; did you mean 'allow'?";
+    report(range_of(word), std::move(message));
+  }
+
+  void report(const Range& range, std::string message) {
+    reporter_.report(rule::unknown_rule, range, std::move(message));
+  }
+
+  static bool is_blank(char byte) { return blanks.find(byte) != std::string_view::npos; }
+
+  [[nodiscard]] std::string_view rest() const { return text_.substr(next_, end_ - next_); }
+
+  [[nodiscard]] bool is_at_end() const { return next_ == end_ || rest().starts_with(reason_mark); }
+
+  void skip_blanks() {
+    while (next_ < end_ && is_blank(text_[next_])) ++next_;
+  }
+
+  /// The word that begins here, up to a blank or a comma; empty if there is none.
+  std::string_view next_word() {
+    const std::size_t begin = next_;
+    while (next_ < end_ && !is_blank(text_[next_]) && text_[next_] != ',') ++next_;
+    return text_.substr(begin, next_ - begin);
+  }
+
+  [[nodiscard]] Range range_of(std::string_view piece) const {
+    const auto begin = static_cast<std::size_t>(piece.data() - text_.data());
+    return {positions_.at(begin), positions_.at(begin + piece.size())};
+  }
+
+  std::string_view text_;
+  PositionMap positions_;
+  Reporter& reporter_;
+  RuleNames names_;
+  std::vector<Allow> allows_;
+  std::size_t next_ = 0;  // in the comment that is being read
+  std::size_t end_ = 0;
+};
+
+/// Moves the findings that are not allowed from one collection to another.
+void filter(Diagnostics& findings, std::vector<Allow>& allows, Diagnostics& kept) {
+  findings.sort();
+  std::unordered_map<const Rule*, std::vector<Allow*>> open;  // by rule, the innermost last
+  auto next = allows.begin();
+  for (Diagnostic& finding : findings.release()) {
+    const std::size_t line = finding.range.begin.line;
+    for (; next != allows.end() && next->lines.first <= line; ++next) {
+      open[next->rule].push_back(&*next);
+    }
+    const Rule* rule = find_rule(finding.rule);
+    std::vector<Allow*>& candidates = open[rule];
+    while (!candidates.empty() && candidates.back()->lines.last < line) candidates.pop_back();
+    if (candidates.empty() || is_fixed(finding)) {
+      kept.add(std::move(finding));
+    } else {
+      candidates.back()->is_used = true;
+    }
+  }
+}
+
+void report_unused(const Allow& allow, Reporter& reporter) {
+  reporter.report(rule::unused_allow, allow.range,
+                  "no finding of rule " + quote(allow.rule->name) + " needs this comment");
+}
+
+}  // namespace
+
+std::vector<Diagnostic> apply_allow_comments(std::vector<Diagnostic> findings,
+                                             const CommentedFile& file) {
+  Diagnostics found;
+  for (Diagnostic& finding : findings) found.add(std::move(finding));
+  Reporter comment_reporter(file.file, found);
+  CommentReader reader(utf8::without_byte_order_mark(file.text), comment_reporter);
+  std::vector<Allow> allows = reader.read(file.document);
+  Diagnostics kept;
+  filter(found, allows, kept);
+
+  Diagnostics unused;
+  Reporter unused_reporter(file.file, unused);
+  for (const Allow& allow : allows) {
+    if (allow.rule->is_fixed) {
+      unused_reporter.report(rule::unused_allow, allow.range, describe_fixed(*allow.rule));
+    } else if (file.is_complete && !allow.is_used && allow.rule->name != rule::unused_allow) {
+      report_unused(allow, unused_reporter);
+    }
+  }
+  filter(unused, allows, kept);
+
+  // Nothing allows what is found now, so that this is the end of it.
+  Reporter last_reporter(file.file, kept);
+  for (const Allow& allow : allows) {
+    const bool is_needed = allow.is_used || allow.rule->name != rule::unused_allow;
+    if (file.is_complete && !is_needed) report_unused(allow, last_reporter);
+  }
+  kept.sort();
+  return kept.release();
+}
+
+std::vector<Diagnostic> control_findings(std::vector<Diagnostic> findings, CommentedFile file,
+                                         const SeveritySettings& settings) {
+  // Past the node limit the finding that a comment is for may just not have been found.
+  file.is_complete = file.is_complete &&
+                     std::none_of(findings.begin(), findings.end(), [](const Diagnostic& finding) {
+                       return finding.rule == rule::undecided;
+                     });
+  std::vector<Diagnostic> reported;
+  for (Diagnostic& finding : apply_allow_comments(std::move(findings), file)) {
+    const std::optional<Severity> severity = settings.severity_of(finding);
+    if (!severity) continue;
+    finding.severity = *severity;
+    reported.push_back(std::move(finding));
+  }
+  return reported;
+}
+
+}  // namespace cbc

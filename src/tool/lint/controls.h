@@ -1,0 +1,136 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diagnostic/diagnostic.h"
+#include "diagnostic/rules.h"
+#include "support/wording.h"
+#include "yaml/document.h"
+
+namespace cbc {
+
+/// Explains what is wrong with rules that people name.
+class RuleNames {
+ public:
+  RuleNames();
+
+  /// Of a name that no rule has: with the nearest that one has.
+  [[nodiscard]] std::string describe_unknown(std::string_view name);
+
+ private:
+  Suggestions suggestions_;
+};
+
+/// Why a rule cannot be anything but an error.
+[[nodiscard]] std::string describe_fixed(const Rule& rule);
+
+/// What becomes of the findings of a rule; `allow`: they are not reported.
+enum class RuleSetting : std::uint8_t { error, warn, allow };
+
+inline constexpr std::array rule_settings = {RuleSetting::error, RuleSetting::warn,
+                                             RuleSetting::allow};
+
+/// "error", "warn", "allow": the key of a settings file, and the option.
+[[nodiscard]] std::string_view name_of(RuleSetting setting);
+
+/// Whether a rule may have a setting: a fixed one stays an error.
+[[nodiscard]] bool is_possible(const Rule& rule, RuleSetting setting);
+
+/// Whether a finding stays what it is: its rule is fixed, or it is an error though its rule is not
+/// (an unknown key of a script).
+[[nodiscard]] bool is_fixed(const Diagnostic& finding);
+
+/// What people want of the severities of findings, by rule.
+class SeveritySettings {
+ public:
+  /// The setting must be possible for this rule.
+  void set(const Rule& rule, RuleSetting setting);
+  /// Lets warnings count as failure.
+  void make_strict() { is_strict_ = true; }
+
+  /// Takes over what `stronger` says; where it says nothing, all stays as it is.
+  void override_with(const SeveritySettings& stronger);
+
+  /// The severity a finding is reported with, or nothing if it is not to be reported.
+  [[nodiscard]] std::optional<Severity> severity_of(const Diagnostic& finding) const;
+  /// Whether warnings count as failure.
+  [[nodiscard]] bool is_strict() const { return is_strict_; }
+
+ private:
+  std::map<std::string_view, RuleSetting> settings_;  // names of the table of rules
+  bool is_strict_ = false;
+};
+
+/// Names of rules, as they were given on the command line.
+struct SeverityOptions {
+  std::vector<std::string> error;
+  std::vector<std::string> warn;
+  std::vector<std::string> allow;
+  bool strict = false;
+};
+
+/// Understands options. A message for each that is wrong is added to `errors`; the settings are
+/// not to be used then.
+[[nodiscard]] SeveritySettings settings_of_options(const SeverityOptions& options,
+                                                   std::vector<std::string>& errors);
+
+/// The name of files with settings.
+inline constexpr std::string_view settings_file_name = ".cbc.yaml";
+
+/// Finds the settings file for a file: the one in its folder, or else in the nearest folder above
+/// that has one. The file itself need not exist; of a link, its own folder counts, not the one it
+/// leads to. Folders that cannot be searched are passed over. The result is relative to the current
+/// folder if `file` is.
+[[nodiscard]] std::optional<std::string> find_settings_file(const std::string& file);
+
+/// Reads the text of a settings file, in which all keys may be absent:
+///
+///     error: [unknown-key, dead-behavior]
+///     warn: [exclusive-requirement]
+///     allow: [required-goal]
+///     strict: true
+///
+/// All that is wrong with it is reported, as errors; there are no settings then.
+[[nodiscard]] std::optional<SeveritySettings> read_settings(std::string_view text, std::string file,
+                                                            Diagnostics& diagnostics);
+
+/// A file with comments that control its findings.
+struct CommentedFile {
+  std::string file;                          ///< name in messages
+  std::string_view text;                     ///< as it was read
+  const yaml::Document* document = nullptr;  ///< of the text, if it is valid YAML
+  /// Whether every rule could be decided. If not, an allow without a finding may be needed yet.
+  bool is_complete = true;
+};
+
+/// Removes the findings of a file that comments of the file allow:
+///
+///     # cbc: allow required-goal, dead-task -- the reason, as far as anybody cares
+///     - task: A
+///       timeout: 5   # cbc: allow no-timeout-effect
+///
+/// At the end of a line a comment is about what begins on this line; on a line of its own it is
+/// about the entry that follows, with all that is in it. If several comments allow a finding, the
+/// innermost, or else the last one, is the one that is used.
+///
+/// Adds findings about the comments: of unknown-rule for what is not understood, and of
+/// unused-allow for an allow that nothing needs, or that is of a fixed rule. Such findings can be
+/// allowed, too; but not that an allow of unused-allow is itself unused.
+///
+/// The result is in the order of Diagnostics::sort.
+[[nodiscard]] std::vector<Diagnostic> apply_allow_comments(std::vector<Diagnostic> findings,
+                                                           const CommentedFile& file);
+
+/// What is to be reported of the findings of one file, in the order of Diagnostics::sort: its
+/// comments are applied first, then the settings, to the findings about comments, too.
+[[nodiscard]] std::vector<Diagnostic> control_findings(std::vector<Diagnostic> findings,
+                                                       CommentedFile file,
+                                                       const SeveritySettings& settings);
+
+}  // namespace cbc

@@ -1,0 +1,620 @@
+#include "lint/fixes.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/text.h"
+#include "diagnostic/diagnostic.h"
+#include "yaml/document.h"
+#include "yaml/source.h"
+
+namespace cbc {
+namespace {
+
+constexpr std::size_t context = 3;
+
+// After as many changes, or as many equal lines, the way found so far is taken.
+constexpr int most_changes = 200;
+constexpr int sure_match = 32;
+
+using Lines = std::vector<std::string_view>;
+
+/// Each with its line break; the last one may lack it.
+Lines split(std::string_view text) {
+  Lines lines;
+  while (!text.empty()) {
+    const std::size_t line_break = text.find('\n');
+    const std::size_t size = line_break == std::string_view::npos ? text.size() : line_break + 1;
+    lines.push_back(text.substr(0, size));
+    text.remove_prefix(size);
+  }
+  return lines;
+}
+
+/// Lines [begin, end) of each text, of which the ones take the place of the others.
+struct LineChange {
+  std::size_t old_begin = 0;
+  std::size_t old_end = 0;
+  std::size_t new_begin = 0;
+  std::size_t new_end = 0;
+};
+
+/// Finds the changes from front to back, by the greedy algorithm of Myers in pieces: a piece ends
+/// where the texts agree again for a while, or when it gets too long.
+class LineComparison {
+ public:
+  LineComparison(const Lines& before, const Lines& after) : before_(before), after_(after) {}
+
+  std::vector<LineChange> run() {
+    skip_equal();
+    while (x_ < before_.size() || y_ < after_.size()) {
+      add_piece();
+      skip_equal();
+    }
+    return std::move(changes_);
+  }
+
+ private:
+  // Where the furthest ways with a number of changes end, by diagonal: lines of the old text that
+  // are behind them. `furthest_[d]` has those of the diagonals -d to d.
+  using Reach = std::vector<int>;
+
+  void skip_equal() {
+    while (x_ < before_.size() && y_ < after_.size() && before_[x_] == after_[y_]) {
+      ++x_;
+      ++y_;
+    }
+  }
+
+  [[nodiscard]] int old_left() const { return static_cast<int>(before_.size() - x_); }
+  [[nodiscard]] int new_left() const { return static_cast<int>(after_.size() - y_); }
+
+  [[nodiscard]] bool equal(int x, int y) const {
+    return x < old_left() && y < new_left() &&
+           before_[x_ + static_cast<std::size_t>(x)] == after_[y_ + static_cast<std::size_t>(y)];
+  }
+
+  static std::size_t slot(int changes, int diagonal) {
+    const int place = diagonal + changes;
+    return static_cast<std::size_t>(place);
+  }
+
+  [[nodiscard]] int reached(int changes, int diagonal) const {
+    return furthest_[static_cast<std::size_t>(changes)][slot(changes, diagonal)];
+  }
+
+  [[nodiscard]] bool is_possible(int x, int diagonal) const {
+    return x >= 0 && x <= old_left() && x >= diagonal && x - diagonal <= new_left();
+  }
+
+  // Where a way that ends on a diagonal comes to with one more change; below 0: nowhere.
+  [[nodiscard]] int step(int changes, int diagonal) const {
+    if (changes == 0) return 0;
+    int best = -1;
+    if (diagonal > -changes + 1) {  // a line goes
+      const int from = reached(changes - 1, diagonal - 1);
+      if (from >= 0 && is_possible(from + 1, diagonal)) best = from + 1;
+    }
+    if (diagonal < changes - 1) {  // a line comes
+      const int from = reached(changes - 1, diagonal + 1);
+      if (from > best && is_possible(from, diagonal)) best = from;
+    }
+    return best;
+  }
+
+  void add_piece() {
+    furthest_.clear();
+    int best_diagonal = 0;
+    for (int changes = 0;; ++changes) {
+      furthest_.emplace_back(slot(changes, changes) + 1, -1);
+      int best_sum = -1;
+      for (int diagonal = -changes; diagonal <= changes; diagonal += 2) {
+        const int from = step(changes, diagonal);
+        if (from < 0) continue;
+        int x = from;
+        while (equal(x, x - diagonal)) ++x;
+        furthest_.back()[slot(changes, diagonal)] = x;
+        if (2 * x - diagonal > best_sum) {
+          best_sum = 2 * x - diagonal;
+          best_diagonal = diagonal;
+        }
+        const bool at_end = x == old_left() && x - diagonal == new_left();
+        if (at_end || x - from >= sure_match) return take(changes, diagonal);
+      }
+      if (changes == most_changes) return take(changes, best_diagonal);
+    }
+  }
+
+  // Goes back along the way that ends on a diagonal, and adds its changes.
+  void take(int changes, int diagonal) {
+    const int end = reached(changes, diagonal);
+    const int end_diagonal = diagonal;
+    std::vector<LineChange> way;
+    for (; changes > 0; --changes) {
+      const int to = step(changes, diagonal);
+      const bool goes = diagonal > -changes + 1 && reached(changes - 1, diagonal - 1) >= 0 &&
+                        reached(changes - 1, diagonal - 1) + 1 == to;
+      const auto x = x_ + static_cast<std::size_t>(to);
+      const auto y = y_ + static_cast<std::size_t>(to - diagonal);
+      way.push_back(goes ? LineChange{x - 1, x, y, y} : LineChange{x, x, y - 1, y});
+      diagonal += goes ? -1 : 1;
+    }
+    std::reverse(way.begin(), way.end());
+    for (const LineChange& change : way) add(change);
+    x_ += static_cast<std::size_t>(end);
+    y_ += static_cast<std::size_t>(end - end_diagonal);
+  }
+
+  void add(const LineChange& change) {
+    if (!changes_.empty() && changes_.back().old_end == change.old_begin &&
+        changes_.back().new_end == change.new_begin) {
+      changes_.back().old_end = change.old_end;
+      changes_.back().new_end = change.new_end;
+    } else {
+      changes_.push_back(change);
+    }
+  }
+
+  const Lines& before_;
+  const Lines& after_;
+  std::size_t x_ = 0;  // lines that were compared
+  std::size_t y_ = 0;
+  std::vector<Reach> furthest_;
+  std::vector<LineChange> changes_;
+};
+
+void add_line(char mark, std::string_view line, std::string& diff) {
+  diff += mark;
+  diff += line;
+  if (!line.ends_with('\n')) diff += "\n\\ No newline at end of file\n";
+}
+
+/// "12,3"; a single line has no number, and where there is none, it is the line before.
+std::string extent(std::size_t begin, std::size_t end) {
+  if (end == begin + 1) return std::to_string(end);
+  return std::to_string(begin == end ? begin : begin + 1) + "," + std::to_string(end - begin);
+}
+
+/// Changes [first, last), which are near to one another, with the lines around them.
+void add_hunk(const Lines& before, const Lines& after, const std::vector<LineChange>& changes,
+              std::size_t first, std::size_t last, std::string& diff) {
+  const std::size_t lead = std::min(context, changes[first].old_begin);
+  const std::size_t tail = std::min(context, before.size() - changes[last - 1].old_end);
+  diff += "@@ -" + extent(changes[first].old_begin - lead, changes[last - 1].old_end + tail) +
+          " +" + extent(changes[first].new_begin - lead, changes[last - 1].new_end + tail) +
+          " @@\n";
+  std::size_t line = changes[first].old_begin - lead;
+  for (std::size_t i = first; i < last; ++i) {
+    for (; line < changes[i].old_begin; ++line) add_line(' ', before[line], diff);
+    for (; line < changes[i].old_end; ++line) add_line('-', before[line], diff);
+    for (std::size_t added = changes[i].new_begin; added < changes[i].new_end; ++added) {
+      add_line('+', after[added], diff);
+    }
+  }
+  for (const std::size_t end = line + tail; line < end; ++line) add_line(' ', before[line], diff);
+}
+
+/// A file name as git writes it: in quotes if need be, and marked off by a tab if it has blanks.
+std::string name_in_head(std::string_view prefix, std::string_view file) {
+  const auto is_special = [](char byte) {
+    return static_cast<unsigned char>(byte) < 0x20 || byte == 0x7F || byte == '"' || byte == '\\';
+  };
+  std::string name(prefix);
+  if (std::none_of(file.begin(), file.end(), is_special)) {
+    name += file;
+    if (file.find(' ') != std::string_view::npos) name += '\t';
+    return name;
+  }
+  name.insert(0, "\"");
+  for (const char byte : file) {
+    if (byte == '"' || byte == '\\') {
+      name += '\\';
+      name += byte;
+    } else if (is_special(byte)) {
+      const auto code = static_cast<unsigned char>(byte);
+      name += '\\';
+      for (const unsigned shift : {6U, 3U, 0U}) {
+        name += static_cast<char>('0' + ((code >> shift) & 7U));
+      }
+    } else {
+      name += byte;
+    }
+  }
+  return name + '"';
+}
+
+}  // namespace
+
+std::string unified_diff(std::string_view before, std::string_view after, std::string_view file) {
+  const Lines old_lines = split(before);
+  const Lines new_lines = split(after);
+  const std::vector<LineChange> changes = LineComparison(old_lines, new_lines).run();
+  if (changes.empty()) return {};
+  std::string diff = "--- " + name_in_head("a/", file) + "\n+++ " + name_in_head("b/", file) + "\n";
+  for (std::size_t first = 0; first < changes.size();) {
+    std::size_t last = first + 1;
+    while (last < changes.size() &&
+           changes[last].old_begin - changes[last - 1].old_end <= 2 * context) {
+      ++last;
+    }
+    add_hunk(old_lines, new_lines, changes, first, last, diff);
+    first = last;
+  }
+  return diff;
+}
+
+namespace {
+
+using yaml::Kind;
+using yaml::Node;
+
+constexpr std::string_view blanks = " \t\r\n";
+
+bool is_blank(char byte) { return blanks.find(byte) != std::string_view::npos; }
+
+/// Whether a comment for this program stands alone above a line: it would be about what follows.
+bool has_control_above(std::string_view text, std::size_t line_begin) {
+  std::string_view above = text.substr(0, line_begin);
+  while (!above.empty()) {
+    above.remove_suffix(1);                           // the line break
+    const std::size_t begin = above.rfind('\n') + 1;  // 0 if there is none
+    const std::string_view line = above.substr(begin);
+    above = above.substr(0, begin);
+    const std::size_t content = line.find_first_not_of(" \t\r");
+    if (content == std::string_view::npos) continue;
+    if (line[content] != '#') return false;
+    if (line.find("cbc:", content) != std::string_view::npos) return true;
+  }
+  return false;
+}
+
+/// Whether a comment may stand in a piece of a text: any '#', as what begins one is a matter of
+/// taste among parsers.
+bool may_have_comment(std::string_view text, const Span& span) {
+  return text.substr(span.begin, span.end - span.begin).find('#') != std::string_view::npos;
+}
+
+/// A comma between two items, and nothing else but blanks and line breaks.
+bool is_one_comma(std::string_view gap) {
+  return std::count(gap.begin(), gap.end(), ',') == 1 &&
+         std::all_of(gap.begin(), gap.end(),
+                     [](char byte) { return byte == ',' || is_blank(byte); });
+}
+
+/// A line of a text: its indentation, and its first byte that is not blank, if there is one.
+struct Line {
+  std::size_t begin = 0;
+  std::size_t end = 0;      ///< with its line break
+  std::size_t content = 0;  ///< `end` if there is none
+};
+
+Line line_at(std::string_view text, std::size_t begin) {
+  Line line;
+  line.begin = begin;
+  const std::size_t line_break = text.find('\n', begin);
+  line.end = line_break == std::string_view::npos ? text.size() : line_break + 1;
+  line.content = std::min(text.find_first_not_of(blanks, begin), line.end);
+  return line;
+}
+
+bool is_dash(std::string_view text, std::size_t offset) {
+  return text[offset] == '-' && (offset + 1 == text.size() || is_blank(text[offset + 1]));
+}
+
+}  // namespace
+
+EntrySpans::EntrySpans(std::string_view text, const yaml::Document& document,
+                       const PositionMap& positions)
+    : text_(text), positions_(positions) {
+  index(document.root());
+}
+
+void EntrySpans::index(const Node& node) {
+  if (node.shared) return;
+  for (std::size_t place = 0; place < node.items.size(); ++place) {
+    const Node& item = *node.items[place];
+    if (!item.shared) entries_[item.range.begin] = {&node, place};
+    index(item);
+  }
+  for (const auto& entry : node.entries) index(*entry.second);
+}
+
+std::optional<EntrySpans::Entry> EntrySpans::find(const Position& begin) const {
+  const auto found = entries_.find(begin);
+  return found == entries_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<Span> EntrySpans::span_of(const Entry& entry) const {
+  const std::optional<Span> span =
+      is_in_brackets(*entry.list) ? item_and_comma(entry) : lines_of(entry);
+  if (!span || may_have_comment(text_, *span)) return std::nullopt;
+  if (!lies_within(*entry.list->items[entry.place], *span)) return std::nullopt;
+  return span;
+}
+
+char EntrySpans::first_byte(const Node& node) const {
+  const std::size_t begin = positions_.offset(node.range.begin);
+  return begin < text_.size() ? text_[begin] : '\0';
+}
+
+bool EntrySpans::is_in_brackets(const Node& node) const {
+  return first_byte(node) == '[' || first_byte(node) == '{';
+}
+
+/// Whether a value stands in a span as a whole. What an alias stands for may be anywhere, but not
+/// in the span, as it would go with it.
+bool EntrySpans::lies_within(const Node& node, const Span& span) const {
+  const std::size_t begin = positions_.offset(node.range.begin);
+  const bool begins_within = span.begin <= begin && begin < span.end;
+  if (node.shared) return !begins_within;
+  if (!begins_within) return false;
+  if (node.kind == Kind::scalar) {
+    // Where a block of text ends is not known.
+    if (!node.plain && (first_byte(node) == '|' || first_byte(node) == '>')) return false;
+    return positions_.offset(node.range.end) <= span.end;
+  }
+  if (node.kind != Kind::null && is_in_brackets(node)) {
+    const std::optional<std::size_t> end = end_of(node);
+    if (!end || *end > span.end) return false;
+  }
+  return std::all_of(node.items.begin(), node.items.end(),
+                     [&](const Node* item) { return lies_within(*item, span); }) &&
+         std::all_of(node.entries.begin(), node.entries.end(), [&](const auto& entry) {
+           return lies_within(*entry.first, span) && lies_within(*entry.second, span);
+         });
+}
+
+/// One past a text or a collection in brackets, if that can be told.
+std::optional<std::size_t> EntrySpans::end_of(const Node& node) const {
+  if (node.shared || node.kind == Kind::null) return std::nullopt;
+  if (node.kind == Kind::scalar) return positions_.offset(node.range.end);
+  if (!is_in_brackets(node)) return std::nullopt;
+
+  std::size_t end = positions_.offset(node.range.begin) + 1;
+  if (!node.items.empty() || !node.entries.empty()) {
+    const Node* last = node.items.empty() ? node.entries.back().second : node.items.back();
+    // A value that is not written out has the place of its key.
+    const bool is_missing = last->kind == Kind::null && !node.entries.empty() &&
+                            last->range == node.entries.back().first->range;
+    const std::optional<std::size_t> last_end =
+        last->kind == Kind::null ? positions_.offset(last->range.end) : end_of(*last);
+    if (!last_end || (last->kind == Kind::null && !node.items.empty())) return std::nullopt;
+    end = yaml::find_content(text_, *last_end);
+    if (is_missing && end < text_.size() && text_[end] == ':') ++end;
+    end = yaml::find_content(text_, end);
+    if (end < text_.size() && text_[end] == ',') ++end;
+  }
+  end = yaml::find_content(text_, end);
+  const char bracket = node.kind == Kind::sequence ? ']' : '}';
+  if (end >= text_.size() || text_[end] != bracket) return std::nullopt;
+  return end + 1;
+}
+
+/// From the line with the dash to the last one that is indented deeper. Blank lines and comments
+/// after that belong to what follows.
+std::optional<Span> EntrySpans::lines_of(const Entry& entry) const {
+  const std::size_t begin = positions_.offset(entry.list->items[entry.place]->range.begin);
+  const Position line_begin{entry.list->items[entry.place]->range.begin.line, 1};
+  const Line first = line_at(text_, positions_.offset(line_begin));
+  const std::size_t dash = first.content;
+  if (dash >= begin || !is_dash(text_, dash)) return std::nullopt;
+  if (has_control_above(text_, first.begin)) return std::nullopt;
+  if (text_.find_first_not_of(blanks, dash + 1) != begin) return std::nullopt;
+
+  const std::size_t indentation = dash - first.begin;
+  const bool is_last = entry.place + 1 == entry.list->items.size();
+  std::size_t end = first.end;
+  for (Line line = first; line.end < text_.size();) {
+    line = line_at(text_, line.end);
+    if (line.content == line.end || text_[line.content] == '#') continue;
+    const std::size_t depth = line.content - line.begin;
+    if (depth > indentation) {
+      end = line.end;
+      continue;
+    }
+    // What follows must be the next entry, or something else after the last one.
+    const bool is_next = depth == indentation && is_dash(text_, line.content);
+    const bool closes = std::string_view(",]}").find(text_[line.content]) != std::string_view::npos;
+    if (is_next == is_last || closes) return std::nullopt;
+    return Span{first.begin, end};
+  }
+  return is_last ? std::optional(Span{first.begin, end}) : std::nullopt;
+}
+
+/// With the comma before it; the first item with the one after it.
+std::optional<Span> EntrySpans::item_and_comma(const Entry& entry) const {
+  const std::vector<const Node*>& items = entry.list->items;
+  const Node& item = *items[entry.place];
+  const std::size_t begin = positions_.offset(item.range.begin);
+  const std::optional<std::size_t> end = end_of(item);
+  if (!end) return std::nullopt;
+  if (entry.place == 0) {
+    if (items.size() == 1 || items[1]->shared) return std::nullopt;
+    const std::size_t next = positions_.offset(items[1]->range.begin);
+    if (next < *end || !is_one_comma(text_.substr(*end, next - *end))) return std::nullopt;
+    return Span{begin, next};
+  }
+  const std::optional<std::size_t> before = end_of(*items[entry.place - 1]);
+  if (!before || *before > begin || !is_one_comma(text_.substr(*before, begin - *before))) {
+    return std::nullopt;
+  }
+  const std::size_t after = text_.find_first_not_of(blanks, *end);
+  if (after == std::string_view::npos || (text_[after] != ',' && text_[after] != ']')) {
+    return std::nullopt;
+  }
+  return Span{*before, *end};
+}
+
+namespace {
+
+/// An edit whose place in the text is known.
+struct Change {
+  Span span;
+  std::string_view text;
+  const yaml::Node* list = nullptr;  ///< from which it removes an entry
+};
+
+/// All that mends one finding.
+struct Fix {
+  std::size_t finding = 0;
+  std::vector<Change> changes;  ///< at least one
+
+  [[nodiscard]] bool removes() const { return changes.front().list != nullptr; }
+};
+
+bool has_removal(std::span<const Diagnostic> findings) {
+  return std::any_of(findings.begin(), findings.end(), [](const Diagnostic& finding) {
+    return std::any_of(finding.edits.begin(), finding.edits.end(),
+                       [](const Edit& edit) { return edit.kind == Edit::Kind::remove_entry; });
+  });
+}
+
+/// Finds the places of edits in a text.
+class Placement {
+ public:
+  /// `body` is the text without its byte order mark, as places are counted.
+  Placement(std::string_view text, std::string_view body, std::span<const Diagnostic> findings)
+      : positions_(body) {
+    if (!has_removal(findings)) return;
+    Diagnostics ignored;
+    document_ = yaml::parse(text, {}, ignored);
+    if (document_ != nullptr) entries_.emplace(body, *document_, positions_);
+  }
+
+  /// The fix of a finding, or nothing if there is none that is safe.
+  [[nodiscard]] std::optional<Fix> place(std::size_t number, const Diagnostic& finding) const {
+    Fix fix;
+    fix.finding = number;
+    for (const Edit& edit : finding.edits) {
+      const std::optional<Change> change =
+          edit.kind == Edit::Kind::replace ? replacement(edit) : removal(edit);
+      if (!change) return std::nullopt;
+      fix.changes.push_back(*change);
+    }
+    return fix.changes.empty() ? std::nullopt : std::optional(std::move(fix));
+  }
+
+ private:
+  [[nodiscard]] std::optional<Change> replacement(const Edit& edit) const {
+    const Span span{positions_.offset(edit.range.begin), positions_.offset(edit.range.end)};
+    if (span.begin >= span.end) return std::nullopt;
+    return Change{span, edit.text, nullptr};
+  }
+
+  [[nodiscard]] std::optional<Change> removal(const Edit& edit) const {
+    if (!entries_) return std::nullopt;
+    const std::optional<EntrySpans::Entry> entry = entries_->find(edit.range.begin);
+    if (!entry) return std::nullopt;
+    const std::optional<Span> span = entries_->span_of(*entry);
+    if (!span) return std::nullopt;
+    return Change{*span, {}, entry->list};
+  }
+
+  PositionMap positions_;
+  std::unique_ptr<const yaml::Document> document_;
+  std::optional<EntrySpans> entries_;
+};
+
+/// The changes that do not get in the way of one another.
+class Selection {
+ public:
+  /// Whether a fix could be taken, or is not needed any more.
+  bool take(const Fix& fix) {
+    if (std::all_of(fix.changes.begin(), fix.changes.end(),
+                    [this](const Change& change) { return is_removed(change.span); })) {
+      return true;
+    }
+    if (!std::all_of(fix.changes.begin(), fix.changes.end(),
+                     [this](const Change& change) { return is_possible(change); })) {
+      return false;
+    }
+    for (const Change& change : fix.changes) {
+      changes_.emplace(change.span.begin, change);
+      if (change.list != nullptr) ++removed_[change.list];
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::string apply(std::string_view text) const {
+    std::string result;
+    std::size_t copied = 0;
+    for (const auto& [begin, change] : changes_) {
+      result += text.substr(copied, begin - copied);
+      result += change.text;
+      copied = change.span.end;
+    }
+    result += text.substr(copied);
+    return result;
+  }
+
+ private:
+  [[nodiscard]] bool is_removed(const Span& span) const {
+    const auto next = changes_.upper_bound(span.begin);
+    if (next == changes_.begin()) return false;
+    const Change& before = std::prev(next)->second;
+    return before.list != nullptr && span.end <= before.span.end;
+  }
+
+  /// A list must keep an entry: an empty one is something else.
+  [[nodiscard]] bool is_possible(const Change& change) const {
+    const auto next = changes_.lower_bound(change.span.begin);
+    if (next != changes_.end() && next->first < change.span.end) return false;
+    if (next != changes_.begin() && std::prev(next)->second.span.end > change.span.begin) {
+      return false;
+    }
+    if (change.list == nullptr) return true;
+    const auto removed = removed_.find(change.list);
+    const std::size_t gone = removed == removed_.end() ? 0 : removed->second;
+    return gone + 1 < change.list->items.size();
+  }
+
+  std::map<std::size_t, Change> changes_;  // by their begin; they do not overlap
+  std::map<const yaml::Node*, std::size_t> removed_;
+};
+
+/// Removals first, what is around others before them; otherwise as given.
+void order(std::vector<Fix>& fixes) {
+  std::stable_sort(fixes.begin(), fixes.end(), [](const Fix& a, const Fix& b) {
+    if (!a.removes() || !b.removes()) return a.removes() && !b.removes();
+    const Span& x = a.changes.front().span;
+    const Span& y = b.changes.front().span;
+    return x.begin != y.begin ? x.begin < y.begin : x.end > y.end;
+  });
+}
+
+/// Takes the line break off that became the last one because the line after it was removed.
+void drop_line_break(std::string& text) {
+  if (!text.ends_with('\n')) return;
+  text.pop_back();
+  if (text.ends_with('\r')) text.pop_back();
+}
+
+}  // namespace
+
+FixedText apply_fixes(std::string_view text, std::span<const Diagnostic> findings) {
+  FixedText fixed;
+  const std::string_view body = utf8::without_byte_order_mark(text);
+  fixed.text = text.substr(0, text.size() - body.size());
+  const Placement placement(text, body, findings);
+  std::vector<Fix> fixes;
+  for (std::size_t number = 0; number < findings.size(); ++number) {
+    if (auto fix = placement.place(number, findings[number])) fixes.push_back(std::move(*fix));
+  }
+  order(fixes);
+  Selection selection;
+  for (const Fix& fix : fixes) {
+    if (selection.take(fix)) fixed.mended.push_back(fix.finding);
+  }
+  std::sort(fixed.mended.begin(), fixed.mended.end());
+  fixed.text += selection.apply(body);
+  if (!text.ends_with('\n')) drop_line_break(fixed.text);
+  return fixed;
+}
+
+}  // namespace cbc

@@ -1,0 +1,454 @@
+#include "lint/lint.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include "base/text.h"
+#include "catalog/allowed_values.h"
+#include "catalog/catalog.h"
+#include "catalog/draft.h"
+#include "compile/compile.h"
+#include "diagnostic/diagnostic.h"
+#include "diagnostic/rules.h"
+#include "lint/checks.h"
+#include "support/wording.h"
+
+namespace cbc {
+
+std::size_t count(const LintedFile& file, Severity severity) {
+  return static_cast<std::size_t>(std::count_if(
+      file.findings.begin(), file.findings.end(),
+      [severity](const Diagnostic& finding) { return finding.severity == severity; }));
+}
+
+std::size_t count(const std::vector<LintedFile>& files, Severity severity) {
+  std::size_t sum = 0;
+  for (const LintedFile& file : files) sum += count(file, severity);
+  return sum;
+}
+
+bool looks_like_fraction(Millionths degree) {
+  constexpr Millionths one_percent = one_million / 100;
+  return degree > 0 && degree <= one_percent;
+}
+
+std::string show_product(const std::vector<Millionths>& factors) {
+  using boost::multiprecision::cpp_int;
+  cpp_int product = 1;
+  cpp_int divisor = 1;
+  for (const Millionths factor : factors) {
+    product *= factor;
+    divisor *= one_million;
+  }
+  return format_percent(static_cast<Millionths>(product * one_million / divisor));
+}
+
+void check_suspicious_minimum(Millionths minimum, const Range& range, Reporter& reporter) {
+  if (!looks_like_fraction(minimum)) return;
+  reporter.report(rule::suspicious_minimum, range,
+                  "a minimum_performance of " + format_percent(minimum) +
+                      " is next to nothing; is " + format_percent(std::int64_t{minimum} * 100) +
+                      " meant?");
+}
+
+namespace {
+
+void check_suitability(const Performance& performance, Reporter& reporter) {
+  if (!performance.suitability_range) return;
+  const Millionths suitability = performance.suitability;
+  // One number may be that of many behaviors, so the message names none.
+  if (suitability == 0) {
+    reporter.report(rule::suspicious_suitability, *performance.suitability_range,
+                    "a suitability of 0 % makes the performance of all that depends on it 0");
+  } else if (looks_like_fraction(suitability)) {
+    reporter.report(rule::suspicious_suitability, *performance.suitability_range,
+                    "a suitability of " + format_percent(suitability) + " is next to nothing; is " +
+                        format_percent(std::int64_t{suitability} * 100) + " meant?");
+  }
+}
+
+void check_timeout(const Catalog& catalog, const Behavior& behavior, Reporter& reporter) {
+  if (!behavior.timeout || behavior.performs.empty()) return;
+  const bool has_effect = std::any_of(behavior.performs.begin(), behavior.performs.end(),
+                                      [&catalog](const Performance& performance) {
+                                        return catalog.tasks[performance.task].execution_goal ==
+                                               ExecutionGoal::achieve_goal;
+                                      });
+  if (has_effect) return;
+  reporter.report(rule::no_timeout_effect, behavior.timeout_range,
+                  "the timeout of behavior " + quote(behavior.name) +
+                      " has no effect: the execution_goal of what it performs is keep_running");
+}
+
+}  // namespace
+
+void check_behaviors(const Catalog& catalog, bool is_complete, Reporter& reporter) {
+  for (const Behavior& behavior : catalog.behaviors) {
+    for (const Performance& performance : behavior.performs) {
+      check_suitability(performance, reporter);
+    }
+    for (const Requirement& requirement : behavior.requirements) {
+      check_suspicious_minimum(requirement.minimum_performance,
+                               requirement.minimum_performance_range, reporter);
+    }
+    if (is_complete) check_timeout(catalog, behavior, reporter);
+  }
+}
+
+namespace {
+
+/// What behaviors say about each task.
+struct Use {
+  std::size_t behaviors = 0;  ///< that perform it
+  bool has_behavior_timeout = false;
+  const Behavior* required_by = nullptr;  ///< the first one
+  Range required_at;
+  std::size_t requirements = 0;
+};
+
+std::vector<Use> find_uses(const Catalog& catalog) {
+  std::vector<Use> uses(catalog.tasks.size());
+  for (const Behavior& behavior : catalog.behaviors) {
+    for (const Performance& performance : behavior.performs) {
+      ++uses[performance.task].behaviors;
+      uses[performance.task].has_behavior_timeout |= behavior.timeout.has_value();
+    }
+    for (const Requirement& requirement : behavior.requirements) {
+      Use& use = uses[requirement.task];
+      if (use.requirements++ > 0) continue;
+      use.required_by = &behavior;
+      use.required_at = requirement.range;
+    }
+  }
+  return uses;
+}
+
+void check_required_goal(const Task& task, const Use& use, Reporter& reporter) {
+  if (use.requirements == 0 || task.execution_goal == ExecutionGoal::keep_running) return;
+  std::string who = describe(*use.required_by) + " requires it";
+  if (use.requirements > 1) {
+    who += ", and " + std::to_string(use.requirements - 1) + " more";
+  }
+  reporter.report(rule::required_goal, task.range,
+                  "task " + quote(task.name) +
+                      " is required, but ends when its goal is achieved; what requires it then "
+                      "stops too",
+                  {reporter.note(use.required_at, std::move(who))});
+}
+
+void check_timeout(const Task& task, const Use& use, Reporter& reporter) {
+  if (task.execution_goal == ExecutionGoal::keep_running) {
+    if (task.own_timeout_range) {
+      reporter.report(rule::no_timeout_effect, *task.own_timeout_range,
+                      "the timeout of task " + quote(task.name) +
+                          " has no effect: its execution_goal is keep_running");
+    }
+    return;
+  }
+  if (task.reactive_start && (task.timeout || use.has_behavior_timeout)) {
+    const std::string after = task.timeout ? "after " + format_decimal(*task.timeout, 6) + " s"
+                                           : "by the timeout of a behavior";
+    reporter.report(rule::reactive_timeout, task.range,
+                    "task " + quote(task.name) + " starts reactively and is ended " + after +
+                        ", so it can end and start again for ever");
+  }
+}
+
+void check_allowed_values(const Task& task, const Parameter& parameter, Reporter& reporter) {
+  const std::string name = "parameter " + quote(parameter.name) + " of task " + quote(task.name);
+  if (is_empty_range(parameter)) {
+    reporter.report(rule::empty_range, parameter.allowed_range,
+                    name + " has no allowed value: the range goes from " +
+                        quote(parameter.allowed_values[0]) + " down to " +
+                        quote(parameter.allowed_values[1]));
+  } else if (is_unknown_type(parameter)) {
+    std::string message = name + " has a type that is not known, " +
+                          quote(parameter.allowed_values[0]) + ", so its values are not checked";
+    message += did_you_mean(nearest_type(parameter.allowed_values[0]));
+    reporter.report(rule::unknown_type, parameter.allowed_range, std::move(message));
+  }
+}
+
+bool allow_the_same(const Parameter& a, const Parameter& b) {
+  return a.allowed_values == b.allowed_values && a.allowed_is_list == b.allowed_is_list;
+}
+
+void check_parameters(const Task& task, Reporter& reporter) {
+  struct Known {
+    const Parameter* first = nullptr;
+    const Parameter* last = nullptr;
+  };
+  std::unordered_map<std::string_view, Known> known;
+  for (const Parameter& parameter : task.parameters) {
+    check_allowed_values(task, parameter, reporter);
+    if (parameter.name.empty()) continue;
+    const auto [entry, is_new] = known.try_emplace(parameter.name, Known{&parameter, &parameter});
+    if (is_new) continue;
+    Known& same_name = entry->second;
+    std::vector<Edit> edits;
+    if (parameter.entry && allow_the_same(*same_name.last, parameter)) {
+      edits.push_back({Edit::Kind::remove_entry, *parameter.entry, {}});
+    }
+    same_name.last = &parameter;
+    reporter.report(
+        rule::duplicate_parameter, parameter.range,
+        "parameter " + quote(parameter.name) + " of task " + quote(task.name) + " is listed twice",
+        {reporter.note(same_name.first->range, "first listed here")}, std::move(edits));
+  }
+}
+
+/// Reports tasks that no behavior performs. Of those, behaviors whose task is missing in the file
+/// may have been meant to perform some: the task whose name begins theirs, or any one.
+void check_performed(const CatalogReading& reading, const std::vector<Use>& uses,
+                     Reporter& reporter) {
+  if (!reading.has_all_behaviors) return;
+  std::vector<const Task*> not_performed;
+  for (std::size_t index = 0; index < uses.size(); ++index) {
+    if (uses[index].behaviors == 0) not_performed.push_back(&reading.catalog.tasks[index]);
+  }
+  std::size_t without_task = 0;
+  for (const Behavior& behavior : reading.catalog.behaviors) {
+    if (!behavior.performs.empty()) continue;
+    const auto meant = std::find_if(
+        not_performed.begin(), not_performed.end(),
+        [&behavior](const Task* task) { return behavior.name.starts_with(task->name); });
+    if (meant == not_performed.end()) {
+      ++without_task;
+    } else {
+      not_performed.erase(meant);
+    }
+  }
+  if (not_performed.size() <= without_task) return;
+  for (const Task* task : not_performed) {
+    reporter.report(rule::task_without_behavior, task->range,
+                    "no behavior performs task " + quote(task->name));
+  }
+}
+
+/// Without a section of tasks all of them are named by behaviors only, and one finding says so.
+void check_implicit_tasks(const Catalog& catalog, Reporter& reporter) {
+  std::vector<std::string_view> listed;
+  for (const Task& task : catalog.tasks) {
+    if (!task.implicit) listed.push_back(task.name);
+  }
+  Suggestions suggestions(std::move(listed));
+  for (const Task& task : catalog.tasks) {
+    if (!task.implicit) continue;
+    if (!catalog.has_task_section) {
+      reporter.report(rule::implicit_task, task.range,
+                      "there is no 'tasks' section: all tasks are named by behaviors only, and "
+                      "have the default attributes");
+      return;
+    }
+    std::string message =
+        "task " + quote(task.name) + " is named by a behavior only, and has the default attributes";
+    message += did_you_mean(suggestions.nearest(task.name));
+    reporter.report(rule::implicit_task, task.range, std::move(message));
+  }
+}
+
+}  // namespace
+
+void check_tasks(const CatalogReading& reading, Reporter& reporter) {
+  const Catalog& catalog = reading.catalog;
+  const std::vector<Use> uses = find_uses(catalog);
+  for (std::size_t index = 0; index < catalog.tasks.size(); ++index) {
+    const Task& task = catalog.tasks[index];
+    const Use& use = uses[index];
+    check_suspicious_minimum(task.minimum_performance, task.minimum_performance_range, reporter);
+    if (!task.is_unclear) {
+      check_required_goal(task, use, reporter);
+      check_timeout(task, use, reporter);
+    }
+    check_parameters(task, reporter);
+  }
+  check_performed(reading, uses, reporter);
+  if (reading.has_all_names) check_implicit_tasks(catalog, reporter);
+}
+
+namespace {
+
+/// The tasks of a list, each once, in order.
+std::vector<TaskIndex> distinct_tasks(const ExclusivityList& list) {
+  std::vector<TaskIndex> tasks = list.tasks;
+  std::sort(tasks.begin(), tasks.end());
+  tasks.erase(std::unique(tasks.begin(), tasks.end()), tasks.end());
+  return tasks;
+}
+
+void check_own_tasks(const Catalog& catalog, const ExclusivityList& list, Reporter& reporter) {
+  std::unordered_map<TaskIndex, Range> known;
+  bool has_repetition = false;
+  // A list of one task, given twice, must have been meant to have another one.
+  const bool is_mendable = distinct_tasks(list).size() > 1;
+  for (std::size_t place = 0; place < list.tasks.size(); ++place) {
+    const auto [first, is_new] = known.try_emplace(list.tasks[place], list.ranges[place]);
+    if (is_new) continue;
+    has_repetition = true;
+    std::vector<Edit> edits;
+    if (is_mendable) edits.push_back({Edit::Kind::remove_entry, list.ranges[place], {}});
+    reporter.report(rule::self_exclusion, list.ranges[place],
+                    "task " + quote(catalog.tasks[list.tasks[place]].name) +
+                        " stands twice in one list; a task does not exclude itself",
+                    {reporter.note(first->second, "first given here")}, std::move(edits));
+  }
+  if (known.size() < 2 && !has_repetition && list.is_complete) {
+    reporter.report(rule::trivial_exclusion, list.range,
+                    list.tasks.empty() ? "the list has no task, so it excludes nothing"
+                                       : "the list has one task only, so it excludes nothing");
+  }
+}
+
+/// Finds lists that another list contains. Each list is compared only with those that have its
+/// rarest task.
+class Containment {
+ public:
+  explicit Containment(const Catalog& catalog)
+      : catalog_(catalog), lists_of_(catalog.tasks.size()) {
+    for (const ExclusivityList& list : catalog.exclusivity) tasks_.push_back(distinct_tasks(list));
+    for (std::size_t list = 0; list < tasks_.size(); ++list) {
+      for (const TaskIndex task : tasks_[list]) lists_of_[task].push_back(list);
+    }
+  }
+
+  void report(Reporter& reporter) {
+    for (std::size_t list = 0; list < tasks_.size(); ++list) {
+      if (tasks_[list].size() < 2 || !catalog_.exclusivity[list].is_complete) continue;
+      const std::size_t other = find_container(list);
+      if (other == tasks_.size()) continue;
+      std::vector<Edit> edits;
+      if (const auto& entry = catalog_.exclusivity[list].entry) {
+        edits.push_back({Edit::Kind::remove_entry, *entry, {}});
+      }
+      const bool has_more =
+          tasks_[other].size() > tasks_[list].size() || !catalog_.exclusivity[other].is_complete;
+      reporter.report(
+          rule::duplicate_exclusion, catalog_.exclusivity[list].range,
+          std::string("another list has ") + (has_more ? "all of these tasks" : "the same tasks") +
+              ", so this one excludes nothing new",
+          {reporter.note(catalog_.exclusivity[other].range, "it is here")}, std::move(edits));
+    }
+  }
+
+ private:
+  /// A list with all tasks of `list`; of equal lists an earlier one. The number of lists if there
+  /// is none.
+  std::size_t find_container(std::size_t list) {
+    const auto rarest = *std::min_element(
+        tasks_[list].begin(), tasks_[list].end(),
+        [this](TaskIndex a, TaskIndex b) { return lists_of_[a].size() < lists_of_[b].size(); });
+    for (const std::size_t other : lists_of_[rarest]) {
+      if (other == list || tasks_[other].size() < tasks_[list].size()) continue;
+      if (tasks_[other].size() == tasks_[list].size() && other > list) continue;
+      if (work_left_ < tasks_[list].size() + tasks_[other].size()) break;
+      work_left_ -= tasks_[list].size() + tasks_[other].size();
+      if (std::includes(tasks_[other].begin(), tasks_[other].end(), tasks_[list].begin(),
+                        tasks_[list].end())) {
+        return other;
+      }
+    }
+    return tasks_.size();
+  }
+
+  const Catalog& catalog_;
+  std::vector<std::vector<TaskIndex>> tasks_;       ///< by list
+  std::vector<std::vector<std::size_t>> lists_of_;  ///< by task
+  std::size_t work_left_ = 100'000'000;  ///< so that no catalog takes long; it is only advice
+};
+
+}  // namespace
+
+void check_exclusivity(const Catalog& catalog, Reporter& reporter) {
+  for (const ExclusivityList& list : catalog.exclusivity) {
+    check_own_tasks(catalog, list, reporter);
+  }
+  Containment(catalog).report(reporter);
+}
+
+namespace {
+
+class ConflictCheck {
+ public:
+  ConflictCheck(const Catalog& catalog, Reporter& reporter)
+      : catalog_(catalog), reporter_(reporter), exclusions_(catalog) {}
+
+  /// Reports each requirement that conflicts with one before it, once. Whether there is one.
+  bool check(const Behavior& behavior) {
+    bool has_conflict = false;
+    std::unordered_map<std::size_t, const Requirement*> first_in;  // by list
+    for (const Requirement& requirement : behavior.requirements) {
+      if (exclusions_.find_for_all(behavior, requirement.task)) {
+        has_conflict = true;
+        continue;
+      }
+      bool is_reported = false;
+      for (const std::size_t list : exclusions_.lists_of(requirement.task)) {
+        const Requirement*& first = first_in.try_emplace(list, &requirement).first->second;
+        if (first->task == requirement.task || is_reported) continue;
+        report(behavior, requirement, *first, list);
+        is_reported = true;
+      }
+      has_conflict |= is_reported;
+    }
+    return has_conflict;
+  }
+
+ private:
+  void report(const Behavior& behavior, const Requirement& requirement, const Requirement& other,
+              std::size_t list) {
+    const std::string name = quote(catalog_.tasks[requirement.task].name);
+    const std::string other_name = quote(catalog_.tasks[other.task].name);
+    reporter_.report(
+        rule::conflicting_requirements, requirement.range,
+        describe(behavior) + " requires both " + other_name + " and " + name +
+            ", which exclude one another, so it can never be active",
+        {reporter_.note(other.range, other_name + " is required here"),
+         reporter_.note(catalog_.exclusivity[list].range, "mutually exclusive by this list")});
+  }
+
+  const Catalog& catalog_;
+  Reporter& reporter_;
+  Exclusions exclusions_;
+};
+
+}  // namespace
+
+std::vector<bool> check_conflicting_requirements(const Catalog& catalog, Reporter& reporter) {
+  ConflictCheck check(catalog, reporter);
+  std::vector<bool> conflicts;
+  for (const Behavior& behavior : catalog.behaviors) conflicts.push_back(check.check(behavior));
+  return conflicts;
+}
+
+LintResult lint_catalog(const yaml::Document& document, const LintOptions& options,
+                        Diagnostics& diagnostics) {
+  LintResult result;
+  result.reading = understand_catalog(document, diagnostics);
+  const Catalog& catalog = result.reading.catalog;
+  Reporter reporter(document.file(), diagnostics);
+  const CatalogReading& reading = result.reading;
+  check_tasks(reading, reporter);
+  check_behaviors(catalog, reading.is_complete, reporter);
+  check_exclusivity(catalog, reporter);
+  const std::vector<bool> conflicts = check_conflicting_requirements(catalog, reporter);
+  if (!reading.has_all_names || !reading.is_acyclic) {
+    // What is missing may be the reason of anything else that could be found.
+    check_on_request_requirements(catalog, conflicts, reporter);
+    return result;
+  }
+  CompiledCatalog compiled = compile(catalog);
+  check_semantics(reading, compiled, conflicts, options, reporter);
+  if (reading.is_complete) result.compiled = std::move(compiled);
+  return result;
+}
+
+}  // namespace cbc

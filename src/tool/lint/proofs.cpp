@@ -1,0 +1,347 @@
+#include "lint/proofs.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "diagnostic/rules.h"
+
+namespace cbc {
+namespace {
+
+/// A decision takes about as long as looking at this many values.
+constexpr std::uint64_t effort_of_a_node = 50;
+constexpr std::uint64_t most_effort_of_search = 100'000'000;
+
+SearchOptions search_options(std::uint64_t max_nodes, bool any_solution) {
+  SearchOptions options;
+  options.max_nodes = max_nodes;
+  options.any_solution = any_solution;
+  // Looking ahead bounds the objective, which does not matter for any solution.
+  if (any_solution) options.easy_nodes = UINT64_MAX;
+  return options;
+}
+
+}  // namespace
+
+AssignmentSearch::AssignmentSearch(CompiledCatalog catalog, std::uint64_t max_nodes)
+    : catalog_(std::move(catalog)),
+      tasks_(catalog_.tasks.begin(), catalog_.tasks.end()),
+      any_(catalog_, search_options(max_nodes, true), no_ranks_),
+      best_(catalog_, search_options(max_nodes, false), no_ranks_),
+      domains_(catalog_.words.back(), 0),
+      effort_left_(most_effort_of_search) {
+  catalog_.tasks = tasks_;
+  for (ValueId value = 0; value < catalog_.values.items.size(); ++value) {
+    const Bit bit = bit_of(value);
+    domains_[bit.word] |= bit.mask;
+  }
+}
+
+AssignmentSearch::Bit AssignmentSearch::bit_of(ValueId value) const {
+  const TaskId task = catalog_.task_of(value);
+  const std::uint32_t place = value - catalog_.values.begin[task];
+  return {catalog_.words[task] + place / 64, std::uint64_t{1} << (place % 64)};
+}
+
+void AssignmentSearch::rule_out(ValueId value) {
+  const Bit bit = bit_of(value);
+  domains_[bit.word] &= ~bit.mask;
+}
+
+Feasibility AssignmentSearch::find(ValueId value, std::span<const TaskId> closed,
+                                   Assignment& solution) {
+  const TaskId task = catalog_.task_of(value);
+  open_group(catalog_.tasks[task].group);
+  for (const TaskId other : closed) close(other);
+  close(task);
+  allow(value);
+  must_run(task);
+  return solve(any_, solution);
+}
+
+/// The assignments with the best product of all suitabilities run nothing that lowers it beside the
+/// task and what it requires, so their product is the best performance.
+AssignmentSearch::Best AssignmentSearch::best_performance(TaskId task, bool ignore_minimum) {
+  open_group(catalog_.tasks[task].group);
+  must_run(task);
+  CompiledTask& compiled = tasks_[task];
+  const CompiledTask before = compiled;
+  if (ignore_minimum) {
+    compiled.minimum_performance = 0;
+    compiled.minimum_cost = 0;
+    // Its values may have been ruled out by the minimum.
+    for (const Value& value : catalog_.values[task]) {
+      allow(static_cast<ValueId>(&value - catalog_.values.items.data()));
+    }
+  }
+  Best best;
+  Assignment solution;
+  best.exists = solve(best_, solution);
+  compiled = before;
+  if (best.exists == Feasibility::yes) best.factors = factors_of(task, solution);
+  return best;
+}
+
+/// The problem of a group with all that is not ruled out.
+void AssignmentSearch::open_group(std::uint32_t group) {
+  const TaskId first = catalog_.group_tasks[group];
+  const TaskId end = catalog_.group_tasks[group + 1];
+  problem_.group = group;
+  problem_.domains.assign(domains_.begin() + catalog_.words[first],
+                          domains_.begin() + catalog_.words[end]);
+  problem_.may_stop.assign(end - first, 1);
+  problem_.present.assign(end - first, none);
+}
+
+std::uint32_t AssignmentSearch::first_word() const {
+  return catalog_.words[catalog_.group_tasks[problem_.group]];
+}
+
+void AssignmentSearch::allow(ValueId value) {
+  const Bit bit = bit_of(value);
+  problem_.domains[bit.word - first_word()] |= bit.mask;
+}
+
+void AssignmentSearch::must_run(TaskId task) {
+  problem_.may_stop[task - catalog_.group_tasks[problem_.group]] = 0;
+}
+
+void AssignmentSearch::close(TaskId task) {
+  const std::uint32_t first = first_word();
+  std::fill(problem_.domains.begin() + (catalog_.words[task] - first),
+            problem_.domains.begin() + (catalog_.words[task + 1] - first), 0);
+}
+
+/// A solution that a limit left unproven is no answer: the best one may be another.
+Feasibility AssignmentSearch::solve(Solver& solver, Assignment& solution) {
+  if (effort_left_ == 0) return Feasibility::unknown;
+  const SearchResult result = solver.solve(problem_, solution);
+  const std::uint64_t effort = result.nodes * effort_of_a_node + problem_.may_stop.size();
+  effort_left_ -= std::min(effort, effort_left_);
+  switch (result.status) {
+    case SearchStatus::optimal:
+      return Feasibility::yes;
+    case SearchStatus::feasible:
+      return &solver == &any_ ? Feasibility::yes : Feasibility::unknown;
+    case SearchStatus::infeasible:
+      return Feasibility::no;
+    case SearchStatus::unknown:
+      break;
+  }
+  return Feasibility::unknown;
+}
+
+std::vector<Millionths> AssignmentSearch::factors_of(TaskId task,
+                                                     const Assignment& solution) const {
+  const TaskId first = catalog_.group_tasks[problem_.group];
+  std::vector<TaskId> closure{task};
+  std::vector<Millionths> factors;
+  for (std::size_t next = 0; next < closure.size(); ++next) {
+    const Value& value = catalog_.values[closure[next]][solution[closure[next] - first]];
+    factors.push_back(value.suitability);
+    for (const CompiledRequirement& requirement : catalog_.requirements[value.behavior]) {
+      if (std::find(closure.begin(), closure.end(), requirement.task) == closure.end()) {
+        closure.push_back(requirement.task);
+      }
+    }
+  }
+  return factors;
+}
+
+namespace {
+
+/// Values that may be taken in all.
+constexpr std::uint64_t most_effort_of_direct = 200'000'000;
+
+}  // namespace
+
+DirectAssignment::DirectAssignment(const CompiledCatalog& catalog)
+    : catalog_(catalog),
+      running_(catalog.tasks.size(), 0),
+      used_(catalog.cliques.size(), 0),
+      effort_left_(most_effort_of_direct) {}
+
+const std::vector<ValueId>& DirectAssignment::find(ValueId value, const std::vector<bool>& is_dead,
+                                                   const std::vector<bool>& is_live) {
+  values_.clear();
+  ++number_;
+  bool is_good = take(value);
+  for (std::size_t next = 0; is_good && next < values_.size(); ++next) {
+    const BehaviorId behavior = catalog_.values.items[values_[next]].behavior;
+    for (const CompiledRequirement& requirement : catalog_.requirements[behavior]) {
+      // Minimums are left to the search.
+      is_good = requirement.minimum_performance == 0;
+      if (is_good && running_[requirement.task] != number_) {
+        const ValueId chosen = choose(requirement.task, is_dead, is_live);
+        is_good = chosen != none && take(chosen);
+      }
+      if (!is_good) break;
+    }
+  }
+  if (!is_good) values_.clear();
+  return values_;
+}
+
+bool DirectAssignment::take(ValueId value) {
+  const TaskId task = catalog_.task_of(value);
+  if (effort_left_ == 0 || catalog_.tasks[task].minimum_performance > 0) return false;
+  --effort_left_;
+  for (const std::uint32_t clique : catalog_.task_cliques[task]) {
+    if (used_[clique] == number_) return false;
+    used_[clique] = number_;
+  }
+  running_[task] = number_;
+  values_.push_back(value);
+  return true;
+}
+
+/// A value that is known to be live, or else one that may be.
+ValueId DirectAssignment::choose(TaskId task, const std::vector<bool>& is_dead,
+                                 const std::vector<bool>& is_live) const {
+  ValueId chosen = none;
+  for (ValueId value = catalog_.values.begin[task]; value < catalog_.values.begin[task + 1];
+       ++value) {
+    if (is_live[value]) return value;
+    if (chosen == none && !is_dead[value]) chosen = value;
+  }
+  return chosen;
+}
+
+namespace {
+
+/// A sum of states: live if one is, dead if all are.
+class Sum {
+ public:
+  void add(Liveness::State state) {
+    is_live_ |= state == Liveness::State::live;
+    is_undecided_ |= state == Liveness::State::undecided;
+  }
+  [[nodiscard]] Liveness::State state() const {
+    if (is_live_) return Liveness::State::live;
+    return is_undecided_ ? Liveness::State::undecided : Liveness::State::dead;
+  }
+
+ private:
+  bool is_live_ = false;
+  bool is_undecided_ = false;
+};
+
+}  // namespace
+
+std::vector<TaskId> tasks_by_level(const CompiledCatalog& catalog) {
+  std::vector<TaskId> order(catalog.tasks.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&catalog](TaskId a, TaskId b) {
+    return catalog.tasks[a].level < catalog.tasks[b].level;
+  });
+  return order;
+}
+
+Liveness::Liveness(AssignmentSearch& search)
+    : catalog_(search.catalog()),
+      is_live_(catalog_.values.items.size(), false),
+      is_dead_(catalog_.values.items.size(), false),
+      direct_(catalog_) {
+  for (const TaskId task : tasks_by_level(catalog_)) {
+    for (ValueId value = catalog_.values.begin[task]; value < catalog_.values.begin[task + 1];
+         ++value) {
+      if (!is_live_[value]) decide(value, search);
+    }
+  }
+}
+
+/// What is in an assignment beside the value is live, too.
+void Liveness::decide(ValueId value, AssignmentSearch& search) {
+  const std::vector<ValueId>& values = direct_.find(value, is_dead_, is_live_);
+  for (const ValueId other : values) is_live_[other] = true;
+  if (!values.empty()) return;
+
+  const Feasibility answer = search.find(value, {}, solution_);
+  if (answer == Feasibility::no) {
+    is_dead_[value] = true;
+    search.rule_out(value);
+  } else if (answer == Feasibility::yes) {
+    const TaskId first = catalog_.group_tasks[catalog_.tasks[catalog_.task_of(value)].group];
+    for (std::uint32_t task = 0; task < solution_.size(); ++task) {
+      if (solution_[task] != none) {
+        is_live_[catalog_.values.begin[first + task] + solution_[task]] = true;
+      }
+    }
+  }
+}
+
+Liveness::State Liveness::of_behavior(BehaviorId behavior) const {
+  Sum sum;
+  for (const ValueId value : catalog_.performs[behavior]) sum.add(of_value(value));
+  return sum.state();
+}
+
+Liveness::State Liveness::of_task(TaskId task) const {
+  Sum sum;
+  for (ValueId value = catalog_.values.begin[task]; value < catalog_.values.begin[task + 1];
+       ++value) {
+    sum.add(of_value(value));
+  }
+  return sum.state();
+}
+
+namespace {
+
+/// Reasons that may be looked at in all; past them questions stay open.
+constexpr std::uint64_t most_effort_of_reasons = 400'000'000;
+
+}  // namespace
+
+Semantics::Semantics(const Catalog& catalog, AssignmentSearch& search, const Liveness& liveness,
+                     std::uint64_t max_nodes, Reporter& reporter)
+    : catalog_(catalog),
+      search_(search),
+      liveness_(liveness),
+      max_nodes_(max_nodes),
+      reporter_(reporter),
+      behaviors_(compiled().behaviors.size()),
+      tasks_(compiled().tasks.size()),
+      nothing_present_(most_in_a_group(compiled().group_tasks), none),
+      effort_left_(most_effort_of_reasons) {}
+
+RelaxedProblem Semantics::relaxed(const Goal& goal) const {
+  const Demand::Kind kind = goal.place == none ? Demand::Kind::run : Demand::Kind::has;
+  const std::uint32_t group = compiled().tasks[goal.task].group;
+  return {compiled(), group, nothing_present_, {{kind, goal.task, goal.place}}};
+}
+
+Feasibility Semantics::solve(RelaxedProblem& problem, std::span<const Reason> reasons) {
+  if (effort_left_ == 0) return Feasibility::unknown;
+  const std::uint64_t before = problem.effort();
+  const Feasibility answer = problem.solve(reasons);
+  effort_left_ -= std::min(problem.effort() - before, effort_left_);
+  return answer;
+}
+
+Feasibility Semantics::solve(std::span<const Goal> goals, std::span<const Reason> reasons) {
+  Feasibility answer = Feasibility::no;
+  for (const Goal& goal : goals) {
+    RelaxedProblem problem = relaxed(goal);
+    const Feasibility one = solve(problem, reasons);
+    if (one == Feasibility::yes) return one;
+    if (one == Feasibility::unknown) answer = one;
+  }
+  return answer;
+}
+
+void Semantics::report_undecided(const Range& range, const std::string& question) {
+  if (search_.is_exhausted()) {
+    if (!std::exchange(has_told_exhaustion_, true)) {
+      reporter_.report(
+          rule::undecided, range,
+          question + " and other questions could not be decided: there is too much to search");
+    }
+    return;
+  }
+  reporter_.report(
+      rule::undecided, range,
+      question + " could not be decided with --max-nodes " + std::to_string(max_nodes_));
+}
+
+}  // namespace cbc

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "cbc/event.h"
+#include "cbc/units.h"
+#include "compiled/compiled_catalog.h"
+#include "coordinator/record.h"
+#include "coordinator/state.h"
+#include "script/runner.h"
+#include "script/script.h"
+
+namespace cbc {
+
+/// A set of reasons as the JSON of `cbc solve` has it, on one line.
+[[nodiscard]] std::string reasons_to_json(const CompiledCatalog& catalog, const EventRecord& record,
+                                          std::span<const Reason> reasons);
+
+/// The answers to --why about one event.
+[[nodiscard]] nlohmann::ordered_json why_to_json(const CompiledCatalog& catalog,
+                                                 const EventRecord& record, const State& state);
+
+/// The list of --alternatives of one event.
+[[nodiscard]] nlohmann::ordered_json alternatives_to_json(const CompiledCatalog& catalog,
+                                                          const EventRecord& record,
+                                                          const State& state);
+
+/// What the events have beside the keys that they always have.
+struct EventAdditions {
+  bool why = false;
+  bool alternatives = false;
+};
+
+/// Appends one event as the JSON of `cbc solve` has it, on one line. `step` is the scripted one, or
+/// null. It goes straight to text: streams write a hundred thousand of them in a second.
+void append_event(std::string& text, const CompiledCatalog& catalog, const EventRecord& record,
+                  const Step* step, const State& state, const EventAdditions& adds);
+
+// The lines of a stream of events, each with the end of the line.
+
+/// `catalog_name`: as it was named.
+[[nodiscard]] std::string stream_header(const CompiledCatalog& catalog,
+                                        std::string_view catalog_name, Microseconds reactive_delay,
+                                        std::span<const Availability> situation);
+/// Of a line of the input that is no event.
+[[nodiscard]] std::string stream_error(std::string_view message, std::uint64_t line);
+
+/// What searches took, for the end of a stream; and the process, until now.
+[[nodiscard]] std::string stream_totals(const SearchTotals& totals);
+
+/// Gives each event away as a line as soon as it is solved.
+class EventStream final : public RunListener {
+ public:
+  using TakeLine = std::function<void(std::string_view)>;
+  using TakeFailure = std::function<void(const Failure&)>;
+
+  /// The catalog must outlive this object.
+  EventStream(const CompiledCatalog& catalog, const EventAdditions& adds, TakeLine take_line,
+              TakeFailure take_failure)
+      : catalog_(catalog),
+        adds_(adds),
+        take_line_(std::move(take_line)),
+        take_failure_(std::move(take_failure)) {}
+
+  void on_event(const EventRecord& record, const Step* step, const State& state) override;
+  void on_failure(const Failure& failure) override { take_failure_(failure); }
+  void on_end(const State& /*state*/) override {}
+
+ private:
+  const CompiledCatalog& catalog_;
+  const EventAdditions adds_;
+  TakeLine take_line_;
+  TakeFailure take_failure_;
+  std::string line_;  ///< kept for its memory
+};
+
+}  // namespace cbc

@@ -1,0 +1,514 @@
+#include "report/sentences.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <string_view>
+#include <utility>
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <fmt/format.h>
+
+#include "base/text.h"
+
+namespace cbc {
+namespace {
+
+using boost::multiprecision::cpp_int;
+
+/// A product of suitabilities.
+struct Product {
+  cpp_int digits = 1;
+  int decimals = 0;
+
+  void multiply(Millionths suitability) {
+    if (suitability == 0) {
+      digits = 0;
+      return;
+    }
+    decimals += 6;
+    for (; suitability % 10 == 0; suitability /= 10) --decimals;
+    if (suitability != 1) digits *= suitability;
+  }
+
+  [[nodiscard]] double nearest_double() const {
+    if (digits == 0) return 0;
+    if (decimals == 0) return 1;
+    return std::strtod((digits.str() + "e-" + std::to_string(decimals)).c_str(), nullptr);
+  }
+
+  /// It is 1 at most.
+  [[nodiscard]] std::string exact() const {
+    if (digits == 0) return "0";
+    if (decimals == 0) return "1";
+    std::string text = digits.str();
+    text.insert(0, static_cast<std::size_t>(decimals) - text.size(), '0');
+    text.erase(text.find_last_not_of('0') + 1);
+    return "0." + text;
+  }
+};
+
+void multiply_elsewhere(const CompiledCatalog& catalog, const State& state, std::uint32_t group,
+                        Product& product) {
+  for (const std::uint32_t index : state.running()) {
+    const TaskId task = catalog.task_ids[index];
+    if (catalog.tasks[task].group == group) continue;
+    product.multiply(catalog.values[task][state.place(task)].suitability);
+  }
+}
+
+void multiply_group(const CompiledCatalog& catalog, std::uint32_t group, const Assignment& places,
+                    Product& product) {
+  const TaskId first = catalog.group_tasks[group];
+  for (std::uint32_t task = 0; task < places.size(); ++task) {
+    if (places[task] == none) continue;
+    product.multiply(catalog.values[first + task][places[task]].suitability);
+  }
+}
+
+}  // namespace
+
+double total_suitability(const CompiledCatalog& catalog, const State& state) {
+  Product product;
+  multiply_elsewhere(catalog, state, none, product);
+  return product.nearest_double();
+}
+
+double total_suitability(const CompiledCatalog& catalog, const State& state, std::uint32_t group,
+                         const Assignment& places) {
+  Product product;
+  multiply_elsewhere(catalog, state, group, product);
+  multiply_group(catalog, group, places, product);
+  return product.nearest_double();
+}
+
+std::string exact_suitability(const CompiledCatalog& catalog, const State& state,
+                              std::uint32_t group, const Assignment& places) {
+  Product product;
+  multiply_elsewhere(catalog, state, group, product);
+  if (product.digits == 0) product = {};
+  multiply_group(catalog, group, places, product);
+  return product.exact();
+}
+
+double idle_share(const ObjectiveValues& objective) {
+  if (objective.idle_total == 0) return 1;
+  return static_cast<double>(objective.idle_total - objective.idle_running) /
+         static_cast<double>(objective.idle_total);
+}
+
+double to_seconds(Microseconds time) {
+  return static_cast<double>(time) / static_cast<double>(second);
+}
+
+namespace {
+
+/// Texts with commas between.
+class List {
+ public:
+  void add(std::string_view text) {
+    if (!text_.empty()) text_ += ", ";
+    text_ += text;
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::string describe_active(const CompiledCatalog& catalog,
+                            const std::vector<std::uint32_t>& behaviors) {
+  if (behaviors.empty()) return "no behavior is active";
+  List names;
+  for (const std::uint32_t behavior : behaviors) {
+    names.add(printable(catalog.behavior_names[behavior]));
+  }
+  return "active exactly: " + names.text();
+}
+
+}  // namespace
+
+std::string describe_situation(const CompiledCatalog& catalog,
+                               const std::vector<Availability>& situation) {
+  std::string text;
+  for (const Availability& entry : situation) {
+    text += fmt::format("{} {} {}", text.empty() ? "" : ",",
+                        printable(catalog.behavior_names[entry.behavior]),
+                        entry.available ? "available" : "unavailable");
+  }
+  return text;
+}
+
+std::string format_time(Microseconds time) {
+  return fmt::format("{:.{}f}", to_seconds(time), time % 1000 == 0 ? 3 : 6);
+}
+
+std::string describe_event(const CompiledCatalog& catalog, const EventRecord& record,
+                           const Step* step) {
+  std::string text(name_of(record.verb));
+  if (record.task != none) {
+    text += " " + printable(catalog.name_of_task(record.task));
+    text += fmt::format(", priority {}", record.priority);
+  }
+  if (record.behavior != none) text += " " + printable(catalog.name_of_behavior(record.behavior));
+  if (record.verb == Verb::finish) text += fmt::format(", {}", name_of(record.cause));
+  if (step != nullptr && record.verb == Verb::situation) {
+    text += describe_situation(catalog, step->situation);
+  }
+  if (step != nullptr && step->parameters) text += " " + printable(step->parameters->json);
+  if (record.origin != Origin::script) text += fmt::format(" ({})", name_of(record.origin));
+  return text;
+}
+
+std::string describe_expectation(const CompiledCatalog& catalog, const Expectation& expectation) {
+  List parts;
+  if (expectation.outcome) parts.add(fmt::format("outcome {}", name_of(*expectation.outcome)));
+  for (const Expectation::Running& expected : expectation.running) {
+    std::string part = printable(catalog.task_names[expected.task]) + " runs";
+    if (expected.behavior) part += " with " + printable(catalog.behavior_names[*expected.behavior]);
+    parts.add(part);
+  }
+  for (const std::uint32_t task : expectation.stopped) {
+    parts.add(printable(catalog.task_names[task]) + " does not run");
+  }
+  if (expectation.active) parts.add(describe_active(catalog, *expectation.active));
+  return parts.text();
+}
+
+namespace {
+
+std::string place(const CompiledCatalog& catalog, const Reason& reason) {
+  return fmt::format(" ({}:{})", printable(catalog.file), reason.line);
+}
+
+std::string describe_protection(const EventRecord& record, const Reason& reason) {
+  if (record.origin == Origin::reactive) {
+    return "runs by request, and a reactive start stops no such task";
+  }
+  const std::int32_t level = record.search != nullptr ? record.search->protection : record.priority;
+  if (level == 0 && record.verb != Verb::start && record.verb != Verb::stop) {
+    return fmt::format("runs with priority {}, and this event has none", reason.priority);
+  }
+  return fmt::format("runs with priority {}, higher than {}", reason.priority, level);
+}
+
+}  // namespace
+
+std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& record,
+                            const Reason& reason) {
+  const auto task_name = [&](TaskId task) {
+    return task == none ? std::string() : printable(catalog.name_of_task(task));
+  };
+  const std::string task = task_name(reason.task);
+  const std::string behavior =
+      reason.behavior == none ? "" : printable(catalog.name_of_behavior(reason.behavior));
+  switch (reason.kind) {
+    case Reason::Kind::priority:
+      return fmt::format("{} has a request of priority {}, higher than {}", task, reason.priority,
+                         record.priority);
+    case Reason::Kind::no_behavior:
+      return fmt::format("no behavior performs {}", task);
+    case Reason::Kind::is_protected:
+      return fmt::format("{} {}", task, describe_protection(record, reason));
+    case Reason::Kind::exclusive:
+      return fmt::format("{} excludes {}", task, task_name(reason.other_task)) +
+             place(catalog, reason);
+    case Reason::Kind::on_request:
+      return fmt::format("{} is not running, and starts on request only", task);
+    case Reason::Kind::requires_task:
+      return fmt::format("{} requires {}", behavior, task) + place(catalog, reason);
+    case Reason::Kind::performance:
+      return fmt::format("{} requires {} with at least {} %",
+                         reason.behavior == none ? "the catalog" : behavior, task,
+                         format_decimal(reason.minimum_performance, 4)) +
+             place(catalog, reason);
+    case Reason::Kind::unavailable:
+      return fmt::format("{} cannot be activated in the present situation", behavior);
+    case Reason::Kind::faulty:
+      return fmt::format("{} is faulty", behavior);
+    case Reason::Kind::finished:
+      return fmt::format("{} has just finished ({})", behavior, name_of(record.cause));
+  }
+  return {};
+}
+
+std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const EventRecord& record,
+                                          std::span<const Reason> reasons, TaskId it) {
+  std::vector<std::string> sentences;
+  std::vector<TaskId> told;  // protected tasks whose sentence is part of another one
+  const auto protection_of = [&](TaskId task) -> const Reason* {
+    const auto found = std::find_if(reasons.begin(), reasons.end(), [&](const Reason& reason) {
+      return reason.kind == Reason::Kind::is_protected && reason.task == task;
+    });
+    return found == reasons.end() || std::count(told.begin(), told.end(), task) > 0 ? nullptr
+                                                                                    : &*found;
+  };
+  for (const Reason& reason : reasons) {
+    if (reason.kind != Reason::Kind::exclusive) continue;
+    TaskId other = reason.task;
+    TaskId excluded = reason.other_task;
+    if (other == it || (excluded != it && protection_of(other) != nullptr)) {
+      std::swap(other, excluded);
+    }
+    const bool is_it = excluded == it;
+    std::string sentence = fmt::format("{} excludes {}", printable(catalog.name_of_task(other)),
+                                       is_it ? "it" : printable(catalog.name_of_task(excluded))) +
+                           place(catalog, reason);
+    const TaskId guarded = is_it ? other : excluded;
+    if (const Reason* const protection = protection_of(guarded)) {
+      sentence +=
+          fmt::format(", {} {}", is_it ? "and" : "which", describe_protection(record, *protection));
+      told.push_back(guarded);
+    }
+    sentences.push_back(std::move(sentence));
+  }
+  for (const Reason& reason : reasons) {
+    if (reason.kind == Reason::Kind::exclusive) continue;
+    if (reason.kind == Reason::Kind::is_protected && protection_of(reason.task) == nullptr)
+      continue;
+    // A minimum performance says that the task is required, too.
+    if (reason.kind == Reason::Kind::requires_task &&
+        std::any_of(reasons.begin(), reasons.end(), [&reason](const Reason& other) {
+          return other.kind == Reason::Kind::performance && other.behavior == reason.behavior &&
+                 other.task == reason.task;
+        })) {
+      continue;
+    }
+    sentences.push_back(describe_reason(catalog, record, reason));
+  }
+  return sentences;
+}
+
+std::vector<std::string> describe_rejection(const CompiledCatalog& catalog,
+                                            const EventRecord& record) {
+  if (record.search != nullptr && record.search->result.status == SearchStatus::unknown) {
+    return {"a search limit came before the first solution"};
+  }
+  std::vector<std::string> sentences = describe_reasons(catalog, record, record.conflict);
+  if (sentences.empty()) {
+    sentences.emplace_back(
+        "no consistent set of behaviors; finding the reasons would have taken too long");
+  }
+  return sentences;
+}
+
+namespace {
+
+/// Digits of a long number that are shown beyond those that two have in common.
+constexpr std::size_t digits_beyond = 6;
+
+std::string shorten(const std::string& number, std::size_t length) {
+  return number.size() <= length + 1 ? number : number.substr(0, length) + "...";
+}
+
+/// Two numbers, long enough to see which is the larger one.
+std::pair<std::string, std::string> shorten_both(const std::string& a, const std::string& b) {
+  const auto differs = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  const auto equal = static_cast<std::size_t>(differs.first - a.begin());
+  const std::size_t length = std::max<std::size_t>(equal, 2) + digits_beyond;
+  return {shorten(a, length), shorten(b, length)};
+}
+
+std::string shorten_alone(const std::string& number) {
+  const std::size_t first = std::min(number.find_first_not_of("0."), number.size());
+  return shorten(number, std::max<std::size_t>(first, 2) + digits_beyond);
+}
+
+std::string task_name(const CompiledCatalog& catalog, TaskId task) {
+  return printable(catalog.name_of_task(task));
+}
+
+/// The name of a value.
+std::string value_name(const CompiledCatalog& catalog, TaskId task, std::uint32_t place) {
+  return place == none ? "not running"
+                       : printable(catalog.name_of_behavior(catalog.values[task][place].behavior));
+}
+
+std::string idle_text(const ObjectiveValues& objective) {
+  return fmt::format("{}/{}", objective.idle_total - objective.idle_running, objective.idle_total);
+}
+
+/// The first objective in which the alternative loses.
+std::string describe_loss(const CompiledCatalog& catalog, const EventRecord& record,
+                          const WhyNot& why_not, const State& state) {
+  const std::uint32_t group = record.search->group;
+  const TaskId first = catalog.group_tasks[group];
+  const Configuration& chosen = record.explanation.chosen;
+  const Configuration& other = *why_not.alternative;
+  const Difference& difference = why_not.difference;
+  switch (difference.criterion) {
+    case Criterion::requests:
+      return fmt::format("{} of {} requests would be satisfied, not {}", other.objective.satisfied,
+                         other.objective.requests, chosen.objective.satisfied);
+    case Criterion::request_order:
+      return fmt::format("{} would not run, whose request comes before that of {}",
+                         task_name(catalog, difference.task),
+                         task_name(catalog, difference.other_task));
+    case Criterion::suitability: {
+      const auto [theirs, ours] =
+          shorten_both(exact_suitability(catalog, state, group, other.places),
+                       exact_suitability(catalog, state, group, chosen.places));
+      return fmt::format("suitability would be {}, not {}", theirs, ours);
+    }
+    case Criterion::idle:
+      return fmt::format("idle would be {}, not {}", idle_text(other.objective),
+                         idle_text(chosen.objective));
+    case Criterion::changes:
+      return fmt::format("changes would be {}, not {}", other.objective.changes,
+                         chosen.objective.changes);
+    case Criterion::canonical: {
+      const std::uint32_t task = difference.task - first;
+      return fmt::format(
+          "all objectives would be the same; of {}, {} comes before {} in the canonical order",
+          task_name(catalog, difference.task),
+          value_name(catalog, difference.task, chosen.places[task]),
+          value_name(catalog, difference.task, other.places[task]));
+    }
+  }
+  return {};
+}
+
+/// `condition`: under which the alternative would have been.
+Sentences describe(const CompiledCatalog& catalog, const EventRecord& record,
+                   const std::string& subject, const std::string& condition, const WhyNot& why_not,
+                   TaskId it, const State& state) {
+  if (why_not.is_cut) {
+    return {subject + ": a limit of effort came before the reason was found", {}};
+  }
+  if (why_not.alternative) {
+    return {fmt::format("{}: {}, {}", subject, condition,
+                        describe_loss(catalog, record, why_not, state)),
+            {}};
+  }
+  std::vector<std::string> reasons = describe_reasons(catalog, record, why_not.conflict, it);
+  if (reasons.empty()) return {subject + ": the event leaves no other choice", {}};
+  if (reasons.size() == 1) return {fmt::format("{}: {}", subject, reasons.front()), {}};
+  return {subject + ":", std::move(reasons)};
+}
+
+}  // namespace
+
+Sentences describe_displacement(const CompiledCatalog& catalog, const EventRecord& record,
+                                const Displacement& displaced, const State& state) {
+  return describe(catalog, record, task_name(catalog, displaced.task) + " stops", "if it ran",
+                  displaced.why_not, displaced.task, state);
+}
+
+Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record, const Why& why,
+                       const State& state) {
+  if (why.behavior != none) {
+    return describe(
+        catalog, record,
+        fmt::format("why {} is {}active", printable(catalog.name_of_behavior(why.behavior)),
+                    why.is_active ? "" : "not "),
+        why.is_active ? "without it" : "with it", why.why_not, none, state);
+  }
+  const std::string name = task_name(catalog, why.task);
+  std::string condition;
+  if (why.why_not.alternative) {
+    const TaskId first = catalog.group_tasks[record.search->group];
+    const std::uint32_t place = why.why_not.alternative->places[why.task - first];
+    condition =
+        place == none ? "if it did not run" : "with " + value_name(catalog, why.task, place);
+  }
+  const std::string subject =
+      why.chosen == none
+          ? fmt::format("why {} does not run", name)
+          : fmt::format("why {} has {}", name, printable(catalog.name_of_behavior(why.chosen)));
+  return describe(catalog, record, subject, condition, why.why_not, none, state);
+}
+
+std::string describe_alternative(const CompiledCatalog& catalog, const EventRecord& record,
+                                 std::size_t place, const State& state) {
+  const std::vector<Configuration>& list = record.explanation.alternatives;
+  const std::uint32_t group = record.search->group;
+  const TaskId first = catalog.group_tasks[group];
+  const Configuration& configuration = list[place];
+  const ObjectiveValues& objective = configuration.objective;
+  std::string text =
+      fmt::format("requests {}/{}, suitability {}, idle {}, changes {}:", objective.satisfied,
+                  objective.requests,
+                  shorten_alone(exact_suitability(catalog, state, group, configuration.places)),
+                  idle_text(objective), objective.changes);
+  bool is_first = true;
+  for (std::uint32_t task = 0; task < configuration.places.size(); ++task) {
+    const std::uint32_t value = configuration.places[task];
+    if (value == (place == 0 ? none : list.front().places[task])) continue;
+    text += fmt::format(
+        "{} {} {}",
+        !is_first    ? ","
+        : place == 0 ? ""
+                     : " as 1, but",
+        task_name(catalog, first + task),
+        value == none ? "not running" : "= " + value_name(catalog, first + task, value));
+    is_first = false;
+  }
+  return is_first ? text + " nothing runs" : text;
+}
+
+void FailureStory::begin_run(const CompiledCatalog& catalog) {
+  catalog_ = &catalog;
+  last_ = nullptr;
+  rejected_.clear();
+  reasons_.clear();
+  stops_.clear();
+}
+
+void FailureStory::add(const EventRecord& record, const Step* step, const State& state) {
+  last_ = &record;
+  last_step_ = step;
+  note_stops(record, step, state);
+  const bool can_be_rejected =
+      record.verb == Verb::start || record.verb == Verb::stop || record.verb == Verb::finish;
+  if (record.origin != Origin::script || !can_be_rejected) return;
+  rejected_.clear();
+  reasons_.clear();
+  if (record.outcome != Outcome::rejected) return;
+  rejected_ = describe(record, step);
+  reasons_ = describe_rejection(*catalog_, record);
+}
+
+void FailureStory::note_stops(const EventRecord& record, const Step* step, const State& state) {
+  std::erase_if(stops_, [&state](const auto& stop) { return state.is_running(stop.first); });
+  for (const StoppedTask& stopped : record.stopped_tasks) {
+    Stop& stop = stops_[stopped.task];
+    stop = {record.index, {}, describe(record, step)};
+  }
+  for (const Displacement& displaced : record.explanation.displaced) {
+    const Sentences sentences = describe_displacement(*catalog_, record, displaced, state);
+    std::vector<std::string>& lines = stops_[displaced.task].lines;
+    lines.push_back(sentences.first);
+    for (const std::string& sentence : sentences.more) lines.push_back("  " + sentence);
+  }
+}
+
+std::vector<std::string> FailureStory::tell(const Expectation& failed) const {
+  if (last_ == nullptr) return {"before the first event"};
+  const std::string last = describe(*last_, last_step_);
+  std::vector<std::string> lines{"after " + last};
+  if (!rejected_.empty()) {
+    if (rejected_ != last) lines.push_back("and after " + rejected_);
+    for (const std::string& reason : reasons_) lines.push_back("rejected: " + reason);
+  }
+  for (const Expectation::Running& expected : failed.running) {
+    const auto found = stops_.find(catalog_->task_ids[expected.task]);
+    if (found == stops_.end()) continue;
+    const Stop& stop = found->second;
+    if (stop.event != last_->index) {
+      lines.push_back(printable(catalog_->task_names[expected.task]) + " stopped with " +
+                      stop.what);
+    }
+    lines.insert(lines.end(), stop.lines.begin(), stop.lines.end());
+  }
+  return lines;
+}
+
+std::string FailureStory::describe(const EventRecord& record, const Step* step) const {
+  const bool has_outcome =
+      record.verb == Verb::start || record.verb == Verb::stop || record.verb == Verb::finish;
+  return fmt::format("event {} at {} s: {}{}", record.index, format_time(record.time),
+                     describe_event(*catalog_, record, step),
+                     has_outcome ? fmt::format(": {}", name_of(record.outcome)) : "");
+}
+
+}  // namespace cbc

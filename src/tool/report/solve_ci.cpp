@@ -1,0 +1,217 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "report/lint_report.h"
+#include "report/sentences.h"
+#include "report/solve_report.h"
+
+namespace cbc {
+namespace {
+
+/// By number: a parser turns a plain line end in an attribute into a blank.
+constexpr std::string_view line_end = "&#10;";
+
+std::string escape(std::string_view character, char32_t code) {
+  switch (code) {
+    case '&':
+      return "&amp;";
+    case '<':
+      return "&lt;";
+    case '>':
+      return "&gt;";
+    case '"':
+      return "&quot;";
+    case '\n':
+      return std::string(line_end);
+    case 0xFFFE:
+      return "\\ufffe";
+    case 0xFFFF:
+      return "\\uffff";
+    default:
+      return printable(character);
+  }
+}
+
+}  // namespace
+
+std::string xml_text(std::string_view text) {
+  std::string escaped;
+  for (std::size_t offset = 0; offset < text.size();) {
+    const utf8::Decoded decoded = utf8::decode(text, offset);
+    escaped += escape(text.substr(offset, decoded.bytes), decoded.character);
+    offset += decoded.bytes;
+  }
+  return escaped;
+}
+
+namespace {
+
+/// A problem of a test case: failure or error.
+std::string problem(std::string_view element, std::string_view type, const std::string& message,
+                    const std::string& details) {
+  return fmt::format(R"(<{0} type="{1}" message="{2}">{3}</{0}>)", element, type, xml_text(message),
+                     details);
+}
+
+std::string open_suite(const std::string& file, std::uint64_t tests, std::uint64_t failures,
+                       std::uint64_t errors, std::uint64_t skipped) {
+  const std::string name = xml_text(file);
+  return fmt::format(
+      "<testsuite name=\"{0}\" tests=\"{1}\" failures=\"{2}\" errors=\"{3}\" skipped=\"{4}\" "
+      "file=\"{0}\">\n",
+      name, tests, failures, errors, skipped);
+}
+
+std::string broken_case(const std::string& name, const std::string& file,
+                        const std::string& error) {
+  return fmt::format("<testcase name=\"{}\" classname=\"{}\">\n{}\n</testcase>\n", name,
+                     xml_text(file), error);
+}
+
+std::string describe_finding(const Diagnostic& finding) {
+  return fmt::format("{}:{}:{}: {}", finding.file, finding.range.begin.line,
+                     finding.range.begin.column, finding.message);
+}
+
+}  // namespace
+
+JunitReport::JunitReport(std::FILE* out, bool is_part) : out_(out) {
+  if (is_part) return;
+  fmt::print(out_, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"cbc solve\">\n");
+}
+
+void JunitReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
+  catalog_ = &catalog;
+  script_ = &script;
+  story_.begin_run(catalog);
+  failed_.clear();
+}
+
+void JunitReport::on_event(const EventRecord& record, const Step* step, const State& state) {
+  story_.add(record, step, state);
+}
+
+void JunitReport::on_failure(const Failure& failure) {
+  std::string details =
+      fmt::format("{}:{}:{}: {}\n", xml_text(script_->file), failure.range.begin.line,
+                  failure.range.begin.column, xml_text(failure.message));
+  for (const std::string& line : story_.tell(*failure.step->expect))
+    details += xml_text(line) + "\n";
+  failed_.push_back({failure.step, failure.message, std::move(details)});
+}
+
+void JunitReport::end_run(const RunResult& result, const std::string& error) {
+  const auto tests = static_cast<std::uint64_t>(
+      std::count_if(script_->steps.begin(), script_->steps.end(),
+                    [](const Step& step) { return step.expect.has_value(); }));
+  const std::uint64_t errors = error.empty() ? 0 : 1;
+  fmt::print(out_, "{}<properties><property name=\"catalog\" value=\"{}\"/></properties>\n",
+             open_suite(script_->file, tests + errors, result.failed, errors,
+                        tests - result.passed - result.failed),
+             xml_text(catalog_->file));
+  write_cases(result);
+  if (!error.empty()) {
+    fmt::print(out_, "{}",
+               broken_case("runs to its end", script_->file,
+                           problem("error", "run", error, xml_text(error))));
+  }
+  fmt::print(out_, "</testsuite>\n");
+}
+
+/// Expectations are checked in the order of the script: the first are done when a run ends early.
+void JunitReport::write_cases(const RunResult& result) const {
+  std::uint64_t to_come = result.passed + result.failed;
+  auto failed = failed_.begin();
+  for (const Step& step : script_->steps) {
+    if (!step.expect) continue;
+    fmt::print(out_, R"(<testcase name="line {}: {}" classname="{}")", step.range.begin.line,
+               xml_text(describe_expectation(*catalog_, *step.expect)), xml_text(script_->file));
+    if (to_come == 0) {
+      fmt::print(out_, "><skipped message=\"the run ended before\"/></testcase>\n");
+      continue;
+    }
+    --to_come;
+    if (failed != failed_.end() && failed->step == &step) {
+      fmt::print(out_, ">\n{}\n</testcase>\n",
+                 problem("failure", "expectation", failed->message, failed->details));
+      ++failed;
+    } else {
+      fmt::print(out_, "/>\n");
+    }
+  }
+}
+
+void JunitReport::end() { fmt::print(out_, "</testsuites>\n"); }
+
+std::unique_ptr<SolveReport> JunitReport::make_part(std::FILE* out) const {
+  return std::unique_ptr<SolveReport>(new JunitReport(out, true));
+}
+
+void JunitReport::add_part(std::string_view text, const RunResult& /*result*/) {
+  fmt::print(out_, "{}", text);
+}
+
+void JunitReport::add_unreadable(const std::vector<Diagnostic>& findings) {
+  std::map<std::string, std::vector<const Diagnostic*>> by_file;
+  for (const Diagnostic& finding : findings) {
+    if (finding.severity == Severity::error) by_file[finding.file].push_back(&finding);
+  }
+  if (by_file.empty()) {
+    write_broken_suite("<input>", "the input cannot be read; standard error has the reason", "");
+  }
+  for (const auto& [file, errors] : by_file) {
+    std::string details;
+    for (const Diagnostic* error : errors) details += xml_text(describe_finding(*error)) + "\n";
+    write_broken_suite(file, errors.front()->message, details);
+  }
+}
+
+void JunitReport::write_broken_suite(const std::string& file, const std::string& message,
+                                     const std::string& details) const {
+  fmt::print(out_, "{}{}</testsuite>\n", open_suite(file, 1, 0, 1, 0),
+             broken_case("can be read", file, problem("error", "input", message, details)));
+}
+
+void GithubReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
+  script_file_ = script.file;
+  story_.begin_run(catalog);
+}
+
+void GithubReport::on_event(const EventRecord& record, const Step* step, const State& state) {
+  story_.add(record, step, state);
+}
+
+void GithubReport::on_failure(const Failure& failure) {
+  std::string message = failure.message;
+  for (const std::string& line : story_.tell(*failure.step->expect)) message += "\n" + line;
+  fmt::print(
+      out_, "{}",
+      github_command("error", {script_file_, failure.range}, "cbc expectation failed", message));
+}
+
+void GithubReport::end_run(const RunResult& /*result*/, const std::string& error) {
+  if (error.empty()) return;
+  fmt::print(out_, "{}", github_command("error", {script_file_}, "cbc run ended early", error));
+}
+
+std::unique_ptr<SolveReport> GithubReport::make_part(std::FILE* out) const {
+  return std::make_unique<GithubReport>(out);
+}
+
+void GithubReport::add_part(std::string_view text, const RunResult& /*result*/) {
+  fmt::print(out_, "{}", text);
+}
+
+void GithubReport::add_unreadable(const std::vector<Diagnostic>& findings) {
+  for (const Diagnostic& finding : findings) {
+    if (finding.severity != Severity::error) continue;
+    fmt::print(out_, "{}", github_command_of(finding));
+  }
+}
+
+}  // namespace cbc

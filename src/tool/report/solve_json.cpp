@@ -1,0 +1,271 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "page_files.h"
+#include "report/event_json.h"
+#include "report/sentences.h"
+#include "report/solve_report.h"
+#include "support/json.h"
+
+namespace cbc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
+JsonReport::JsonReport(std::FILE* out, const EventAdditions& adds, bool is_part)
+    : out_(out), adds_(adds) {
+  if (!is_part) write(R"({"schema":"cbc.solve/1","runs":[)");
+}
+
+void JsonReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
+  catalog_ = &catalog;
+  begin_item(is_first_run_, "\n");
+  write(R"({"catalog":)" + to_text(catalog.file) + R"(,"script":)" + to_text(script.file) +
+        R"(,"events":[)");
+  is_first_event_ = true;
+  failures_ = Json::array();
+}
+
+void JsonReport::on_event(const EventRecord& record, const Step* step, const State& state) {
+  begin_item(is_first_event_, "\n ");
+  event_.clear();
+  append_event(event_, *catalog_, record, step, state, adds_);
+  write(event_);
+}
+
+void JsonReport::on_failure(const Failure& failure) {
+  failures_.push_back(
+      {{"index", failure.index}, {"line", failure.range.begin.line}, {"message", failure.message}});
+}
+
+void JsonReport::end_run(const RunResult& result, const std::string& error) {
+  const Json expectations = {
+      {"passed", result.passed}, {"failed", result.failed}, {"failures", failures_}};
+  write(R"(],"expectations":)" + to_text(expectations));
+  if (result.totals) write(R"(,"totals":)" + to_text(stats_to_json(*result.totals)));
+  if (!error.empty()) write(R"(,"error":)" + to_text(error));
+  write("}");
+  count(result);
+}
+
+void JsonReport::count(const RunResult& result) {
+  if (!result.totals) return;
+  if (!totals_) totals_.emplace();
+  totals_->merge(*result.totals);
+}
+
+std::unique_ptr<SolveReport> JsonReport::make_part(std::FILE* out) const {
+  return std::unique_ptr<SolveReport>(new JsonReport(out, adds_, true));
+}
+
+void JsonReport::add_part(std::string_view text, const RunResult& result) {
+  if (!is_first_run_) write(",");
+  is_first_run_ = false;
+  write(text);
+  count(result);
+}
+
+void JsonReport::end() {
+  write("]");
+  if (totals_) {
+    write(R"(,"totals":)" + to_text(stats_to_json(*totals_)));
+    write(R"(,"process":)" + to_text(usage_to_json(process_usage())));
+  }
+  write("}\n");
+}
+
+void JsonReport::write(std::string_view text) { std::fwrite(text.data(), 1, text.size(), out_); }
+
+void JsonReport::begin_item(bool& is_first, const char* indent) {
+  if (!is_first) write(",");
+  is_first = false;
+  write(indent);
+}
+
+namespace {
+
+std::vector<draw::RunState::RunningTask> running_tasks(const CompiledCatalog& catalog,
+                                                       const State& state) {
+  std::vector<draw::RunState::RunningTask> running;
+  for (const std::uint32_t index : state.running()) {
+    const TaskId task = catalog.task_ids[index];
+    auto& one = running.emplace_back();
+    one.task = index;
+    one.behavior = catalog.behaviors[state.behavior(task)].catalog_index;
+    if (state.has_request(task)) one.priority = state.request(task).priority;
+  }
+  return running;
+}
+
+/// With what came of it, where it can be rejected. Parameters are left out: they may be long.
+std::string describe(const CompiledCatalog& catalog, const EventRecord& record) {
+  std::string text = describe_event(catalog, record, nullptr);
+  if (record.task != none || record.verb == Verb::finish) {
+    text += ": " + std::string(name_of(record.outcome));
+  }
+  return text;
+}
+
+}  // namespace
+
+StateRecorder::StateRecorder(const CompiledCatalog& catalog, const Script& script,
+                             const WantedState& wanted)
+    : catalog_(catalog), wanted_(wanted) {
+  moment_.script = script.file;
+  has_passed_ = wanted.index == 0;
+  State state(catalog);
+  for (const Availability& entry : script.situation) {
+    state.set_available(catalog.behavior_ids[entry.behavior], entry.available);
+  }
+  note_behaviors(state);
+}
+
+void StateRecorder::note_behaviors(const State& state) {
+  state_.unavailable.clear();
+  state_.faulty.clear();
+  for (std::uint32_t index = 0; index < catalog_.behavior_ids.size(); ++index) {
+    const BehaviorId behavior = catalog_.behavior_ids[index];
+    if (!state.is_available(behavior)) state_.unavailable.push_back(index);
+    if (state.is_faulty(behavior)) state_.faulty.push_back(index);
+  }
+}
+
+void StateRecorder::on_event(const EventRecord& record, const Step* /*step*/, const State& state) {
+  events_ = record.index;
+  has_passed_ |= wanted_.time && record.time > *wanted_.time;
+  if (has_passed_) return;
+  has_passed_ = record.index == wanted_.index;
+  moment_.index = record.index;
+  moment_.time = record.time;
+  moment_.event = describe(catalog_, record);
+  state_.before = std::exchange(state_.running, running_tasks(catalog_, state));
+  state_.finished.reset();
+  if (record.verb == Verb::finish && record.outcome == Outcome::accepted) {
+    state_.finished = catalog_.behaviors[record.behavior].catalog_index;
+  }
+  state_.changes.clear();
+  for (const Change& change : record.changes) {
+    state_.changes.push_back({catalog_.behaviors[change.behavior].catalog_index,
+                              change.is_activation, change.success,
+                              change.cause == ChangeCause::undone});
+  }
+  // It goes through the whole catalog: for a state that may be the wanted one only.
+  if (has_passed_ || wanted_.time) note_behaviors(state);
+}
+
+void StateRecorder::on_end(const State& state) {
+  if (!has_passed_) note_behaviors(state);
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double one_percent = one_million / 100.0;
+
+Json behavior_to_json(const CompiledCatalog& catalog, BehaviorId behavior) {
+  Json performs = Json::array();
+  for (const ValueId value : catalog.performs[behavior]) {
+    performs.push_back({{"task", catalog.name_of_task(catalog.task_of(value))},
+                        {"suitability", catalog.values.items[value].suitability / one_percent}});
+  }
+  Json requires_tasks = Json::array();
+  for (const CompiledRequirement& requirement : catalog.requirements[behavior]) {
+    requires_tasks.push_back(catalog.name_of_task(requirement.task));
+  }
+  return {{"name", catalog.name_of_behavior(behavior)},
+          {"performs", performs},
+          {"requires", requires_tasks}};
+}
+
+/// Tasks and behaviors in catalog order; suitabilities in percent.
+Json catalog_to_json(const CompiledCatalog& catalog) {
+  Json tasks = Json::array();
+  for (const std::string_view name : catalog.task_names) tasks.push_back(name);
+  Json behaviors = Json::array();
+  for (const BehaviorId behavior : catalog.behavior_ids) {
+    behaviors.push_back(behavior_to_json(catalog, behavior));
+  }
+  Json exclusive = Json::array();
+  for (std::size_t clique = 0; clique < catalog.cliques.size(); ++clique) {
+    Json& list = exclusive.emplace_back(Json::array());
+    for (const TaskId task : catalog.cliques[clique]) list.push_back(catalog.name_of_task(task));
+  }
+  return {{"tasks", tasks}, {"behaviors", behaviors}, {"exclusive", exclusive}};
+}
+
+Json situation_to_json(const CompiledCatalog& catalog, const std::vector<Availability>& situation) {
+  Json json = Json::object();
+  for (const Availability& entry : situation) {
+    json[catalog.behavior_names[entry.behavior]] = entry.available;
+  }
+  return json;
+}
+
+/// JSON for a script element, which ends at the first "</script", wherever that stands, and is read
+/// in another way after "<!--". In JSON a "<" can only stand in a string.
+std::string for_script_element(std::string_view json) {
+  std::string text;
+  text.reserve(json.size());
+  for (const char character : json) {
+    if (character == '<') {
+      text += "\\u003c";
+    } else {
+      text += character;
+    }
+  }
+  return text;
+}
+
+void put(std::string& page, std::string_view marker, std::string_view content) {
+  page.replace(page.find(marker), marker.size(), content);
+}
+
+}  // namespace
+
+void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
+  auto place = std::find(catalogs_.begin(), catalogs_.end(), &catalog);
+  if (place == catalogs_.end()) {
+    catalogs_json_.push_back(catalog_to_json(catalog));
+    place = catalogs_.insert(place, &catalog);
+  }
+  runs_.push_back({{"catalog", place - catalogs_.begin()},
+                   {"situation", situation_to_json(catalog, script.situation)}});
+  json_.begin_run(catalog, script);
+}
+
+void HtmlReport::on_event(const EventRecord& record, const Step* step, const State& state) {
+  json_.on_event(record, step, state);
+}
+
+void HtmlReport::on_failure(const Failure& failure) { json_.on_failure(failure); }
+
+void HtmlReport::on_end(const State& state) { json_.on_end(state); }
+
+void HtmlReport::end_run(const RunResult& result, const std::string& error) {
+  json_.end_run(result, error);
+}
+
+void HtmlReport::end() { json_.end(); }
+
+std::string HtmlReport::page() {
+  std::string data = R"({"catalogs":)" + to_text(catalogs_json_) + R"(,"runs":)" + to_text(runs_) +
+                     R"(,"report":)";
+  data += memory_.text();
+  data += "}";
+  std::string script;
+  for (const std::string_view file : {model_js, picture_js, panels_js, page_js}) script += file;
+  std::string page(page_html);
+  put(page, "{{style}}", page_css);
+  put(page, "{{script}}", script);
+  put(page, "{{data}}", for_script_element(data));
+  return page;
+}
+
+}  // namespace cbc

@@ -1,0 +1,328 @@
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <sys/resource.h>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/text.h"
+#include "report/sentences.h"
+#include "report/solve_report.h"
+#include "support/wording.h"
+
+namespace cbc {
+namespace {
+
+Microseconds microseconds_of(const timeval& time) { return time.tv_sec * second + time.tv_usec; }
+
+}  // namespace
+
+ProcessUsage process_usage() {
+  rusage usage{};
+  if (::getrusage(RUSAGE_SELF, &usage) != 0) return {};
+  constexpr std::uint64_t kibibyte = 1024;  // the unit of Linux
+  return {static_cast<std::uint64_t>(usage.ru_maxrss) * kibibyte,
+          microseconds_of(usage.ru_utime) + microseconds_of(usage.ru_stime)};
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double mean(const Spread& spread, std::uint64_t count) {
+  return static_cast<double>(spread.sum) / static_cast<double>(count);
+}
+
+std::string name_of_kind(const SearchTotals::Kind& kind) {
+  std::string name(name_of(kind.verb));
+  if (kind.origin != Origin::script) name += fmt::format(" ({})", name_of(kind.origin));
+  return name;
+}
+
+/// One measure of a kind of events: its name, mean, least and greatest.
+std::string columns(const char* measure, const Spread& spread, std::uint64_t events) {
+  return fmt::format("{:<12}  {:>12.2f} {:>12} {:>12}\n", measure, mean(spread, events),
+                     spread.least, spread.greatest);
+}
+
+std::string columns_of_time(const Spread& spread, std::uint64_t events) {
+  return fmt::format("{:<12}  {:>12.2f} {:>12.2f} {:>12.2f}\n", "time [us]",
+                     mean(spread, events) / 1000, to_microseconds(spread.least),
+                     to_microseconds(spread.greatest));
+}
+
+std::string rows(const std::string& name, const SearchEffort& effort) {
+  if (effort.events == 0) return {};
+  const std::string indent(29, ' ');
+  return fmt::format("  {:<16} {:>8}  ", name, effort.events) +
+         columns("solutions", effort.solutions, effort.events) + indent +
+         columns("nodes", effort.nodes, effort.events) + indent +
+         columns("propagations", effort.propagations, effort.events) + indent +
+         columns_of_time(effort.nanoseconds, effort.events);
+}
+
+Json spread_to_json(const Spread& spread, std::uint64_t count) {
+  if (count == 0) return {{"sum", 0}, {"mean", nullptr}, {"min", nullptr}, {"max", nullptr}};
+  return {{"sum", spread.sum},
+          {"mean", mean(spread, count)},
+          {"min", spread.least},
+          {"max", spread.greatest}};
+}
+
+Json time_to_json(const Spread& spread, std::uint64_t count) {
+  if (count == 0) return spread_to_json(spread, count);
+  return {{"sum", to_microseconds(spread.sum)},
+          {"mean", mean(spread, count) / 1000},
+          {"min", to_microseconds(spread.least)},
+          {"max", to_microseconds(spread.greatest)}};
+}
+
+void add_effort(Json& json, const SearchEffort& effort) {
+  json["events"] = effort.events;
+  json["solutions"] = spread_to_json(effort.solutions, effort.events);
+  json["nodes"] = spread_to_json(effort.nodes, effort.events);
+  json["propagations"] = spread_to_json(effort.propagations, effort.events);
+  json["elapsed_us"] = time_to_json(effort.nanoseconds, effort.events);
+}
+
+}  // namespace
+
+double to_microseconds(std::uint64_t nanoseconds) {
+  return static_cast<double>(nanoseconds) / 1000;
+}
+
+std::string stats_table(const SearchTotals& totals, const ProcessUsage& usage, const Style& style) {
+  std::string text =
+      fmt::format("{}searches{}\n{}  {:<16} {:>8}  {:<12}  {:>12} {:>12} {:>12}{}\n", style.strong,
+                  style.reset, style.faint, "event", "n", "", "mean", "min", "max", style.reset);
+  for (std::size_t kind = 0; kind < SearchTotals::kinds.size(); ++kind) {
+    text += rows(name_of_kind(SearchTotals::kinds[kind]), totals.of_kind(kind));
+  }
+  text += totals.all().events > 0 ? rows("all", totals.all()) : "  none\n";
+  text +=
+      fmt::format("  process: {:.1f} MiB of memory at most, {:.3f} s of CPU time\n",
+                  static_cast<double>(usage.peak_memory) / (1 << 20), to_seconds(usage.cpu_time));
+  return text;
+}
+
+std::string stats_line(const SearchRecord& search) {
+  std::string text = quantity(search.result.solutions, "solution") + ", " +
+                     quantity(search.result.nodes, "node") + ", " +
+                     quantity(search.result.propagations, "propagation");
+  if (search.elapsed) {
+    text += fmt::format(", {:.2f} us",
+                        to_microseconds(static_cast<std::uint64_t>(search.elapsed->count())));
+  }
+  return text;
+}
+
+Json stats_to_json(const SearchTotals& totals) {
+  Json json;
+  add_effort(json, totals.all());
+  Json& kinds = json["kinds"] = Json::array();
+  for (std::size_t kind = 0; kind < SearchTotals::kinds.size(); ++kind) {
+    if (totals.of_kind(kind).events == 0) continue;
+    Json& entry = kinds.emplace_back(Json::object());
+    entry["verb"] = name_of(SearchTotals::kinds[kind].verb);
+    entry["origin"] = name_of(SearchTotals::kinds[kind].origin);
+    add_effort(entry, totals.of_kind(kind));
+  }
+  return json;
+}
+
+Json usage_to_json(const ProcessUsage& usage) {
+  return {{"peak_memory_bytes", usage.peak_memory}, {"cpu_us", usage.cpu_time}};
+}
+
+namespace {
+
+constexpr std::size_t widest_column = 48;
+constexpr const char* change_indent = "          ";
+constexpr const char* text_indent = "           ";
+
+std::size_t width_of(std::string_view text) {
+  std::size_t width = 0;
+  for (std::size_t offset = 0; offset < text.size();) {
+    const utf8::Decoded decoded = utf8::decode(text, offset);
+    width += utf8::display_width(decoded.character);
+    offset += decoded.bytes;
+  }
+  return width;
+}
+
+std::size_t column_width(const Texts& names, std::size_t least) {
+  std::size_t width = least;
+  for (const std::string_view name : names) width = std::max(width, width_of(printable(name)));
+  return std::min(width, widest_column);
+}
+
+std::string join_tasks(const CompiledCatalog& catalog, std::span<const TaskId> tasks) {
+  std::string text;
+  for (const TaskId task : tasks) {
+    if (!text.empty()) text += ", ";
+    text += printable(catalog.name_of_task(task));
+  }
+  return text;
+}
+
+}  // namespace
+
+void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
+  catalog_ = &catalog;
+  script_file_ = printable(script.file);
+  behavior_width_ = column_width(catalog.behavior_names, 8);
+  task_width_ = column_width(catalog.task_names, 4);
+  if (runs_ > 0) fmt::print(out_, "\n");
+  fmt::print(out_, "{}{}{} with {}\n\n", style_.strong, script_file_, style_.reset,
+             printable(catalog.file));
+  fmt::print(out_, "{}  time [s]  event{}\n", style_.faint, style_.reset);
+  fmt::print(out_, "{}{} P T S  {:<{}}  {:<{}}  cause{}\n", style_.faint, change_indent, "behavior",
+             behavior_width_, "task", task_width_, style_.reset);
+  if (!script.situation.empty()) {
+    fmt::print(out_, "{:>10}  {}situation{}{}\n", "before", style_.strong,
+               describe_situation(catalog, script.situation), style_.reset);
+  }
+}
+
+void TextReport::on_event(const EventRecord& record, const Step* step, const State& state) {
+  fmt::print(out_, "{:>10}  {}{}{}{}\n", format_time(record.time), style_.strong,
+             describe_event(*catalog_, record, step), style_.reset, describe_outcome(record));
+  if (record.outcome == Outcome::rejected) {
+    for (const std::string& sentence : describe_rejection(*catalog_, record)) {
+      fmt::print(out_, "{}{}\n", text_indent, sentence);
+    }
+  }
+  for (const Change& change : record.changes) write_change(record, change);
+  write_stopped(record);
+  write_explanation(record, state);
+  if (record.search != nullptr && record.search->elapsed) {
+    fmt::print(out_, "{}{}{}{}\n", text_indent, style_.faint, stats_line(*record.search),
+               style_.reset);
+  }
+}
+
+std::string TextReport::describe_outcome(const EventRecord& record) const {
+  std::string_view color = style_.faint;
+  switch (record.verb) {
+    case Verb::start:
+    case Verb::stop:
+    case Verb::finish:
+      break;
+    default:
+      return {};  // there is nothing to accept or reject
+  }
+  if (record.outcome == Outcome::accepted) color = style_.good;
+  if (record.outcome == Outcome::rejected) color = style_.bad;
+  const bool is_cut = record.search && record.search->result.status == SearchStatus::feasible;
+  return fmt::format(": {}{}{}{}", color, name_of(record.outcome), style_.reset,
+                     is_cut ? " (not proven best: a search limit came first)" : "");
+}
+
+void TextReport::write_change(const EventRecord& record, const Change& change) {
+  const std::string priority = change.priority ? std::to_string(*change.priority) : ".";
+  const std::string_view color = change.success ? std::string_view() : style_.bad;
+  fmt::print(out_, "{}{}{:>2} {} {}  {:<{}}  {:<{}}  {}{}\n", change_indent, color, priority,
+             change.is_activation ? '+' : '-', change.success ? 'Y' : 'N',
+             printable(catalog_->name_of_behavior(change.behavior)), behavior_width_,
+             join_tasks(*catalog_, record.tasks_of(change)), task_width_, name_of(change.cause),
+             color.empty() ? std::string_view() : style_.reset);
+}
+
+void TextReport::write_stopped(const EventRecord& record) {
+  if (record.stopped_tasks.empty()) return;
+  std::string text;
+  for (const StoppedTask& stopped : record.stopped_tasks) {
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ",
+                        printable(catalog_->name_of_task(stopped.task)), name_of(stopped.cause));
+  }
+  fmt::print(out_, "{}stopped: {}\n", text_indent, text);
+}
+
+void TextReport::write_explanation(const EventRecord& record, const State& state) {
+  for (const Displacement& displaced : record.explanation.displaced) {
+    write(describe_displacement(*catalog_, record, displaced, state));
+  }
+  for (const Why& why : record.explanation.why) write(describe_why(*catalog_, record, why, state));
+  write_alternatives(record, state);
+}
+
+void TextReport::write_alternatives(const EventRecord& record, const State& state) {
+  const std::size_t count = record.explanation.alternatives.size();
+  if (count == 0) return;
+  fmt::print(out_, "{}best configurations:\n", text_indent);
+  for (std::size_t place = 0; place < count; ++place) {
+    fmt::print(out_, "{}{:>4}  {}\n", text_indent, place + 1,
+               describe_alternative(*catalog_, record, place, state));
+  }
+  if (record.explanation.is_list_cut) {
+    fmt::print(out_, "{}a limit of effort came before the next one\n", text_indent);
+  }
+}
+
+void TextReport::write(const Sentences& sentences) {
+  fmt::print(out_, "{}{}\n", text_indent, sentences.first);
+  for (const std::string& sentence : sentences.more) {
+    fmt::print(out_, "{}  {}\n", text_indent, sentence);
+  }
+}
+
+void TextReport::on_failure(const Failure& failure) {
+  fmt::print(out_, "{}{}:{}:{}: {}{}\n", style_.bad, script_file_, failure.range.begin.line,
+             failure.range.begin.column, failure.message, style_.reset);
+}
+
+void TextReport::on_end(const State& state) {
+  std::vector<std::string> lines(catalog_->behavior_names.size());
+  for (const std::uint32_t index : state.running()) {
+    std::string& tasks =
+        lines[catalog_->behaviors[state.behavior(catalog_->task_ids[index])].catalog_index];
+    tasks += fmt::format("{}{}", tasks.empty() ? "" : ", ", printable(catalog_->task_names[index]));
+  }
+  fmt::print(out_, "\n{}active behaviors{}\n", style_.strong, style_.reset);
+  bool is_idle = true;
+  for (std::size_t behavior = 0; behavior < lines.size(); ++behavior) {
+    if (lines[behavior].empty()) continue;
+    is_idle = false;
+    fmt::print(out_, "  {:<{}}  {}\n", printable(catalog_->behavior_names[behavior]),
+               behavior_width_, lines[behavior]);
+  }
+  if (is_idle) fmt::print(out_, "  none\n");
+}
+
+void TextReport::end_run(const RunResult& result, const std::string& /*error*/) {
+  count(result);
+  if (result.passed + result.failed == 0) return;
+  fmt::print(out_, "\n{}expectations: {} passed, {} failed{}\n",
+             result.failed > 0 ? style_.bad : style_.good, result.passed, result.failed,
+             style_.reset);
+}
+
+void TextReport::count(const RunResult& result) {
+  ++runs_;
+  if (result.failed > 0) ++failed_runs_;
+  if (!result.totals) return;
+  if (!totals_) totals_.emplace();
+  totals_->merge(*result.totals);
+}
+
+std::unique_ptr<SolveReport> TextReport::make_part(std::FILE* out) const {
+  return std::make_unique<TextReport>(style_, out);
+}
+
+void TextReport::add_part(std::string_view text, const RunResult& result) {
+  if (runs_ > 0) fmt::print(out_, "\n");
+  fmt::print(out_, "{}", text);
+  count(result);
+}
+
+void TextReport::end() {
+  if (runs_ > 1) {
+    fmt::print(out_, "\n{}{} scripts, {} with failed expectations{}\n",
+               failed_runs_ > 0 ? style_.bad : style_.good, runs_, failed_runs_, style_.reset);
+  }
+  if (totals_) fmt::print(out_, "\n{}", stats_table(*totals_, process_usage(), style_));
+}
+
+}  // namespace cbc

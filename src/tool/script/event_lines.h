@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "coordinator/state.h"
+#include "diagnostic/diagnostic.h"
+#include "script/reader.h"
+#include "script/script.h"
+#include "yaml/document.h"
+
+namespace cbc {
+
+/// Reads events that come line by line, each a JSON object or a mapping in YAML.
+class EventLines {
+ public:
+  /// What a line says: a step, an error, or, if neither is there, nothing (an empty line or a
+  /// comment).
+  struct Reading {
+    std::optional<Step> step;
+    std::string error;
+    std::vector<std::string> warnings;  ///< the step may be used all the same
+  };
+
+  /// The catalog must outlive this object.
+  explicit EventLines(const CompiledCatalog& catalog) : reader_(catalog, Severity::warning) {}
+
+  [[nodiscard]] Reading read(std::string_view line, std::uint32_t number);
+
+  /// Goes on from the state that a coordinator has come to: at the beginning, or to forget what a
+  /// line with errors said.
+  void resume(Microseconds now, const State& state) { reader_.resume(now, state); }
+
+ private:
+  yaml::JsonReader json_;
+  StepReader reader_;
+};
+
+/// Reads the lines of a recorded stream of events (`cbc solve --format jsonl`).
+class EventLog {
+ public:
+  struct Header {
+    std::string catalog;  ///< as it was named
+    Microseconds reactive_delay = 0;
+    std::vector<Availability> situation;
+  };
+  struct Entry {
+    bool is_event = false;     ///< if not, it is the answer to a line that was no event
+    Microseconds time = 0;     ///< of an event
+    std::optional<Step> step;  ///< of an event of origin script
+  };
+
+  /// The catalog must outlive this object.
+  explicit EventLog(const CompiledCatalog& catalog) : catalog_(catalog), names_(catalog) {}
+
+  /// Each is empty if the line is not what it should be: see error().
+  [[nodiscard]] std::optional<Header> read_header(std::string_view line);
+  [[nodiscard]] std::optional<Entry> read_entry(std::string_view line, std::uint32_t number);
+  [[nodiscard]] const std::string& error() const { return error_; }
+
+ private:
+  [[nodiscard]] const yaml::Node* read_object(std::string_view line, std::uint32_t number,
+                                              Reporter& reporter);
+  [[nodiscard]] std::vector<Availability> read_situation(const yaml::Node& node,
+                                                         Reporter& reporter);
+  [[nodiscard]] Entry read_event(const yaml::Node& event, Reporter& reporter);
+  [[nodiscard]] Step read_step(const yaml::Node& event, Reporter& reporter);
+  [[nodiscard]] bool is_good(const Reporter& reporter, const Diagnostics& diagnostics);
+
+  const CompiledCatalog& catalog_;
+  NameIndex names_;
+  yaml::JsonReader json_;
+  std::string error_;
+};
+
+/// The state of a coordinator as a JSON document (see `cbc solve --state-out`):
+///
+///     {"schema": "cbc.state/1",
+///      "digest": "…",                       of the catalog, see identity_of
+///      "time_us": 4080000, "events": 12,    the clock, and the number of the last event
+///      "reactive_delay_us": 80000,
+///      "running": [{"task": "HOVER", "behavior": "HOVER_WITH_MPC", "since_us": 4000000,
+///                   "waits_for_timeout": false,
+///                   "request": {"priority": 2, "event": 9, "parameters": "…"}}],   or null
+///      "active": {"HOVER_WITH_MPC": 4000000},    and when it was activated
+///      "unavailable": ["GPS"], "faulty": [],
+///      "queue": {"LAND": 4160000}}               reactive tasks, and when they are due
+///
+/// Parameters are in canonical form (see Event::parameters).
+
+[[nodiscard]] std::string write_state(const CompiledCatalog& catalog, const Snapshot& snapshot);
+
+/// A snapshot that a coordinator on the catalog can go on from, or why there is none.
+struct StateReading {
+  std::optional<Snapshot> snapshot;
+  std::string error;
+};
+[[nodiscard]] StateReading read_state(std::string_view text, const CompiledCatalog& catalog);
+
+}  // namespace cbc

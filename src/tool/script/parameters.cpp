@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <charconv>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "base/text.h"
+#include "catalog/allowed_values.h"
+#include "diagnostic/rules.h"
+#include "script/reader.h"
+#include "support/json.h"
+#include "yaml/values.h"
+
+namespace cbc {
+namespace {
+
+using yaml::Kind;
+using yaml::Node;
+
+void report_duplicates(const Node& node, Reporter& reporter) {
+  if (node.kind == Kind::mapping) yaml::report_duplicate_keys(node, reporter);
+  for (const Node* item : node.items) report_duplicates(*item, reporter);
+  for (const auto& entry : node.entries) report_duplicates(*entry.second, reporter);
+}
+
+// Canonical form -----------------------------------------------------------------------------
+//
+// Every value says how long it is before it begins, so that no two values have the same text: a
+// scalar is "s<bytes>:<text>", a list "l<items>:<items>", a mapping "m<entries>:<keys and values>",
+// and an empty item of a list "n".
+
+std::string tagged(char tag, std::size_t size) { return tag + std::to_string(size) + ":"; }
+
+std::string canonical(const Node& node);
+
+std::string canonical_list(const Node& node) {
+  std::string text;
+  std::size_t size = 0;
+  std::size_t waiting = 0;  // empty items that only count if another one follows
+  for (const Node* item : node.items) {
+    const std::string value = canonical(*item);
+    if (value.empty()) {
+      ++waiting;
+      continue;
+    }
+    text.append(waiting, 'n');
+    text += value;
+    size += waiting + 1;
+    waiting = 0;
+  }
+  return size == 0 ? "" : tagged('l', size) + text;
+}
+
+std::string canonical_mapping(const Node& node) {
+  std::vector<std::pair<std::string_view, std::string>> entries;
+  for (const auto& [key, value] : node.entries) {
+    std::string text = canonical(*value);
+    if (!text.empty()) entries.emplace_back(key->text, std::move(text));
+  }
+  if (entries.empty()) return {};
+  std::sort(entries.begin(), entries.end());
+  std::string text = tagged('m', entries.size());
+  for (const auto& [key, value] : entries) {
+    text += tagged('s', key.size());
+    text += key;
+    text += value;
+  }
+  return text;
+}
+
+std::string canonical(const Node& node) {
+  switch (node.kind) {
+    case Kind::null:
+      break;
+    case Kind::scalar:
+      return node.text.empty() ? "" : tagged('s', node.text.size()) + node.text;
+    case Kind::sequence:
+      return canonical_list(node);
+    case Kind::mapping:
+      return canonical_mapping(node);
+  }
+  return {};
+}
+
+// JSON ---------------------------------------------------------------------------------------
+
+bool is_digit(char character) { return character >= '0' && character <= '9'; }
+
+/// Whether a text is a number of JSON. One that no double can hold is none here, as many readers of
+/// JSON refuse it.
+bool is_number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return false;
+  // These are no numbers to JSON: .5, 05, 5., inf
+  if (text.starts_with('-')) text.remove_prefix(1);
+  if (!is_digit(text.front())) return false;
+  if (text.size() > 1 && text.front() == '0' && is_digit(text[1])) return false;
+  const std::size_t point = text.find('.');
+  return point == std::string_view::npos || (point + 1 < text.size() && is_digit(text[point + 1]));
+}
+
+void append_json(std::string& json, const Node& node) {
+  switch (node.kind) {
+    case Kind::null:
+      json += "null";
+      break;
+    case Kind::scalar:
+      // As it was written, so that no digit is lost.
+      if (node.plain && (node.text == "true" || node.text == "false" || is_number(node.text))) {
+        json += node.text;
+      } else {
+        append_text(json, node.text);
+      }
+      break;
+    case Kind::sequence:
+      json += '[';
+      for (const Node* item : node.items) {
+        if (json.back() != '[') json += ',';
+        append_json(json, *item);
+      }
+      json += ']';
+      break;
+    case Kind::mapping:
+      json += '{';
+      for (const auto& [key, value] : node.entries) {
+        JsonWriter(json).key(key->text);
+        append_json(json, *value);
+      }
+      json += '}';
+      break;
+  }
+}
+
+}  // namespace
+
+std::optional<Parameters> read_parameters(const Node& node, Reporter& reporter) {
+  if (yaml::read_mapping(node, "parameters", "a mapping", reporter) == nullptr) {
+    return std::nullopt;
+  }
+  report_duplicates(node, reporter);
+  Parameters parameters{canonical(node), {}};
+  append_json(parameters.json, node);
+  return parameters;
+}
+
+namespace {
+
+std::vector<std::string_view> list_names(const std::vector<Parameter>& parameters) {
+  std::vector<std::string_view> names;
+  names.reserve(parameters.size());
+  for (const Parameter& parameter : parameters) names.push_back(parameter.name);
+  return names;
+}
+
+std::string describe(const std::vector<Parameter>& parameters) {
+  constexpr std::size_t most = 8;
+  std::string text;
+  for (std::size_t place = 0; place < std::min(parameters.size(), most); ++place) {
+    text += (place > 0 ? ", " : "") + quote(parameters[place].name);
+  }
+  if (parameters.size() > most)
+    text += " and " + std::to_string(parameters.size() - most) + " more";
+  return text;
+}
+
+}  // namespace
+
+ParameterChecks::Declared::Declared(std::vector<Parameter> declared)
+    : parameters(std::move(declared)),
+      suggestions(list_names(parameters)),
+      all(describe(parameters)) {
+  for (const Parameter& parameter : parameters) values.try_emplace(parameter.name, parameter);
+}
+
+ParameterChecks::Declared& ParameterChecks::declared_by(std::uint32_t task) {
+  const auto found = declared_.find(task);
+  if (found != declared_.end()) return found->second;
+  return declared_.try_emplace(task, parameters_of(catalog_, task)).first->second;
+}
+
+void ParameterChecks::check(std::uint32_t task, const yaml::Node& given, Reporter& reporter) {
+  Declared& declared = declared_by(task);
+  std::unordered_set<std::string_view> known;
+  for (const auto& [name, value] : given.entries) {
+    if (!known.insert(name->text).second) continue;  // an error of its own
+    const auto found = declared.values.find(name->text);
+    if (found == declared.values.end()) {
+      report_undeclared(task, *name, reporter);
+    } else if (const auto fault = found->second.find_fault(*value)) {
+      reporter.report_as(severity_, rule::parameter_value, fault->node->range,
+                         "parameter " + quote(name->text) + " of task " +
+                             quote(catalog_.task_names[task]) + ": " + fault->message);
+    }
+  }
+}
+
+void ParameterChecks::report_undeclared(std::uint32_t task, const yaml::Node& name,
+                                        Reporter& reporter) {
+  Declared& declared = declared_by(task);
+  std::string message = "task " + quote(catalog_.task_names[task]);
+  if (declared.values.empty()) {
+    message += " declares no parameters, found " + quote(name.text);
+  } else {
+    message += " declares no parameter " + quote(name.text);
+    if (const auto suggestion = declared.suggestions.nearest(name.text)) {
+      message += did_you_mean(suggestion);
+    } else {
+      message += ", only " + declared.all;
+    }
+  }
+  reporter.report_as(severity_, rule::undeclared_parameter, name.range, std::move(message));
+}
+
+}  // namespace cbc

@@ -1,0 +1,483 @@
+#include "script/reader.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "base/text.h"
+#include "cbc/event.h"
+#include "diagnostic/diagnostic.h"
+#include "diagnostic/rules.h"
+#include "script/script.h"
+#include "yaml/values.h"
+
+namespace cbc::shape {
+namespace {
+
+using yaml::Key;
+using yaml::Shape;
+
+constexpr Key script_keys[] = {{"catalog"}, {"reactive_delay"}, {"situation"}, {"events"}};
+constexpr Key event_keys[] = {{"start"}, {"stop"},     {"finish"},     {"situation"},
+                              {"fault"}, {"repair"},   {"expect"},     {"at"},
+                              {"wait"},  {"priority"}, {"parameters"}, {"cause"}};
+constexpr Key expectation_keys[] = {{"outcome"}, {"running"}, {"stopped"}, {"active"}};
+
+constexpr const Shape* in_event[] = {&expectation};
+
+}  // namespace
+
+const Shape script{"a script", script_keys};
+const Shape event{"an event", event_keys, nullptr, in_event};
+const Shape expectation{"an expect", expectation_keys, &event};
+
+}  // namespace cbc::shape
+
+namespace cbc {
+namespace {
+
+Suggestions& suggestions_from(const Texts& names, std::optional<Suggestions>& made) {
+  if (!made) {
+    std::vector<std::string_view> all;
+    all.reserve(names.size());
+    // NOLINTNEXTLINE(modernize-loop-convert): these texts have no iterators
+    for (std::size_t place = 0; place < names.size(); ++place) all.push_back(names[place]);
+    made.emplace(std::move(all));
+  }
+  return *made;
+}
+
+// Of a name that is unknown as a `kind`, but perhaps known as another.
+std::string describe_unknown(std::string_view name, std::string_view kind, bool is_other,
+                             std::string_view other, Suggestions& suggestions) {
+  std::string message = "there is no " + std::string(kind) + " " + quote(name);
+  if (is_other) message += ": it is a " + std::string(other);
+  message += did_you_mean(suggestions.nearest(name));
+  return message;
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> NameIndex::find_task(const yaml::Node& node, std::string_view what,
+                                                  Reporter& reporter) {
+  const auto name = yaml::read_name(node, what, "the name of a task", reporter);
+  if (!name) return std::nullopt;
+  const auto found = catalog_.find_task(*name);
+  if (!found) {
+    reporter.report(rule::undefined_task, node.range,
+                    describe_unknown(*name, "task", catalog_.find_behavior(*name).has_value(),
+                                     "behavior", suggestions_from(catalog_.task_names, tasks_)));
+  }
+  return found;
+}
+
+std::optional<std::uint32_t> NameIndex::find_behavior(const yaml::Node& node, std::string_view what,
+                                                      Reporter& reporter) {
+  const auto name = yaml::read_name(node, what, "the name of a behavior", reporter);
+  if (!name) return std::nullopt;
+  const auto found = catalog_.find_behavior(*name);
+  if (!found) {
+    reporter.report(
+        rule::undefined_behavior, node.range,
+        describe_unknown(*name, "behavior", catalog_.find_task(*name).has_value(), "task",
+                         suggestions_from(catalog_.behavior_names, behaviors_)));
+  }
+  return found;
+}
+
+namespace {
+
+using yaml::Kind;
+using yaml::Node;
+
+class ExpectationReader {
+ public:
+  ExpectationReader(NameIndex& names, Reporter& reporter) : names_(names), reporter_(reporter) {}
+
+  Expectation read(const Node& node) && {
+    if (yaml::read_mapping(node, "expect", "a mapping", reporter_) == nullptr) return {};
+    yaml::Fields fields(node, shape::expectation, reporter_);
+    if (const Node* outcome = fields.find("outcome")) read_outcome(*outcome);
+    if (const Node* running = fields.find("running")) read_running(*running);
+    if (const Node* stopped = fields.find("stopped")) read_stopped(*stopped);
+    if (const Node* active = fields.find("active")) read_active(*active);
+    fields.report_unknown(Severity::error);
+    return std::move(out_);
+  }
+
+ private:
+  void read_outcome(const Node& node) {
+    const auto choice = yaml::read_choice(
+        node, "outcome",
+        {name_of(Outcome::accepted), name_of(Outcome::rejected), name_of(Outcome::unchanged)},
+        reporter_);
+    if (choice) out_.outcome = static_cast<Outcome>(*choice);
+  }
+
+  void read_running(const Node& node) {
+    if (yaml::read_mapping(node, "running", "a mapping of tasks to behaviors or 'any'",
+                           reporter_) == nullptr) {
+      return;
+    }
+    yaml::report_duplicate_keys(node, reporter_);
+    for (const auto& [key, value] : node.entries) {
+      Expectation::Running entry;
+      const auto task = names_.find_task(*key, "running", reporter_);
+      if (value->kind != Kind::scalar) {
+        yaml::report_wrong_type(*value, key->text, "a behavior or 'any'", reporter_);
+      } else if (value->text != "any") {
+        entry.behavior = names_.find_behavior(*value, key->text, reporter_);
+      }
+      if (task) running_at_.try_emplace(*task, key->range);
+      if (task && entry.behavior) check_performs(*entry.behavior, *task, value->range);
+      entry.task = task.value_or(0);
+      out_.running.push_back(entry);
+    }
+  }
+
+  void check_performs(std::uint32_t behavior, std::uint32_t task, const Range& range) {
+    const CompiledCatalog& catalog = names_.catalog();
+    std::vector<std::uint32_t> performed;
+    for (const ValueId value : catalog.performs[catalog.behavior_ids[behavior]]) {
+      performed.push_back(catalog.tasks[catalog.task_of(value)].catalog_index);
+    }
+    if (std::find(performed.begin(), performed.end(), task) != performed.end()) return;
+    const std::uint32_t first = *std::min_element(performed.begin(), performed.end());
+    std::string performs = quote(catalog.task_names[first]);
+    if (performed.size() > 1) performs += " and " + std::to_string(performed.size() - 1) + " more";
+    reporter_.report(rule::impossible_expectation, range,
+                     "this can never hold: behavior " + quote(catalog.behavior_names[behavior]) +
+                         " does not perform task " + quote(catalog.task_names[task]) +
+                         ", it performs " + performs);
+  }
+
+  void read_stopped(const Node& node) {
+    if (yaml::read_list(node, "stopped", "a list of tasks", reporter_) == nullptr) return;
+    for (const Node* item : node.items) {
+      const auto task = names_.find_task(*item, "stopped", reporter_);
+      out_.stopped.push_back(task.value_or(0));
+      if (!task) continue;
+      const auto running = running_at_.find(*task);
+      if (running == running_at_.end()) continue;
+      reporter_.report(
+          rule::impossible_expectation, item->range,
+          "this can never hold: task " + quote(item->text) + " is expected to run, too",
+          {reporter_.note(running->second, "expected to run here")});
+    }
+  }
+
+  void read_active(const Node& node) {
+    if (yaml::read_list(node, "active", "a list of behaviors", reporter_) == nullptr) return;
+    auto& behaviors = out_.active.emplace();
+    for (const Node* item : node.items) {
+      behaviors.push_back(names_.find_behavior(*item, "active", reporter_).value_or(0));
+    }
+  }
+
+  NameIndex& names_;
+  Reporter& reporter_;
+  Expectation out_;
+  std::unordered_map<std::uint32_t, Range> running_at_;  ///< by task
+};
+
+}  // namespace
+
+Expectation read_expectation(const Node& node, NameIndex& names, Reporter& reporter) {
+  return ExpectationReader(names, reporter).read(node);
+}
+
+namespace {
+
+using yaml::Fields;
+using yaml::Kind;
+using yaml::Node;
+
+constexpr std::string_view expect = "expect";
+constexpr std::string_view verbs[] = {"start", "stop",   "finish", "situation",
+                                      "fault", "repair", expect};
+
+// Keys that belong to some verbs only.
+struct Detail {
+  std::string_view key;
+  std::string_view verbs;  ///< for messages
+  bool (*belongs_to)(std::string_view verb);
+};
+constexpr Detail details[] = {
+    {"priority", "'start' and 'stop'",
+     [](std::string_view verb) { return verb == "start" || verb == "stop"; }},
+    {"parameters", "'start'", [](std::string_view verb) { return verb == "start"; }},
+    {"cause", "'finish'", [](std::string_view verb) { return verb == "finish"; }},
+};
+
+void report_misplaced(const Fields& fields, std::string_view verb, Reporter& reporter) {
+  for (const Detail& detail : details) {
+    if (fields.find(detail.key) == nullptr || detail.belongs_to(verb)) continue;
+    reporter.report_as(Severity::error, rule::unknown_key, fields.range_of(detail.key),
+                       quote(detail.key) + " does not belong to " + quote(verb) + ", only to " +
+                           std::string(detail.verbs));
+  }
+}
+
+// The verb of an entry; "wait" if it has a time only; empty after an error.
+std::string_view find_verb(const Fields& fields, const Range& range, Reporter& reporter) {
+  std::vector<std::string_view> found;
+  std::string_view without_value;
+  for (const std::string_view verb : verbs) {
+    if (fields.find(verb) != nullptr) {
+      found.push_back(verb);
+    } else if (fields.has(verb)) {
+      without_value = verb;
+    }
+  }
+  if (found.size() == 1) return found.front();
+  if (found.size() > 1) {
+    std::sort(found.begin(), found.end(), [&fields](std::string_view a, std::string_view b) {
+      return fields.range_of(a) < fields.range_of(b);
+    });
+    reporter.report(rule::invalid_value, fields.range_of(found[1]),
+                    "an event has one verb, found " + quote(found[0]) + " and " + quote(found[1]),
+                    {reporter.note(fields.range_of(found[0]), "the first one is here")});
+  } else if (!without_value.empty()) {
+    reporter.report(rule::missing_key, fields.range_of(without_value),
+                    quote(without_value) + " has no value");
+  } else if (fields.has_unknown()) {
+    // Probably a misspelt verb; it is reported as such.
+  } else if (fields.find("at") != nullptr || fields.find("wait") != nullptr) {
+    return "wait";
+  } else {
+    reporter.report(rule::missing_key, range,
+                    "an event needs one of 'start', 'stop', 'finish', 'situation', 'fault', "
+                    "'repair', 'expect', 'at' and 'wait'");
+  }
+  return {};
+}
+
+}  // namespace
+
+Step StepReader::read(const Node& node, Reporter& reporter) {
+  Step step;
+  step.range = node.range;
+  if (node.kind != Kind::mapping) {
+    reporter.report(rule::wrong_type, node.range,
+                    "an event must be a mapping ('start: TASK'), found " + yaml::describe(node));
+    return step;
+  }
+  Fields fields(node, shape::event, reporter);
+  read_time(fields, step, reporter);
+  const std::string_view verb = find_verb(fields, node.range, reporter);
+  if (verb.empty()) {
+    doubt_situation();
+  } else {
+    report_misplaced(fields, verb, reporter);
+    read_verb(verb, fields, step, reporter);
+  }
+  fields.report_unknown(Severity::error);
+  return step;
+}
+
+void StepReader::resume(Microseconds now, const State& state) {
+  clock_ = now;
+  const auto& ids = names_.catalog().behavior_ids;
+  for (std::uint32_t behavior = 0; behavior < ids.size(); ++behavior) {
+    is_available_[behavior] = state.is_available(ids[behavior]);
+  }
+  knows_situation_ = true;
+}
+
+void StepReader::read_time(const Fields& fields, Step& step, Reporter& reporter) {
+  const Node* at = fields.find("at");
+  const Node* wait = fields.find("wait");
+  if (at != nullptr && wait != nullptr) {
+    const bool at_first = fields.range_of("at") < fields.range_of("wait");
+    reporter.report(rule::invalid_value, fields.range_of(at_first ? "wait" : "at"),
+                    "'at' and 'wait' are both given in an event",
+                    {reporter.note(fields.range_of(at_first ? "at" : "wait"), "first given here")});
+    return;
+  }
+  if (at != nullptr) {
+    const auto time = yaml::read_seconds(*at, "at", false, reporter);
+    if (!time) return;
+    if (*time < clock_) {
+      reporter.report(rule::time_order, at->range,
+                      "time goes back to " + format_decimal(*time, 6) +
+                          " s: the event before is at " + format_decimal(clock_, 6) + " s");
+      return;
+    }
+    clock_ = *time;
+  } else if (wait != nullptr) {
+    const auto duration = yaml::read_seconds(*wait, "wait", false, reporter);
+    if (!duration) return;
+    if (*duration > longest_time - clock_) {
+      reporter.report(rule::invalid_value, wait->range,
+                      "after this wait it is later than " + format_decimal(longest_time, 6) +
+                          " s, the end of time");
+      return;
+    }
+    clock_ += *duration;
+  } else {
+    return;
+  }
+  step.time = clock_;
+}
+
+void StepReader::read_verb(std::string_view verb, const Fields& fields, Step& step,
+                           Reporter& reporter) {
+  if (verb == "wait") {
+    step.verb = Verb::wait;
+    return;
+  }
+  const Node& value = *fields.find(verb);
+  if (verb == expect) {
+    step.expect = read_expectation(value, names_, reporter);
+  } else if (verb == "situation") {
+    step.verb = Verb::situation;
+    step.situation = read_situation(value, reporter);
+  } else if (verb == "start" || verb == "stop") {
+    step.verb = verb == "start" ? Verb::start : Verb::stop;
+    const auto task = names_.find_task(value, verb, reporter);
+    step.subject = task.value_or(0);
+    if (const Node* priority = fields.find("priority")) {
+      step.priority =
+          yaml::read_integer(*priority, "priority", step.verb == Verb::start ? 1 : 0, reporter);
+    }
+    const Node* parameters = fields.find("parameters");
+    if (parameters != nullptr && step.verb == Verb::start) {
+      step.parameters = read_parameters(*parameters, reporter);
+      if (task && step.parameters) parameter_checks_.check(*task, *parameters, reporter);
+    }
+  } else {
+    step.verb = verb == "finish" ? Verb::finish : verb == "fault" ? Verb::fault : Verb::repair;
+    const auto behavior = names_.find_behavior(value, verb, reporter);
+    step.subject = behavior.value_or(0);
+    const Node* cause = fields.find("cause");
+    if (cause != nullptr && step.verb == Verb::finish) {
+      const auto choice = yaml::read_choice(
+          *cause, "cause",
+          {name_of(FinishCause::goal_achieved), name_of(FinishCause::time_out),
+           name_of(FinishCause::wrong_progress), name_of(FinishCause::situation_change),
+           name_of(FinishCause::process_failure), name_of(FinishCause::interrupted)},
+          reporter);
+      if (choice) step.cause = static_cast<FinishCause>(*choice);
+      if (behavior && choice && step.cause == FinishCause::situation_change) {
+        check_finish(*behavior, value.range, reporter);
+      }
+    }
+  }
+}
+
+void StepReader::check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter) {
+  if (!knows_situation_ || !is_available_[behavior]) return;
+  const std::string_view name = names_.catalog().behavior_names[behavior];
+  reporter.report(rule::still_available, range,
+                  "behavior " + quote(name) +
+                      " is still available here, so that it can be chosen again at once; say " +
+                      quote("situation: {" + std::string(name) + ": false}") + " before");
+}
+
+std::vector<Availability> StepReader::read_situation(const Node& node, Reporter& reporter) {
+  std::vector<Availability> situation;
+  constexpr std::string_view expected = "a mapping of behaviors to true or false";
+  if (yaml::read_mapping(node, "situation", expected, reporter) == nullptr) {
+    doubt_situation();
+    return situation;
+  }
+  yaml::report_duplicate_keys(node, reporter);
+  for (const auto& [key, value] : node.entries) {
+    const auto behavior = names_.find_behavior(*key, "situation", reporter);
+    const auto available = yaml::read_boolean(*value, key->text, reporter);
+    if (!behavior || !available) {
+      doubt_situation();
+      continue;
+    }
+    situation.push_back({*behavior, *available});
+    is_available_[*behavior] = *available;
+  }
+  return situation;
+}
+
+namespace {
+
+using yaml::Fields;
+using yaml::Kind;
+using yaml::Node;
+
+void read_steps(const Node& list, StepReader& reader, Script& script, Reporter& reporter) {
+  for (const Node* item : list.items) script.steps.push_back(reader.read(*item, reporter));
+}
+
+void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter& reporter) {
+  Fields fields(root, shape::script, reporter);
+  if (const Node* catalog = fields.find("catalog")) {
+    // The name is used before the script is read; here it is only checked.
+    static_cast<void>(yaml::read_name(*catalog, "catalog", "the path of a catalog", reporter));
+  }
+  if (const Node* delay = fields.find("reactive_delay")) {
+    if (const auto value = yaml::read_seconds(*delay, "reactive_delay", true, reporter)) {
+      script.reactive_delay = *value;
+    }
+  }
+  if (const Node* situation = fields.find("situation")) {
+    script.situation = reader.read_situation(*situation, reporter);
+  } else if (fields.has_unknown()) {
+    reader.doubt_situation();  // it may be misspelt
+  }
+  const Node* events = fields.require("events", root.range);
+  if (events != nullptr &&
+      yaml::read_list(*events, "events", "a list of events", reporter) != nullptr) {
+    read_steps(*events, reader, script, reporter);
+  }
+  fields.report_unknown(Severity::error);
+}
+
+void resume(StepReader& reader, const CompiledCatalog& catalog, const Snapshot& snapshot) {
+  State state(catalog);
+  for (const BehaviorId behavior : snapshot.unavailable) state.set_available(behavior, false);
+  reader.resume(snapshot.now, state);
+}
+
+}  // namespace
+
+std::optional<std::string> catalog_of_script(const yaml::Document& document) {
+  const Node& root = document.root();
+  if (root.kind != Kind::mapping) return std::nullopt;
+  const Node* catalog = root.find("catalog");
+  if (catalog == nullptr || catalog->kind != Kind::scalar || catalog->text.empty()) {
+    return std::nullopt;
+  }
+  return catalog->text;
+}
+
+std::optional<Script> read_script(const yaml::Document& document, const CompiledCatalog& catalog,
+                                  Severity of_parameters, Diagnostics& diagnostics,
+                                  const Snapshot* state) {
+  Reporter reporter(document.file(), diagnostics);
+  StepReader reader(catalog, of_parameters);
+  if (state != nullptr) resume(reader, catalog, *state);
+  Script script;
+  script.file = document.file();
+  const Node& root = document.root();
+  switch (root.kind) {
+    case Kind::null:
+      reporter.report(rule::missing_key, root.range, "missing key 'events': the script is empty");
+      break;
+    case Kind::scalar:
+      reporter.report(rule::wrong_type, root.range,
+                      "a script must be a list of events, or a mapping with the key 'events', "
+                      "found " +
+                          yaml::describe(root));
+      break;
+    case Kind::sequence:
+      read_steps(root, reader, script, reporter);
+      break;
+    case Kind::mapping:
+      read_mapping(root, reader, script, reporter);
+      break;
+  }
+  if (reporter.errors() > 0) return std::nullopt;
+  return script;
+}
+
+}  // namespace cbc

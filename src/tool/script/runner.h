@@ -1,0 +1,153 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cbc/event.h"
+#include "compiled/compiled_catalog.h"
+#include "coordinator/coordinator.h"
+#include "coordinator/record.h"
+#include "coordinator/state.h"
+#include "script/script.h"
+
+namespace cbc {
+
+/// Sum, least and greatest of some numbers.
+struct Spread {
+  std::uint64_t sum = 0;
+  std::uint64_t least = UINT64_MAX;
+  std::uint64_t greatest = 0;
+
+  void add(std::uint64_t number) { merge({number, number, number}); }
+  void merge(const Spread& other) {
+    sum += other.sum;
+    least = std::min(least, other.least);
+    greatest = std::max(greatest, other.greatest);
+  }
+};
+
+/// What the searches of some events took.
+struct SearchEffort {
+  std::uint64_t events = 0;
+  Spread solutions;
+  Spread nodes;
+  Spread propagations;
+  Spread nanoseconds;
+
+  void merge(const SearchEffort& other);
+};
+
+/// What the searches of a run took, or of several: by kind of event, and of all. Events that were
+/// not searched for count nowhere.
+class SearchTotals {
+ public:
+  struct Kind {
+    Verb verb = Verb::wait;
+    Origin origin = Origin::script;
+  };
+  /// The kinds of events that may be searched for.
+  static constexpr std::array<Kind, 6> kinds{{{Verb::start, Origin::script},
+                                              {Verb::stop, Origin::script},
+                                              {Verb::finish, Origin::script},
+                                              {Verb::finish, Origin::timeout},
+                                              {Verb::finish, Origin::fault},
+                                              {Verb::start, Origin::reactive}}};
+
+  /// An event whose time was measured, if it was searched for.
+  void add(const EventRecord& record);
+  void merge(const SearchTotals& other);
+
+  [[nodiscard]] const SearchEffort& all() const { return all_; }
+  /// Of one of the kinds, by its place.
+  [[nodiscard]] const SearchEffort& of_kind(std::size_t kind) const { return by_kind_[kind]; }
+
+ private:
+  SearchEffort all_;
+  std::array<SearchEffort, kinds.size()> by_kind_;
+};
+
+/// What of the expectation does not hold, in a sentence; empty if all of it holds. `outcome` is
+/// that of the last scripted start, stop or finish.
+[[nodiscard]] std::string find_mismatch(const Expectation& expectation,
+                                        const CompiledCatalog& catalog, const State& state,
+                                        std::optional<Outcome> outcome);
+
+/// An `expect` that does not hold.
+struct Failure {
+  std::uint64_t index = 0;  ///< of the event it follows; 0: none yet
+  Range range;
+  std::string message;
+  const Step* step = nullptr;  ///< the entry of the script
+};
+
+/// Is told what happens in a run, in order.
+class RunListener {
+ public:
+  virtual ~RunListener() = default;
+  /// `step` is the scripted one, or null. The record and the state are those after the event.
+  virtual void on_event(const EventRecord& record, const Step* step, const State& state) = 0;
+  virtual void on_failure(const Failure& failure) = 0;
+  /// After the last event, also of a run that ended early.
+  virtual void on_end(const State& state) = 0;
+};
+
+struct RunResult {
+  Coordinator::Status status = Coordinator::Status::ok;
+  std::string internal_error;  ///< if an answer was refused
+  std::uint64_t passed = 0;    ///< expectations that hold
+  std::uint64_t failed = 0;
+  std::optional<SearchTotals> totals;  ///< if time was measured
+};
+
+/// The event of a step, which is no expectation. Refers to the step.
+[[nodiscard]] Event event_of(const Step& step);
+
+/// Runs steps one after the other through a coordinator.
+class Runner final : private EventListener {
+ public:
+  /// `catalog` and `listener` must outlive this object.
+  Runner(const CompiledCatalog& catalog, const CoordinatorOptions& options, RunListener& listener)
+      : catalog_(catalog), listener_(listener), coordinator_(catalog, options, *this) {
+    if (options.measure_time) result_.totals.emplace();
+  }
+
+  /// First of all, one of the two: see Coordinator.
+  void begin(std::span<const Availability> situation) { coordinator_.begin(situation); }
+  void resume(const Snapshot& snapshot);
+  /// All that there is to go on from. The last call returned true.
+  [[nodiscard]] Snapshot snapshot() const;
+
+  /// Takes a step, and before it what falls due earlier. False if the run ends early: see result().
+  [[nodiscard]] bool take(const Step& step);
+  /// Processes what is due at the present instant; false as in take.
+  [[nodiscard]] bool settle() { return note(coordinator_.settle()); }
+  /// See Coordinator: the count of events that no script asked for.
+  void restart_count() { coordinator_.restart_count(); }
+
+  [[nodiscard]] const RunResult& result() const { return result_; }
+  [[nodiscard]] const Coordinator& coordinator() const { return coordinator_; }
+
+ private:
+  void on_event(const EventRecord& record) override;
+  [[nodiscard]] bool note(Coordinator::Status status);
+  void check(const Step& step);
+
+  const CompiledCatalog& catalog_;
+  RunListener& listener_;
+  Coordinator coordinator_;
+  RunResult result_;
+  const Step* step_ = nullptr;
+  std::uint64_t index_ = 0;
+  std::optional<Outcome> outcome_;
+};
+
+/// Runs a script, with its own reactive delay, through a coordinator.
+[[nodiscard]] RunResult run_script(const CompiledCatalog& catalog, const Script& script,
+                                   const CoordinatorOptions& options, RunListener& listener);
+
+}  // namespace cbc

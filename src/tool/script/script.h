@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cbc/event.h"
+#include "cbc/units.h"
+#include "diagnostic/diagnostic.h"
+#include "yaml/values.h"
+
+/// The keys of each kind of mapping in a script.
+namespace cbc::shape {
+
+extern const yaml::Shape script;
+extern const yaml::Shape event;
+extern const yaml::Shape expectation;
+
+}  // namespace cbc::shape
+
+namespace cbc {
+
+/// Parameters as a script gives them.
+struct Parameters {
+  std::string canonical;  ///< see Event::parameters
+  std::string json;       ///< as JSON text, for reports
+};
+
+/// A check on the state at its place in the script.
+struct Expectation {
+  struct Running {
+    std::uint32_t task = 0;
+    std::optional<std::uint32_t> behavior;  ///< empty: any
+  };
+  std::optional<Outcome> outcome;  ///< of the last scripted start, stop or finish
+  std::vector<Running> running;
+  std::vector<std::uint32_t> stopped;                ///< tasks that do not run
+  std::optional<std::vector<std::uint32_t>> active;  ///< exactly these behaviors are active
+};
+
+/// One entry of a script: an event, or an expectation.
+struct Step {
+  Range range;
+  std::optional<Microseconds> time;   ///< absolute; empty: the time of the step before
+  std::optional<Expectation> expect;  ///< if set, the fields below mean nothing
+  Verb verb = Verb::wait;
+  std::uint32_t subject = 0;
+  std::optional<std::int32_t> priority;
+  std::optional<Parameters> parameters;
+  FinishCause cause = FinishCause::goal_achieved;
+  std::vector<Availability> situation;
+};
+
+/// A scripted mission, checked against its catalog. Tasks and behaviors are in catalog order.
+struct Script {
+  std::string file;
+  Microseconds reactive_delay = 80'000;
+  std::vector<Availability> situation;  ///< before the first event
+  std::vector<Step> steps;
+};
+
+}  // namespace cbc

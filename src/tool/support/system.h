@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cbc {
+
+/// Puts a content in the place of a file, or makes a new one: whoever reads the file sees the old
+/// content or the new one, never a part, even if the machine stops meanwhile. A symbolic link is
+/// followed. Permissions stay as they are, the owner where the system allows it; other hard links
+/// keep the old content. Signals that end the program wait until it is done.
+///
+/// Returns what went wrong, for people ("No space left on device"), or nothing. After an error the
+/// file is as before, and nothing else is left behind.
+[[nodiscard]] std::optional<std::string> write_atomically(const std::string& path,
+                                                          std::string_view content);
+
+/// Why write_atomically could not write there now, or nothing: for what is written only after long
+/// work. Nothing changes.
+[[nodiscard]] std::optional<std::string> find_obstacle(const std::string& path);
+
+/// What a program made of a text.
+struct Filtered {
+  bool is_found = false;     ///< the program could be started
+  bool is_done = false;      ///< it ended with exit status 0
+  std::string output;        ///< its standard output
+  std::string error_output;  ///< its standard error, or why it could not be run
+};
+
+/// Runs a program, found by PATH, with a text as standard input. No shell is involved.
+[[nodiscard]] Filtered run_filter(const std::vector<std::string>& command, std::string_view input);
+
+}  // namespace cbc

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace cbc {
+
+/// Suggests known names for unknown ones: the one at the smallest edit distance, where a
+/// difference in case, or between '-' and '_', counts little; failing that, the longest one that
+/// begins or ends the unknown name, or is begun or ended by it, at a word boundary. Of equally
+/// near names the first wins.
+///
+/// The work of one object is bounded, so that a file full of unknown names stays cheap: when it is
+/// used up there are no more suggestions.
+class Suggestions {
+ public:
+  /// `names` are views of texts that must outlive this object.
+  explicit Suggestions(std::vector<std::string_view> names) : names_(std::move(names)) {}
+
+  [[nodiscard]] std::optional<std::string_view> nearest(std::string_view name);
+
+ private:
+  std::vector<std::string_view> names_;
+  std::size_t work_left_ = 100'000'000;
+};
+
+/// One search in a few names.
+[[nodiscard]] std::optional<std::string_view> nearest(std::string_view name,
+                                                      std::span<const std::string_view> names);
+
+/// How a message about an unknown name ends: "; did you mean 'HOVER'?", or nothing.
+[[nodiscard]] std::string did_you_mean(std::optional<std::string_view> suggestion);
+
+/// "1 task", "2 tasks", "0 tasks".
+[[nodiscard]] inline std::string quantity(std::uint64_t number, std::string_view noun) {
+  return std::to_string(number) + " " + std::string(noun) + (number == 1 ? "" : "s");
+}
+
+/// Breaks a long name into lines of about equal length, behind a blank or one of "_-./" and before
+/// the capitals of CamelCase. A line may be longer than `width` characters if there is no such
+/// place. The lines together are the name.
+[[nodiscard]] std::vector<std::string_view> wrap_name(std::string_view name, std::size_t width);
+
+/// The path of a URI (RFC 3986) for the path of a file: every byte but letters, digits, "-._~" and
+/// "/" is percent-encoded.
+[[nodiscard]] std::string percent_encode(std::string_view path);
+
+/// A number for a text: FNV-1a of 64 bits, the same on every machine and for ever.
+[[nodiscard]] constexpr std::uint64_t fingerprint(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char byte : text) {
+    hash ^= static_cast<unsigned char>(byte);
+    hash *= 0x100000001b3;
+  }
+  return hash;
+}
+
+}  // namespace cbc

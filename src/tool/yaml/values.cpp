@@ -1,0 +1,394 @@
+#include "yaml/values.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "base/text.h"
+#include "diagnostic/rules.h"
+#include "support/wording.h"
+
+namespace cbc::yaml {
+
+void report_duplicate_keys(const Node& mapping, Reporter& reporter) {
+  std::unordered_map<std::string_view, const Node*> known;
+  for (const auto& entry : mapping.entries) {
+    const Node& key = *entry.first;
+    const auto [first, is_new] = known.try_emplace(key.text, &key);
+    if (is_new) continue;
+    reporter.report(rule::duplicate_key, key.range, quote(key.text) + " is given twice",
+                    {reporter.note(first->second->range, "first given here")});
+  }
+}
+
+namespace {
+
+std::string must_be(std::string_view what, std::string_view expected) {
+  return quote(what) + " must be " + std::string(expected);
+}
+
+// Reports why a number could not be read. Texts that are no plain scalars were dealt with.
+void report_number(const Node& node, std::string_view what, std::string_view expected,
+                   std::string_view precision, DecimalError error, Reporter& reporter) {
+  switch (error) {
+    case DecimalError::no_error:
+      break;
+    case DecimalError::not_a_number:
+      report_wrong_type(node, what, expected, reporter);
+      break;
+    case DecimalError::out_of_range:
+      reporter.report(rule::invalid_value, node.range,
+                      must_be(what, expected) + ", found " + describe(node));
+      break;
+    case DecimalError::too_precise:
+      reporter.report(rule::invalid_value, node.range,
+                      quote(what) + " has " + std::string(precision) + ", found " + describe(node));
+      break;
+  }
+}
+
+// The two booleans in one spelling.
+struct Boolean {
+  std::string_view yes;
+  std::string_view no;
+};
+constexpr Boolean booleans[] = {
+    {"true", "false"}, {"True", "False"}, {"TRUE", "FALSE"}, {"yes", "no"},
+    {"Yes", "No"},     {"YES", "NO"},     {"on", "off"},     {"On", "Off"},
+    {"ON", "OFF"},     {"y", "n"},        {"Y", "N"},
+};
+
+// The spelling of a node that is a boolean, or nullptr.
+const Boolean* find_boolean(const Node& node) {
+  if (node.kind != Kind::scalar || !node.plain) return nullptr;
+  const auto* const found =
+      std::find_if(std::begin(booleans), std::end(booleans), [&node](const Boolean& boolean) {
+        return node.text == boolean.yes || node.text == boolean.no;
+      });
+  return found == std::end(booleans) ? nullptr : found;
+}
+
+}  // namespace
+
+std::string describe(const Node& node) {
+  switch (node.kind) {
+    case Kind::null:
+      return "nothing";
+    case Kind::sequence:
+      return node.items.empty() ? "an empty list" : "a list";
+    case Kind::mapping:
+      return node.entries.empty() ? "an empty mapping" : "a mapping";
+    case Kind::scalar:
+      break;
+  }
+  if (node.text.empty()) return "an empty text";
+  return node.plain ? quote(node.text) : quote(node.text) + " in quotes";
+}
+
+std::optional<bool> to_boolean(const Node& node) {
+  const Boolean* boolean = find_boolean(node);
+  if (boolean == nullptr) return std::nullopt;
+  return node.text == boolean->yes;
+}
+
+std::optional<std::string_view> opposite(const Node& node) {
+  const Boolean* boolean = find_boolean(node);
+  if (boolean == nullptr) return std::nullopt;
+  return node.text == boolean->yes ? boolean->no : boolean->yes;
+}
+
+void report_wrong_type(const Node& node, std::string_view what, std::string_view expected,
+                       Reporter& reporter) {
+  reporter.report(rule::wrong_type, node.range,
+                  must_be(what, expected) + ", found " + describe(node));
+}
+
+const Node* read_list(const Node& node, std::string_view what, std::string_view expected,
+                      Reporter& reporter) {
+  if (node.kind == Kind::sequence) return &node;
+  report_wrong_type(node, what, expected, reporter);
+  return nullptr;
+}
+
+const Node* read_mapping(const Node& node, std::string_view what, std::string_view expected,
+                         Reporter& reporter) {
+  if (node.kind == Kind::mapping) return &node;
+  report_wrong_type(node, what, expected, reporter);
+  return nullptr;
+}
+
+std::optional<std::string_view> read_text(const Node& node, std::string_view what,
+                                          std::string_view expected, Reporter& reporter) {
+  if (node.kind == Kind::scalar) return node.text;
+  report_wrong_type(node, what, expected, reporter);
+  return std::nullopt;
+}
+
+std::optional<std::string_view> read_name(const Node& node, std::string_view what,
+                                          std::string_view expected, Reporter& reporter) {
+  const std::optional<std::string_view> text = read_text(node, what, expected, reporter);
+  if (text && text->empty()) {
+    reporter.report(rule::invalid_value, node.range,
+                    must_be(what, expected) + ", found " + describe(node));
+    return std::nullopt;
+  }
+  return text;
+}
+
+std::optional<bool> read_boolean(const Node& node, std::string_view what, Reporter& reporter) {
+  const std::optional<bool> value = to_boolean(node);
+  if (!value) report_wrong_type(node, what, "true or false", reporter);
+  return value;
+}
+
+std::optional<Millionths> read_percent(const Node& node, std::string_view what,
+                                       Reporter& reporter) {
+  constexpr std::string_view expected = "a number from 0 to 100 (percent)";
+  if (node.kind != Kind::scalar || !node.plain) {
+    report_wrong_type(node, what, expected, reporter);
+    return std::nullopt;
+  }
+  const Decimal decimal = parse_percent(node.text);
+  report_number(node, what, expected, "at most 4 decimals", decimal.error, reporter);
+  if (decimal.error != DecimalError::no_error) return std::nullopt;
+  return static_cast<Millionths>(decimal.value);
+}
+
+std::optional<Microseconds> read_seconds(const Node& node, std::string_view what, bool positive,
+                                         Reporter& reporter) {
+  const std::string expected = "a number of seconds " +
+                               std::string(positive ? "over 0" : "from 0") + " to " +
+                               std::to_string(longest_time / second);
+  if (node.kind != Kind::scalar || !node.plain) {
+    report_wrong_type(node, what, expected, reporter);
+    return std::nullopt;
+  }
+  Decimal decimal = parse_seconds(node.text);
+  if (positive && decimal.error == DecimalError::no_error && decimal.value == 0) {
+    decimal.error = DecimalError::out_of_range;
+  }
+  report_number(node, what, expected, "at most 6 decimals", decimal.error, reporter);
+  if (decimal.error != DecimalError::no_error) return std::nullopt;
+  return decimal.value;
+}
+
+std::optional<std::int32_t> read_integer(const Node& node, std::string_view what,
+                                         std::int32_t lowest, Reporter& reporter) {
+  constexpr std::int32_t highest = std::numeric_limits<std::int32_t>::max();
+  const std::string expected =
+      "an integer from " + std::to_string(lowest) + " to " + std::to_string(highest);
+  if (node.kind != Kind::scalar || !node.plain) {
+    report_wrong_type(node, what, expected, reporter);
+    return std::nullopt;
+  }
+  const Decimal decimal = parse_integer(node.text, lowest, highest);
+  report_number(node, what, expected, {}, decimal.error, reporter);
+  if (decimal.error != DecimalError::no_error) return std::nullopt;
+  return static_cast<std::int32_t>(decimal.value);
+}
+
+std::optional<std::size_t> read_choice(const Node& node, std::string_view what,
+                                       std::initializer_list<std::string_view> choices,
+                                       Reporter& reporter) {
+  std::string expected;
+  std::size_t place = 0;
+  for (const std::string_view choice : choices) {
+    if (place > 0) expected += place + 1 == choices.size() ? " or " : ", ";
+    expected += choice;
+    ++place;
+  }
+  const std::optional<std::string_view> text = read_text(node, what, expected, reporter);
+  if (!text) return std::nullopt;
+  const auto* const found = std::find(choices.begin(), choices.end(), *text);
+  if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
+
+  std::string message = must_be(what, expected) + ", found " + describe(node);
+  const std::vector<std::string_view> names(choices);
+  message += did_you_mean(nearest(*text, names));
+  reporter.report(rule::invalid_value, node.range, std::move(message));
+  return std::nullopt;
+}
+
+namespace {
+
+// The place of a text without its quotes, if another one may be written there: it stands in one
+// place of the tree only, and as it is, without escapes and on one line.
+std::optional<Range> replaceable(const Node& node) {
+  if (node.kind != Kind::scalar || node.shared) return std::nullopt;
+  Range range = node.range;
+  if (!node.plain) {
+    ++range.begin.column;
+    --range.end.column;
+  }
+  const bool as_it_is = range.begin.line == range.end.line &&
+                        range.begin.column + utf8::count_characters(node.text) == range.end.column;
+  return as_it_is ? std::optional(range) : std::nullopt;
+}
+
+// Writes an older key and its value in the present way; no edit where that is not possible.
+std::vector<Edit> modernize(const Key& key, const Node& name, const Node& value) {
+  const std::optional<Range> name_range = replaceable(name);
+  if (!name_range) return {};
+  std::vector<Edit> edits{{Edit::Kind::replace, *name_range, std::string(key.replaced_by)}};
+  if (key.translate == nullptr || value.kind == Kind::null) return edits;
+  const std::optional<std::string_view> translated = key.translate(value);
+  const std::optional<Range> value_range = replaceable(value);
+  if (!translated || !value_range) return {};
+  edits.push_back({Edit::Kind::replace, *value_range, std::string(*translated)});
+  return edits;
+}
+
+}  // namespace
+
+bool Shape::has(std::string_view key) const {
+  return std::any_of(keys.begin(), keys.end(),
+                     [key](const Key& known) { return known.name == key; });
+}
+
+Fields::Fields(std::span<const Node* const> mappings, const Shape& shape, Reporter& reporter)
+    : shape_(shape), reporter_(reporter), what_(shape.what), fields_(shape.keys.size()) {
+  for (const Node* mapping : mappings) {
+    for (const auto& [key, value] : mapping->entries) add(*key, *value);
+  }
+  report_older_names();
+}
+
+Fields::Fields(const Node& mapping, const Shape& shape, Reporter& reporter)
+    : shape_(shape), reporter_(reporter), what_(shape.what), fields_(shape.keys.size()) {
+  for (const auto& [key, value] : mapping.entries) add(*key, *value);
+  report_older_names();
+}
+
+std::size_t Fields::place_of(std::string_view key) const {
+  const auto found = std::find_if(shape_.keys.begin(), shape_.keys.end(),
+                                  [key](const Key& known) { return known.name == key; });
+  return static_cast<std::size_t>(found - shape_.keys.begin());
+}
+
+void Fields::add(const Node& key, const Node& value) {
+  if (key.text.starts_with("x-")) {
+    has_own_ = true;
+    return;
+  }
+  const std::size_t place = place_of(key.text);
+  if (place == fields_.size()) {
+    unknown_.push_back({&key, &value, false});
+    return;
+  }
+  Field& field = fields_[place];
+  if (field.key == nullptr) {
+    field = {&key, &value, false};
+  } else {
+    field.is_repeated = true;
+    reporter_.report(rule::duplicate_key, key.range, quote(key.text) + " is given twice",
+                     {reporter_.note(field.key->range, "first given here")});
+  }
+}
+
+// An older name and the present one at once are one key given twice.
+void Fields::report_older_names() {
+  for (std::size_t place = 0; place < fields_.size(); ++place) {
+    const Key& key = shape_.keys[place];
+    Field& older = fields_[place];
+    if (key.replaced_by.empty() || older.key == nullptr) continue;
+    const Field& present = fields_[place_of(key.replaced_by)];
+    const bool both = older.value->kind != Kind::null && present.value != nullptr &&
+                      present.value->kind != Kind::null;
+    if (!both) {
+      // Beside the present name, even one without a value, or itself again, it cannot be renamed.
+      std::vector<Edit> edits;
+      if (present.key == nullptr && !older.is_repeated)
+        edits = modernize(key, *older.key, *older.value);
+      std::string written(key.replaced_by);
+      if (key.translate != nullptr) {
+        // Renamed only, it would say something else.
+        if (const auto value = key.translate(*older.value)) written += ": " + std::string(*value);
+      }
+      reporter_.report(rule::deprecated_key, older.key->range,
+                       quote(key.name) + " is an older name: write " + quote(written), {},
+                       std::move(edits));
+      continue;
+    }
+    const bool older_first = older.key->range.begin < present.key->range.begin;
+    const Range& first = older_first ? older.key->range : present.key->range;
+    const Range& second = older_first ? present.key->range : older.key->range;
+    reporter_.report(
+        rule::duplicate_key, second,
+        quote(key.name) + ", an older name, and " + quote(key.replaced_by) + " are both given",
+        {reporter_.note(first, "first given here")});
+    older = {};
+  }
+}
+
+const Node* Fields::find(std::string_view key) const {
+  const Node* value = fields_[place_of(key)].value;
+  return value == nullptr || value->kind == Kind::null ? nullptr : value;
+}
+
+bool Fields::has(std::string_view key) const { return fields_[place_of(key)].key != nullptr; }
+
+const Range& Fields::range_of(std::string_view key) const {
+  return fields_[place_of(key)].key->range;
+}
+
+const Node* Fields::require(std::string_view key, const Range& range) {
+  if (const Node* value = find(key)) return value;
+  if (const Node* value = adopt(key)) return value;
+  const Field& field = fields_[place_of(key)];
+  if (field.key != nullptr) {
+    reporter_.report(rule::missing_key, field.key->range, quote(key) + " has no value");
+  } else {
+    reporter_.report(rule::missing_key, range, "missing key " + quote(key) + " in " + what_);
+  }
+  return nullptr;
+}
+
+const Node* Fields::adopt(std::string_view key) {
+  for (auto field = unknown_.begin(); field != unknown_.end(); ++field) {
+    if (field->value->kind == Kind::null || suggestion_for(field->key->text) != key) continue;
+    reporter_.report(rule::missing_key, field->key->range,
+                     "missing key " + quote(key) + " in " + what_ + ": " + quote(field->key->text) +
+                         " is unknown" + did_you_mean(key));
+    fields_[place_of(key)] = *field;
+    unknown_.erase(field);
+    return find(key);
+  }
+  return nullptr;
+}
+
+std::string_view Fields::suggestion_for(std::string_view key) const {
+  std::vector<std::string_view> names;
+  for (const Key& known : shape_.keys) names.push_back(known.name);
+  const std::optional<std::string_view> name = nearest(key, names);
+  if (!name) return {};
+  const Key& known = shape_.keys[place_of(*name)];
+  return known.replaced_by.empty() ? known.name : known.replaced_by;
+}
+
+void Fields::report_unknown(Severity severity) {
+  for (const Field& field : unknown_) {
+    const std::string& key = field.key->text;
+    std::string message = "unknown key " + quote(key) + " in " + what_;
+    const auto inner = std::find_if(shape_.inner.begin(), shape_.inner.end(),
+                                    [&key](const Shape* shape) { return shape->has(key); });
+    const std::string_view suggestion = suggestion_for(key);
+    // A list under the name of what it lists ('task:' for 'tasks:') is at the right level.
+    const bool is_singular = field.value->kind == Kind::sequence && suggestion == key + "s";
+    if (inner != shape_.inner.end() && !is_singular) {
+      message += ": it belongs to " + std::string((*inner)->what) + ", one level down";
+    } else if (shape_.outer != nullptr && shape_.outer->has(key)) {
+      message += ": it belongs to " + std::string(shape_.outer->what) + ", one level up";
+    } else if (field.value->kind == Kind::null && key.find(':') != std::string::npos) {
+      message += ": is a space missing after ':'?";
+    } else if (!suggestion.empty()) {
+      message += did_you_mean(suggestion);
+    }
+    reporter_.report_as(severity, rule::unknown_key, field.key->range, std::move(message));
+  }
+}
+
+}  // namespace cbc::yaml
