@@ -60,8 +60,8 @@ std::vector<Block> blocks_of_page() {
 /// The name in a line "# NAME.yaml", or nothing.
 std::string file_name_in(const std::string& line) {
   static const std::regex comment("# ([a-z.]+\\.yaml)");
-  std::smatch match;
-  return std::regex_match(line, match, comment) ? match[1].str() : std::string();
+  std::smatch found;
+  return std::regex_match(line, found, comment) ? found[1].str() : std::string();
 }
 
 /// Writes the files of a block, each of which begins with a comment that names it. False if the
@@ -153,8 +153,8 @@ Lines titles_of_page() {
   for (const std::string& line : lines_of(test::read_file(page_path))) {
     if (line.starts_with("```")) is_inside = !is_inside;
     static const std::regex heading("###? (.*)");
-    std::smatch match;
-    if (!is_inside && std::regex_match(line, match, heading)) titles.push_back(match[1]);
+    std::smatch found;
+    if (!is_inside && std::regex_match(line, found, heading)) titles.push_back(found[1]);
   }
   return titles;
 }
