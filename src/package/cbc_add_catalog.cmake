@@ -1,11 +1,11 @@
 #[[
 cbc_add_catalog(TARGET FILE... [OUTPUT FILE...])
 
-Checks and compiles catalogs whenever the target, or all, is built and one of them, or the settings that
-apply to it, have changed. A catalog with errors fails the build, with the findings of `cbc lint`.
+Adds a target, part of all, that checks and compiles each catalog when the catalog or the settings that
+apply to it have changed. A catalog with errors fails the build, with the findings of `cbc lint`.
 
-Each FILE is relative to the current source folder. The compiled catalog of DIR/NAME.yaml is NAME.cbc
-in the current binary folder, unless OUTPUT names others, as many as there are catalogs.
+Each FILE is relative to the current source folder. DIR/NAME.yaml is compiled to NAME.cbc in the current
+binary folder, unless OUTPUT names other files, one for each catalog.
 ]]
 function(cbc_add_catalog target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" OUTPUT)
@@ -42,9 +42,9 @@ function(cbc_add_catalog target)
     file(MAKE_DIRECTORY "${compiled_dir}")
     _cbc_find_settings(settings "${path}")
     list(APPEND all_settings ${settings})
-    # The compiled catalog has the name of its source in it: with the relative one it is the same
-    # wherever the project is built. What cbc compile has to say about the catalog, cbc lint has said
-    # before; only if something else is wrong, a second run tells it.
+    # A compiled catalog contains the name of its source. A relative name makes it the same wherever the
+    # project is built. Findings of cbc compile are hidden, since cbc lint has already reported them. If
+    # cbc compile fails, it runs again to show the error.
     add_custom_command(
       OUTPUT "${compiled}"
       COMMAND cbc::cbc lint "${path}"
@@ -55,12 +55,12 @@ function(cbc_add_catalog target)
       VERBATIM)
     list(APPEND compiled_catalogs "${compiled}")
   endforeach()
-  # Written when settings appear or vanish, whatever their age.
+  # Changes when settings files appear or disappear, regardless of their age.
   file(CONFIGURE OUTPUT "${list_of_settings}" CONTENT "${all_settings}" @ONLY)
   add_custom_target(${target} ALL DEPENDS ${compiled_catalogs})
 endfunction()
 
-# A catalog that the build makes need not be there yet.
+# A catalog that the build generates need not exist yet.
 function(_cbc_check_source target path)
   get_source_file_property(is_generated "${path}" GENERATED)
   cmake_path(IS_PREFIX CMAKE_BINARY_DIR "${path}" is_of_build)
@@ -69,13 +69,13 @@ function(_cbc_check_source target path)
   endif()
 endfunction()
 
-# The settings of lint in the folders above a catalog. The nearest apply to it, but they may vanish; the
-# build looks for them again each time.
+# The lint settings in the folders above a catalog. Only the nearest ones apply, but they may disappear, so
+# every build looks for all of them again.
 function(_cbc_find_settings variable path)
   set(patterns)
   set(last_folder "")
   get_filename_component(folder "${path}" DIRECTORY)
-  get_filename_component(folder "${folder}" REALPATH) # lint follows links to folders, too
+  get_filename_component(folder "${folder}" REALPATH) # like lint, follow links to folders
   while(NOT folder STREQUAL last_folder)
     string(REGEX REPLACE "([[*?])" "[\\1]" pattern "${folder}")
     list(APPEND patterns "${pattern}/.cbc.yaml")

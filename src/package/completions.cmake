@@ -1,4 +1,4 @@
-# What completes command lines in shells, where these look for it.
+# Installs the completion scripts where the shells look for them.
 
 if(NOT CMAKE_CROSSCOMPILING)
   install(FILES "${completion_dir}/${CBC_PROGRAM_NAME}"

@@ -1,5 +1,5 @@
-# The Debian package: one for all, as the library is small, static, and needs nothing at run time that
-# the program does not need. `./dev package` makes it.
+# The Debian package, made by `./dev package`. It has both the program and the library: the library is small,
+# static, and has no run-time dependencies beyond those of the program.
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME "${package_name}")
@@ -10,9 +10,9 @@ set(CPACK_PACKAGE_DESCRIPTION
 and how well, which tasks exclude one another, and what a behavior requires.
 .
 The program cbc finds the mistakes in a catalog (cbc lint), computes the best
-set of active behaviors at every event of a mission (cbc solve), writes a file
-that a robot loads in microseconds (cbc compile), and draws pictures (cbc
-graph). It needs neither a robot nor ROS.
+set of active behaviors at every event of a mission (cbc solve), compiles a
+catalog into a file that a robot loads in microseconds (cbc compile), and draws
+pictures (cbc graph). It needs neither a robot nor ROS.
 .
 The C++ library for programs on the robot is included, with its headers and
 its packages for CMake and pkg-config.")
@@ -35,7 +35,7 @@ configure_file(src/package/debian/changelog.in "${changelog}" @ONLY NO_SOURCE_PE
 configure_file(src/package/debian/finish.cmake.in finish_package.cmake @ONLY)
 set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_BINARY_DIR}/finish_package.cmake")
 
-# A shared library would need a package of its own, and a static program another description.
+# A shared library would need its own package, and a static program another description.
 if(BUILD_SHARED_LIBS OR CBC_STATIC)
   set(CPACK_PROJECT_CONFIG_FILE "${CMAKE_CURRENT_SOURCE_DIR}/src/package/debian/refuse.cmake")
 endif()

@@ -1,4 +1,4 @@
-# Installs what C++ programs, and projects with catalogs, need.
+# Installs the files for C++ programs and for projects with catalogs.
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/cbc_catalog")
 set(pkgconfig_dir "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
@@ -25,7 +25,7 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/cbc_catalogConfig.cmake"
               src/package/cbc_add_catalog.cmake
         DESTINATION "${package_dir}")
 
-# Relative paths, so that the installed tree may be moved.
+# Relative paths, so that the installed tree can be moved.
 file(RELATIVE_PATH pc_to_prefix "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
 string(REGEX REPLACE "/$" "" pc_to_prefix "${pc_to_prefix}")
 file(RELATIVE_PATH pc_libdir "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_LIBDIR}")

@@ -5,7 +5,7 @@ file(RELATIVE_PATH examples_to_schemas "${CMAKE_INSTALL_FULL_DATAROOTDIR}/doc/${
      "${CMAKE_INSTALL_FULL_DATADIR}/cbc/schemas")
 file(GLOB examples CONFIGURE_DEPENDS catalogs/*.yaml)
 foreach(source IN LISTS examples)
-  # Their schemas are somewhere else there.
+  # The installed schemas are in another folder.
   file(READ "${source}" text)
   string(REPLACE "$schema=../schemas/" "$schema=${examples_to_schemas}/" text "${text}")
   get_filename_component(name "${source}" NAME)

@@ -1,6 +1,6 @@
-# Installs the manual, and puts it into the build, where man finds it beside a program that is on the PATH.
-# Under another name of the program its pages are named after that, and so are the references between them
-# and the commands in them; the program calls itself cbc in what it prints.
+# Installs the manual, and puts it into the build folder, where man finds it beside a program on the PATH.
+# If the program has another name, the pages, the references between them and the commands in them use that
+# name. The output of the program still says cbc.
 
 foreach(section 1 5 7)
   file(GLOB pages CONFIGURE_DEPENDS man/*.${section})

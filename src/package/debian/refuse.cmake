@@ -1,2 +1,2 @@
-# CPack reads it first.
-message(FATAL_ERROR "the Debian package is for builds with BUILD_SHARED_LIBS=OFF and CBC_STATIC=OFF")
+# CPack reads this file first.
+message(FATAL_ERROR "the Debian package needs a build with BUILD_SHARED_LIBS=OFF and CBC_STATIC=OFF")

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds cbc on a runner with Debian or Ubuntu, and puts it on the PATH of the steps that follow.
+# Builds cbc on a Debian or Ubuntu runner, and puts it on the PATH of the following steps.
 set -euo pipefail
 
 source=$(realpath -- "$(dirname -- "${BASH_SOURCE[0]}")/../../..")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Writes the output `found` of the step: whether there is a cbc on the PATH that checks catalogs. COIN-OR's
-# solver has the same name.
+# Sets the output `found` of the step: whether the cbc on the PATH is this program. COIN-OR's solver has
+# the same name.
 set -euo pipefail
 
 found=false
