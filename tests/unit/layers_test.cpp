@@ -61,6 +61,24 @@ TEST(Layers, IncludeOnlyLowerOnes) {
   EXPECT_EQ(folders.size(), rows.size()) << "docs/architecture.md has folders that are not there";
 }
 
+/// The text of the page stays true when files move.
+TEST(Layers, PageNamesFilesThatExist) {
+  std::ifstream page(fs::path(CBC_SOURCE_DIR) / "docs" / "architecture.md");
+  const fs::path source = fs::path(CBC_SOURCE_DIR) / "src";
+  const std::regex name("`([a-z_/]+\\.(?:cpp|h|fbs))`");
+  int count = 0;
+  for (std::string line; std::getline(page, line);) {
+    for (std::sregex_iterator at(line.begin(), line.end(), name), end; at != end; ++at) {
+      const std::string file = (*at)[1];
+      EXPECT_TRUE(fs::exists(source / file) || fs::exists(source / "runtime" / file) ||
+                  fs::exists(source / "tool" / file) || fs::exists(source.parent_path() / file))
+          << file;
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 20);
+}
+
 /// Users of the library see these alone.
 TEST(Layers, PublicHeadersIncludeNoPrivateOnes) {
   int count = 0;
