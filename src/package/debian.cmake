@@ -25,7 +25,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "graphviz") # for the pictures of `cbc graph`
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libfmt-dev, libyaml-cpp-dev") # to link with the library
 if(CBC_PROGRAM_NAME STREQUAL "cbc")
   set(CPACK_DEBIAN_PACKAGE_CONFLICTS coinor-cbc) # has a program of the same name
 endif()

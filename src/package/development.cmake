@@ -8,7 +8,7 @@ if(BUILD_SHARED_LIBS)
   set_target_properties(cbc PROPERTIES INSTALL_RPATH "$ORIGIN/${bin_to_lib}")
 endif()
 
-install(TARGETS cbc_catalog EXPORT cbc_catalogTargets)
+install(TARGETS cbc_runtime EXPORT cbc_catalogTargets)
 install(
   DIRECTORY include/cbc "${CMAKE_CURRENT_BINARY_DIR}/include/cbc"
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
@@ -30,9 +30,5 @@ file(RELATIVE_PATH pc_to_prefix "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAK
 string(REGEX REPLACE "/$" "" pc_to_prefix "${pc_to_prefix}")
 file(RELATIVE_PATH pc_libdir "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_LIBDIR}")
 file(RELATIVE_PATH pc_includedir "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
-set(pc_private "Requires.private: fmt yaml-cpp\nLibs.private: -pthread\n")
-if(BUILD_SHARED_LIBS)
-  set(pc_private "") # a shared library brings them along
-endif()
 configure_file(src/package/cbc-catalog.pc.in cbc-catalog.pc @ONLY)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/cbc-catalog.pc" DESTINATION "${pkgconfig_dir}")

@@ -26,11 +26,6 @@ for example in "$work"/examples/*.yaml; do
 done
 ((count > 0)) || fail "no examples"
 
-# Who links with a shared library needs nothing else.
-if grep private "$work/cbc-catalog.pc"; then
-  fail "pkg-config asks for more than the shared library"
-fi
-
 # There is no Debian package of it.
 if printed=$(cpack --config "$work/CPackConfig.cmake" -B "$work/package" 2>&1); then
   fail "cpack makes a package of a shared library"

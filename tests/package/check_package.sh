@@ -127,16 +127,23 @@ use cmake --build robot-build >>"$work/robot.log"
 [[ $(use cbc graph robot-build/quadrotor.cbc) == "digraph "* ]] || fail "cbc_add_catalog: $(<"$work/robot.log")"
 
 say "a project in C++, with CMake and with pkg-config"
-install develop g++ pkg-config libfmt-dev libyaml-cpp-dev
+install develop g++ pkg-config
+for header in CLI/CLI.hpp boost/version.hpp flatbuffers/flatbuffers.h fmt/format.h nlohmann/json.hpp xxhash.h \
+  yaml-cpp/yaml.h; do
+  [[ ! -e $root/usr/include/$header ]] || fail "$header is installed, so a need for it would not be noticed"
+done
 mkdir -p "$root/tmp/use/cpp/tests"
 cp -r -- "$source/tests/consumer" "$root/tmp/use/cpp/tests"
 cp -r -- "$source/catalogs" "$root/tmp/use/cpp"
 use cmake -S cpp/tests/consumer -B consumer >"$work/consumer.log"
 use cmake --build consumer >>"$work/consumer.log"
-use sh -c 'g++ -std=c++20 cpp/tests/consumer/main.cpp -o consumer-pkg $(pkg-config --static --cflags --libs cbc-catalog)'
+use sh -c 'g++ -std=c++20 cpp/tests/consumer/main.cpp -o consumer-pkg $(pkg-config --cflags --libs cbc-catalog)'
 for consumer in consumer/consumer ./consumer-pkg; do
   use "$consumer" consumer/quadrotor.cbc | diff <(echo "cbc $version" && cat "$source/tests/consumer/expected.txt") - ||
     fail "$consumer"
+  if use ldd "$consumer" | grep -vE '^\s*(linux-vdso|/lib.*/ld-linux|lib(c|gcc_s|m|stdc\+\+)\.so)'; then
+    fail "$consumer needs these shared libraries"
+  fi
 done
 [[ $(use pkg-config --modversion cbc-catalog) == "$version" ]] || fail "pkg-config"
 echo "check_package.sh: $(basename -- "$package"): all is well"

@@ -95,5 +95,25 @@ TEST(Layers, PublicHeadersIncludeNoPrivateOnes) {
   EXPECT_GT(count, 2);
 }
 
+/// Who links with it needs no other library. FlatBuffers and xxHash are headers only.
+TEST(Layers, TheRuntimeIncludesNoLibraries) {
+  int count = 0;
+  const std::regex include("^#include <(.*)>");
+  const std::regex allowed(
+      "[a-z_]+|flatbuffers/flatbuffers\\.h|xxhash\\.h|(fcntl|unistd|sys/[a-z]+)\\.h");
+  const fs::path runtime = fs::path(CBC_SOURCE_DIR) / "src" / "runtime";
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(runtime)) {
+    if (!is_source(entry.path())) continue;
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) {
+      std::smatch match;
+      if (!std::regex_search(line, match, include)) continue;
+      EXPECT_TRUE(std::regex_match(match[1].str(), allowed)) << entry.path() << ": " << line;
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 100);
+}
+
 }  // namespace
 }  // namespace cbc

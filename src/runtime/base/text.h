@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "cbc/units.h"
 
@@ -40,6 +41,21 @@ struct Decoded {
 }  // namespace cbc::utf8
 
 namespace cbc {
+
+/// Texts and integers in one text, one behind the other.
+template <typename... Parts>
+[[nodiscard]] std::string concat(const Parts&... parts) {
+  std::string text;
+  const auto append = [&text](const auto& part) {
+    if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(part)>>) {
+      text += std::to_string(part);
+    } else {
+      text += part;
+    }
+  };
+  (append(parts), ...);
+  return text;
+}
 
 /// Whether a character would do something else on a terminal than print: control characters, and
 /// those that break lines or turn the direction of what follows.

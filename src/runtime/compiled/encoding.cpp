@@ -9,8 +9,8 @@
 #include <type_traits>
 
 #include <flatbuffers/flatbuffers.h>
-#include <fmt/format.h>
 
+#include "base/text.h"
 #include "catalog_generated.h"
 #include "cbc/version.h"
 #include "compiled/compiled_file.h"
@@ -166,9 +166,8 @@ class Decoder {
       result.file.reset();
       result.error = fault;
     } else if (result.file->format > newest_format) {
-      result.error = fmt::format(
-          "its format is version {}, but cbc {} knows none above {}; a newer cbc can read it",
-          result.file->format, version, newest_format);
+      result.error = concat("its format is version ", result.file->format, ", but cbc ", version,
+                            " knows none above ", newest_format, "; a newer cbc can read it");
       result.file.reset();
     }
     return result;

@@ -4,12 +4,10 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "base/disjoint_sets.h"
 #include "base/text.h"
 #include "compiled/compiled_catalog.h"
 #include "compiled/compiled_file.h"
-#include "support/graph.h"
 
 /// The parts of find_fault(), in their order: each takes for granted what those before it ensure.
 namespace cbc::verify {
@@ -57,14 +55,14 @@ bool is_ascending(std::span<const std::uint32_t> numbers) {
 Fault find_row_fault(std::string_view what, std::span<const std::uint32_t> begin, std::size_t rows,
                      std::size_t items) {
   if (begin.size() != rows + 1) {
-    return fmt::format("'{}' has {} begins of rows, expected {}", what, begin.size(), rows + 1);
+    return concat("'", what, "' has ", begin.size(), " begins of rows, expected ", rows + 1);
   }
   if (begin.front() != 0) {
-    return fmt::format("the first row of '{}' begins at {}, expected 0", what, begin.front());
+    return concat("the first row of '", what, "' begins at ", begin.front(), ", expected 0");
   }
-  if (!is_ascending(begin)) return fmt::format("a row of '{}' ends before it begins", what);
+  if (!is_ascending(begin)) return concat("a row of '", what, "' ends before it begins");
   if (begin.back() != items) {
-    return fmt::format("the last row of '{}' ends at {}, expected {}", what, begin.back(), items);
+    return concat("the last row of '", what, "' ends at ", begin.back(), ", expected ", items);
   }
   return std::nullopt;
 }
@@ -97,8 +95,7 @@ Fault find_size_fault(const CompiledCatalog& catalog) {
       {"masks", catalog.masks.size()},
   };
   for (const auto& [what, count] : counts) {
-    if (count >= none)
-      return fmt::format("there are {} {}, expected less than {}", count, what, none);
+    if (count >= none) return concat("there are ", count, " ", what, ", expected less than ", none);
   }
 
   struct Size {
@@ -120,12 +117,12 @@ Fault find_size_fault(const CompiledCatalog& catalog) {
   };
   for (const auto& [what, found, expected] : sizes) {
     if (found != expected) {
-      return fmt::format("'{}' has {} entries, expected {}", what, found, expected);
+      return concat("'", what, "' has ", found, " entries, expected ", expected);
     }
   }
   if (texts.begin.size() < tasks + behaviors + 1) {
-    return fmt::format("there are {} begins of texts, expected {} for the names",
-                       texts.begin.size(), tasks + behaviors + 1);
+    return concat("there are ", texts.begin.size(), " begins of texts, expected ",
+                  tasks + behaviors + 1, " for the names");
   }
   if (catalog.group_tasks.empty()) return "'group_tasks' is empty";
 
@@ -188,7 +185,7 @@ Fault find_encoding_fault(const CompiledCatalog& catalog) {
       const bool is_file =
           characters.data() == catalog.file.data() && characters.size() == catalog.file.size();
       if (!is_file && utf8::find_invalid(characters)) {
-        return fmt::format("text {}, {}, is not UTF-8", text, quote(characters));
+        return concat("text ", text, ", ", quote(characters), ", is not UTF-8");
       }
     }
   }
@@ -206,19 +203,19 @@ Fault find_name_fault(std::string_view kind, const CompiledCatalog& catalog, con
                       std::size_t first, std::span<const std::uint32_t> by_name) {
   const std::size_t count = by_name.size();
   if (!is_same(names.rows(), catalog.texts.part(first, count).rows())) {
-    return fmt::format("the names of the {}s are not texts {} to {}", kind, first, first + count);
+    return concat("the names of the ", kind, "s are not texts ", first, " to ", first + count);
   }
   for (std::size_t place = 0; place < count; ++place) {
-    if (names[place].empty()) return fmt::format("the name of {} {} is empty", kind, place);
+    if (names[place].empty()) return concat("the name of ", kind, " ", place, " is empty");
   }
   std::string_view before;
   for (const std::uint32_t place : by_name) {
-    if (place >= count) return fmt::format("'{}s_by_name' has {} of {}", kind, place, count);
+    if (place >= count) return concat("'", kind, "s_by_name' has ", place, " of ", count);
     const std::string_view name = names[place];
     if (before >= name) {
       return before == name
-                 ? fmt::format("two {}s have the name {}", kind, quote(name))
-                 : fmt::format("'{}s_by_name' has {} before {}", kind, quote(before), quote(name));
+                 ? concat("two ", kind, "s have the name ", quote(name))
+                 : concat("'", kind, "s_by_name' has ", quote(before), " before ", quote(name));
     }
     before = name;
   }
@@ -229,7 +226,7 @@ Fault find_text_id_fault(std::string_view what, std::span<const TextId> ids, std
   TextId highest = 0;
   for (const TextId id : ids) highest = std::max(highest, id);
   if (ids.empty() || highest < texts) return std::nullopt;
-  return fmt::format("'{}' has text {} of {}", what, highest, texts);
+  return concat("'", what, "' has text ", highest, " of ", texts);
 }
 
 /// The allowed values stand in the order of the parameters, without gaps.
@@ -238,29 +235,29 @@ Fault find_parameter_fault(const CompiledCatalog& catalog) {
   for (std::size_t place = 0; place < catalog.parameters.items.size(); ++place) {
     const CompiledParameter& parameter = catalog.parameters.items[place];
     if (parameter.name >= catalog.texts.size()) {
-      return fmt::format("the name of parameter {} is text {} of {}", place, parameter.name,
-                         catalog.texts.size());
+      return concat("the name of parameter ", place, " is text ", parameter.name, " of ",
+                    catalog.texts.size());
     }
     if (catalog.texts[parameter.name].empty()) {
-      return fmt::format("the name of parameter {} is empty", place);
+      return concat("the name of parameter ", place, " is empty");
     }
     if (parameter.allowed_is_list > 1) {
-      return fmt::format("allowed_is_list of parameter {} is {}, expected 0 or 1", place,
-                         parameter.allowed_is_list);
+      return concat("allowed_is_list of parameter ", place, " is ", parameter.allowed_is_list,
+                    ", expected 0 or 1");
     }
     if (parameter.allowed_is_list == 0 && parameter.allowed_count > 1) {
-      return fmt::format("parameter {} has {} types, expected at most one", place,
-                         parameter.allowed_count);
+      return concat("parameter ", place, " has ", parameter.allowed_count,
+                    " types, expected at most one");
     }
     if (parameter.first_allowed != next) {
-      return fmt::format("the allowed values of parameter {} begin at {}, expected {}", place,
-                         parameter.first_allowed, next);
+      return concat("the allowed values of parameter ", place, " begin at ",
+                    parameter.first_allowed, ", expected ", next);
     }
     next += parameter.allowed_count;
   }
   if (next == catalog.allowed_values.size()) return std::nullopt;
-  return fmt::format("'allowed_values' has {} entries, expected {}", catalog.allowed_values.size(),
-                     next);
+  return concat("'allowed_values' has ", catalog.allowed_values.size(), " entries, expected ",
+                next);
 }
 
 }  // namespace
@@ -296,15 +293,14 @@ Fault find_order_fault(std::string_view kind, std::span<const Entry> entries,
     for (std::uint32_t id = begin[group]; id < begin[group + 1]; ++id) {
       const std::uint32_t index = entries[id].catalog_index;
       if (index >= ids.size()) {
-        return fmt::format("{} {}: its place in the catalog is {} of {}", kind, id, index,
-                           ids.size());
+        return concat(kind, " ", id, ": its place in the catalog is ", index, " of ", ids.size());
       }
       if (ids[index] != id) {
-        return fmt::format("{} {}: place {} of the catalog is that of {} {}", kind, id, index, kind,
-                           ids[index]);
+        return concat(kind, " ", id, ": place ", index, " of the catalog is that of ", kind, " ",
+                      ids[index]);
       }
       if (id > begin[group] && index < entries[id - 1].catalog_index) {
-        return fmt::format("{}s {} and {} are not in catalog order", kind, id - 1, id);
+        return concat(kind, "s ", id - 1, " and ", id, " are not in catalog order");
       }
     }
   }
@@ -317,17 +313,17 @@ Fault find_attribute_fault(const CompiledTask& task, TaskId id) {
   const auto is_flag = [](std::uint8_t flag) { return flag <= 1; };
   if (!is_flag(task.start_on_request) || !is_flag(task.reactive_start) ||
       !is_flag(task.keep_running) || !is_flag(task.has_performance_rules)) {
-    return fmt::format("task {}: a flag is neither 0 nor 1", id);
+    return concat("task ", id, ": a flag is neither 0 nor 1");
   }
   if (task.start_on_request != 0 && task.reactive_start != 0) {
-    return fmt::format("task {} has both reactive_start and start_on_request", id);
+    return concat("task ", id, " has both reactive_start and start_on_request");
   }
   if (!is_timeout(task.timeout)) {
-    return fmt::format("task {}: its timeout of {} us is out of range", id, task.timeout);
+    return concat("task ", id, ": its timeout of ", task.timeout, " us is out of range");
   }
   if (task.minimum_performance > one_million) {
-    return fmt::format("task {}: its minimum performance of {} millionths is over 1", id,
-                       task.minimum_performance);
+    return concat("task ", id, ": its minimum performance of ", task.minimum_performance,
+                  " millionths is over 1");
   }
   return std::nullopt;
 }
@@ -336,20 +332,20 @@ Fault find_task_fault(const CompiledCatalog& catalog) {
   KnownCosts costs;
   for (std::size_t group = 0; group < catalog.group_count(); ++group) {
     const TaskId first = catalog.group_tasks[group];
-    if (first == catalog.group_tasks[group + 1]) return fmt::format("group {} has no task", group);
+    if (first == catalog.group_tasks[group + 1]) return concat("group ", group, " has no task");
     if (group > 0 && catalog.tasks[first].catalog_index <
                          catalog.tasks[catalog.group_tasks[group - 1]].catalog_index) {
-      return fmt::format("groups {} and {} are not in the order of their first tasks", group - 1,
-                         group);
+      return concat("groups ", group - 1, " and ", group,
+                    " are not in the order of their first tasks");
     }
     for (TaskId id = first; id < catalog.group_tasks[group + 1]; ++id) {
       const CompiledTask& task = catalog.tasks[id];
       if (task.group != group) {
-        return fmt::format("task {}: its group is {}, expected {}", id, task.group, group);
+        return concat("task ", id, ": its group is ", task.group, ", expected ", group);
       }
       if (auto fault = find_attribute_fault(task, id)) return fault;
       if (task.minimum_cost != costs.of(task.minimum_performance)) {
-        return fmt::format("task {}: the cost of its minimum performance is wrong", id);
+        return concat("task ", id, ": the cost of its minimum performance is wrong");
       }
     }
   }
@@ -369,8 +365,8 @@ Fault find_group_fault(const CompiledCatalog& catalog) {
   if (auto fault = find_task_fault(catalog)) return fault;
   for (BehaviorId id = 0; id < catalog.behaviors.size(); ++id) {
     if (is_timeout(catalog.behaviors[id].timeout)) continue;
-    return fmt::format("behavior {}: its timeout of {} us is out of range", id,
-                       catalog.behaviors[id].timeout);
+    return concat("behavior ", id, ": its timeout of ", catalog.behaviors[id].timeout,
+                  " us is out of range");
   }
   return std::nullopt;
 }
@@ -383,25 +379,25 @@ Fault find_value_fault(const CompiledCatalog& catalog, TaskId task, ValueId id, 
   const std::uint32_t group = catalog.tasks[task].group;
   if (value.behavior < catalog.group_behaviors[group] ||
       value.behavior >= catalog.group_behaviors[group + 1]) {
-    return fmt::format("value {} of task {}: its behavior {} is none of group {}", id, task,
-                       value.behavior, group);
+    return concat("value ", id, " of task ", task, ": its behavior ", value.behavior,
+                  " is none of group ", group);
   }
   if (value.suitability > one_million) {
-    return fmt::format("value {} of task {}: its suitability of {} millionths is over 1", id, task,
-                       value.suitability);
+    return concat("value ", id, " of task ", task, ": its suitability of ", value.suitability,
+                  " millionths is over 1");
   }
   if (value.cost != costs.of(value.suitability)) {
-    return fmt::format("value {} of task {}: the cost of its suitability is wrong", id, task);
+    return concat("value ", id, " of task ", task, ": the cost of its suitability is wrong");
   }
   if (catalog.value_tasks[id] != task) {
-    return fmt::format("value {} of task {}: 'value_tasks' says task {}", id, task,
-                       catalog.value_tasks[id]);
+    return concat("value ", id, " of task ", task, ": 'value_tasks' says task ",
+                  catalog.value_tasks[id]);
   }
   if (id == catalog.values.begin[task]) return std::nullopt;
   const Value& before = catalog.values.items[id - 1];
   if (before.suitability < value.suitability ||
       (before.suitability == value.suitability && before.behavior >= value.behavior)) {
-    return fmt::format("the values of task {} are not in rank order", task);
+    return concat("the values of task ", task, " are not in rank order");
   }
   return std::nullopt;
 }
@@ -410,19 +406,19 @@ Fault find_value_fault(const CompiledCatalog& catalog, TaskId task, ValueId id, 
 Fault find_performs_fault(const CompiledCatalog& catalog) {
   for (BehaviorId behavior = 0; behavior < catalog.behaviors.size(); ++behavior) {
     const auto row = catalog.performs[behavior];
-    if (row.empty()) return fmt::format("behavior {} performs no task", behavior);
+    if (row.empty()) return concat("behavior ", behavior, " performs no task");
     for (std::size_t i = 0; i < row.size(); ++i) {
       const ValueId value = row[i];
       if (value >= catalog.values.items.size()) {
-        return fmt::format("behavior {} performs value {} of {}", behavior, value,
-                           catalog.values.items.size());
+        return concat("behavior ", behavior, " performs value ", value, " of ",
+                      catalog.values.items.size());
       }
       if (catalog.values.items[value].behavior != behavior) {
-        return fmt::format("behavior {} performs value {}, which is of behavior {}", behavior,
-                           value, catalog.values.items[value].behavior);
+        return concat("behavior ", behavior, " performs value ", value, ", which is of behavior ",
+                      catalog.values.items[value].behavior);
       }
       if (i > 0 && catalog.value_tasks[row[i - 1]] >= catalog.value_tasks[value]) {
-        return fmt::format("the tasks that behavior {} performs do not ascend", behavior);
+        return concat("the tasks that behavior ", behavior, " performs do not ascend");
       }
     }
   }
@@ -436,23 +432,23 @@ Fault find_requirement_fault(const CompiledCatalog& catalog, std::uint32_t group
   for (const CompiledRequirement& requirement : catalog.requirements[id]) {
     const TaskId task = requirement.task;
     if (task < catalog.group_tasks[group] || task >= catalog.group_tasks[group + 1]) {
-      return fmt::format("behavior {} requires task {}, which is none of its group {}", id, task,
-                         group);
+      return concat("behavior ", id, " requires task ", task, ", which is none of its group ",
+                    group);
     }
-    if (task < next) return fmt::format("the tasks that behavior {} requires do not ascend", id);
+    if (task < next) return concat("the tasks that behavior ", id, " requires do not ascend");
     next = task + 1;
     if (requirement.minimum_performance > one_million) {
-      return fmt::format("behavior {} requires {} millionths of task {}, which is over 1", id,
-                         requirement.minimum_performance, task);
+      return concat("behavior ", id, " requires ", requirement.minimum_performance,
+                    " millionths of task ", task, ", which is over 1");
     }
     if (requirement.minimum_cost != costs.of(requirement.minimum_performance)) {
-      return fmt::format("behavior {}: the cost of what it requires of task {} is wrong", id, task);
+      return concat("behavior ", id, ": the cost of what it requires of task ", task, " is wrong");
     }
     level = std::max(level, std::uint64_t{catalog.tasks[task].level} + 1);
   }
   if (catalog.behaviors[id].level == level) return std::nullopt;
-  return fmt::format("behavior {}: its level is {}, expected {}", id, catalog.behaviors[id].level,
-                     level);
+  return concat("behavior ", id, ": its level is ", catalog.behaviors[id].level, ", expected ",
+                level);
 }
 
 }  // namespace
@@ -462,8 +458,8 @@ Fault find_value_fault(const CompiledCatalog& catalog) {
   std::uint64_t words = 0;
   for (TaskId task = 0; task < catalog.tasks.size(); ++task) {
     if (catalog.words[task] != words) {
-      return fmt::format("task {}: its first domain word is {}, expected {}", task,
-                         catalog.words[task], words);
+      return concat("task ", task, ": its first domain word is ", catalog.words[task],
+                    ", expected ", words);
     }
     const std::uint32_t end = catalog.values.begin[task + 1];
     for (ValueId id = catalog.values.begin[task]; id < end; ++id) {
@@ -472,7 +468,7 @@ Fault find_value_fault(const CompiledCatalog& catalog) {
     words += (catalog.values[task].size() + 63) / 64;
   }
   if (catalog.words.back() != words) {
-    return fmt::format("there are {} domain words, expected {}", catalog.words.back(), words);
+    return concat("there are ", catalog.words.back(), " domain words, expected ", words);
   }
   return find_performs_fault(catalog);
 }
@@ -495,21 +491,20 @@ namespace {
 Fault find_member_fault(const CompiledCatalog& catalog, std::uint32_t clique) {
   const auto members = catalog.cliques[clique];
   if (members.size() < 2) {
-    return fmt::format("clique {} has {} tasks, expected at least 2", clique, members.size());
+    return concat("clique ", clique, " has ", members.size(), " tasks, expected at least 2");
   }
   if (members.front() >= catalog.tasks.size()) {
-    return fmt::format("clique {} has task {} of {}", clique, members.front(),
-                       catalog.tasks.size());
+    return concat("clique ", clique, " has task ", members.front(), " of ", catalog.tasks.size());
   }
   for (std::size_t i = 1; i < members.size(); ++i) {
     if (members[i] <= members[i - 1]) {
-      return fmt::format("the tasks of clique {} do not ascend", clique);
+      return concat("the tasks of clique ", clique, " do not ascend");
     }
   }
   const std::uint32_t group = catalog.tasks[members.front()].group;
   if (members.back() >= catalog.group_tasks[group + 1]) {
-    return fmt::format("clique {} has task {}, which is none of its group {}", clique,
-                       members.back(), group);
+    return concat("clique ", clique, " has task ", members.back(), ", which is none of its group ",
+                  group);
   }
   return std::nullopt;
 }
@@ -528,13 +523,13 @@ Fault find_clique_fault(const CompiledCatalog& catalog) {
       const auto before = catalog.cliques[clique - 1];
       if (!std::lexicographical_compare(before.begin(), before.end(), members.begin(),
                                         members.end())) {
-        return fmt::format("cliques {} and {} are not in order", clique - 1, clique);
+        return concat("cliques ", clique - 1, " and ", clique, " are not in order");
       }
     }
     for (const TaskId task : members) {
       if (next[task] == catalog.task_cliques.begin[task + 1] ||
           catalog.task_cliques.items[next[task]] != clique) {
-        return fmt::format("'task_cliques' of task {} is not what the cliques say", task);
+        return concat("'task_cliques' of task ", task, " is not what the cliques say");
       }
       ++next[task];
     }
@@ -543,26 +538,25 @@ Fault find_clique_fault(const CompiledCatalog& catalog) {
 }
 
 Fault find_connection_fault(const CompiledCatalog& catalog) {
-  Edges edges;
-  edges.reserve(catalog.arcs.items.size() + catalog.cliques.items.size());
-  for (const Arc& arc : catalog.arcs.items) edges.emplace_back(arc.source, arc.target);
+  DisjointSets sets(catalog.tasks.size());
+  for (const Arc& arc : catalog.arcs.items) sets.join(arc.source, arc.target);
   for (std::uint32_t clique = 0; clique < catalog.cliques.size(); ++clique) {
     const auto members = catalog.cliques[clique];
-    for (const TaskId task : members) edges.emplace_back(members.front(), task);
+    for (const TaskId task : members) sets.join(members.front(), task);
   }
   for (BehaviorId behavior = 0; behavior < catalog.behaviors.size(); ++behavior) {
     const auto values = catalog.performs[behavior];
     if (values.size() == 1) continue;
     for (const ValueId value : values) {
-      edges.emplace_back(catalog.task_of(values.front()), catalog.task_of(value));
+      sets.join(catalog.task_of(values.front()), catalog.task_of(value));
     }
   }
   // Components are counted by their first task, and so are groups.
-  const std::vector<std::uint32_t> components = connected_components(catalog.tasks.size(), edges);
+  const std::vector<std::uint32_t> components = sets.numbers();
   for (TaskId task = 0; task < catalog.tasks.size(); ++task) {
     if (components[task] == catalog.tasks[task].group) continue;
-    return fmt::format("task {} is not connected with the first task of its group {}", task,
-                       catalog.tasks[task].group);
+    return concat("task ", task, " is not connected with the first task of its group ",
+                  catalog.tasks[task].group);
   }
   return std::nullopt;
 }
@@ -582,23 +576,23 @@ class Arcs {
     const std::size_t words = catalog_.words[id + 1] - catalog_.words[id];
     const std::size_t arcs = catalog_.arcs[id].size();
     if (arcs * words > catalog_.masks.size() - first_mask_) {
-      return fmt::format("task {} has {} arcs, more than there are masks for", id, arcs);
+      return concat("task ", id, " has ", arcs, " arcs, more than there are masks for");
     }
     masks_.assign(arcs * words, 0);
     const Summary summary = build(id, words);
     if (!summary.has_these_arcs) {
-      return fmt::format("the arcs of task {} are not those of its values", id);
+      return concat("the arcs of task ", id, " are not those of its values");
     }
     if (!std::equal(masks_.begin(), masks_.end(), catalog_.masks.subspan(first_mask_).begin())) {
-      return fmt::format("the masks of task {} are not those of its values", id);
+      return concat("the masks of task ", id, " are not those of its values");
     }
     first_mask_ += masks_.size();
     if (task.level != summary.level) {
-      return fmt::format("task {}: its level is {}, expected {}", id, task.level, summary.level);
+      return concat("task ", id, ": its level is ", task.level, ", expected ", summary.level);
     }
     if (task.has_performance_rules != summary.has_performance_rules) {
-      return fmt::format("task {}: has_performance_rules is {}, expected {}", id,
-                         task.has_performance_rules, summary.has_performance_rules);
+      return concat("task ", id, ": has_performance_rules is ", task.has_performance_rules,
+                    ", expected ", summary.has_performance_rules);
     }
     return std::nullopt;
   }
@@ -660,9 +654,9 @@ Fault find_incoming_fault(const CompiledCatalog& catalog) {
     std::uint32_t next = 0;
     for (const std::uint32_t arc : catalog.incoming[task]) {
       if (arc >= catalog.arcs.items.size() || catalog.arcs.items[arc].target != task) {
-        return fmt::format("'incoming' has arc {} at task {}, where it does not end", arc, task);
+        return concat("'incoming' has arc ", arc, " at task ", task, ", where it does not end");
       }
-      if (arc < next) return fmt::format("the incoming arcs of task {} do not ascend", task);
+      if (arc < next) return concat("the incoming arcs of task ", task, " do not ascend");
       next = arc + 1;
     }
   }
@@ -677,14 +671,14 @@ Fault find_order_fault(const CompiledCatalog& catalog) {
     for (std::uint32_t place = first; place < end; ++place) {
       const TaskId task = catalog.topological_order[place];
       if (task < first || task >= end) {
-        return fmt::format("'topological_order' has task {} among those of group {}", task, group);
+        return concat("'topological_order' has task ", task, " among those of group ", group);
       }
       if (place == first) continue;
       const TaskId before = catalog.topological_order[place - 1];
       const std::uint32_t level = catalog.tasks[task].level;
       const std::uint32_t level_before = catalog.tasks[before].level;
       if (level < level_before || (level == level_before && task <= before)) {
-        return fmt::format("'topological_order' has task {} after task {}", task, before);
+        return concat("'topological_order' has task ", task, " after task ", before);
       }
     }
   }
@@ -699,7 +693,7 @@ Fault find_graph_fault(const CompiledCatalog& catalog) {
     if (auto fault = arcs.find_fault(task)) return fault;
   }
   if (arcs.mask_count() != catalog.masks.size()) {
-    return fmt::format("there are {} masks, expected {}", catalog.masks.size(), arcs.mask_count());
+    return concat("there are ", catalog.masks.size(), " masks, expected ", arcs.mask_count());
   }
   if (auto fault = find_incoming_fault(catalog)) return fault;
   return find_order_fault(catalog);

@@ -4,8 +4,6 @@
 #include <bit>
 #include <chrono>
 
-#include <fmt/format.h>
-
 #include "base/text.h"
 #include "coordinator/explainer.h"
 #include "coordinator/problem_builder.h"
@@ -323,14 +321,14 @@ Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
 
 /// What a report of an internal error needs: the event, what is wrong, and the answer.
 std::string Coordinator::describe_refusal(const std::string& violation) const {
-  std::string text = fmt::format("event {} ({}): {}; the answer was", record_.index,
-                                 name_of(record_.verb), violation);
+  std::string text = concat("event ", record_.index, " (", name_of(record_.verb), "): ", violation,
+                            "; the answer was");
   const TaskId first = catalog_.group_tasks[search_.group];
   for (std::uint32_t task = 0; task < solution_.size(); ++task) {
     const std::uint32_t place = solution_[task];
     if (place == none) continue;
-    text += fmt::format(
-        " {}={}", printable(catalog_.name_of_task(first + task)),
+    text += concat(
+        " ", printable(catalog_.name_of_task(first + task)), "=",
         place < catalog_.values[first + task].size()
             ? printable(catalog_.name_of_behavior(catalog_.values[first + task][place].behavior))
             : "?");

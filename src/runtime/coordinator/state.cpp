@@ -4,8 +4,6 @@
 #include <bit>
 #include <set>
 
-#include <fmt/format.h>
-
 #include "base/text.h"
 #include "solver/checker.h"
 
@@ -224,10 +222,9 @@ class SnapshotCheck {
 
   void check_activation(BehaviorId behavior, Microseconds time) {
     const std::string name = quote(catalog_.name_of_behavior(behavior));
-    if (activated_at_[behavior] != never) refuse(fmt::format("behavior {} is active twice", name));
+    if (activated_at_[behavior] != never) refuse(concat("behavior ", name, " is active twice"));
     if (!is_past(time)) {
-      refuse(
-          fmt::format("behavior {} became active after the time of the state, or before 0", name));
+      refuse(concat("behavior ", name, " became active after the time of the state, or before 0"));
       return;
     }
     activated_at_[behavior] = time;
@@ -236,26 +233,26 @@ class SnapshotCheck {
   void check_task(const Snapshot::RunningTask& entry) {
     const std::string name = quote(catalog_.name_of_task(entry.task));
     const BehaviorId behavior = catalog_.values[entry.task][entry.place].behavior;
-    if (places_[entry.task] != none) refuse(fmt::format("task {} runs twice", name));
+    if (places_[entry.task] != none) refuse(concat("task ", name, " runs twice"));
     places_[entry.task] = entry.place;
     if (!is_past(entry.since)) {
-      refuse(fmt::format("task {} runs since a time after that of the state, or before 0", name));
+      refuse(concat("task ", name, " runs since a time after that of the state, or before 0"));
       return;
     }
     if (activated_at_[behavior] == never) {
-      refuse(fmt::format("task {} runs with {}, which is not active", name,
-                         quote(catalog_.name_of_behavior(behavior))));
+      refuse(concat("task ", name, " runs with ", quote(catalog_.name_of_behavior(behavior)),
+                    ", which is not active"));
     }
     if (entry.request) check_request(name, *entry.request);
     check_timeout(name, entry);
   }
 
   void check_request(const std::string& name, const Request& request) {
-    if (request.priority < 0) refuse(fmt::format("the request of {} has no priority", name));
+    if (request.priority < 0) refuse(concat("the request of ", name, " has no priority"));
     if (request.event == 0 || request.event > snapshot_.events) {
-      refuse(fmt::format("the request of {} is of an event that was not", name));
+      refuse(concat("the request of ", name, " is of an event that was not"));
     } else if (!events_.insert(request.event).second) {
-      refuse(fmt::format("the request of {} is of the same event as another one", name));
+      refuse(concat("the request of ", name, " is of the same event as another one"));
     }
   }
 
@@ -267,8 +264,8 @@ class SnapshotCheck {
     const Microseconds due =
         timeout == 0 ? never : std::max(entry.since, activated_at_[behavior]) + timeout;
     if (entry.waits_for_timeout ? due < snapshot_.now : due > snapshot_.now) {
-      refuse(fmt::format("task {} {} for a timeout", name,
-                         entry.waits_for_timeout ? "cannot wait" : "does not wait"));
+      refuse(concat("task ", name, " ", entry.waits_for_timeout ? "cannot wait" : "does not wait",
+                    " for a timeout"));
     }
   }
 
@@ -279,22 +276,22 @@ class SnapshotCheck {
     }
     for (const auto& [behavior, time] : snapshot_.active) {
       if (is_used[behavior] != 0) continue;
-      refuse(fmt::format("behavior {} is active, but performs no task",
-                         quote(catalog_.name_of_behavior(behavior))));
+      refuse(concat("behavior ", quote(catalog_.name_of_behavior(behavior)),
+                    " is active, but performs no task"));
     }
   }
 
   void check_queued(TaskId task, Microseconds due) {
     const std::string name = quote(catalog_.name_of_task(task));
     if (catalog_.tasks[task].reactive_start == 0) {
-      refuse(fmt::format("task {} is in the queue, but does not start reactively", name));
+      refuse(concat("task ", name, " is in the queue, but does not start reactively"));
     }
-    if (places_[task] != none) refuse(fmt::format("task {} is in the queue, but runs", name));
+    if (places_[task] != none) refuse(concat("task ", name, " is in the queue, but runs"));
     if (!queued_.insert(task).second) {
-      refuse(fmt::format("task {} is in the queue twice", name));
+      refuse(concat("task ", name, " is in the queue twice"));
     }
     if (due < snapshot_.now || due - snapshot_.now > snapshot_.reactive_delay) {
-      refuse(fmt::format("task {} is in the queue for a time that cannot be", name));
+      refuse(concat("task ", name, " is in the queue for a time that cannot be"));
     }
   }
 

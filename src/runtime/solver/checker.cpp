@@ -1,7 +1,5 @@
 #include "solver/checker.h"
 
-#include <fmt/format.h>
-
 #include "base/text.h"
 
 namespace cbc {
@@ -39,8 +37,7 @@ bool Checker::is_in_domain(const Problem& problem, TaskId task) const {
 std::optional<std::string> Checker::check_domains(const Problem& problem) const {
   for (TaskId task = first_task_; task < end_task_; ++task) {
     if (!is_in_domain(problem, task)) {
-      return fmt::format("task {} has a value outside its domain",
-                         quote(catalog_.name_of_task(task)));
+      return concat("task ", quote(catalog_.name_of_task(task)), " has a value outside its domain");
     }
   }
   return std::nullopt;
@@ -52,8 +49,8 @@ std::optional<std::string> Checker::check_exclusivity() {
     if (behavior_of(task) == none) continue;
     for (const std::uint32_t clique : catalog_.task_cliques[task]) {
       if (clique_marks_[clique] == number_) {
-        return fmt::format("{} and {} exclude one another", describe(clique_holders_[clique]),
-                           describe(task));
+        return concat(describe(clique_holders_[clique]), " and ", describe(task),
+                      " exclude one another");
       }
       clique_marks_[clique] = number_;
       clique_holders_[clique] = task;
@@ -67,16 +64,16 @@ std::optional<std::string> Checker::check_requirements() {
     const BehaviorId behavior = behavior_of(task);
     if (behavior == none) continue;
     if (!performs_at_least(task, catalog_.tasks[task].minimum_performance)) {
-      return fmt::format("{} is below its minimum performance", describe(task));
+      return concat(describe(task), " is below its minimum performance");
     }
     for (const CompiledRequirement& requirement : catalog_.requirements[behavior]) {
       if (behavior_of(requirement.task) == none) {
-        return fmt::format("{} requires task {}, which does not run", describe(task),
-                           quote(catalog_.name_of_task(requirement.task)));
+        return concat(describe(task), " requires task ",
+                      quote(catalog_.name_of_task(requirement.task)), ", which does not run");
       }
       if (!performs_at_least(requirement.task, requirement.minimum_performance)) {
-        return fmt::format("{} requires more of {} (line {})", describe(task),
-                           describe(requirement.task), catalog_.line_of(requirement));
+        return concat(describe(task), " requires more of ", describe(requirement.task), " (line ",
+                      catalog_.line_of(requirement), ")");
       }
     }
   }
@@ -116,8 +113,8 @@ bool Checker::performs_at_least(TaskId task, Millionths minimum) {
 }
 
 std::string Checker::describe(TaskId task) const {
-  return fmt::format("task {} with {}", quote(catalog_.name_of_task(task)),
-                     quote(catalog_.name_of_behavior(behavior_of(task))));
+  return concat("task ", quote(catalog_.name_of_task(task)), " with ",
+                quote(catalog_.name_of_behavior(behavior_of(task))));
 }
 
 }  // namespace cbc

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <numeric>
 
 #include <boost/graph/compressed_sparse_row_graph.hpp>
 #include <boost/graph/strong_components.hpp>
 #include <boost/graph/topological_sort.hpp>
+
+#include "base/disjoint_sets.h"
 
 namespace cbc {
 namespace {
@@ -24,24 +25,9 @@ Directed to_directed(std::size_t vertices, const Edges& edges) {
 }  // namespace
 
 std::vector<std::uint32_t> connected_components(std::size_t vertices, const Edges& edges) {
-  // Trees of which the root is the first vertex. Boost's graph would need a list for each vertex.
-  std::vector<std::uint32_t> parent(vertices);
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto find_root = [&](std::uint32_t vertex) {
-    while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
-    return vertex;
-  };
-  for (const auto& [from, to] : edges) {
-    const std::uint32_t a = find_root(from);
-    const std::uint32_t b = find_root(to);
-    parent[std::max(a, b)] = std::min(a, b);
-  }
-  std::vector<std::uint32_t> component(vertices);
-  std::uint32_t count = 0;
-  for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) {
-    component[vertex] = parent[vertex] == vertex ? count++ : component[parent[vertex]];
-  }
-  return component;
+  DisjointSets sets(vertices);
+  for (const auto& [from, to] : edges) sets.join(from, to);
+  return sets.numbers();
 }
 
 std::vector<std::uint32_t> strong_components(std::size_t vertices, const Edges& edges) {
