@@ -13,18 +13,19 @@
 
 namespace cbc {
 
-/// How a coordinator works. Values out of range count as the nearest one in it.
+/// Options of a coordinator. A value out of range counts as the nearest one in range.
 struct LiveOptions {
-  /// From when a reactive task could start until it does; 1 to longest_time.
+  /// From the moment when a reactive task could start until it starts; 1 to longest_time.
   Microseconds reactive_delay = 80'000;
-  // Limits of one search, of which an event may take several. Without limits every answer is proven
-  // best. What a limit stops takes the best answer so far; if there is none yet, the event is
-  // rejected. Answers repeat under max_nodes, but not under time_limit.
+  // Limits of one search; an event may take several. Without limits every answer is proven optimal.
+  // A search that a limit stops takes the best answer so far; if there is none yet, the event is
+  // rejected. max_nodes gives the same answers on every run, time_limit does not.
   std::uint64_t max_nodes = 0;  ///< decisions; 0: no limit
   Microseconds time_limit = 0;  ///< 0 to longest_time; 0: no limit
 };
 
-/// What became of a call. But for ok, too_many_events and internal_error, it changed nothing.
+/// The result of a call. Unless it is ok, too_many_events or internal_error, the call changed
+/// nothing.
 enum class [[nodiscard]] LiveStatus : std::uint8_t{
     ok,
     invalid_time,        ///< before now(), or after longest_time
@@ -33,12 +34,12 @@ enum class [[nodiscard]] LiveStatus : std::uint8_t{
     invalid_priority,    ///< of a start: below 1; of a stop: below 0
     invalid_parameters,  ///< a length without a text
     invalid_situation,   ///< a length without entries
-    unknown_task,        ///< the catalog has no such place
-    unknown_behavior,    ///< the same; also of an entry of a situation
-    /// So much fell due that the clock has not come to the instant asked for, and the event was not
-    /// handled: take care of events(), and repeat the call.
+    unknown_task,        ///< the catalog has no task of this index
+    unknown_behavior,    ///< the same of a behavior, also in a situation
+    /// So many events fell due that the clock did not reach the time of the call, and its event was
+    /// not handled: process events(), and repeat the call.
     too_many_events,
-    /// An answer did not pass its check, which is a mistake in this library; see internal_error().
+    /// An answer did not pass its check, which is a bug in this library; see internal_error().
     /// Every further call returns the same.
     internal_error};
 
@@ -49,10 +50,10 @@ enum class [[nodiscard]] LiveStatus : std::uint8_t{
 struct BehaviorChange {
   bool is_activation = false;
   std::uint32_t behavior = 0;
-  std::span<const std::uint32_t> tasks;  ///< that it performs from now on, or performed
+  std::span<const std::uint32_t> tasks;  ///< that it performs from now on, or performed until now
   ChangeCause cause = ChangeCause::requested;
   std::optional<std::int32_t> priority;  ///< the highest of the requests of these tasks, if any
-  /// False: an activation of a behavior that has a fault, which is not to be carried out.
+  /// False: an activation of a faulty behavior; do not carry it out.
   bool success = true;
 };
 
@@ -62,7 +63,7 @@ struct TaskStop {
   FinishCause cause = FinishCause::interrupted;
 };
 
-/// What one event did. Tasks and behaviors are places in the catalog.
+/// What one event did. Tasks and behaviors are catalog indices.
 struct HandledEvent {
   Microseconds time = 0;
   Origin origin = Origin::script;  ///< script: the program itself
@@ -72,36 +73,36 @@ struct HandledEvent {
   FinishCause cause = FinishCause::goal_achieved;  ///< of finish
   Outcome outcome = Outcome::unchanged;
   bool is_proven = true;                    ///< no limit stopped a search
-  std::span<const BehaviorChange> changes;  ///< to be carried out in this order
+  std::span<const BehaviorChange> changes;  ///< carry them out in this order
   std::span<const TaskStop> stopped_tasks;  ///< in catalog order
 };
 
 /// Decides which behaviors are active while a robot runs: on every event it finds the best
-/// consistent set of them, and says what has to change.
+/// consistent set of behaviors, and reports the changes.
 ///
-/// At first its clock stands at 0, nothing runs, and all behaviors are available and without fault;
-/// a situation as the first event says otherwise. Then the program
+/// At first its clock stands at 0, nothing runs, and all behaviors are available and not faulty.
+/// Send a situation first if some are unavailable. Then the program
 /// - reports what happens with handle(),
 /// - calls advance_to() when next_due() has come, as behaviors time out and reactive tasks start,
 /// - and after each call carries out the changes of events(), in order.
 ///
-/// A behavior that finished is over, and no deactivation of it is among the changes. That holds for
-/// one that timed out, too: it is the subject of the event, whose origin is timeout, and is to be
-/// stopped first. (If a search limit lets a finish be rejected, its behavior goes on.)
+/// A behavior that finished is inactive already, so the changes contain no deactivation of it. This
+/// includes a behavior that timed out: it is the subject of an event of origin timeout, and has to
+/// be stopped first. (If a finish is rejected at a search limit, its behavior stays active.)
 ///
-/// An activation counts as done as soon as it is decided. If it fails in the world, report a fault
+/// An activation counts as done as soon as it is decided. If it fails on the robot, report a fault
 /// of the behavior, so that it is not tried again, and then its finish with process_failure.
 ///
-/// Time is counted on a clock of the program, in microseconds since it made the coordinator. It
-/// never goes back, and stands still between calls.
+/// Time comes from a clock of the program, in microseconds since it created the coordinator. It
+/// never goes back, and does not advance between calls.
 ///
-/// Different coordinators are independent, and may be in different threads; one of them takes one
-/// call at a time, const ones included. Nothing is thrown, but for std::bad_alloc where memory is
-/// at an end; the coordinator must not be used after that. Buffers grow to what the greatest event
-/// needs; then events allocate nothing.
+/// Different coordinators are independent, and may be used in different threads. Calls of one
+/// coordinator, const ones included, must not overlap. The only exception thrown is std::bad_alloc;
+/// the coordinator must not be used after it. Once the buffers have grown to what the largest event
+/// needs, events allocate nothing.
 class LiveCoordinator {
  public:
-  /// A call after which this many events have been reported leaves the others for the next one.
+  /// The most events of the clock that one call handles; the next call continues with the rest.
   static constexpr std::size_t most_events = 10'000;
 
   /// Keeps the catalog in memory.
@@ -110,23 +111,23 @@ class LiveCoordinator {
   LiveCoordinator& operator=(const LiveCoordinator&) = delete;
   ~LiveCoordinator();
 
-  /// Moves the clock to `time`, through all that falls due before it, and handles the event there.
-  /// What the event refers to is not used after the call.
+  /// Moves the clock to `time`, handles what falls due before it, and then the event. Keeps no
+  /// reference to anything in the event.
   LiveStatus handle(Microseconds time, const Event& event);
 
-  /// Moves the clock to `time`, through all that falls due until then, `time` included.
+  /// Moves the clock to `time`, and handles what falls due until then, also at `time` itself.
   LiveStatus advance_to(Microseconds time);
 
-  /// What the last call of the two brought about, in order. Valid until the next one.
+  /// What the last call of handle or advance_to did, in order. Valid until the next such call.
   [[nodiscard]] std::span<const HandledEvent> events() const;
 
   [[nodiscard]] Microseconds now() const;
-  /// When the clock brings about something next, if nothing happens before; it may turn out to be
-  /// nothing. None: nothing is due ever.
+  /// When something falls due next, unless an event changes that. It may turn out to be a no-op.
+  /// None: nothing is due.
   [[nodiscard]] std::optional<Microseconds> next_due() const;
-  /// The behavior that performs a task; none if the task does not run, or there is no such place.
+  /// The behavior that performs a task; none if the task does not run, or there is no such task.
   [[nodiscard]] std::optional<std::uint32_t> behavior_of(std::uint32_t task) const;
-  /// What to tell the authors of this library; empty if there is nothing.
+  /// What to report to the authors of this library; empty if there was no internal error.
   [[nodiscard]] std::string_view internal_error() const;
 
  private:

@@ -13,20 +13,19 @@ struct CatalogLoading;
 
 /// A compiled catalog, as `cbc compile` writes it.
 ///
-/// Its tasks and behaviors are told apart by their place in the catalog: they are numbered from 0
-/// in the order in which the source names them first.
+/// Its tasks and its behaviors have catalog indices: they are numbered from 0 in the order in which
+/// the source first names them.
 ///
-/// A loaded catalog never changes, so any number of threads may use it, and any number of
-/// coordinators. Copies are cheap and share it; it stays in memory as long as one of them, or a
-/// coordinator on it, is there. All functions take any argument, and none throws, but for
-/// std::bad_alloc where memory is at an end.
+/// A loaded catalog never changes, so any number of threads and coordinators may use it. Copies are
+/// cheap and share the content, which stays in memory as long as a copy or a coordinator uses it.
+/// All functions accept any argument; the only exception thrown is std::bad_alloc.
 class LoadedCatalog {
  public:
-  /// Maps a file into memory and verifies it, once and as a whole. The file may be replaced while
-  /// it is in use (`cbc compile` does that), but must not be written over.
+  /// Maps a file into memory and verifies all of it. The file may be replaced while it is in use
+  /// (`cbc compile` does that), but must not be overwritten in place.
   [[nodiscard]] static CatalogLoading load(const std::string& path);
 
-  // Copied where it could be moved, too, so that there is always a catalog in it.
+  // Moving copies, so that an object always holds a catalog.
   LoadedCatalog(const LoadedCatalog&) = default;
   LoadedCatalog& operator=(const LoadedCatalog&) = default;
   ~LoadedCatalog() = default;
@@ -34,12 +33,12 @@ class LoadedCatalog {
   [[nodiscard]] std::size_t task_count() const;
   [[nodiscard]] std::size_t behavior_count() const;
 
-  /// The name of the task, the behavior at a place; empty if there is no such place. It is valid as
-  /// long as the catalog is in memory.
-  [[nodiscard]] std::string_view task_name(std::uint32_t place) const;
-  [[nodiscard]] std::string_view behavior_name(std::uint32_t place) const;
+  /// The name of a task or behavior; empty if there is no such index. Valid as long as the catalog
+  /// is in memory.
+  [[nodiscard]] std::string_view task_name(std::uint32_t index) const;
+  [[nodiscard]] std::string_view behavior_name(std::uint32_t index) const;
 
-  /// The place of the task, the behavior with this name; none if there is none. Takes time
+  /// The catalog index of the task or behavior of this name; none if there is none. Takes time
   /// logarithmic in the size of the catalog.
   [[nodiscard]] std::optional<std::uint32_t> find_task(std::string_view name) const;
   [[nodiscard]] std::optional<std::uint32_t> find_behavior(std::string_view name) const;

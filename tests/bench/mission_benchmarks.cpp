@@ -50,7 +50,7 @@ class DomainInitialization {
  public:
   DomainInitialization(const Scenario& scenario, std::size_t place)
       : batch_(scenario, 1),
-        question_(*scenario.mission->catalog, batch_.state()),
+        problem_builder_(*scenario.mission->catalog, batch_.state()),
         trigger_(scenario.moments[place].trigger) {
     for (std::size_t earlier = 0; earlier < place; ++earlier) {
       batch_.take(scenario.moments[earlier]);
@@ -58,13 +58,13 @@ class DomainInitialization {
   }
 
   const Problem& run() {
-    question_.load(trigger_, 1);
-    return question_.ask(question_.first_protection());
+    problem_builder_.load(trigger_, 1);
+    return problem_builder_.build(problem_builder_.first_protection());
   }
 
  private:
   Batch batch_;
-  Question question_;
+  ProblemBuilder problem_builder_;
   Trigger trigger_;
 };
 

@@ -349,7 +349,7 @@ void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
     }
     commit(transition, solution->values);
   } else {
-    take_back(transition);
+    roll_back(transition);
     if (!transition.changes.empty()) {
       count("rejected and taken back");
     }
@@ -576,7 +576,7 @@ std::optional<int> Oracle::priority_after(const Transition& transition,
 }
 
 // Returns to what was active before the event, as far as that can be activated.
-void Oracle::take_back(Transition& transition) {
+void Oracle::roll_back(Transition& transition) {
   const std::set<std::size_t>& before = transition.active_before;
   for (const std::size_t behavior :
        difference(*facts_, transition.active, before, LevelOrder::highest_first)) {

@@ -135,7 +135,7 @@ class Oracle {
 
   // The behavior whose activation failed, if one did.
   std::optional<std::size_t> apply(Transition& transition, const Assignment& values);
-  void take_back(Transition& transition);
+  void roll_back(Transition& transition);
   const char* deactivation_cause(const Transition& transition, const Assignment& values,
                                  const std::vector<std::size_t>& tasks) const;
   std::optional<int> priority_before(const std::vector<std::size_t>& tasks) const;

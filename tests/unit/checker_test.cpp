@@ -185,8 +185,8 @@ TEST(Checker, AgreesWithBruteForceOnChangedAnswers) {
       ASSERT_EQ(checker.find_violation(problem, answer), std::nullopt);
       const std::size_t task = random.below(answer.size());
       const auto values = catalog.values[catalog.group_tasks[group] + task].size();
-      const std::size_t place = random.below(values + 1);
-      answer[task] = place == values ? none : static_cast<std::uint32_t>(place);
+      const std::size_t index = random.below(values + 1);
+      answer[task] = index == values ? none : static_cast<std::uint32_t>(index);
       const bool is_right = truth.is_valid(answer) && truth.is_in_domains(answer);
       ASSERT_EQ(checker.find_violation(problem, answer) == std::nullopt, is_right)
           << "round " << round;

@@ -13,16 +13,16 @@
 namespace cbc::test {
 namespace {
 
-std::uint32_t found_or_zero(std::optional<std::uint32_t> place, std::string_view name) {
-  EXPECT_TRUE(place) << name;
-  return place.value_or(0);
+std::uint32_t found_or_zero(std::optional<std::uint32_t> index, std::string_view name) {
+  EXPECT_TRUE(index) << name;
+  return index.value_or(0);
 }
 
 /// The domain word of a value.
 std::uint64_t& word_of(Problem& problem, const CompiledCatalog& catalog, TaskId task,
-                       std::uint32_t place) {
+                       std::uint32_t index) {
   const TaskId first = catalog.group_tasks[problem.group];
-  return problem.domains[catalog.words[task] - catalog.words[first] + place / 64];
+  return problem.domains[catalog.words[task] - catalog.words[first] + index / 64];
 }
 
 }  // namespace
@@ -47,12 +47,12 @@ std::uint32_t local_task(const CompiledCatalog& catalog, std::string_view name) 
   return task - catalog.group_tasks[catalog.tasks[task].group];
 }
 
-std::uint32_t place_of(const CompiledCatalog& catalog, std::string_view task,
-                       std::string_view behavior) {
+std::uint32_t value_index(const CompiledCatalog& catalog, std::string_view task,
+                          std::string_view behavior) {
   const BehaviorId wanted = behavior_id(catalog, behavior);
   const auto values = catalog.values[task_id(catalog, task)];
-  for (std::uint32_t place = 0; place < values.size(); ++place) {
-    if (values[place].behavior == wanted) return place;
+  for (std::uint32_t index = 0; index < values.size(); ++index) {
+    if (values[index].behavior == wanted) return index;
   }
   ADD_FAILURE() << behavior << " does not perform " << task;
   return none;
@@ -67,8 +67,8 @@ Problem open_problem(const CompiledCatalog& catalog, std::uint32_t group) {
   problem.may_stop.assign(end - first, 1);
   problem.present.assign(end - first, none);
   for (TaskId task = first; task < end; ++task) {
-    for (std::uint32_t place = 0; place < catalog.values[task].size(); ++place) {
-      word_of(problem, catalog, task, place) |= std::uint64_t{1} << (place % 64);
+    for (std::uint32_t index = 0; index < catalog.values[task].size(); ++index) {
+      word_of(problem, catalog, task, index) |= std::uint64_t{1} << (index % 64);
     }
   }
   return problem;
@@ -84,16 +84,16 @@ void request(Problem& problem, const CompiledCatalog& catalog, std::string_view 
 
 void set_present(Problem& problem, const CompiledCatalog& catalog, std::string_view task,
                  std::string_view behavior) {
-  problem.present[local_task(catalog, task)] = place_of(catalog, task, behavior);
+  problem.present[local_task(catalog, task)] = value_index(catalog, task, behavior);
   const BehaviorId active = behavior_id(catalog, behavior);
-  const auto place = std::lower_bound(problem.active.begin(), problem.active.end(), active);
-  if (place == problem.active.end() || *place != active) problem.active.insert(place, active);
+  const auto index = std::lower_bound(problem.active.begin(), problem.active.end(), active);
+  if (index == problem.active.end() || *index != active) problem.active.insert(index, active);
 }
 
 void leave_out(Problem& problem, const CompiledCatalog& catalog, std::string_view task,
                std::string_view behavior) {
-  const std::uint32_t place = place_of(catalog, task, behavior);
-  word_of(problem, catalog, task_id(catalog, task), place) &= ~(std::uint64_t{1} << (place % 64));
+  const std::uint32_t index = value_index(catalog, task, behavior);
+  word_of(problem, catalog, task_id(catalog, task), index) &= ~(std::uint64_t{1} << (index % 64));
 }
 
 void leave_out_all(Problem& problem, const CompiledCatalog& catalog, std::string_view task) {
@@ -121,7 +121,7 @@ Assignment answer_of(const CompiledCatalog& catalog, std::string_view text, std:
     text.remove_prefix(std::min(text.size(), entry.size() + 1));
     const std::size_t sign = entry.find('=');
     const std::string_view task = entry.substr(0, sign);
-    answer[local_task(catalog, task)] = place_of(catalog, task, entry.substr(sign + 1));
+    answer[local_task(catalog, task)] = value_index(catalog, task, entry.substr(sign + 1));
   }
   return answer;
 }

@@ -16,11 +16,11 @@ namespace cbc::test {
 
 [[nodiscard]] TaskId task_id(const CompiledCatalog& catalog, std::string_view name);
 [[nodiscard]] BehaviorId behavior_id(const CompiledCatalog& catalog, std::string_view name);
-/// Place of a task within its group.
+/// Index of a task within its group.
 [[nodiscard]] std::uint32_t local_task(const CompiledCatalog& catalog, std::string_view name);
-/// Place of a behavior among the values of a task.
-[[nodiscard]] std::uint32_t place_of(const CompiledCatalog& catalog, std::string_view task,
-                                     std::string_view behavior);
+/// Index of a behavior among the values of a task.
+[[nodiscard]] std::uint32_t value_index(const CompiledCatalog& catalog, std::string_view task,
+                                        std::string_view behavior);
 
 /// A problem in which every task of the group may have every value, and nothing runs before.
 [[nodiscard]] Problem open_problem(const CompiledCatalog& catalog, std::uint32_t group = 0);

@@ -47,8 +47,8 @@ std::string describe(const Domains& domains) {
   std::string text;
   for (std::uint32_t task = 0; task < domains.task_count(); ++task) {
     text += domains.needed(task) ? "!" : "?";
-    for (std::uint32_t place = 0; place < domains.values(task).size(); ++place) {
-      if (domains.has(task, place)) text += std::to_string(place) + ",";
+    for (std::uint32_t index = 0; index < domains.values(task).size(); ++index) {
+      if (domains.has(task, index)) text += std::to_string(index) + ",";
     }
     text += "#" + std::to_string(domains.count(task));
     if (domains.count(task) > 0) text += " best " + std::to_string(domains.best(task));
@@ -208,7 +208,7 @@ TEST(Domains, WorkOverSeveralWords) {
   EXPECT_EQ(domains.count(0), 150U);
   EXPECT_EQ(domains.words(0).size(), 3U);
   EXPECT_EQ(domains.word_begin(1), 3U);
-  for (std::uint32_t place = 0; place < 128; ++place) EXPECT_TRUE(domains.remove(0, place));
+  for (std::uint32_t index = 0; index < 128; ++index) EXPECT_TRUE(domains.remove(0, index));
   EXPECT_EQ(domains.best(0), 128U);
   EXPECT_EQ(domains.count(0), 22U);
   const std::vector<std::uint64_t> last_word{0, 0, ~std::uint64_t{0}};
@@ -226,11 +226,11 @@ TEST(Domains, KeepOnlyWorksInEveryWordOfANeededTask) {
   domains.load(open_problem(catalog));
   EXPECT_TRUE(domains.need(0));
   const Domains::Mark mark = domains.mark();
-  for (const std::uint32_t place : {0U, 63U, 64U, 127U, 128U, 149U}) {
-    EXPECT_TRUE(domains.keep_only(0, place));
+  for (const std::uint32_t index : {0U, 63U, 64U, 127U, 128U, 149U}) {
+    EXPECT_TRUE(domains.keep_only(0, index));
     EXPECT_EQ(domains.count(0), 1U);
-    EXPECT_EQ(domains.best(0), place);
-    EXPECT_EQ(domains.sums().cost, domains.value(0, place).cost);
+    EXPECT_EQ(domains.best(0), index);
+    EXPECT_EQ(domains.sums().cost, domains.value(0, index).cost);
     domains.undo_to(mark);
     EXPECT_EQ(domains.count(0), 150U);
     EXPECT_EQ(domains.best(0), 0U);
@@ -281,7 +281,7 @@ TEST(Domains, RandomChangesAreUndoneExactly) {
     for (int step = 0; step < 40; ++step) {
       const auto task = static_cast<std::uint32_t>(random.below(domains.task_count()));
       const std::size_t values = domains.values(task).size();
-      const auto place = static_cast<std::uint32_t>(random.below(values + (values == 0 ? 1 : 0)));
+      const auto index = static_cast<std::uint32_t>(random.below(values + (values == 0 ? 1 : 0)));
       const std::size_t operation = random.below(6);
       bool is_consistent = true;
       if (operation == 0) {
@@ -289,9 +289,9 @@ TEST(Domains, RandomChangesAreUndoneExactly) {
       } else if (operation == 1 && domains.may_stop(task) && random.percent(30)) {
         is_consistent = domains.close(task);
       } else if (operation == 2 && values > 0) {
-        is_consistent = domains.remove(task, place);
-      } else if (operation == 3 && values > 0 && domains.has(task, place)) {
-        is_consistent = domains.keep_only(task, place);
+        is_consistent = domains.remove(task, index);
+      } else if (operation == 3 && values > 0 && domains.has(task, index)) {
+        is_consistent = domains.keep_only(task, index);
       } else if (operation == 4) {
         std::vector<std::uint64_t> mask;
         for (std::size_t word = 0; word < domains.words(task).size(); ++word) {

@@ -17,7 +17,7 @@ double suitability(const std::vector<std::string>& percents) {
   }
   const CompiledCatalog catalog = test::compile_text(text);
   State state(catalog);
-  for (TaskId task = 0; task < catalog.tasks.size(); ++task) state.set_place(task, 0, 0);
+  for (TaskId task = 0; task < catalog.tasks.size(); ++task) state.set_value(task, 0, 0);
   return total_suitability(catalog, state);
 }
 

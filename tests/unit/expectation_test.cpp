@@ -17,7 +17,7 @@ class ExpectationTest : public testing::Test {
     run("B", "b");
   }
   void run(std::string_view task, std::string_view behavior) {
-    state.set_place(test::task_id(catalog, task), test::place_of(catalog, task, behavior), 0);
+    state.set_value(test::task_id(catalog, task), test::value_index(catalog, task, behavior), 0);
     state.set_active(test::behavior_id(catalog, behavior), 0);
   }
   [[nodiscard]] std::string mismatch(std::optional<Outcome> outcome = {}) const {

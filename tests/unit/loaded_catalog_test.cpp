@@ -39,11 +39,11 @@ TEST(LoadedCatalog, CountsInCatalogOrder) {
 
 TEST(LoadedCatalog, FindsWhatItNames) {
   const LoadedCatalog catalog = test::load_text(text);
-  for (std::uint32_t place = 0; place < catalog.task_count(); ++place) {
-    EXPECT_EQ(catalog.find_task(catalog.task_name(place)), place);
+  for (std::uint32_t index = 0; index < catalog.task_count(); ++index) {
+    EXPECT_EQ(catalog.find_task(catalog.task_name(index)), index);
   }
-  for (std::uint32_t place = 0; place < catalog.behavior_count(); ++place) {
-    EXPECT_EQ(catalog.find_behavior(catalog.behavior_name(place)), place);
+  for (std::uint32_t index = 0; index < catalog.behavior_count(); ++index) {
+    EXPECT_EQ(catalog.find_behavior(catalog.behavior_name(index)), index);
   }
   EXPECT_EQ(catalog.find_task("hover"), std::nullopt);
   EXPECT_EQ(catalog.find_behavior("HOVER"), std::nullopt);

@@ -24,10 +24,10 @@ class Comparison {
   /// Whether the solution `a` ("A=a1 B=b") is better than `b`.
   [[nodiscard]] bool is_better(std::string_view a, std::string_view b) const {
     Domains domains(catalog);
-    Parts parts(catalog, domains);
-    Objective objective(catalog, domains, parts, ranks);
+    Components components(catalog, domains);
+    Objective objective(catalog, domains, components, ranks);
     domains.load(problem);
-    parts.load(problem);
+    components.load(problem);
     objective.load(problem);
     const Domains::Mark mark = domains.mark();
     Incumbent incumbent;
@@ -43,18 +43,18 @@ class Comparison {
   /// The values of a task by key, best first; "-" is "not running".
   [[nodiscard]] std::string order(std::string_view task) const {
     Domains domains(catalog);
-    Parts parts(catalog, domains);
-    Objective objective(catalog, domains, parts, ranks);
+    Components components(catalog, domains);
+    Objective objective(catalog, domains, components, ranks);
     domains.load(problem);
-    parts.load(problem);
+    components.load(problem);
     objective.load(problem);
     const std::uint32_t local = test::local_task(catalog, task);
     std::vector<std::pair<std::uint32_t, std::string>> keys{{objective.key(local, none), "-"}};
-    for (std::uint32_t place = 0; place < domains.values(local).size(); ++place) {
-      if (!domains.has(local, place)) continue;
+    for (std::uint32_t index = 0; index < domains.values(local).size(); ++index) {
+      if (!domains.has(local, index)) continue;
       keys.emplace_back(
-          objective.key(local, place),
-          std::string(catalog.name_of_behavior(domains.value(local, place).behavior)));
+          objective.key(local, index),
+          std::string(catalog.name_of_behavior(domains.value(local, index).behavior)));
     }
     std::sort(keys.begin(), keys.end());
     std::string text;

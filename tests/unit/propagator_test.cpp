@@ -42,10 +42,10 @@ class Propagation {
     for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
       text += (task == 0 ? "" : " ") + std::string(catalog.name_of_task(task)) +
               (domains_.may_stop(task) ? "?:" : ":");
-      for (std::uint32_t place = 0; place < domains_.values(task).size(); ++place) {
-        if (!domains_.has(task, place)) continue;
+      for (std::uint32_t index = 0; index < domains_.values(task).size(); ++index) {
+        if (!domains_.has(task, index)) continue;
         if (text.back() != ':') text += ",";
-        text += std::string(catalog.name_of_behavior(domains_.value(task, place).behavior));
+        text += std::string(catalog.name_of_behavior(domains_.value(task, index).behavior));
       }
     }
     return text;

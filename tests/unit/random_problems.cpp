@@ -155,12 +155,12 @@ Problem random_problem(Random& random, const CompiledCatalog& catalog, std::uint
     if (is_start || (has_request && !is_stop && !is_done)) problem.requests.push_back(task);
     if (before != none && !has_finished) problem.active.push_back(before);
     if (is_stop || is_done || (!is_start && before == none && on_request)) continue;
-    for (std::uint32_t place = 0; place < catalog.values[first + task].size(); ++place) {
-      const bool is_kept = place == problem.present[task] && !has_finished;
-      const bool is_excluded = catalog.values[first + task][place].behavior == finished;
+    for (std::uint32_t index = 0; index < catalog.values[first + task].size(); ++index) {
+      const bool is_kept = index == problem.present[task] && !has_finished;
+      const bool is_excluded = catalog.values[first + task][index].behavior == finished;
       if (!is_kept && (is_excluded || !random.percent(available))) continue;
-      const std::uint32_t word = catalog.words[first + task] - catalog.words[first] + place / 64;
-      problem.domains[word] |= std::uint64_t{1} << (place % 64);
+      const std::uint32_t word = catalog.words[first + task] - catalog.words[first] + index / 64;
+      problem.domains[word] |= std::uint64_t{1} << (index % 64);
     }
     if (is_start || (has_request && !has_finished && random.percent(is_protected))) {
       problem.may_stop[task] = 0;

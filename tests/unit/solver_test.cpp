@@ -38,14 +38,14 @@ SearchOptions first_solutions(std::uint64_t m) {
 
 struct Answer {
   SearchResult result;
-  Assignment places;
+  Assignment assignment;
 };
 
 Answer solve(const CompiledCatalog& catalog, const Problem& problem,
              const SearchOptions& options = {}, const std::vector<std::uint32_t>& ranks = {}) {
   Solver solver(catalog, options, ranks);
   Answer answer;
-  answer.result = solver.solve(problem, answer.places);
+  answer.result = solver.solve(problem, answer.assignment);
   return answer;
 }
 
@@ -54,9 +54,9 @@ std::string text_of(const CompiledCatalog& catalog, const Problem& problem,
   const Answer answer = solve(catalog, problem, options);
   switch (answer.result.status) {
     case SearchStatus::optimal:
-      return test::show(catalog, answer.places, problem.group);
+      return test::show(catalog, answer.assignment, problem.group);
     case SearchStatus::feasible:
-      return "feasible " + test::show(catalog, answer.places, problem.group);
+      return "feasible " + test::show(catalog, answer.assignment, problem.group);
     case SearchStatus::infeasible:
       return "infeasible";
     case SearchStatus::unknown:
@@ -132,16 +132,16 @@ behaviors:
 )");
   const std::vector<std::uint32_t> ranks;
   Solver solver(catalog, {}, ranks);
-  Assignment places;
+  Assignment assignment;
   for (int round = 0; round < 3; ++round) {
     Problem one = open_problem(catalog, 0);
     test::demand(one, catalog, "A");
-    EXPECT_EQ(solver.solve(one, places).status, SearchStatus::optimal);
-    EXPECT_EQ(test::show(catalog, places, 0), "A=a");
+    EXPECT_EQ(solver.solve(one, assignment).status, SearchStatus::optimal);
+    EXPECT_EQ(test::show(catalog, assignment, 0), "A=a");
     Problem other = open_problem(catalog, 1);
     test::demand(other, catalog, "B");
-    EXPECT_EQ(solver.solve(other, places).status, SearchStatus::optimal);
-    EXPECT_EQ(test::show(catalog, places, 1), "B=b2 C=c");
+    EXPECT_EQ(solver.solve(other, assignment).status, SearchStatus::optimal);
+    EXPECT_EQ(test::show(catalog, assignment, 1), "B=b2 C=c");
   }
 }
 
@@ -159,7 +159,7 @@ std::vector<std::uint32_t> random_ranks(test::Random& random, const CompiledCata
       return values[a].suitability > values[b].suitability;
     });
     std::vector<std::uint32_t> rank(values.size());
-    for (std::uint32_t place = 0; place < order.size(); ++place) rank[order[place]] = place;
+    for (std::uint32_t index = 0; index < order.size(); ++index) rank[order[index]] = index;
     ranks.insert(ranks.end(), rank.begin(), rank.end());
   }
   return ranks;
@@ -178,7 +178,7 @@ class Agreement {
       const Answer answer = solve(catalog, problem, looking_ahead_after(easy_nodes), ranks);
       ASSERT_EQ(answer.result.status, best ? SearchStatus::optimal : SearchStatus::infeasible);
       if (best) {
-        ASSERT_EQ(test::show(catalog, answer.places, problem.group),
+        ASSERT_EQ(test::show(catalog, answer.assignment, problem.group),
                   test::show(catalog, *best, problem.group));
       }
     }
@@ -193,7 +193,7 @@ class Agreement {
       }
       ASSERT_EQ(answer.result.status,
                 truth.solutions().size() > m ? SearchStatus::feasible : SearchStatus::optimal);
-      ASSERT_EQ(test::show(catalog, answer.places, problem.group),
+      ASSERT_EQ(test::show(catalog, answer.assignment, problem.group),
                 test::show(catalog, *expected, problem.group));
     }
     check_node_limits(catalog, problem, ranks, truth);
@@ -214,12 +214,12 @@ class Agreement {
       const Answer answer = solve(catalog, problem, options, ranks);
       ASSERT_LE(answer.result.nodes, limit);
       if (has_solution(answer.result.status)) {
-        ASSERT_TRUE(truth.is_valid(answer.places));
-        ASSERT_TRUE(truth.is_in_domains(answer.places));
+        ASSERT_TRUE(truth.is_valid(answer.assignment));
+        ASSERT_TRUE(truth.is_in_domains(answer.assignment));
       }
       switch (answer.result.status) {
         case SearchStatus::optimal:
-          ASSERT_EQ(answer.places, *truth.best());
+          ASSERT_EQ(answer.assignment, *truth.best());
           break;
         case SearchStatus::feasible:
           ++feasible;
@@ -410,7 +410,7 @@ TEST(Solver, AnswersOfLargerProblemsDoNotDependOnWhenItLooksAhead) {
       }
       ASSERT_EQ(answer.result.status, first->result.status) << "round " << round;
       if (has_solution(answer.result.status)) {
-        ASSERT_EQ(answer.places, first->places) << "round " << round;
+        ASSERT_EQ(answer.assignment, first->assignment) << "round " << round;
       }
     }
   }

@@ -29,14 +29,14 @@ void append(std::string& text, const std::string& item, std::string_view separat
 Stage::Stage(std::string_view catalog, const CoordinatorOptions& options,
              const Situation& situation)
     : catalog_(compile_text(catalog)), coordinator_(catalog_, options, *this) {
-  coordinator_.begin(places_of(situation));
+  coordinator_.begin(availabilities_of(situation));
 }
 
 std::string Stage::start(std::string_view task, std::optional<std::int32_t> priority,
                          std::optional<std::string_view> parameters) {
   Event event;
   event.verb = Verb::start;
-  event.subject = task_place(task);
+  event.subject = task_index(task);
   event.priority = priority;
   event.parameters = parameters;
   return handle(event);
@@ -45,7 +45,7 @@ std::string Stage::start(std::string_view task, std::optional<std::int32_t> prio
 std::string Stage::stop(std::string_view task, std::optional<std::int32_t> priority) {
   Event event;
   event.verb = Verb::stop;
-  event.subject = task_place(task);
+  event.subject = task_index(task);
   event.priority = priority;
   return handle(event);
 }
@@ -53,30 +53,30 @@ std::string Stage::stop(std::string_view task, std::optional<std::int32_t> prior
 std::string Stage::finish(std::string_view behavior, FinishCause cause) {
   Event event;
   event.verb = Verb::finish;
-  event.subject = behavior_place(behavior);
+  event.subject = behavior_index(behavior);
   event.cause = cause;
   return handle(event);
 }
 
 std::string Stage::set(const Situation& situation) {
-  const std::vector<Availability> places = places_of(situation);
+  const std::vector<Availability> entries = availabilities_of(situation);
   Event event;
   event.verb = Verb::situation;
-  event.situation = places;
+  event.situation = entries;
   return handle(event);
 }
 
 std::string Stage::fault(std::string_view behavior) {
   Event event;
   event.verb = Verb::fault;
-  event.subject = behavior_place(behavior);
+  event.subject = behavior_index(behavior);
   return handle(event);
 }
 
 std::string Stage::repair(std::string_view behavior) {
   Event event;
   event.verb = Verb::repair;
-  event.subject = behavior_place(behavior);
+  event.subject = behavior_index(behavior);
   return handle(event);
 }
 
@@ -184,10 +184,10 @@ std::string Stage::show(const EventRecord& record, const Change& change) const {
 
 std::string Stage::running() const {
   std::string text;
-  for (const std::uint32_t place : state().running()) {
-    const BehaviorId behavior = state().behavior(catalog_.task_ids[place]);
+  for (const std::uint32_t index : state().running()) {
+    const BehaviorId behavior = state().behavior(catalog_.task_ids[index]);
     append(text,
-           std::string(catalog_.task_names[place]) + "=" +
+           std::string(catalog_.task_names[index]) + "=" +
                std::string(catalog_.name_of_behavior(behavior)),
            " ");
   }
@@ -197,12 +197,12 @@ std::string Stage::running() const {
 std::string Stage::requests() const {
   std::string text;
   std::uint32_t count = 0;
-  for (std::uint32_t place = 0; place < catalog_.task_names.size(); ++place) {
-    const TaskId task = catalog_.task_ids[place];
+  for (std::uint32_t index = 0; index < catalog_.task_names.size(); ++index) {
+    const TaskId task = catalog_.task_ids[index];
     if (!state().has_request(task)) continue;
     ++count;
     append(text,
-           std::string(catalog_.task_names[place]) + ":" +
+           std::string(catalog_.task_names[index]) + ":" +
                std::to_string(state().request(task).priority),
            " ");
   }
@@ -212,11 +212,11 @@ std::string Stage::requests() const {
 
 std::string Stage::show(const Timers& timers) const {
   std::vector<std::pair<std::uint32_t, Microseconds>> entries;
-  for (const auto& [due, place] : timers.entries()) entries.emplace_back(place, due);
+  for (const auto& [due, index] : timers.entries()) entries.emplace_back(index, due);
   std::sort(entries.begin(), entries.end());
   std::string text;
-  for (const auto& [place, due] : entries) {
-    append(text, std::string(catalog_.task_names[place]) + "@" + seconds_text(due), " ");
+  for (const auto& [index, due] : entries) {
+    append(text, std::string(catalog_.task_names[index]) + "@" + seconds_text(due), " ");
   }
   return text;
 }
@@ -227,31 +227,31 @@ std::string Stage::timeouts() const { return show(state().timeouts()); }
 
 std::string Stage::active() const {
   std::string text;
-  for (std::uint32_t place = 0; place < catalog_.behavior_names.size(); ++place) {
-    if (state().is_active(catalog_.behavior_ids[place])) {
-      append(text, std::string(catalog_.behavior_names[place]), " ");
+  for (std::uint32_t index = 0; index < catalog_.behavior_names.size(); ++index) {
+    if (state().is_active(catalog_.behavior_ids[index])) {
+      append(text, std::string(catalog_.behavior_names[index]), " ");
     }
   }
   return text;
 }
 
-std::uint32_t Stage::task_place(std::string_view name) const {
+std::uint32_t Stage::task_index(std::string_view name) const {
   return catalog_.tasks[task_id(catalog_, name)].catalog_index;
 }
 
-std::uint32_t Stage::behavior_place(std::string_view name) const {
+std::uint32_t Stage::behavior_index(std::string_view name) const {
   return catalog_.behaviors[behavior_id(catalog_, name)].catalog_index;
 }
 
-std::vector<Availability> Stage::places_of(const Situation& situation) const {
-  std::vector<Availability> places;
+std::vector<Availability> Stage::availabilities_of(const Situation& situation) const {
+  std::vector<Availability> entries;
   for (const auto& [name, available] : situation) {
     Availability entry;
-    entry.behavior = behavior_place(name);
+    entry.behavior = behavior_index(name);
     entry.available = available;
-    places.push_back(entry);
+    entries.push_back(entry);
   }
-  return places;
+  return entries;
 }
 
 }  // namespace cbc::test

@@ -72,9 +72,9 @@ class Stage final : private EventListener {
   void forget();
   std::string handle(Event event);
   std::string conclude(Coordinator::Status status);
-  [[nodiscard]] std::uint32_t task_place(std::string_view name) const;
-  [[nodiscard]] std::uint32_t behavior_place(std::string_view name) const;
-  [[nodiscard]] std::vector<Availability> places_of(const Situation& situation) const;
+  [[nodiscard]] std::uint32_t task_index(std::string_view name) const;
+  [[nodiscard]] std::uint32_t behavior_index(std::string_view name) const;
+  [[nodiscard]] std::vector<Availability> availabilities_of(const Situation& situation) const;
   [[nodiscard]] std::string show(const EventRecord& record, const Change& change) const;
   [[nodiscard]] std::string show(const Timers& timers) const;
 

@@ -262,7 +262,7 @@ class Witness final : public RunListener {
  public:
   struct Moment {
     Microseconds time = 0;
-    std::vector<std::uint32_t> places;                    ///< by task
+    std::vector<std::uint32_t> assignment;                ///< by task
     std::vector<std::optional<std::int32_t>> priorities;  ///< by task
     std::vector<bool> active;                             ///< by behavior
     std::vector<Change> changes;
@@ -270,7 +270,7 @@ class Witness final : public RunListener {
 
   explicit Witness(const CompiledCatalog& catalog) : catalog_(catalog) {
     Moment& first = moments.emplace_back();
-    first.places.assign(catalog.tasks.size(), none);
+    first.assignment.assign(catalog.tasks.size(), none);
     first.priorities.resize(catalog.tasks.size());
     first.active.resize(catalog.behaviors.size());
   }
@@ -278,7 +278,7 @@ class Witness final : public RunListener {
     Moment& moment = moments.emplace_back();
     moment.time = record.time;
     for (TaskId task = 0; task < catalog_.tasks.size(); ++task) {
-      moment.places.push_back(state.place(task));
+      moment.assignment.push_back(state.value_index(task));
       moment.priorities.emplace_back();
       if (state.has_request(task)) moment.priorities.back() = state.request(task).priority;
     }
@@ -306,15 +306,16 @@ void check(const CompiledCatalog& catalog, const CatalogGraph& graph, const Witn
            const Witness::Moment& after) {
   for (TaskId task = 0; task < catalog.tasks.size(); ++task) {
     const CatalogGraph::Task& drawn = graph.tasks[catalog.tasks[task].catalog_index];
-    ASSERT_EQ(drawn.mark, expected_mark(before.places[task] != none, after.places[task] != none));
+    ASSERT_EQ(drawn.mark,
+              expected_mark(before.assignment[task] != none, after.assignment[task] != none));
     ASSERT_EQ(drawn.priority, after.priorities[task]);
   }
   std::vector<std::set<std::string>> numbers(catalog.behaviors.size());
   std::vector<bool> is_new(catalog.behaviors.size());
-  for (std::size_t place = 0; place < after.changes.size(); ++place) {
-    const Change& change = after.changes[place];
+  for (std::size_t index = 0; index < after.changes.size(); ++index) {
+    const Change& change = after.changes[index];
     const std::string word = change.is_activation ? ". activat" : ". deactivat";
-    numbers[change.behavior].insert(std::to_string(place + 1) + word +
+    numbers[change.behavior].insert(std::to_string(index + 1) + word +
                                     (change.success ? "ed" : "ion failed"));
     if (change.is_activation && change.success && change.cause != ChangeCause::undone) {
       is_new[change.behavior] = true;
@@ -336,9 +337,9 @@ void check(const CompiledCatalog& catalog, const CatalogGraph& graph, const Witn
   for (const CatalogGraph::Performance& link : graph.performances) {
     const TaskId task = catalog.task_ids[link.task];
     const auto has = [&](const Witness::Moment& moment) {
-      const std::uint32_t place = moment.places[task];
-      return place != none &&
-             catalog.values[task][place].behavior == catalog.behavior_ids[link.behavior];
+      const std::uint32_t index = moment.assignment[task];
+      return index != none &&
+             catalog.values[task][index].behavior == catalog.behavior_ids[link.behavior];
     };
     ASSERT_EQ(link.mark, expected_mark(has(before), has(after)));
   }

@@ -34,9 +34,9 @@ class StateTest : public testing::Test {
     return behavior_id(catalog, name);
   }
   void run(std::string_view task_name, std::string_view behavior_name, Microseconds now = 0) {
-    state.set_place(task(task_name), test::place_of(catalog, task_name, behavior_name), now);
+    state.set_value(task(task_name), test::value_index(catalog, task_name, behavior_name), now);
   }
-  void stop(std::string_view name) { state.set_place(task(name), none, 0); }
+  void stop(std::string_view name) { state.set_value(task(name), none, 0); }
 
   CompiledCatalog catalog = compile_text(text);
   State state{catalog};
@@ -159,7 +159,7 @@ TEST_F(StateTest, TheTimeRunsFromTheLaterOfActivationAndTaking) {
 TEST_F(StateTest, ATaskJoinsTheQueueOnlyOnceAndIfItDoesNotRun) {
   state.enqueue(task("B"), 5);
   state.enqueue(task("B"), 9);
-  EXPECT_EQ(state.queue().first(), 1U) << "items are places in the catalog";
+  EXPECT_EQ(state.queue().first(), 1U) << "items are catalog indices";
   EXPECT_EQ(state.queue().first_due(), 5);
   state.dequeue(task("B"));
   EXPECT_TRUE(state.queue().empty());
@@ -189,10 +189,10 @@ TEST(State, ListsRunningTasksOfLargeCatalogs) {
   const CompiledCatalog catalog = compile_text(yaml);
   State state(catalog);
   const std::vector<std::uint32_t> running{0, 63, 64, 127, 128, 129};
-  for (const std::uint32_t place : {128U, 0U, 129U, 64U, 127U, 5U, 63U}) {
-    state.set_place(catalog.task_ids[place], 0, 0);
+  for (const std::uint32_t index : {128U, 0U, 129U, 64U, 127U, 5U, 63U}) {
+    state.set_value(catalog.task_ids[index], 0, 0);
   }
-  state.set_place(catalog.task_ids[5], none, 0);
+  state.set_value(catalog.task_ids[5], none, 0);
   EXPECT_EQ(state.running(), running);
 }
 
@@ -207,7 +207,7 @@ exclusivity_constraints:
 - mutually_exclusive: [B, C]
 )");
   State state(catalog);
-  state.set_place(task_id(catalog, "A"), 0, 0);
+  state.set_value(task_id(catalog, "A"), 0, 0);
   EXPECT_FALSE(state.excludes_running_task(task_id(catalog, "A"))) << "not itself";
   EXPECT_TRUE(state.excludes_running_task(task_id(catalog, "B")));
   EXPECT_FALSE(state.excludes_running_task(task_id(catalog, "C")));

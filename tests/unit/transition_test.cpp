@@ -245,7 +245,7 @@ TEST_F(TransitionSteps, GoesOnFromWhatIsActiveByNow) {
 TEST_F(TransitionSteps, TakesBackAllThatWasDone) {
   Trigger trigger;
   trigger.task = test::task_id(catalog, "A");
-  state.set_place(test::task_id(catalog, "Z"), 0, 0);
+  state.set_value(test::task_id(catalog, "Z"), 0, 0);
   state.set_active(test::behavior_id(catalog, "z"), 0);
   const std::vector<BehaviorId> before{test::behavior_id(catalog, "z")};
   transition.load(trigger, before);
@@ -253,7 +253,7 @@ TEST_F(TransitionSteps, TakesBackAllThatWasDone) {
   const Assignment solution = test::answer_of(catalog, "A=a B=b1 D=d C=c");
   EXPECT_EQ(transition.apply(solution, none, 5), test::behavior_id(catalog, "a"));
   record.changes.clear();
-  EXPECT_TRUE(transition.take_back(5).empty());
+  EXPECT_TRUE(transition.roll_back(5).empty());
   EXPECT_EQ(take(), "-b1:undone -d:undone -c:undone +z:undone");
   EXPECT_TRUE(state.is_active(test::behavior_id(catalog, "z")));
 }
@@ -261,7 +261,7 @@ TEST_F(TransitionSteps, TakesBackAllThatWasDone) {
 TEST_F(TransitionSteps, WhatCannotBeTakenBackIsLostButCountsAsActive) {
   Trigger trigger;
   trigger.task = test::task_id(catalog, "A");
-  state.set_place(test::task_id(catalog, "Z"), 0, 0);
+  state.set_value(test::task_id(catalog, "Z"), 0, 0);
   const BehaviorId z = test::behavior_id(catalog, "z");
   state.set_active(z, 0);
   const std::vector<BehaviorId> before{z};
@@ -271,7 +271,7 @@ TEST_F(TransitionSteps, WhatCannotBeTakenBackIsLostButCountsAsActive) {
   const Assignment solution = test::answer_of(catalog, "A=a B=b1 D=d C=c");
   EXPECT_EQ(transition.apply(solution, none, 5), test::behavior_id(catalog, "c"));
   record.changes.clear();
-  EXPECT_EQ(transition.take_back(5), before);
+  EXPECT_EQ(transition.roll_back(5), before);
   EXPECT_EQ(take(), "+z:undone!");
   EXPECT_TRUE(state.is_active(z));
 }
@@ -281,7 +281,7 @@ TEST_F(TransitionSteps, RestartsOnlyActivateWhatIsInactiveByThen) {
   trigger.task = test::task_id(catalog, "Z");
   trigger.priority = 2;
   const BehaviorId z = test::behavior_id(catalog, "z");
-  state.set_place(trigger.task, 0, 0);
+  state.set_value(trigger.task, 0, 0);
   const std::vector<BehaviorId> before{z};
   transition.load(trigger, before);
   const Assignment solution = test::answer_of(catalog, "Z=z");

@@ -18,7 +18,7 @@ Coordinator::Coordinator(const CompiledCatalog& catalog, const CoordinatorOption
       ranks_(options.tie_seed ? draw_ranks(catalog, *options.tie_seed)
                               : std::vector<std::uint32_t>{}),
       state_(catalog),
-      question_(catalog, state_),
+      problem_builder_(catalog, state_),
       transition_(catalog, state_, record_),
       solver_(catalog, options.search, ranks_),
       checker_(catalog) {}
@@ -37,11 +37,11 @@ void Coordinator::resume(const Snapshot& snapshot) {
   for (const BehaviorId behavior : snapshot.faulty) state_.set_faulty(behavior, true);
   for (const auto& [behavior, time] : snapshot.active) state_.set_active(behavior, time);
   for (const Snapshot::RunningTask& entry : snapshot.running) {
-    state_.set_place(entry.task, entry.place, entry.since);
+    state_.set_value(entry.task, entry.value_index, entry.since);
     if (const auto& request = entry.request) {
       state_.set_request(entry.task, request->priority, request->event, request->parameters);
     }
-    // As of before all times, so that a timeout that is due right now is set as well.
+    // With a time before all others, so that a timeout due right now is set, too.
     if (entry.waits_for_timeout) state_.update_timeout(entry.task, -1);
   }
   for (const auto& [task, due] : snapshot.queue) state_.enqueue(task, due);
@@ -55,7 +55,8 @@ Snapshot Coordinator::snapshot() const {
   for (const std::uint32_t index : state_.running()) {
     const TaskId task = catalog_.task_ids[index];
     Snapshot::RunningTask& entry = snapshot.running.emplace_back();
-    entry = {task, state_.place(task), state_.taken_at(task), {}, state_.timeouts().has(index)};
+    entry = {
+        task, state_.value_index(task), state_.taken_at(task), {}, state_.timeouts().has(index)};
     if (state_.has_request(task)) entry.request = state_.request(task);
   }
   for (const BehaviorId behavior : catalog_.behavior_ids) {
@@ -137,8 +138,7 @@ bool Coordinator::may_start(TaskId task) const {
          state_.has_available_behavior(task);
 }
 
-/// Behaviors that a rejected event could not activate again finish right after it, before anything
-/// else does.
+/// Behaviors that a rollback could not activate again finish right after the rejected event.
 Coordinator::Status Coordinator::finish_lost() {
   while (!lost_.empty()) {
     if (clock_events_ == options_.max_clock_events) return Status::too_many_clock_events;
@@ -203,7 +203,7 @@ void Coordinator::open_record(Origin origin, Verb verb) {
   record_.outcome = Outcome::unchanged;
 }
 
-/// For an event that nobody asked for, and that is not one too many.
+/// For an event of the clock; the caller has checked the limit.
 void Coordinator::open_clock_record(Origin origin, Verb verb) {
   ++clock_events_;
   open_record(origin, verb);
@@ -256,7 +256,7 @@ Coordinator::Status Coordinator::stop(TaskId task, std::optional<std::int32_t> p
   return coordinate(trigger);
 }
 
-/// The task's own request is stronger than the event.
+/// The task's own request has a higher priority than the event.
 Coordinator::Status Coordinator::reject_by_priority(TaskId task, std::int32_t priority) {
   record_.outcome = Outcome::rejected;
   Reason& reason = record_.conflict.emplace_back();
@@ -299,8 +299,8 @@ void Coordinator::repair(BehaviorId behavior) {
 // Coordination.
 
 Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
-  question_.load(trigger, record_.index);
-  transition_.load(trigger, question_.active_before());
+  problem_builder_.load(trigger, record_.index);
+  transition_.load(trigger, problem_builder_.active_before());
   if (trigger.kind == Trigger::Kind::finish) state_.set_inactive(trigger.behavior);
   for (;;) {
     const Problem* const problem = options_.measure_time ? timed_search(trigger) : search(trigger);
@@ -315,11 +315,11 @@ Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
       accept(trigger, *problem);
       return report();
     }
-    question_.exclude(*failed);
+    problem_builder_.exclude(*failed);
   }
 }
 
-/// What a report of an internal error needs: the event, what is wrong, and the answer.
+/// The report of an internal error: the event, the violation, and the answer.
 std::string Coordinator::describe_refusal(const std::string& violation) const {
   std::string text = concat("event ", record_.index, " (", name_of(record_.verb), "): ", violation,
                             "; the answer was");
@@ -336,10 +336,10 @@ std::string Coordinator::describe_refusal(const std::string& violation) const {
   return text;
 }
 
-/// Solves the problem of the trigger. A finish is tried again at higher protection levels, up to
-/// the level that protects nothing. Returns the problem that was solved, or null.
+/// Solves the problem of the trigger. A finish without a solution escalates to higher protection
+/// levels, up to the one that protects nothing. Returns the problem that was solved, or null.
 const Problem* Coordinator::search(const Trigger& trigger) {
-  std::int32_t protection = question_.first_protection();
+  std::int32_t protection = problem_builder_.first_protection();
   if (record_.search == nullptr) {
     search_.result = {};
     search_.elapsed.reset();
@@ -347,10 +347,10 @@ const Problem* Coordinator::search(const Trigger& trigger) {
   record_.search = &search_;
   search_.group = trigger.group;
   for (;;) {
-    const Problem& problem = question_.ask(protection);
+    const Problem& problem = problem_builder_.build(protection);
     const SearchResult result = solver_.solve(problem, solution_);
     search_.protection = protection;
-    search_.is_escalated = protection != question_.first_protection();
+    search_.is_escalated = protection != problem_builder_.first_protection();
     search_.result.status = result.status;
     search_.result.solutions += result.solutions;
     search_.result.nodes += result.nodes;
@@ -361,7 +361,7 @@ const Problem* Coordinator::search(const Trigger& trigger) {
     }
     const auto next =
         trigger.kind == Trigger::Kind::finish && result.status == SearchStatus::infeasible
-            ? question_.next_protection(protection)
+            ? problem_builder_.next_protection(protection)
             : std::nullopt;
     if (!next) {
       note_domain_sizes(problem);
@@ -371,7 +371,7 @@ const Problem* Coordinator::search(const Trigger& trigger) {
   }
 }
 
-/// The same, by the clock of the machine.
+/// The same, and measures its time.
 const Problem* Coordinator::timed_search(const Trigger& trigger) {
   const auto begin = std::chrono::steady_clock::now();
   const Problem* const problem = search(trigger);
@@ -394,11 +394,11 @@ void Coordinator::note_domain_sizes(const Problem& problem) {
   }
 }
 
-/// The behavior that the started task keeps and that has to take over changed parameters.
+/// The behavior that the started task keeps and that has to take over changed parameters, or none.
 BehaviorId Coordinator::behavior_to_restart(const Trigger& trigger) const {
   if (trigger.kind != Trigger::Kind::start || !state_.is_running(trigger.task)) return none;
-  const std::uint32_t place = solution_[trigger.task - catalog_.group_tasks[trigger.group]];
-  if (place != state_.place(trigger.task)) return none;
+  const std::uint32_t index = solution_[trigger.task - catalog_.group_tasks[trigger.group]];
+  if (index != state_.value_index(trigger.task)) return none;
   const std::string_view present = state_.has_request(trigger.task)
                                        ? std::string_view(state_.request(trigger.task).parameters)
                                        : std::string_view();
@@ -424,8 +424,8 @@ void Coordinator::accept(const Trigger& trigger, const Problem& problem) {
   update_queue();
 }
 
-/// Explains the solution, as far as that is asked for. Displaced requests are looked for first, so
-/// that nothing is set up where there are none.
+/// Explains the solution as far as the options ask for it. Makes no explainer where the options ask
+/// for displaced requests only and there are none.
 void Coordinator::explain(const Trigger& trigger, const Problem& problem) {
   if (!options_.explain.asks_for_any() || search_.result.status != SearchStatus::optimal) return;
   const bool is_only_of_displaced =
@@ -436,19 +436,19 @@ void Coordinator::explain(const Trigger& trigger, const Problem& problem) {
     return;
   }
   if (!explainer_) explainer_.emplace(catalog_, ranks_, options_.explain);
-  explainer_->explain({state_, trigger, search_.protection, question_.excluded()}, problem,
+  explainer_->explain({state_, trigger, search_.protection, problem_builder_.excluded()}, problem,
                       solution_, record_.explanation);
 }
 
-/// Nothing changes, but for behaviors that could not be activated again, which are lost.
+/// Rolls back. Behaviors that cannot be activated again are lost.
 Coordinator::Status Coordinator::reject(const Trigger& trigger) {
   record_.outcome = Outcome::rejected;
   if (options_.find_conflicts && search_.result.status == SearchStatus::infeasible) {
     record_.conflict =
-        find_conflict(catalog_, {state_, trigger, search_.protection, question_.excluded()});
+        find_conflict(catalog_, {state_, trigger, search_.protection, problem_builder_.excluded()});
   }
-  // The first comes last, to finish next.
-  const std::vector<BehaviorId>& lost = transition_.take_back(now_);
+  // In reverse, as the last one finishes next.
+  const std::vector<BehaviorId>& lost = transition_.roll_back(now_);
   lost_.insert(lost_.end(), lost.rbegin(), lost.rend());
   if (trigger.kind == Trigger::Kind::finish) state_.leave_active(trigger.behavior);
   update_timeouts(trigger.group);
@@ -461,11 +461,10 @@ void Coordinator::assign(const Trigger& trigger) {
   stopped_.clear();
   stopped_by_others_.clear();
   const TaskId first = catalog_.group_tasks[trigger.group];
-  for (std::uint32_t place = 0; place < solution_.size(); ++place) {
-    const TaskId task = first + place;
+  for (TaskId task = first; task < first + solution_.size(); ++task) {
     const bool was_running = state_.is_running(task);
-    const bool has_finished = question_.has_finished(task);
-    state_.set_place(task, solution_[place], now_);
+    const bool has_finished = problem_builder_.has_finished(task);
+    state_.set_value(task, solution_[task - first], now_);
     if (was_running == state_.is_running(task)) continue;
     if (!was_running) {
       started_.push_back(task);
@@ -487,7 +486,7 @@ void Coordinator::update_timeouts(std::uint32_t group) {
   }
 }
 
-// The queue of reactive tasks (semantics: section 6).
+// The queue of reactive tasks (docs/semantics.md, "Reactive tasks").
 
 void Coordinator::update_queue() {
   for (const TaskId task : stopped_) enqueue_rivals(task);

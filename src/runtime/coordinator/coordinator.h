@@ -21,16 +21,16 @@ namespace cbc {
 
 struct CoordinatorOptions {
   SearchOptions search;
-  Microseconds reactive_delay = 80'000;        ///< delta of section 6; over 0
-  std::uint64_t max_clock_events = 1'000'000;  ///< events that no script asked for
-  bool find_conflicts = true;                  ///< finds the reasons of rejections
-  ExplanationOptions explain;                  ///< of accepted events
-  bool measure_time = false;                   ///< notes what searches take
+  Microseconds reactive_delay = 80'000;        ///< over 0; see docs/semantics.md, "Reactive tasks"
+  std::uint64_t max_clock_events = 1'000'000;  ///< timeouts, reactive starts, lost behaviors
+  bool find_conflicts = true;                  ///< of rejected events
+  ExplanationOptions explain;                  ///< what to explain of accepted events
+  bool measure_time = false;                   ///< records the time of searches
   /// Orders behaviors of equal suitability at random instead of in catalog order.
   std::optional<std::uint64_t> tie_seed;
 };
 
-/// Is told of every event, in order.
+/// Receives the record of every event, in order.
 class EventListener {
  public:
   virtual ~EventListener() = default;
@@ -39,12 +39,12 @@ class EventListener {
 
 /// Finds and applies the best consistent set of active behaviors on every event.
 ///
-/// Instants never go back. After too_many_clock_events those that are due are still to come: a
-/// later call goes on with them, if restart_count() allows for more. After refused_answer the
-/// coordinator must not be used any more.
+/// Time never goes back. After too_many_clock_events some events are still due; after
+/// restart_count() the next call goes on with them. After refused_answer the coordinator must not
+/// be used any more.
 ///
-/// Nothing is allocated on an event, but for reasons and explanations, once the buffers have the
-/// sizes that the events need.
+/// Once the buffers have grown to what the events need, an event allocates nothing, except for
+/// reasons and explanations.
 class Coordinator {
  public:
   enum class [[nodiscard]] Status : std::uint8_t{
@@ -58,28 +58,28 @@ class Coordinator {
   Coordinator(const Coordinator&) = delete;
   Coordinator& operator=(const Coordinator&) = delete;
 
-  /// Before the first event: sets the situation and queues the reactive tasks.
+  /// To be called before the first event: sets the situation and queues the reactive tasks.
   void begin(std::span<const Availability> situation);
 
-  /// Instead of begin: goes on from the state of another coordinator, which find_inconsistency
+  /// Instead of begin: continues from the state of another coordinator, which find_inconsistency
   /// accepts. The reactive delay is that of the options.
   void resume(const Snapshot& snapshot);
-  /// All that there is to go on from, but for the outcome. The last call returned ok.
+  /// All that another coordinator needs to continue, without the outcome. Only after a call that
+  /// returned ok.
   [[nodiscard]] Snapshot snapshot() const;
 
-  /// Moves the clock to `time` (not before now), and before that through everything that falls due
-  /// earlier.
+  /// Moves the clock to `time` (not before now) after processing everything that falls due earlier.
   Status advance_to(Microseconds time);
   /// Processes what is due at the present instant.
   Status settle();
-  /// Handles one event at the present instant. Subjects are places in the catalog. If it returns
+  /// Handles one event at the present instant. Subjects are catalog indices. If it returns
   /// too_many_clock_events, the event itself is done.
   Status handle(const Event& event);
-  /// Allows for max_clock_events from here on.
+  /// Allows max_clock_events from here on.
   void restart_count() { clock_events_ = 0; }
 
   [[nodiscard]] Microseconds now() const { return now_; }
-  /// When something falls due next; nothing may come of it.
+  /// When something falls due next. It may be a no-op.
   [[nodiscard]] std::optional<Microseconds> next_due() const;
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] const std::string& internal_error() const { return internal_error_; }
@@ -128,7 +128,7 @@ class Coordinator {
   State state_;
   EventRecord record_;
   SearchRecord search_;
-  Question question_;
+  ProblemBuilder problem_builder_;
   Transition transition_;
   Solver solver_;
   Checker checker_;
@@ -136,8 +136,8 @@ class Coordinator {
   Assignment solution_;
   std::vector<TaskId> started_;
   std::vector<TaskId> stopped_;
-  std::vector<TaskId> stopped_by_others_;  ///< of these, what did not end by itself
-  std::vector<BehaviorId> lost_;           ///< could not be activated again; the last finishes next
+  std::vector<TaskId> stopped_by_others_;  ///< those that did not finish and were not asked to stop
+  std::vector<BehaviorId> lost_;           ///< of a failed rollback; the last one finishes next
   Microseconds now_ = 0;
   std::uint64_t clock_events_ = 0;
   std::string internal_error_;

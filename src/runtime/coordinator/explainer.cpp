@@ -10,12 +10,12 @@
 namespace cbc {
 namespace {
 
-/// With more possible reasons than this, finding a minimal set takes too long.
+/// With more reasons than this, finding a minimal conflict set takes too long.
 constexpr std::size_t most_candidates = 20'000;
-/// The same for RelaxedProblem::effort, of all questions about one event: some tenths of a second.
+/// The same for ConflictSearch::effort, over all searches about one event: some tenths of a second.
 constexpr std::uint64_t most_effort = 50'000'000;
 
-/// All that may speak against the event.
+/// Collects all reasons that may speak against the event.
 class Candidates {
  public:
   Candidates(const CompiledCatalog& catalog, const Circumstances& circumstances)
@@ -75,7 +75,7 @@ class Candidates {
     Reason reason;
     reason.behavior = behavior;
     if (std::find(failed_.begin(), failed_.end(), behavior) != failed_.end()) {
-      // The one that a finish event is about is in this list if it failed.
+      // The behavior of a finish event is in this list if it failed.
       reason.kind = behavior == trigger_.behavior ? Reason::Kind::finished : Reason::Kind::faulty;
       reasons_.push_back(reason);
     } else if (!state_.is_available(behavior)) {
@@ -93,35 +93,34 @@ class Candidates {
   std::vector<Reason> reasons_;
 };
 
-/// The problems of several ways, of which none may have a solution, with a limit of effort for all
-/// questions together.
-class Ways {
+/// One search for each of several ways, with a limit of effort for all together.
+class ConflictSearches {
  public:
-  explicit Ways(std::vector<RelaxedProblem>& problems) : problems_(problems) {}
+  explicit ConflictSearches(std::vector<ConflictSearch>& searches) : searches_(searches) {}
 
-  /// Where that is not certain, the answer is yes, so that no reason is taken for needless.
+  /// Whether one of the ways has a solution. Yes where that is unknown, so that no reason is left
+  /// out by mistake.
   [[nodiscard]] bool has_solution(std::span<const Reason> reasons) {
-    return std::any_of(problems_.begin(), problems_.end(), [&](RelaxedProblem& problem) {
+    return std::any_of(searches_.begin(), searches_.end(), [&](ConflictSearch& search) {
       if (is_exhausted()) return true;
-      const std::uint64_t before = problem.effort();
-      const Feasibility answer = problem.solve(reasons);
-      effort_left_ -= std::min(problem.effort() - before, effort_left_);
+      const std::uint64_t before = search.effort();
+      const Feasibility answer = search.solve(reasons);
+      effort_left_ -= std::min(search.effort() - before, effort_left_);
       return answer != Feasibility::no;
     });
   }
 
-  /// Leaves only reasons that have a part in a proof that there is no solution. False if there is
-  /// none.
-  [[nodiscard]] bool narrow(std::vector<Reason>& reasons) {
+  /// Keeps only the reasons that a proof of no solution used. False if there is no proof.
+  [[nodiscard]] bool keep_used(std::vector<Reason>& reasons) {
     for (std::size_t before = reasons.size() + 1; reasons.size() < before;) {
       before = reasons.size();
       if (has_solution(reasons)) return false;
       std::vector<Reason> used;
-      for (std::size_t place = 0; place < reasons.size(); ++place) {
+      for (std::size_t index = 0; index < reasons.size(); ++index) {
         const bool is_used = std::any_of(
-            problems_.begin(), problems_.end(),
-            [place](const RelaxedProblem& problem) { return problem.is_used()[place] != 0; });
-        if (is_used) used.push_back(reasons[place]);
+            searches_.begin(), searches_.end(),
+            [index](const ConflictSearch& search) { return search.is_used()[index] != 0; });
+        if (is_used) used.push_back(reasons[index]);
       }
       reasons = std::move(used);
     }
@@ -131,11 +130,11 @@ class Ways {
   [[nodiscard]] bool is_exhausted() const { return effort_left_ == 0; }
 
  private:
-  std::vector<RelaxedProblem>& problems_;
+  std::vector<ConflictSearch>& searches_;
   std::uint64_t effort_left_ = most_effort;
 };
 
-/// What the event alone asks for.
+/// The demands of the event alone.
 Demands demands_of(const CompiledCatalog& catalog, const State& state, const Trigger& trigger) {
   switch (trigger.kind) {
     case Trigger::Kind::start:
@@ -154,8 +153,8 @@ Demands demands_of(const CompiledCatalog& catalog, const State& state, const Tri
   return demands;
 }
 
-}  // namespace
-
+/// A minimal conflict set of the event together with all of the `ways`. Empty if the event alone
+/// leaves no solution; nothing where that takes too long.
 std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
                                                 const Circumstances& circumstances,
                                                 std::span<const Demands> ways) {
@@ -163,28 +162,30 @@ std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
   std::vector<Reason> candidates = Candidates(catalog, circumstances).collect(ways);
   if (candidates.size() > most_candidates) return std::nullopt;
 
-  // Keeping a behavior is no activation, unless it has just finished.
+  // A behavior may be kept though it is unavailable, unless it has just finished.
   std::vector<std::uint32_t> present;
   for (TaskId task = catalog.group_tasks[trigger.group];
        task < catalog.group_tasks[trigger.group + 1]; ++task) {
     const bool is_kept = !has_finished(circumstances.state, trigger, task);
-    present.push_back(is_kept ? circumstances.state.place(task) : none);
+    present.push_back(is_kept ? circumstances.state.value_index(task) : none);
   }
-  std::vector<RelaxedProblem> problems;
-  problems.reserve(ways.size());
+  std::vector<ConflictSearch> searches;
+  searches.reserve(ways.size());
   for (const Demands& way : ways) {
     Demands demands = demands_of(catalog, circumstances.state, trigger);
     demands.insert(demands.end(), way.begin(), way.end());
-    problems.emplace_back(catalog, trigger.group, present, std::move(demands));
+    searches.emplace_back(catalog, trigger.group, present, std::move(demands));
   }
-  Ways all(problems);
+  ConflictSearches all(searches);
   if (!all.has_solution({})) return std::vector<Reason>();
-  if (!all.narrow(candidates)) return std::nullopt;
-  std::vector<Reason> reasons = minimal_set(
+  if (!all.keep_used(candidates)) return std::nullopt;
+  std::vector<Reason> reasons = minimal_conflict_set(
       candidates, [&all](std::span<const Reason> some) { return all.has_solution(some); });
   if (all.is_exhausted()) return std::nullopt;
   return reasons;
 }
+
+}  // namespace
 
 std::vector<Reason> find_conflict(const CompiledCatalog& catalog,
                                   const Circumstances& circumstances) {
@@ -212,9 +213,9 @@ void Explainer::explain(const Circumstances& circumstances, const Problem& probl
   for (const Subject& subject : options_.why) {
     if (!is_in_group(subject, problem.group)) continue;
     if (subject.is_task) {
-      explain_task(circumstances, catalog_.task_ids[subject.place], explanation);
+      explain_task(circumstances, catalog_.task_ids[subject.catalog_index], explanation);
     } else {
-      explain_behavior(circumstances, catalog_.behavior_ids[subject.place], explanation);
+      explain_behavior(circumstances, catalog_.behavior_ids[subject.catalog_index], explanation);
     }
   }
   if (options_.alternatives > 0) {
@@ -224,11 +225,12 @@ void Explainer::explain(const Circumstances& circumstances, const Problem& probl
 }
 
 bool Explainer::is_in_group(const Subject& subject, std::uint32_t group) const {
-  if (subject.is_task) return catalog_.tasks[catalog_.task_ids[subject.place]].group == group;
-  return catalog_.group_of(catalog_.behavior_ids[subject.place]) == group;
+  if (subject.is_task)
+    return catalog_.tasks[catalog_.task_ids[subject.catalog_index]].group == group;
+  return catalog_.group_of(catalog_.behavior_ids[subject.catalog_index]) == group;
 }
 
-/// Requests outside the group are satisfied, and nothing changes there.
+/// Outside the group all requests are satisfied, and nothing changes.
 ObjectiveValues Explainer::elsewhere(const State& state, std::uint32_t group) const {
   ObjectiveValues values;
   values.requests = state.request_count();
@@ -247,7 +249,7 @@ ObjectiveValues Explainer::elsewhere(const State& state, std::uint32_t group) co
 void Explainer::explain_displaced(const Circumstances& circumstances, const Problem& problem,
                                   Explanation& explanation) {
   for (const std::uint32_t task : problem.requests) {
-    if (explanation.chosen.places[task] != none) continue;
+    if (explanation.chosen.assignment[task] != none) continue;
     const TaskId id = catalog_.group_tasks[problem.group] + task;
     const Demands runs{{Demand::Kind::run, id, none}};
     explanation.displaced.push_back(
@@ -258,15 +260,15 @@ void Explainer::explain_displaced(const Circumstances& circumstances, const Prob
 void Explainer::explain_task(const Circumstances& circumstances, TaskId task,
                              Explanation& explanation) {
   const TaskId first = catalog_.group_tasks[catalog_.tasks[task].group];
-  const std::uint32_t place = explanation.chosen.places[task - first];
+  const std::uint32_t index = explanation.chosen.assignment[task - first];
   Demand otherwise;
-  otherwise.kind = place == none ? Demand::Kind::run : Demand::Kind::has_not;
+  otherwise.kind = index == none ? Demand::Kind::run : Demand::Kind::has_not;
   otherwise.task = task;
-  otherwise.place = place;
+  otherwise.value_index = index;
   const Demands demands{otherwise};
   Why why;
   why.task = task;
-  why.chosen = place == none ? none : catalog_.values[task][place].behavior;
+  why.chosen = index == none ? none : catalog_.values[task][index].behavior;
   if (catalog_.values[task].empty()) {
     Reason& reason = why.why_not.conflict.emplace_back();
     reason.kind = Reason::Kind::no_behavior;
@@ -277,7 +279,7 @@ void Explainer::explain_task(const Circumstances& circumstances, TaskId task,
   explanation.why.push_back(std::move(why));
 }
 
-/// It is active if one of its tasks has it, and not active if none has it.
+/// A behavior is active if one of its tasks has it, and inactive if none has it.
 void Explainer::explain_behavior(const Circumstances& circumstances, BehaviorId behavior,
                                  Explanation& explanation) {
   const TaskId first = catalog_.group_tasks[catalog_.group_of(behavior)];
@@ -287,10 +289,10 @@ void Explainer::explain_behavior(const Circumstances& circumstances, BehaviorId 
   why.behavior = behavior;
   for (const ValueId value : catalog_.performs[behavior]) {
     const TaskId task = catalog_.task_of(value);
-    const std::uint32_t place = value - catalog_.values.begin[task];
-    if (explanation.chosen.places[task - first] == place) why.is_active = true;
-    with.push_back({{Demand::Kind::has, task, place}});
-    without.push_back({Demand::Kind::has_not, task, place});
+    const std::uint32_t index = value - catalog_.values.begin[task];
+    if (explanation.chosen.assignment[task - first] == index) why.is_active = true;
+    with.push_back({{Demand::Kind::has, task, index}});
+    without.push_back({Demand::Kind::has_not, task, index});
   }
   why.why_not = why_not(circumstances, explanation.chosen,
                         why.is_active ? std::span<const Demands>(&without, 1) : with);

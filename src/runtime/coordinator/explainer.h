@@ -15,33 +15,27 @@
 
 namespace cbc {
 
-/// An event and what was found out about it.
+/// The event to explain.
 struct Circumstances {
   const State& state;  ///< before the event
   const Trigger& trigger;
-  std::int32_t protection = 0;         ///< the level that was tried last
-  std::span<const BehaviorId> failed;  ///< may not be chosen any more in this event
+  std::int32_t protection = 0;         ///< the last level that was tried
+  std::span<const BehaviorId> failed;  ///< behaviors that failed in this event
 };
 
-/// A minimal set of reasons why the event allows for none of the `ways`: together they leave no
-/// solution, and with any one of them left out there is one. Empty if the event alone leaves none,
-/// nothing where the set is beyond reach (a group with very many constraints).
-[[nodiscard]] std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
-                                                              const Circumstances& circumstances,
-                                                              std::span<const Demands> ways);
-
-/// The same for a start or stop that has no solution at all. Empty where the set is beyond reach.
+/// A minimal conflict set of a start or stop that has no solution. Empty where that takes too long
+/// (a group with very many constraints).
 [[nodiscard]] std::vector<Reason> find_conflict(const CompiledCatalog& catalog,
                                                 const Circumstances& circumstances);
 
-/// Explains accepted answers, by searching for the best alternatives. Allocates on every event.
+/// Explains accepted answers by a search for the best alternatives. Allocates on every event.
 class Explainer {
  public:
-  /// `ranks`: those of the solver. All but the options must outlive the explainer.
+  /// `ranks`: those of the solver. Catalog and ranks must outlive the explainer.
   Explainer(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks,
             ExplanationOptions options);
 
-  /// `circumstances`: before the answer is taken over into the state. `solution` is proven best.
+  /// `circumstances`: with the state before the answer. `solution` is proven best.
   void explain(const Circumstances& circumstances, const Problem& problem,
                const Assignment& solution, Explanation& explanation);
 

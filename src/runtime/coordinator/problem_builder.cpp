@@ -16,10 +16,10 @@ bool has_finished(const State& state, const Trigger& trigger, TaskId task) {
   return trigger.kind == Trigger::Kind::finish && state.behavior(task) == trigger.behavior;
 }
 
-Question::Question(const CompiledCatalog& catalog, const State& state)
+ProblemBuilder::ProblemBuilder(const CompiledCatalog& catalog, const State& state)
     : catalog_(catalog), state_(state) {}
 
-void Question::load(const Trigger& trigger, std::uint64_t event) {
+void ProblemBuilder::load(const Trigger& trigger, std::uint64_t event) {
   trigger_ = trigger;
   first_task_ = catalog_.group_tasks[trigger.group];
   end_task_ = catalog_.group_tasks[trigger.group + 1];
@@ -27,7 +27,7 @@ void Question::load(const Trigger& trigger, std::uint64_t event) {
   problem_.group = trigger.group;
   problem_.present.clear();
   for (TaskId task = first_task_; task < end_task_; ++task) {
-    problem_.present.push_back(state_.place(task));
+    problem_.present.push_back(state_.value_index(task));
   }
   find_active();
   rank_requests(event);
@@ -46,7 +46,7 @@ void Question::load(const Trigger& trigger, std::uint64_t event) {
   }
 }
 
-void Question::find_active() {
+void ProblemBuilder::find_active() {
   const BehaviorId first = catalog_.group_behaviors[trigger_.group];
   is_listed_.assign(catalog_.group_behaviors[trigger_.group + 1] - first, 0);
   problem_.active.clear();
@@ -59,9 +59,9 @@ void Question::find_active() {
   std::sort(problem_.active.begin(), problem_.active.end());
 }
 
-/// The active requests: those of running tasks, the new one included, the one just stopped or done
-/// excluded; highest priority first, then the most recent.
-void Question::rank_requests(std::uint64_t event) {
+/// The active requests: those of running tasks and the new one, without those that a stop or a
+/// success ends; the highest priority first, then the most recent.
+void ProblemBuilder::rank_requests(std::uint64_t event) {
   const auto priority_of = [&](std::uint32_t task) {
     const TaskId id = first_task_ + task;
     return id == trigger_.task ? trigger_.priority : state_.request(id).priority;
@@ -86,7 +86,7 @@ void Question::rank_requests(std::uint64_t event) {
             });
 }
 
-std::optional<std::int32_t> Question::next_protection(std::int32_t level) const {
+std::optional<std::int32_t> ProblemBuilder::next_protection(std::int32_t level) const {
   std::optional<std::int32_t> next;
   for (TaskId task = first_task_; task < end_task_; ++task) {
     if (has_finished(task) || !state_.has_request(task)) continue;
@@ -96,29 +96,29 @@ std::optional<std::int32_t> Question::next_protection(std::int32_t level) const 
   return next;
 }
 
-const Problem& Question::ask(std::int32_t protection) {
+const Problem& ProblemBuilder::build(std::int32_t protection) {
   const auto words_begin = state_.available_words().begin();
   problem_.domains.assign(words_begin + catalog_.words[first_task_],
                           words_begin + catalog_.words[end_task_]);
   problem_.may_stop.assign(end_task_ - first_task_, 1);
   for (TaskId task = first_task_; task < end_task_; ++task) {
-    open_domain(task);
-    limit_domain(task, protection);
+    add_present_value(task);
+    restrict_domain(task, protection);
   }
-  clear_excluded();
+  remove_excluded();
   return problem_;
 }
 
-/// S(x): the available behaviors (which are in it already), and the present one unless it has just
-/// finished.
-void Question::open_domain(TaskId task) {
+/// Available behaviors are in the domain already. The present one may be kept in any case, unless
+/// it has just finished.
+void ProblemBuilder::add_present_value(TaskId task) {
   if (state_.is_running(task) && !has_finished(task)) {
-    const std::uint32_t place = state_.place(task);
-    word_of(task, place) |= std::uint64_t{1} << (place % 64);
+    const std::uint32_t index = state_.value_index(task);
+    word_of(task, index) |= std::uint64_t{1} << (index % 64);
   }
 }
 
-void Question::limit_domain(TaskId task, std::int32_t protection) {
+void ProblemBuilder::restrict_domain(TaskId task, std::int32_t protection) {
   std::uint8_t& may_stop = problem_.may_stop[task - first_task_];
   if (task == trigger_.task) {
     if (trigger_.kind == Trigger::Kind::stop) {
@@ -135,21 +135,21 @@ void Question::limit_domain(TaskId task, std::int32_t protection) {
   }
 }
 
-void Question::clear_excluded() {
+void ProblemBuilder::remove_excluded() {
   for (const BehaviorId behavior : excluded_) {
     for (const ValueId value : catalog_.performs[behavior]) {
       const TaskId task = catalog_.task_of(value);
-      const std::uint32_t place = value - catalog_.values.begin[task];
-      word_of(task, place) &= ~(std::uint64_t{1} << (place % 64));
+      const std::uint32_t index = value - catalog_.values.begin[task];
+      word_of(task, index) &= ~(std::uint64_t{1} << (index % 64));
     }
   }
 }
 
-std::uint64_t& Question::word_of(TaskId task, std::uint32_t place) {
-  return problem_.domains[catalog_.words[task] - catalog_.words[first_task_] + place / 64];
+std::uint64_t& ProblemBuilder::word_of(TaskId task, std::uint32_t index) {
+  return problem_.domains[catalog_.words[task] - catalog_.words[first_task_] + index / 64];
 }
 
-void Question::empty_domain(TaskId task) {
+void ProblemBuilder::empty_domain(TaskId task) {
   const auto first =
       problem_.domains.begin() + (catalog_.words[task] - catalog_.words[first_task_]);
   std::fill(first, first + (catalog_.words[task + 1] - catalog_.words[task]), 0);

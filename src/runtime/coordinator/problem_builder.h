@@ -21,27 +21,28 @@ struct Trigger {
   BehaviorId behavior = none;  ///< of finish
   FinishCause cause = FinishCause::goal_achieved;
   std::int32_t priority = 0;    ///< of start and stop
-  bool is_reactive = false;     ///< a start that may stop no requested task
+  bool is_reactive = false;     ///< a start that may not stop a task with a request
   std::string_view parameters;  ///< that the task will have
 };
 
-/// Whether a task may not stop: its request is stronger than the protection level, or, where the
-/// trigger is a reactive start, there is one at all.
+/// Whether a running task may not stop: its request has a higher priority than the protection level
+/// or, where the trigger is a reactive start, it has a request (docs/semantics.md, "Protection").
 [[nodiscard]] bool is_protected(const State& state, const Trigger& trigger, TaskId task,
                                 std::int32_t protection);
 
 /// Whether the behavior that has finished performed the task.
 [[nodiscard]] bool has_finished(const State& state, const Trigger& trigger, TaskId task);
 
-/// Turns a trigger and the state into the constraint problem of its group (semantics: section 4).
-class Question {
+/// Builds the constraint problem of a group from a trigger and the state (docs/semantics.md,
+/// "Domains").
+class ProblemBuilder {
  public:
-  Question(const CompiledCatalog& catalog, const State& state);
+  ProblemBuilder(const CompiledCatalog& catalog, const State& state);
 
-  /// Takes up a trigger. `event` is its number, the most recent of all.
+  /// Takes up a trigger. `event` is its number, higher than that of any request.
   void load(const Trigger& trigger, std::uint64_t event);
 
-  /// A behavior that may not be chosen any more in this event.
+  /// Removes a behavior from all domains of this event.
   void exclude(BehaviorId behavior) { excluded_.push_back(behavior); }
   [[nodiscard]] const std::vector<BehaviorId>& excluded() const { return excluded_; }
 
@@ -51,10 +52,10 @@ class Question {
   [[nodiscard]] std::optional<std::int32_t> next_protection(std::int32_t level) const;
 
   /// The problem at a protection level. Valid until the next call.
-  [[nodiscard]] const Problem& ask(std::int32_t protection);
+  [[nodiscard]] const Problem& build(std::int32_t protection);
 
-  /// The behaviors that were active just before the event, in BehaviorId order; one that has
-  /// finished is none of them.
+  /// The behaviors that were active just before the event, without one that has finished, in
+  /// BehaviorId order.
   [[nodiscard]] const std::vector<BehaviorId>& active_before() const { return problem_.active; }
   [[nodiscard]] bool has_finished(TaskId task) const {
     return cbc::has_finished(state_, trigger_, task);
@@ -63,11 +64,11 @@ class Question {
  private:
   void find_active();
   void rank_requests(std::uint64_t event);
-  void open_domain(TaskId task);
-  void limit_domain(TaskId task, std::int32_t protection);
-  void clear_excluded();
+  void add_present_value(TaskId task);
+  void restrict_domain(TaskId task, std::int32_t protection);
+  void remove_excluded();
 
-  [[nodiscard]] std::uint64_t& word_of(TaskId task, std::uint32_t place);
+  [[nodiscard]] std::uint64_t& word_of(TaskId task, std::uint32_t index);
   void empty_domain(TaskId task);
 
   const CompiledCatalog& catalog_;
@@ -81,8 +82,8 @@ class Question {
   Problem problem_;
 };
 
-/// By value, its place in the order of its task if behaviors of equal suitability are put in an
-/// order drawn from `seed`.
+/// By value, its rank in the task, with behaviors of equal suitability in a random order drawn from
+/// `seed`.
 [[nodiscard]] std::vector<std::uint32_t> draw_ranks(const CompiledCatalog& catalog,
                                                     std::uint64_t seed);
 

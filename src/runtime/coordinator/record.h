@@ -16,13 +16,13 @@
 
 namespace cbc {
 
-/// A task or a behavior, by its place in the catalog.
+/// A task or a behavior, by its index in the catalog.
 struct Subject {
   bool is_task = true;
-  std::uint32_t place = 0;
+  std::uint32_t catalog_index = 0;
 };
 
-/// What to explain of accepted events. Only answers that are proven best are explained.
+/// What to explain of accepted events. Only answers that are proven optimal are explained.
 struct ExplanationOptions {
   bool displaced = false;          ///< why requested tasks do not run any more
   std::vector<Subject> why;        ///< why these have the value they have
@@ -31,12 +31,12 @@ struct ExplanationOptions {
   [[nodiscard]] bool asks_for_any() const { return displaced || !why.empty() || alternatives > 0; }
 };
 
-/// Why something was not chosen: the best alternative with it loses, or there is none.
+/// Why something was not chosen: the best alternative with it is worse, or there is none.
 struct WhyNot {
-  bool is_cut = false;  ///< a limit of effort came first; the rest is empty
+  bool is_cut = false;  ///< a limit of effort came first, and the rest is empty
   std::optional<Configuration> alternative;
-  Difference difference;  ///< of what was chosen to the alternative, if there is one
-  /// If there is none, a minimal set of reasons. Empty: the event itself rules it out.
+  Difference difference;  ///< between the choice and the alternative, if there is one
+  /// If there is none, a minimal conflict set. Empty: the event alone rules it out.
   std::vector<Reason> conflict;
 };
 
@@ -46,20 +46,20 @@ struct Displacement {
   WhyNot why_not;
 };
 
-/// Why a task has its value and no other, or a behavior is active or not.
+/// Why a task has its value, or why a behavior is active or inactive.
 struct Why {
   TaskId task = none;
-  BehaviorId behavior = none;  ///< if it is asked about
-  BehaviorId chosen = none;    ///< behavior of the task, if that is asked about
+  BehaviorId behavior = none;  ///< set if the question is about a behavior
+  BehaviorId chosen = none;    ///< of the task, if the question is about a task
   bool is_active = false;      ///< of the behavior
   WhyNot why_not;
 };
 
-/// What was asked for about one event.
+/// The explanations of one event.
 struct Explanation {
   std::vector<Displacement> displaced;
   std::vector<Why> why;
-  std::vector<Configuration> alternatives;  ///< the best first, which is the one chosen
+  std::vector<Configuration> alternatives;  ///< the best first: the one that was chosen
   bool is_list_cut = false;                 ///< a limit of effort came before the last of them
   Configuration chosen;                     ///< set if there are displaced or why
 
@@ -77,7 +77,7 @@ struct Explanation {
 struct Change {
   bool is_activation = false;
   BehaviorId behavior = 0;
-  std::uint32_t first_task = 0;  ///< of its tasks, in EventRecord::tasks_of_changes
+  std::uint32_t first_task = 0;  ///< its first one in EventRecord::tasks_of_changes
   std::uint32_t task_count = 0;
   ChangeCause cause = ChangeCause::requested;
   std::optional<std::int32_t> priority;
@@ -90,17 +90,16 @@ struct StoppedTask {
 };
 
 struct SearchRecord {
-  SearchResult result;  ///< of the last search; its counts over all searches of the event
+  SearchResult result;  ///< status of the last search; counts over all searches of the event
   std::uint32_t group = 0;
   std::int32_t protection = 0;
-  bool is_escalated = false;                ///< there was no solution at the first protection level
+  bool is_escalated = false;                ///< the first protection level had no solution
   std::vector<std::uint32_t> domain_sizes;  ///< their product is the search space
-  /// What all searches of the event took, with the making of their problems; empty unless measured.
+  /// The time of all searches of the event and of building their problems; empty unless measured.
   std::optional<std::chrono::nanoseconds> elapsed;
 };
 
-/// What one event did. Valid until the coordinator handles the next one, whose record takes over
-/// the memory.
+/// What one event did. Valid until the coordinator handles the next one, which reuses the memory.
 struct EventRecord {
   std::uint64_t index = 0;  ///< counts all events from 1
   Microseconds time = 0;
@@ -117,8 +116,8 @@ struct EventRecord {
   std::vector<StoppedTask> stopped_tasks;
   std::optional<ObjectiveValues> objective;
   const SearchRecord* search = nullptr;  ///< null: there was none
-  std::vector<Reason> conflict;          ///< of a rejected event: a minimal set of reasons
-  Explanation explanation;               ///< of an accepted event, what was asked for
+  std::vector<Reason> conflict;          ///< of a rejected event: a minimal conflict set
+  Explanation explanation;               ///< of an accepted event
 
   /// The tasks that one of the changes is about.
   [[nodiscard]] std::span<const TaskId> tasks_of(const Change& change) const {

@@ -9,61 +9,61 @@
 
 namespace cbc {
 
-Timers::Timers(std::size_t items) : place_(items, absent) { heap_.reserve(items); }
+Timers::Timers(std::size_t items) : position_(items, absent) { heap_.reserve(items); }
 
 void Timers::set(Item item, Microseconds due) {
   if (!has(item)) {
     heap_.emplace_back(due, item);
-    place_[item] = static_cast<std::uint32_t>(heap_.size() - 1);
+    position_[item] = static_cast<std::uint32_t>(heap_.size() - 1);
   } else {
-    heap_[place_[item]].first = due;
+    heap_[position_[item]].first = due;
   }
-  sift_up(place_[item]);
-  sift_down(place_[item]);
+  sift_up(position_[item]);
+  sift_down(position_[item]);
 }
 
 void Timers::remove(Item item) {
   if (!has(item)) return;
-  const std::uint32_t place = place_[item];
-  place_[item] = absent;
+  const std::uint32_t position = position_[item];
+  position_[item] = absent;
   const auto last = heap_.back();
   heap_.pop_back();
-  if (place == heap_.size()) return;
-  put(place, last);
-  sift_up(place);
-  sift_down(place_[last.second]);
+  if (position == heap_.size()) return;
+  put(position, last);
+  sift_up(position);
+  sift_down(position_[last.second]);
 }
 
-void Timers::put(std::uint32_t place, const std::pair<Microseconds, Item>& entry) {
-  heap_[place] = entry;
-  place_[entry.second] = place;
+void Timers::put(std::uint32_t position, const std::pair<Microseconds, Item>& entry) {
+  heap_[position] = entry;
+  position_[entry.second] = position;
 }
 
-void Timers::sift_up(std::uint32_t place) {
-  const auto entry = heap_[place];
-  while (place > 0 && entry < heap_[(place - 1) / 2]) {
-    put(place, heap_[(place - 1) / 2]);
-    place = (place - 1) / 2;
+void Timers::sift_up(std::uint32_t position) {
+  const auto entry = heap_[position];
+  while (position > 0 && entry < heap_[(position - 1) / 2]) {
+    put(position, heap_[(position - 1) / 2]);
+    position = (position - 1) / 2;
   }
-  put(place, entry);
+  put(position, entry);
 }
 
-void Timers::sift_down(std::uint32_t place) {
-  const auto entry = heap_[place];
+void Timers::sift_down(std::uint32_t position) {
+  const auto entry = heap_[position];
   for (;;) {
-    std::uint32_t child = 2 * place + 1;
+    std::uint32_t child = 2 * position + 1;
     if (child >= heap_.size()) break;
     if (child + 1 < heap_.size() && heap_[child + 1] < heap_[child]) ++child;
     if (entry <= heap_[child]) break;
-    put(place, heap_[child]);
-    place = child;
+    put(position, heap_[child]);
+    position = child;
   }
-  put(place, entry);
+  put(position, entry);
 }
 
 State::State(const CompiledCatalog& catalog)
     : catalog_(catalog),
-      places_(catalog.tasks.size(), none),
+      assignment_(catalog.tasks.size(), none),
       taken_at_(catalog.tasks.size(), 0),
       has_request_(catalog.tasks.size(), 0),
       requests_(catalog.tasks.size()),
@@ -83,10 +83,10 @@ State::State(const CompiledCatalog& catalog)
   }
 }
 
-void State::set_place(TaskId task, std::uint32_t place, Microseconds now) {
-  if (places_[task] == place) return;
+void State::set_value(TaskId task, std::uint32_t index, Microseconds now) {
+  if (assignment_[task] == index) return;
   const bool was_running = is_running(task);
-  places_[task] = place;
+  assignment_[task] = index;
   taken_at_[task] = now;
   if (was_running == is_running(task)) return;
 
@@ -127,9 +127,9 @@ void State::set_available(BehaviorId behavior, bool available) {
   available_[behavior] = available ? 1 : 0;
   for (const ValueId value : catalog_.performs[behavior]) {
     const TaskId task = catalog_.task_of(value);
-    const std::uint32_t place = value - catalog_.values.begin[task];
-    const std::uint64_t bit = std::uint64_t{1} << (place % 64);
-    std::uint64_t& word = available_words_[catalog_.words[task] + place / 64];
+    const std::uint32_t index = value - catalog_.values.begin[task];
+    const std::uint64_t bit = std::uint64_t{1} << (index % 64);
+    std::uint64_t& word = available_words_[catalog_.words[task] + index / 64];
     word = available ? word | bit : word & ~bit;
   }
 }
@@ -157,7 +157,7 @@ void State::update_timeout(TaskId task, Microseconds now) {
     return;
   }
   const Microseconds due = std::max(activated_at_[behavior(task)], taken_at_[task]) + timeout;
-  // What is not waited for any more and was due by now has been dealt with.
+  // A timeout that is due by now and has no timer was handled.
   if (due > now || timeouts_.has(compiled.catalog_index)) {
     timeouts_.set(compiled.catalog_index, due);
   }
@@ -184,7 +184,7 @@ class SnapshotCheck {
   SnapshotCheck(const CompiledCatalog& catalog, const Snapshot& snapshot)
       : catalog_(catalog),
         snapshot_(snapshot),
-        places_(catalog.tasks.size(), none),
+        assignment_(catalog.tasks.size(), none),
         activated_at_(catalog.behaviors.size(), never) {}
 
   std::optional<std::string> run() && {
@@ -201,7 +201,7 @@ class SnapshotCheck {
  private:
   static constexpr Microseconds never = -1;
 
-  /// The first one counts.
+  /// Keeps the first problem.
   void refuse(std::string problem) {
     if (problem_.empty()) problem_ = std::move(problem);
   }
@@ -232,9 +232,9 @@ class SnapshotCheck {
 
   void check_task(const Snapshot::RunningTask& entry) {
     const std::string name = quote(catalog_.name_of_task(entry.task));
-    const BehaviorId behavior = catalog_.values[entry.task][entry.place].behavior;
-    if (places_[entry.task] != none) refuse(concat("task ", name, " runs twice"));
-    places_[entry.task] = entry.place;
+    const BehaviorId behavior = catalog_.values[entry.task][entry.value_index].behavior;
+    if (assignment_[entry.task] != none) refuse(concat("task ", name, " runs twice"));
+    assignment_[entry.task] = entry.value_index;
     if (!is_past(entry.since)) {
       refuse(concat("task ", name, " runs since a time after that of the state, or before 0"));
       return;
@@ -258,7 +258,7 @@ class SnapshotCheck {
 
   void check_timeout(const std::string& name, const Snapshot::RunningTask& entry) {
     const CompiledTask& task = catalog_.tasks[entry.task];
-    const BehaviorId behavior = catalog_.values[entry.task][entry.place].behavior;
+    const BehaviorId behavior = catalog_.values[entry.task][entry.value_index].behavior;
     const Microseconds own = catalog_.behaviors[behavior].timeout;
     const Microseconds timeout = task.keep_running != 0 ? 0 : own > 0 ? own : task.timeout;
     const Microseconds due =
@@ -272,7 +272,7 @@ class SnapshotCheck {
   void check_active() {
     std::vector<std::uint8_t> is_used(catalog_.behaviors.size(), 0);
     for (const Snapshot::RunningTask& entry : snapshot_.running) {
-      is_used[catalog_.values[entry.task][entry.place].behavior] = 1;
+      is_used[catalog_.values[entry.task][entry.value_index].behavior] = 1;
     }
     for (const auto& [behavior, time] : snapshot_.active) {
       if (is_used[behavior] != 0) continue;
@@ -286,7 +286,7 @@ class SnapshotCheck {
     if (catalog_.tasks[task].reactive_start == 0) {
       refuse(concat("task ", name, " is in the queue, but does not start reactively"));
     }
-    if (places_[task] != none) refuse(concat("task ", name, " is in the queue, but runs"));
+    if (assignment_[task] != none) refuse(concat("task ", name, " is in the queue, but runs"));
     if (!queued_.insert(task).second) {
       refuse(concat("task ", name, " is in the queue twice"));
     }
@@ -295,7 +295,7 @@ class SnapshotCheck {
     }
   }
 
-  /// By the code that checks the answers of the solver.
+  /// Checks the constraints as for an answer of the solver.
   void check_constraints() {
     Checker checker(catalog_);
     for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) {
@@ -305,14 +305,14 @@ class SnapshotCheck {
       anything.group = group;
       anything.domains.assign(catalog_.words[end] - catalog_.words[first], ~std::uint64_t{0});
       anything.may_stop.assign(end - first, 1);
-      const Assignment answer(places_.begin() + first, places_.begin() + end);
+      const Assignment answer(assignment_.begin() + first, assignment_.begin() + end);
       if (auto violation = checker.find_violation(anything, answer)) refuse(std::move(*violation));
     }
   }
 
   const CompiledCatalog& catalog_;
   const Snapshot& snapshot_;
-  Assignment places_;                       ///< by task
+  Assignment assignment_;                   ///< by task
   std::vector<Microseconds> activated_at_;  ///< by behavior
   std::set<std::uint64_t> events_;          ///< those of the requests
   std::set<TaskId> queued_;

@@ -13,8 +13,7 @@
 namespace cbc {
 
 /// At most one due time for each of a fixed number of items; the earliest comes first, of equal
-/// ones the lowest item. A binary heap that knows where each item is, so that nothing is allocated
-/// after construction.
+/// ones the lowest item. An indexed binary heap, which allocates nothing after construction.
 class Timers {
  public:
   using Item = std::uint32_t;
@@ -25,23 +24,23 @@ class Timers {
   void remove(Item item);
 
   [[nodiscard]] bool empty() const { return heap_.empty(); }
-  [[nodiscard]] bool has(Item item) const { return place_[item] != absent; }
+  [[nodiscard]] bool has(Item item) const { return position_[item] != absent; }
   [[nodiscard]] Item first() const { return heap_.front().second; }
   [[nodiscard]] Microseconds first_due() const { return heap_.front().first; }
   /// Needs has(item).
-  [[nodiscard]] Microseconds due(Item item) const { return heap_[place_[item]].first; }
+  [[nodiscard]] Microseconds due(Item item) const { return heap_[position_[item]].first; }
   /// All entries, in no particular order.
   [[nodiscard]] const std::vector<std::pair<Microseconds, Item>>& entries() const { return heap_; }
 
  private:
   static constexpr std::uint32_t absent = UINT32_MAX;
 
-  void put(std::uint32_t place, const std::pair<Microseconds, Item>& entry);
-  void sift_up(std::uint32_t place);
-  void sift_down(std::uint32_t place);
+  void put(std::uint32_t position, const std::pair<Microseconds, Item>& entry);
+  void sift_up(std::uint32_t position);
+  void sift_down(std::uint32_t position);
 
   std::vector<std::pair<Microseconds, Item>> heap_;
-  std::vector<std::uint32_t> place_;  ///< by item
+  std::vector<std::uint32_t> position_;  ///< by item: where it is in the heap
 };
 
 /// The request of a running task.
@@ -51,7 +50,7 @@ struct Request {
   std::string parameters;   ///< canonical form
 };
 
-/// State of a coordinator (semantics: section 2): what runs, what was requested, what can be
+/// State of a coordinator (docs/semantics.md, "State"): what runs, what was requested, what can be
 /// activated, and what falls due.
 class State {
  public:
@@ -59,29 +58,29 @@ class State {
 
   // Values of the tasks.
 
-  [[nodiscard]] bool is_running(TaskId task) const { return places_[task] != none; }
-  /// Place of the task's behavior among its values, or none.
-  [[nodiscard]] std::uint32_t place(TaskId task) const { return places_[task]; }
+  [[nodiscard]] bool is_running(TaskId task) const { return assignment_[task] != none; }
+  /// The value index of the task's behavior, or none.
+  [[nodiscard]] std::uint32_t value_index(TaskId task) const { return assignment_[task]; }
   [[nodiscard]] BehaviorId behavior(TaskId task) const {
-    return is_running(task) ? catalog_.values[task][places_[task]].behavior : none;
+    return is_running(task) ? catalog_.values[task][assignment_[task]].behavior : none;
   }
-  /// Running tasks by their place in the catalog, ascending. Looks through the whole catalog.
+  /// Running tasks as catalog indices, ascending. Takes time proportional to the catalog.
   [[nodiscard]] std::vector<std::uint32_t> running() const;
-  /// Running tasks that are not start_on_request: a of f3.
+  /// Idle tasks are those that do not start on request only; f3 counts them.
   [[nodiscard]] std::uint32_t idle_running() const { return idle_running_; }
   [[nodiscard]] std::uint32_t idle_total() const { return idle_total_; }
 
   /// When a running task took its behavior.
   [[nodiscard]] Microseconds taken_at(TaskId task) const { return taken_at_[task]; }
-  /// Gives the task a value (a place, or none). A task that stops loses its request.
-  void set_place(TaskId task, std::uint32_t place, Microseconds now);
+  /// Gives the task a value (a value index, or none). A task that stops loses its request.
+  void set_value(TaskId task, std::uint32_t index, Microseconds now);
 
   // Requests.
 
   [[nodiscard]] bool has_request(TaskId task) const { return has_request_[task] != 0; }
   [[nodiscard]] const Request& request(TaskId task) const { return requests_[task]; }
   [[nodiscard]] std::uint32_t request_count() const { return request_count_; }
-  /// The task is running.
+  /// The task must be running.
   void set_request(TaskId task, std::int32_t priority, std::uint64_t event,
                    std::string_view parameters);
 
@@ -103,17 +102,17 @@ class State {
   }
   void set_inactive(BehaviorId behavior) { active_[behavior] = 0; }
   void set_active(BehaviorId behavior, Microseconds now);
-  /// Counts the behavior as active though its activation failed.
+  /// Counts the behavior as active although its activation failed.
   void leave_active(BehaviorId behavior) { active_[behavior] = 1; }
 
-  // What falls due. Items are places in the catalog.
+  // What falls due. Items are catalog indices.
 
   /// When the present behavior of each task times out.
   [[nodiscard]] const Timers& timeouts() const { return timeouts_; }
   void update_timeout(TaskId task, Microseconds now);
-  /// The timeout has been dealt with; it is due again when the behavior is activated again.
+  /// The timeout was handled. The next one is due after another activation of the behavior.
   void drop_timeout(TaskId task) { timeouts_.remove(catalog_.tasks[task].catalog_index); }
-  /// The queue Q of reactive tasks.
+  /// The queue of reactive tasks.
   [[nodiscard]] const Timers& queue() const { return queue_; }
   void enqueue(TaskId task, Microseconds due);
   void dequeue(TaskId task) { queue_.remove(catalog_.tasks[task].catalog_index); }
@@ -122,11 +121,11 @@ class State {
 
  private:
   const CompiledCatalog& catalog_;
-  std::vector<std::uint32_t> places_;      ///< by task
+  std::vector<std::uint32_t> assignment_;  ///< by task
   std::vector<Microseconds> taken_at_;     ///< by task: when it took its behavior
   std::vector<std::uint8_t> has_request_;  ///< by task
   std::vector<Request> requests_;          ///< by task
-  std::vector<std::uint64_t> running_;     ///< bit set of places in the catalog
+  std::vector<std::uint64_t> running_;     ///< bit set of catalog indices
   std::uint32_t idle_running_ = 0;
   std::uint32_t idle_total_ = 0;
   std::uint32_t request_count_ = 0;
@@ -139,12 +138,12 @@ class State {
   Timers queue_;
 };
 
-/// All that a coordinator, and whoever runs a script with it, knows between two events.
+/// The state of a coordinator, and of the runner of its script, between two events.
 struct Snapshot {
   struct RunningTask {
     TaskId task = 0;
-    std::uint32_t place = 0;  ///< of its behavior among its values
-    Microseconds since = 0;   ///< when it took the behavior
+    std::uint32_t value_index = 0;
+    Microseconds since = 0;  ///< when it took the behavior
     std::optional<Request> request;
     bool waits_for_timeout = false;
   };
@@ -159,8 +158,8 @@ struct Snapshot {
   std::vector<std::pair<TaskId, Microseconds>> queue;  ///< with due times
 };
 
-/// Why no coordinator can be in this state, or nothing. Tasks, behaviors and places are those of
-/// the catalog; everything else may be anything.
+/// Why no coordinator can be in this state, or nothing. Tasks, behaviors and value indices must be
+/// those of the catalog; everything else may be anything.
 [[nodiscard]] std::optional<std::string> find_inconsistency(const CompiledCatalog& catalog,
                                                             const Snapshot& snapshot);
 

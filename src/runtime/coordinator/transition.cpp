@@ -31,9 +31,10 @@ std::optional<BehaviorId> Transition::apply(const Assignment& solution, Behavior
   return std::nullopt;
 }
 
-const std::vector<BehaviorId>& Transition::take_back(Microseconds now) {
+const std::vector<BehaviorId>& Transition::roll_back(Microseconds now) {
   wanted_ = was_active_;
-  // A behavior whose finish is rejected, which takes a search limit, counts as active again anyway.
+  // A behavior whose finish is rejected (only at a search limit) counts as active again in any
+  // case.
   if (trigger_.kind == Trigger::Kind::finish && state_.is_active(trigger_.behavior)) {
     wanted_[trigger_.behavior - first_behavior_] = 1;
   }
@@ -50,8 +51,8 @@ const std::vector<BehaviorId>& Transition::take_back(Microseconds now) {
 
 std::uint32_t Transition::count_changes() const {
   std::uint32_t changes = 0;
-  for (std::size_t place = 0; place < wanted_.size(); ++place) {
-    if (wanted_[place] != was_active_[place]) ++changes;
+  for (std::size_t index = 0; index < wanted_.size(); ++index) {
+    if (wanted_[index] != was_active_[index]) ++changes;
   }
   return changes;
 }
@@ -64,8 +65,8 @@ void Transition::find_wanted(const Assignment& solution) {
   }
 }
 
-/// Deactivations from the highest level down, so that a behavior stops before what it requires;
-/// activations from the lowest level up; behaviors of one level in catalog order.
+/// Orders deactivations from the highest level down, so that a behavior stops before what it
+/// requires, and activations from the lowest level up; behaviors of one level in catalog order.
 void Transition::plan() {
   to_deactivate_.clear();
   to_activate_.clear();
@@ -136,11 +137,11 @@ void Transition::add_task(Change& change, TaskId task) {
 }
 
 BehaviorId Transition::behavior_in(const Assignment& solution, TaskId task) const {
-  const std::uint32_t place = solution[task - first_task_];
-  return place == none ? none : catalog_.values[task][place].behavior;
+  const std::uint32_t index = solution[task - first_task_];
+  return index == none ? none : catalog_.values[task][index].behavior;
 }
 
-/// The tasks that the behavior performs in the solution, or, in a taking back, before the event.
+/// The tasks that the behavior performs in the solution or, in a rollback, before the event.
 void Transition::find_tasks_of_activation(Change& change, const Assignment* solution) {
   for (const ValueId value : catalog_.performs[change.behavior]) {
     const TaskId task = catalog_.task_of(value);
@@ -150,7 +151,7 @@ void Transition::find_tasks_of_activation(Change& change, const Assignment* solu
   }
 }
 
-/// The tasks of its last activation within the event, else those that it performed before.
+/// The tasks of its last activation within the event, or else those that it performed before.
 void Transition::find_tasks_of_deactivation(Change& change) {
   for (auto earlier = record_.changes.rbegin() + 1; earlier != record_.changes.rend(); ++earlier) {
     if (earlier->is_activation && earlier->success && earlier->behavior == change.behavior) {

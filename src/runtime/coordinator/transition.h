@@ -12,27 +12,27 @@
 
 namespace cbc {
 
-/// Brings the active behaviors of a group from one set to another, operation by operation
-/// (semantics: section 5), and keeps the list of what was done.
+/// Applies an answer: brings the active behaviors of a group from one set to another, change by
+/// change (docs/semantics.md, "Application"), and records the changes.
 class Transition {
  public:
-  /// `record` receives the operations of the event.
+  /// `record` receives the changes of the event.
   Transition(const CompiledCatalog& catalog, State& state, EventRecord& record);
 
   /// Takes up an event. `active_before` outlives the transition of the event.
   void load(const Trigger& trigger, const std::vector<BehaviorId>& active_before);
 
-  /// Applies a solution from what is active by now. `restart`: an active behavior that takes over
-  /// changed parameters, or none. If an activation fails, its behavior is returned and what is
-  /// left undone stays so.
+  /// Applies a solution to what is active now. `restart`: an active behavior that has to take over
+  /// changed parameters, or none. If an activation fails, returns its behavior and makes no further
+  /// changes.
   [[nodiscard]] std::optional<BehaviorId> apply(const Assignment& solution, BehaviorId restart,
                                                 Microseconds now);
 
-  /// Goes back to what was active before the event. Returns the behaviors that could not be
-  /// activated again, in catalog order; they are left counted as active.
-  [[nodiscard]] const std::vector<BehaviorId>& take_back(Microseconds now);
+  /// Rolls back to what was active before the event. Returns the behaviors that could not be
+  /// activated again, in catalog order; they still count as active.
+  [[nodiscard]] const std::vector<BehaviorId>& roll_back(Microseconds now);
 
-  /// Number of behaviors that the solution applied last activates and deactivates: c of f4.
+  /// Number of behaviors that the solution applied last activates or deactivates, for f4.
   [[nodiscard]] std::uint32_t count_changes() const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <iterator>
 #include <utility>
@@ -11,13 +12,55 @@
 namespace cbc {
 namespace {
 
-/// Searches and their decisions, times tasks of the group, for one answer.
+/// For one answer: decisions of its searches (each search counts as one more), times tasks.
 constexpr std::uint64_t most_effort = 50'000'000;
 
 SearchOptions search_options() {
   SearchOptions options;
   options.max_nodes = 100'000;
   return options;
+}
+
+/// The domain words of a task among those of its group.
+template <typename Words>
+auto words_of(const CompiledCatalog& catalog, std::uint32_t group, Words& words, TaskId task) {
+  const std::uint32_t first = catalog.words[catalog.group_tasks[group]];
+  return std::span(words).subspan(catalog.words[task] - first,
+                                  catalog.words[task + 1] - catalog.words[task]);
+}
+
+/// Removes the values from the domain of a task of the group that a demand rules out.
+void apply_demand(const CompiledCatalog& catalog, const Demand& demand, Problem& problem) {
+  const auto words = words_of(catalog, problem.group, problem.domains, demand.task);
+  std::uint8_t& may_stop = problem.may_stop[demand.task - catalog.group_tasks[problem.group]];
+  const auto bit = [&] { return std::uint64_t{1} << (demand.value_index % 64); };
+  switch (demand.kind) {
+    case Demand::Kind::run:
+      may_stop = 0;
+      return;
+    case Demand::Kind::stop:
+      std::fill(words.begin(), words.end(), 0);
+      return;
+    case Demand::Kind::has: {
+      may_stop = 0;
+      const std::uint64_t kept = words[demand.value_index / 64] & bit();
+      std::fill(words.begin(), words.end(), 0);
+      words[demand.value_index / 64] = kept;
+      return;
+    }
+    case Demand::Kind::has_not:
+      words[demand.value_index / 64] &= ~bit();
+      return;
+  }
+}
+
+/// Whether the domain of a task of the group has more than one value.
+bool has_choice(const CompiledCatalog& catalog, const Problem& problem, TaskId task) {
+  std::uint32_t values = problem.may_stop[task - catalog.group_tasks[problem.group]];
+  for (const std::uint64_t word : words_of(catalog, problem.group, problem.domains, task)) {
+    values += static_cast<std::uint32_t>(std::popcount(word));
+  }
+  return values > 1;
 }
 
 }  // namespace
@@ -36,87 +79,90 @@ void ConfigurationSearch::begin() {
   is_cut_ = false;
 }
 
-std::optional<Configuration> ConfigurationSearch::solve(const Problem& part) {
-  Assignment places;
-  const SearchResult result = solver_.solve(part, places);
-  effort_ += (1 + result.nodes) * part.may_stop.size();
+std::optional<Configuration> ConfigurationSearch::solve(const Problem& problem) {
+  Assignment assignment;
+  const SearchResult result = solver_.solve(problem, assignment);
+  effort_ += (1 + result.nodes) * problem.may_stop.size();
   if (result.status == SearchStatus::infeasible) return std::nullopt;
   if (result.status != SearchStatus::optimal || effort_ > most_effort) {
     is_cut_ = true;
     return std::nullopt;
   }
-  return comparison_.evaluate(std::move(places));
+  return comparison_.evaluate(std::move(assignment));
 }
 
 std::optional<Configuration> ConfigurationSearch::find_best(std::span<const Demands> ways) {
   begin();
   std::optional<Configuration> best;
   for (const Demands& demands : ways) {
-    Problem part = *whole_;
-    part.part_of = whole_;
-    for (const Demand& demand : demands) narrow(catalog_, demand, part);
-    std::optional<Configuration> found = solve(part);
+    Problem problem = *whole_;
+    problem.subproblem_of = whole_;
+    for (const Demand& demand : demands) apply_demand(catalog_, demand, problem);
+    std::optional<Configuration> found = solve(problem);
     if (is_cut_) return std::nullopt;
     if (!found) continue;
-    // Two ways may have the same best.
-    const bool is_better = !best || (found->places != best->places &&
+    // Two ways may have the same best solution.
+    const bool is_better = !best || (found->assignment != best->assignment &&
                                      comparison_.compare(*found, *best).first_is_better);
     if (is_better) best = std::move(found);
   }
   return best;
 }
 
-/// Lawler's partition: of all parts, the one with the best solution gives the next one, and what is
-/// left of it falls into parts again: one for each task, in which those before it have the values
-/// of that solution, and it has another.
+/// The k best solutions by partition (E. L. Lawler, "A procedure for computing the K best solutions
+/// to discrete optimization problems", Management Science 18, 1972). The best solution of all
+/// subproblems is the next one. The rest of its subproblem is split into one for each task: the
+/// tasks before it have the values of that solution, and it has another.
 std::vector<Configuration> ConfigurationSearch::list_best(const Assignment& best,
                                                           std::size_t count) {
   begin();
   std::vector<Configuration> list;
-  std::vector<Part> parts;  // the best comes last
-  parts.push_back({*whole_, comparison_.evaluate(best)});
-  parts.back().problem.part_of = whole_;
-  while (list.size() < count && !parts.empty()) {
-    Part part = std::move(parts.back());
-    parts.pop_back();
-    list.push_back(part.best);
-    if (list.size() < count) split(std::move(part), count - list.size(), parts);
+  std::vector<Subproblem> open;  // the best comes last
+  open.push_back({*whole_, comparison_.evaluate(best)});
+  open.back().problem.subproblem_of = whole_;
+  while (list.size() < count && !open.empty()) {
+    Subproblem subproblem = std::move(open.back());
+    open.pop_back();
+    list.push_back(subproblem.best);
+    if (list.size() < count) split(std::move(subproblem), count - list.size(), open);
     if (is_cut_) break;
   }
   return list;
 }
 
-void ConfigurationSearch::split(Part part, std::size_t most, std::vector<Part>& parts) {
-  const TaskId first = catalog_.group_tasks[part.problem.group];
-  for (std::uint32_t task = 0; task < part.best.places.size(); ++task) {
-    if (!is_open(catalog_, part.problem, first + task)) continue;
-    const std::uint32_t place = part.best.places[task];
-    Part other;
-    other.problem = part.problem;
+void ConfigurationSearch::split(Subproblem subproblem, std::size_t most,
+                                std::vector<Subproblem>& open) {
+  const TaskId first = catalog_.group_tasks[subproblem.problem.group];
+  for (std::uint32_t task = 0; task < subproblem.best.assignment.size(); ++task) {
+    if (!has_choice(catalog_, subproblem.problem, first + task)) continue;
+    const std::uint32_t index = subproblem.best.assignment[task];
+    Subproblem other;
+    other.problem = subproblem.problem;
     Demand demand;
     demand.task = first + task;
-    demand.place = place;
-    demand.kind = place == none ? Demand::Kind::run : Demand::Kind::has_not;
-    narrow(catalog_, demand, other.problem);
+    demand.value_index = index;
+    demand.kind = index == none ? Demand::Kind::run : Demand::Kind::has_not;
+    apply_demand(catalog_, demand, other.problem);
     std::optional<Configuration> found = solve(other.problem);
     if (is_cut_) return;
     if (found) {
       other.best = std::move(*found);
-      insert(std::move(other), most, parts);
+      insert(std::move(other), most, open);
     }
-    demand.kind = place == none ? Demand::Kind::stop : Demand::Kind::has;
-    narrow(catalog_, demand, part.problem);
+    demand.kind = index == none ? Demand::Kind::stop : Demand::Kind::has;
+    apply_demand(catalog_, demand, subproblem.problem);
   }
 }
 
-/// Keeps the `most` best parts: no others can come to be looked at.
-void ConfigurationSearch::insert(Part part, std::size_t most, std::vector<Part>& parts) {
-  const auto place =
-      std::lower_bound(parts.begin(), parts.end(), part, [&](const Part& a, const Part& b) {
+/// Keeps the `most` best subproblems: no other can yield one of the solutions still to be listed.
+void ConfigurationSearch::insert(Subproblem subproblem, std::size_t most,
+                                 std::vector<Subproblem>& open) {
+  const auto position = std::lower_bound(
+      open.begin(), open.end(), subproblem, [&](const Subproblem& a, const Subproblem& b) {
         return comparison_.compare(b.best, a.best).first_is_better;
       });
-  parts.insert(place, std::move(part));
-  if (parts.size() > most) parts.erase(parts.begin());
+  open.insert(position, std::move(subproblem));
+  if (open.size() > most) open.erase(open.begin());
 }
 
 std::string_view name_of(Criterion criterion) {
@@ -132,29 +178,29 @@ void Comparison::load(const Problem& problem, const ObjectiveValues& elsewhere) 
   order_.load(problem);
 }
 
-Configuration Comparison::evaluate(Assignment places) const {
+Configuration Comparison::evaluate(Assignment assignment) const {
   Configuration configuration;
   ObjectiveValues& objective = configuration.objective;
   objective = elsewhere_;
   objective.requests += static_cast<std::uint32_t>(problem_->requests.size());
   for (const std::uint32_t task : problem_->requests) {
-    if (places[task] != none) ++objective.satisfied;
+    if (assignment[task] != none) ++objective.satisfied;
   }
-  for (std::uint32_t task = 0; task < places.size(); ++task) {
-    if (places[task] != none && catalog_.tasks[first_task_ + task].start_on_request == 0) {
+  for (std::uint32_t task = 0; task < assignment.size(); ++task) {
+    if (assignment[task] != none && catalog_.tasks[first_task_ + task].start_on_request == 0) {
       ++objective.idle_running;
     }
   }
-  objective.changes = count_changes(places);
-  configuration.places = std::move(places);
+  objective.changes = count_changes(assignment);
+  configuration.assignment = std::move(assignment);
   return configuration;
 }
 
-std::uint32_t Comparison::count_changes(const Assignment& places) const {
+std::uint32_t Comparison::count_changes(const Assignment& assignment) const {
   std::vector<BehaviorId> active;
-  for (std::uint32_t task = 0; task < places.size(); ++task) {
-    if (places[task] != none) {
-      active.push_back(catalog_.values[first_task_ + task][places[task]].behavior);
+  for (std::uint32_t task = 0; task < assignment.size(); ++task) {
+    if (assignment[task] != none) {
+      active.push_back(catalog_.values[first_task_ + task][assignment[task]].behavior);
     }
   }
   std::sort(active.begin(), active.end());
@@ -172,12 +218,12 @@ Difference Comparison::compare(const Configuration& a, const Configuration& b) {
     difference.first_is_better = first_is_better;
     return difference;
   };
-  // Of all requests, in order: those that only one of the two satisfies.
+  // The most important requests that only one of the two satisfies.
   TaskId only_first = none;
   TaskId only_second = none;
   for (const std::uint32_t task : problem_->requests) {
-    const bool first_runs = a.places[task] != none;
-    const bool second_runs = b.places[task] != none;
+    const bool first_runs = a.assignment[task] != none;
+    const bool second_runs = b.assignment[task] != none;
     if (first_runs && !second_runs && only_first == none) only_first = first_task_ + task;
     if (second_runs && !first_runs && only_second == none) only_second = first_task_ + task;
     if (difference.task == none && first_runs != second_runs) difference.task = first_task_ + task;
@@ -191,7 +237,7 @@ Difference Comparison::compare(const Configuration& a, const Configuration& b) {
     difference.other_task = first_is_better ? only_second : only_first;
     return decide(Criterion::request_order, first_is_better);
   }
-  if (const auto order = compare_suitability(a.places, b.places); order != 0) {
+  if (const auto order = compare_suitability(a.assignment, b.assignment); order != 0) {
     return decide(Criterion::suitability, order > 0);
   }
   if (a.objective.idle_running != b.objective.idle_running) {
@@ -201,18 +247,18 @@ Difference Comparison::compare(const Configuration& a, const Configuration& b) {
     return decide(Criterion::changes, a.objective.changes < b.objective.changes);
   }
   std::uint32_t task = 0;
-  while (a.places[task] == b.places[task]) ++task;
+  while (a.assignment[task] == b.assignment[task]) ++task;
   difference.task = first_task_ + task;
   return decide(Criterion::canonical,
-                order_.key(task, a.places[task]) < order_.key(task, b.places[task]));
+                order_.key(task, a.assignment[task]) < order_.key(task, b.assignment[task]));
 }
 
 std::strong_ordering Comparison::compare_suitability(const Assignment& a, const Assignment& b) {
-  const auto suitability = [&](std::size_t task, std::uint32_t place) {
+  const auto suitability = [&](std::size_t task, std::uint32_t index) {
     const auto values = catalog_.values[first_task_ + task];
-    return place == none ? one_million : values[place].suitability;
+    return index == none ? one_million : values[index].suitability;
   };
-  // Equal factors may be left out unless they are zero.
+  // Equal factors may be left out unless they are 0.
   first_.clear();
   second_.clear();
   for (std::size_t task = 0; task < a.size(); ++task) {

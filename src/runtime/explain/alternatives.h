@@ -14,18 +14,19 @@
 
 namespace cbc {
 
-/// The objectives of a solution, over the whole catalog. f2 is a property of the values.
+/// The objectives of a solution but for f2, over the whole catalog (docs/semantics.md,
+/// "Objectives"). Idle tasks are those that do not start on request only.
 struct ObjectiveValues {
-  std::uint32_t satisfied = 0;     ///< r of f1
-  std::uint32_t requests = 0;      ///< n of f1
-  std::uint32_t idle_total = 0;    ///< t of f3
-  std::uint32_t idle_running = 0;  ///< a of f3
-  std::uint32_t changes = 0;       ///< c of f4
+  std::uint32_t satisfied = 0;     ///< requests, for f1
+  std::uint32_t requests = 0;      ///< active requests, for f1
+  std::uint32_t idle_total = 0;    ///< idle tasks, for f3
+  std::uint32_t idle_running = 0;  ///< idle tasks that run, for f3
+  std::uint32_t changes = 0;       ///< for f4
 };
 
 /// A solution of the problem of a group, with its objectives.
 struct Configuration {
-  Assignment places;
+  Assignment assignment;
   ObjectiveValues objective;
 };
 
@@ -56,17 +57,17 @@ class Comparison {
   Comparison(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks)
       : catalog_(catalog), order_(catalog, ranks) {}
 
-  /// Takes up a problem, which must outlive its use. `elsewhere`: the objectives of all that is
-  /// outside the group; idle_total is that of the whole catalog.
+  /// Takes up a problem, which must outlive its use. `elsewhere`: the objectives of all other
+  /// groups, but for idle_total, which is that of the whole catalog.
   void load(const Problem& problem, const ObjectiveValues& elsewhere);
 
-  [[nodiscard]] Configuration evaluate(Assignment places) const;
+  [[nodiscard]] Configuration evaluate(Assignment assignment) const;
 
-  /// The two differ.
+  /// The two must differ.
   [[nodiscard]] Difference compare(const Configuration& a, const Configuration& b);
 
  private:
-  [[nodiscard]] std::uint32_t count_changes(const Assignment& places) const;
+  [[nodiscard]] std::uint32_t count_changes(const Assignment& assignment) const;
   [[nodiscard]] std::strong_ordering compare_suitability(const Assignment& a, const Assignment& b);
 
   const CompiledCatalog& catalog_;
@@ -78,40 +79,40 @@ class Comparison {
   ExactProduct second_;
 };
 
-/// Finds the best solutions of a problem under demands, and the best of all, with a limit of effort
-/// that does not depend on the clock.
+/// Finds the best solutions of a problem, under demands too, within a limit of effort that does not
+/// depend on the clock.
 class ConfigurationSearch {
  public:
-  /// `ranks`: as for the solver that the answers are compared with. Outlived by both.
+  /// `ranks`: those of the solver whose answers are explained. Both must outlive the search.
   ConfigurationSearch(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks);
 
   /// Takes up a problem, which must outlive its use. See Comparison for `elsewhere`.
   void load(const Problem& problem, const ObjectiveValues& elsewhere);
 
-  /// The best solution of all that meet one of the `ways`; none if there is none. Meaningless where
-  /// is_cut() says so.
+  /// The best of the solutions that meet the demands of one of the `ways`; none if there is none.
+  /// Meaningless if is_cut().
   [[nodiscard]] std::optional<Configuration> find_best(std::span<const Demands> ways);
 
-  /// The `count` best solutions, or all if there are fewer, `best` first. Where is_cut() says so,
-  /// only as many as are certain.
+  /// The `count` best solutions, or all if there are fewer, `best` first. If is_cut(), only those
+  /// that are certain.
   [[nodiscard]] std::vector<Configuration> list_best(const Assignment& best, std::size_t count);
 
-  /// Whether the limit of effort came before the last answer was certain.
+  /// Whether the last answer is incomplete: the limit of effort came first.
   [[nodiscard]] bool is_cut() const { return is_cut_; }
 
   [[nodiscard]] Comparison& comparison() { return comparison_; }
 
  private:
-  /// A part of the problem, and its best solution.
-  struct Part {
+  /// A subproblem, and its best solution.
+  struct Subproblem {
     Problem problem;
     Configuration best;
   };
 
   void begin();
-  [[nodiscard]] std::optional<Configuration> solve(const Problem& part);
-  void split(Part part, std::size_t most, std::vector<Part>& parts);
-  void insert(Part part, std::size_t most, std::vector<Part>& parts);
+  [[nodiscard]] std::optional<Configuration> solve(const Problem& problem);
+  void split(Subproblem subproblem, std::size_t most, std::vector<Subproblem>& open);
+  void insert(Subproblem subproblem, std::size_t most, std::vector<Subproblem>& open);
 
   const CompiledCatalog& catalog_;
   Solver solver_;

@@ -13,16 +13,22 @@ namespace cbc {
 /// Whether a problem has a solution; unknown at a limit of effort.
 enum class Feasibility : std::uint8_t { no, yes, unknown };
 
-/// A problem with only some of the reasons in force: the demands hold; every task of the group is
-/// free otherwise to have any of its behaviors or none; and there is no constraint but those of the
-/// reasons.
-class RelaxedProblem {
+/// Searches for a solution with only some of the reasons in force: the demands hold; otherwise
+/// every task of the group may have any of its behaviors or none, and the reasons are all
+/// constraints. It records the cause of each removal, so that a failure yields the reasons that it
+/// comes from.
+///
+/// That is conflict-directed backjumping (P. Prosser, "Hybrid algorithms for the constraint
+/// satisfaction problem", Computational Intelligence 9, 1993) on propagated domains: the conflict
+/// set of a level is read off the causes of the failure, as in the analysis of a SAT solver, but no
+/// clause is learned from it.
+class ConflictSearch {
  public:
-  /// `present`: by task of the group, place of its behavior, or none.
-  RelaxedProblem(const CompiledCatalog& catalog, std::uint32_t group,
+  /// `present`: by task of the group, its value index, or none.
+  ConflictSearch(const CompiledCatalog& catalog, std::uint32_t group,
                  const std::vector<std::uint32_t>& present, Demands demands);
 
-  /// Only solutions count in which `task` runs, and performs less well than `minimum`.
+  /// Admits only solutions in which `task` runs and its performance is below `minimum`.
   void keep_below(TaskId task, Millionths minimum) {
     low_task_ = task;
     low_minimum_ = minimum;
@@ -30,26 +36,26 @@ class RelaxedProblem {
 
   [[nodiscard]] Feasibility solve(std::span<const Reason> reasons);
 
-  /// After the answer no: by place in the reasons, whether that one had a part in the proof. Those
-  /// that had leave no solution either.
+  /// After the answer no: by reason, whether the proof used it. The reasons that it used leave no
+  /// solution by themselves.
   [[nodiscard]] const std::vector<std::uint8_t>& is_used() const { return is_used_; }
 
-  /// Reasons and values looked at so far, a measure of the effort.
+  /// Reasons and values visited so far: a measure of time that does not depend on the machine.
   [[nodiscard]] std::uint64_t effort() const { return effort_; }
 
  private:
-  /// What is left of the domains in a subtree, and why. A cause is the place of a reason; or that
-  /// of a decision, the level, after first_decision; or none: a demand.
+  /// The domains in a subtree, and the causes of their changes. A cause is the index of a reason,
+  /// or first_decision + the level of a decision, or none: a demand.
   struct Domains {
-    std::vector<std::uint8_t> values;           ///< by value of the group: whether it is left
-    std::vector<std::uint32_t> counts;          ///< by task: number of values left
-    std::vector<std::uint8_t> needed;           ///< by task: whether it runs
-    std::vector<std::uint32_t> removed_by;      ///< by value that is not left: the cause
-    std::vector<std::uint32_t> needed_by;       ///< by task that runs: the cause
-    std::vector<std::uint32_t> needed_through;  ///< the value that a requirement applies to
+    std::vector<std::uint8_t> values;       ///< by value of the group: whether it is in the domain
+    std::vector<std::uint32_t> counts;      ///< by task: number of values left
+    std::vector<std::uint8_t> needed;       ///< by task: whether it runs
+    std::vector<std::uint32_t> removed_by;  ///< by removed value: the cause
+    std::vector<std::uint32_t> needed_by;   ///< by task that runs: the cause
+    std::vector<std::uint32_t> needed_through;  ///< the value whose requirement it is
   };
 
-  /// A subtree, after so many decisions.
+  /// A subtree, after `level` decisions.
   struct Branch {
     Domains domains;
     std::uint32_t level = 0;
@@ -60,10 +66,10 @@ class RelaxedProblem {
   void decide(Branch& now, TaskId task);
   void decide_whether_to_run(Branch& now, TaskId task);
   [[nodiscard]] Branch& branch(Branch& now, TaskId task);
-  [[nodiscard]] bool back_up(Branch& now);
+  [[nodiscard]] bool backjump(Branch& now);
   [[nodiscard]] bool demand(Domains& domains, const Demand& demand);
   [[nodiscard]] bool begin(Domains& domains, std::span<const Reason> reasons);
-  [[nodiscard]] bool remove(Domains& domains, TaskId task, std::uint32_t place);
+  [[nodiscard]] bool remove(Domains& domains, TaskId task, std::uint32_t index);
   [[nodiscard]] bool close(Domains& domains, TaskId task);
   [[nodiscard]] bool need(Domains& domains, TaskId task);
   void sort(std::span<const Reason> reasons);
@@ -76,17 +82,17 @@ class RelaxedProblem {
   [[nodiscard]] bool apply_requirement(Domains& domains, const Reason& reason);
   [[nodiscard]] bool may_perform(const Domains& domains, const Reason& reason);
   [[nodiscard]] bool may_reach(const Domains& domains, TaskId reached, Millionths minimum);
-  void blame(const Domains& domains, std::span<const Reason> reasons);
-  void blame_performance(const Domains& domains);
-  void blame_fixed(ValueId id);
-  void blame_running(TaskId task);
-  void blame_removals(TaskId task, std::uint32_t kept);
-  void blame_fact(std::size_t fact);
+  void analyze_conflict(const Domains& domains, std::span<const Reason> reasons);
+  void explain_performance(const Domains& domains);
+  void explain_value(ValueId id);
+  void explain_running(TaskId task);
+  void explain_removals(TaskId task, std::uint32_t kept);
+  void add_fact(std::size_t fact);
   [[nodiscard]] TaskId choose(const Domains& domains) const;
   [[nodiscard]] TaskId optional_factor(const Domains& domains) const;
 
-  [[nodiscard]] std::size_t value(TaskId task, std::uint32_t place) const {
-    return catalog_.values.begin[task] + place - first_value_;
+  [[nodiscard]] std::size_t value(TaskId task, std::uint32_t index) const {
+    return catalog_.values.begin[task] + index - first_value_;
   }
   [[nodiscard]] std::uint32_t best(const Domains& domains, TaskId task) const;
   [[nodiscard]] bool is_needed(const Domains& domains, TaskId task) const {
@@ -107,23 +113,25 @@ class RelaxedProblem {
   const std::uint32_t first_value_;
   std::vector<std::vector<std::uint32_t>> reasons_of_task_;  ///< exclusions and requirements
   std::vector<std::uint32_t> performances_;                  ///< the reasons of that kind
-  std::vector<std::uint32_t> state_;       ///< the others: what the state rules out at once
-  std::vector<TaskId> changed_;            ///< tasks whose reasons have to be looked at again
-  std::vector<std::uint8_t> has_changed_;  ///< by task of the group: whether it is one
+  std::vector<std::uint32_t> state_;       ///< the other reasons, which apply once
+  std::vector<TaskId> changed_;            ///< tasks whose reasons have to be applied again
+  std::vector<std::uint8_t> has_changed_;  ///< by task of the group: whether it is in changed_
   std::uint64_t effort_ = 0;
-  std::vector<Branch> open_;            ///< at most one of each level
-  std::vector<std::uint8_t> is_used_;   ///< by reason
-  std::vector<std::uint8_t> culprits_;  ///< by level: whether it has a part in the failure
-  std::vector<std::vector<std::uint8_t>> culprits_before_;  ///< by level: of its first branch
-  std::uint32_t cause_ = none;  ///< of what is removed, or found to be needed
-  ValueId through_ = none;      ///< beside it
-  TaskId dead_end_ = none;      ///< the task that runs and has no value left; none: a performance
+  std::vector<Branch> open_;           ///< second branches; at most one of each level
+  std::vector<std::uint8_t> is_used_;  ///< by reason
+  std::vector<std::uint8_t>
+      conflict_set_;  ///< by level: whether the failure depends on its decision
+  std::vector<std::vector<std::uint8_t>>
+      conflict_sets_before_;    ///< by level: that of its first branch
+  std::uint32_t cause_ = none;  ///< of the removals and needs that follow
+  ValueId through_ = none;      ///< the value whose requirement cause_ is
+  TaskId dead_end_ = none;      ///< the needed task without values; none: a performance is too low
   ExactProduct product_;
   ExactProduct minimum_;
   std::vector<TaskId> closure_;
   std::vector<std::uint8_t> in_closure_;  ///< by task of the group
-  /// Facts that have to be explained: that a value is removed (its place), or that a task runs (its
-  /// place after all values).
+  /// Facts that the failure comes from: a value is removed (its number in the group), or a task
+  /// runs (its number, after all values).
   std::vector<std::size_t> facts_;
   std::vector<std::uint8_t> is_known_fact_;
 };

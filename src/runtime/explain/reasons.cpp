@@ -1,7 +1,6 @@
 #include "explain/reasons.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <span>
 
@@ -90,83 +89,43 @@ void add_requirements(const CompiledCatalog& catalog, BehaviorId behavior,
 
 namespace {
 
-/// The domain words of a task among those of its group.
-template <typename Words>
-auto words_of(const CompiledCatalog& catalog, std::uint32_t group, Words& words, TaskId task) {
-  const std::uint32_t first = catalog.words[catalog.group_tasks[group]];
-  return std::span(words).subspan(catalog.words[task] - first,
-                                  catalog.words[task + 1] - catalog.words[task]);
-}
-
-}  // namespace
-
-void narrow(const CompiledCatalog& catalog, const Demand& demand, Problem& problem) {
-  const auto words = words_of(catalog, problem.group, problem.domains, demand.task);
-  std::uint8_t& may_stop = problem.may_stop[demand.task - catalog.group_tasks[problem.group]];
-  const auto bit = [&] { return std::uint64_t{1} << (demand.place % 64); };
-  switch (demand.kind) {
-    case Demand::Kind::run:
-      may_stop = 0;
-      return;
-    case Demand::Kind::stop:
-      std::fill(words.begin(), words.end(), 0);
-      return;
-    case Demand::Kind::has: {
-      may_stop = 0;
-      const std::uint64_t kept = words[demand.place / 64] & bit();
-      std::fill(words.begin(), words.end(), 0);
-      words[demand.place / 64] = kept;
-      return;
-    }
-    case Demand::Kind::has_not:
-      words[demand.place / 64] &= ~bit();
-      return;
-  }
-}
-
-bool is_open(const CompiledCatalog& catalog, const Problem& problem, TaskId task) {
-  std::uint32_t values = problem.may_stop[task - catalog.group_tasks[problem.group]];
-  for (const std::uint64_t word : words_of(catalog, problem.group, problem.domains, task)) {
-    values += static_cast<std::uint32_t>(std::popcount(word));
-  }
-  return values > 1;
-}
-
-namespace {
-
-/// Halves what may be left out (QuickXplain, Junker 2004): the reasons of `candidates` that are
-/// needed beside `given` to leave no solution. `has_grown`: `given` has new reasons since it was
-/// last found to leave a solution.
-void minimize(const HasSolution& has_solution, std::vector<Reason>& given,
-              std::span<const Reason> candidates, bool has_grown, std::vector<Reason>& needed) {
-  if (has_grown && !has_solution(given)) return;
+/// QuickXplain (U. Junker, "QuickXplain: preferred explanations and relaxations for
+/// over-constrained problems", AAAI 2004): appends the part of a minimal conflict set that lies in
+/// `candidates`, with all reasons of the `background` in force. `has_delta`: the background has new
+/// reasons since it was last found to leave a solution. No reason is preferred to another.
+void quickxplain(const HasSolution& has_solution, std::vector<Reason>& background, bool has_delta,
+                 std::span<const Reason> candidates, std::vector<Reason>& conflict_set) {
+  if (has_delta && !has_solution(background)) return;
   if (candidates.size() == 1) {
-    needed.push_back(candidates.front());
+    conflict_set.push_back(candidates.front());
     return;
   }
   const std::span<const Reason> first = candidates.first(candidates.size() / 2);
   const std::span<const Reason> second = candidates.subspan(first.size());
-  const std::size_t given_before = given.size();
-  const std::size_t needed_before = needed.size();
+  const std::size_t background_before = background.size();
+  const std::size_t set_before = conflict_set.size();
 
-  given.insert(given.end(), first.begin(), first.end());
-  minimize(has_solution, given, second, true, needed);
-  given.resize(given_before);
+  background.insert(background.end(), first.begin(), first.end());
+  quickxplain(has_solution, background, true, second, conflict_set);
+  background.resize(background_before);
 
-  given.insert(given.end(), needed.begin() + static_cast<std::ptrdiff_t>(needed_before),
-               needed.end());
-  minimize(has_solution, given, first, given.size() > given_before, needed);
-  given.resize(given_before);
+  background.insert(background.end(),
+                    conflict_set.begin() + static_cast<std::ptrdiff_t>(set_before),
+                    conflict_set.end());
+  quickxplain(has_solution, background, background.size() > background_before, first, conflict_set);
+  background.resize(background_before);
 }
 
 }  // namespace
 
-std::vector<Reason> minimal_set(std::span<const Reason> candidates,
-                                const HasSolution& has_solution) {
-  std::vector<Reason> given;
-  std::vector<Reason> needed;
-  if (!candidates.empty()) minimize(has_solution, given, candidates, false, needed);
-  return needed;
+std::vector<Reason> minimal_conflict_set(std::span<const Reason> candidates,
+                                         const HasSolution& has_solution) {
+  std::vector<Reason> background;
+  std::vector<Reason> conflict_set;
+  if (!candidates.empty()) {
+    quickxplain(has_solution, background, false, candidates, conflict_set);
+  }
+  return conflict_set;
 }
 
 }  // namespace cbc

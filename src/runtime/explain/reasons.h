@@ -10,11 +10,10 @@
 
 #include "cbc/units.h"
 #include "compiled/compiled_catalog.h"
-#include "solver/problem.h"
 
 namespace cbc {
 
-/// What a configuration is asked for beside the constraints.
+/// A condition on a solution beside the constraints.
 struct Demand {
   enum class Kind : std::uint8_t {
     run,     ///< the task runs
@@ -24,25 +23,26 @@ struct Demand {
   };
   Kind kind = Kind::run;
   TaskId task = 0;
-  std::uint32_t place = none;  ///< of the value among those of the task
+  std::uint32_t value_index = none;
 };
 
-/// Demands that hold together.
+/// Demands that all hold.
 using Demands = std::vector<Demand>;
 
-/// One of the reasons why an event is rejected, or why an accepted one did not do otherwise.
+/// One element of a conflict set (docs/semantics.md, "Rejection"): why an event is rejected, or why
+/// an accepted one was not answered otherwise.
 struct Reason {
   enum class Kind : std::uint8_t {
-    priority,       ///< the task's own request is stronger than the event; comes alone
+    priority,       ///< the task's own request has a higher priority than the event; comes alone
     no_behavior,    ///< no behavior performs the task at all; comes alone
-    is_protected,   ///< the task may not stop, as its request is stronger than the event
+    is_protected,   ///< the task may not stop: its request has a higher priority than the event
     exclusive,      ///< at most one of the two tasks runs
     on_request,     ///< the task is not running, and starts on request only
-    requires_task,  ///< where the behavior is assigned, the task runs
-    performance,    ///< where it is (or, without a behavior, always), the task performs well enough
+    requires_task,  ///< if the behavior is assigned, the task runs
+    performance,    ///< if it is (without a behavior: always), the task performs well enough
     unavailable,    ///< the behavior cannot be activated in the present situation
     faulty,         ///< the activation of the behavior failed in this event
-    finished        ///< the behavior of a finish event, where it failed; never of a rejected one
+    finished        ///< the behavior of a failed finish; not where the event is rejected
   };
   Kind kind = Kind::priority;
   TaskId task = none;
@@ -50,20 +50,20 @@ struct Reason {
   BehaviorId behavior = none;
   std::int32_t priority = 0;           ///< of priority and is_protected
   Millionths minimum_performance = 0;  ///< of performance
-  std::uint32_t line = 0;              ///< of the catalog, where a line says so; else 0
+  std::uint32_t line = 0;              ///< of the catalog; 0 if no line states the reason
 };
 
 [[nodiscard]] std::string_view name_of(Reason::Kind kind);
 
-/// The tasks of one group that some tasks may come to need, directly or through what they require.
-/// All others can stay not running, so constraints on them are no reason for anything.
+/// The tasks of one group that some tasks may need, directly or through what they require. All
+/// other tasks can be left at "not running", so no constraint on them belongs to a conflict set.
 class RelevantTasks {
  public:
   RelevantTasks(const CompiledCatalog& catalog, std::uint32_t group);
 
   void add(TaskId task);
-  /// Adds all that the tasks so far may require; in TaskId order from then on. False if that are
-  /// more than `most` tasks, and not all of them were added.
+  /// Adds all that the tasks may require, and puts all into TaskId order. False if these are more
+  /// than `most` tasks; then not all of them were added.
   bool close(std::size_t most = SIZE_MAX);
 
   [[nodiscard]] bool contains(TaskId task) const { return is_relevant_[task - first_task_] != 0; }
@@ -85,22 +85,16 @@ void add_exclusions(const CompiledCatalog& catalog, TaskId task, const RelevantT
 /// Appends the minimum performance of a task, if it has one.
 void add_minimum(const CompiledCatalog& catalog, TaskId task, std::vector<Reason>& reasons);
 
-/// Appends the requirements of a behavior, those of performance apart.
+/// Appends the requirements of a behavior: each task, and separately its minimum performance.
 void add_requirements(const CompiledCatalog& catalog, BehaviorId behavior,
                       std::vector<Reason>& reasons);
 
 /// Whether there is a solution with these reasons in force, and no others.
 using HasSolution = std::function<bool(std::span<const Reason>)>;
 
-/// A minimal set of reasons out of `candidates`, which together leave no solution: with any one of
+/// A minimal conflict set out of `candidates`, which together leave no solution: with any reason of
 /// the set left out there is one.
-[[nodiscard]] std::vector<Reason> minimal_set(std::span<const Reason> candidates,
-                                              const HasSolution& has_solution);
-
-/// Takes out of the domains of a problem what a demand on a task of its group rules out.
-void narrow(const CompiledCatalog& catalog, const Demand& demand, Problem& problem);
-
-/// Whether a task of the group can have more than one value.
-[[nodiscard]] bool is_open(const CompiledCatalog& catalog, const Problem& problem, TaskId task);
+[[nodiscard]] std::vector<Reason> minimal_conflict_set(std::span<const Reason> candidates,
+                                                       const HasSolution& has_solution);
 
 }  // namespace cbc

@@ -20,38 +20,10 @@ struct LoadedCatalog::Content {
   CompiledCatalog catalog;
 };
 
-/// What is wrong with an event that may hold anything; ok if nothing is. Only what its verb uses is
-/// looked at.
-LiveStatus check_event(const CompiledCatalog& catalog, const Event& event);
-
-/// Keeps the events of one call, in the terms of the public interface.
-class HandledEvents final : public EventListener {
- public:
-  explicit HandledEvents(const CompiledCatalog& catalog) : catalog_(catalog) {}
-
-  void clear();
-  void on_event(const EventRecord& record) override;
-
-  /// Valid until the next event.
-  [[nodiscard]] std::span<const HandledEvent> events();
-
- private:
-  void add_change(const EventRecord& record, const Change& change);
-  [[nodiscard]] std::uint32_t subject_of(const EventRecord& record) const;
-
-  const CompiledCatalog& catalog_;
-  // Their spans have the right sizes, but point anywhere until events() sets them, as these arrays
-  // move when they grow.
-  std::vector<HandledEvent> events_;
-  std::vector<BehaviorChange> changes_;  ///< of all events, one after the other
-  std::vector<TaskStop> stopped_tasks_;
-  std::vector<std::uint32_t> tasks_;  ///< of all changes
-};
-
 namespace {
 
-std::string_view name_at(const Texts& names, std::uint32_t place) {
-  return place < names.size() ? names[place] : std::string_view();
+std::string_view name_at(const Texts& names, std::uint32_t index) {
+  return index < names.size() ? names[index] : std::string_view();
 }
 
 }  // namespace
@@ -72,12 +44,12 @@ std::size_t LoadedCatalog::behavior_count() const {
   return content_->catalog.behavior_names.size();
 }
 
-std::string_view LoadedCatalog::task_name(std::uint32_t place) const {
-  return name_at(content_->catalog.task_names, place);
+std::string_view LoadedCatalog::task_name(std::uint32_t index) const {
+  return name_at(content_->catalog.task_names, index);
 }
 
-std::string_view LoadedCatalog::behavior_name(std::uint32_t place) const {
-  return name_at(content_->catalog.behavior_names, place);
+std::string_view LoadedCatalog::behavior_name(std::uint32_t index) const {
+  return name_at(content_->catalog.behavior_names, index);
 }
 
 std::optional<std::uint32_t> LoadedCatalog::find_task(std::string_view name) const {
@@ -116,8 +88,7 @@ LiveStatus check_situation(const CompiledCatalog& catalog,
   return LiveStatus::ok;
 }
 
-}  // namespace
-
+/// The first error of an event with arbitrary content, or ok. Looks only at what its verb uses.
 LiveStatus check_event(const CompiledCatalog& catalog, const Event& event) {
   LiveStatus status = LiveStatus::ok;
   switch (event.verb) {
@@ -141,13 +112,11 @@ LiveStatus check_event(const CompiledCatalog& catalog, const Event& event) {
   return LiveStatus::invalid_verb;
 }
 
-namespace {
-
-/// Lets spans of known sizes follow one another in an array.
+/// Places spans of known sizes one after the other in an array.
 template <typename T>
-class Places {
+class ConsecutiveSpans {
  public:
-  explicit Places(const std::vector<T>& items) : next_(items.data()) {}
+  explicit ConsecutiveSpans(const std::vector<T>& items) : next_(items.data()) {}
 
   void set(std::span<const T>& span) {
     span = {next_, span.size()};
@@ -158,7 +127,28 @@ class Places {
   const T* next_;
 };
 
-}  // namespace
+/// Keeps the events of one call as the public interface reports them.
+class HandledEvents final : public EventListener {
+ public:
+  explicit HandledEvents(const CompiledCatalog& catalog) : catalog_(catalog) {}
+
+  void clear();
+  void on_event(const EventRecord& record) override;
+
+  /// Valid until the next event.
+  [[nodiscard]] std::span<const HandledEvent> events();
+
+ private:
+  void add_change(const EventRecord& record, const Change& change);
+  [[nodiscard]] std::uint32_t subject_of(const EventRecord& record) const;
+
+  const CompiledCatalog& catalog_;
+  // The arrays move when they grow, so only the sizes of spans are right until events() sets them.
+  std::vector<HandledEvent> events_;
+  std::vector<BehaviorChange> changes_;  ///< of all events, one after the other
+  std::vector<TaskStop> stopped_tasks_;
+  std::vector<std::uint32_t> tasks_;  ///< of all changes
+};
 
 void HandledEvents::clear() {
   events_.clear();
@@ -208,9 +198,9 @@ std::uint32_t HandledEvents::subject_of(const EventRecord& record) const {
 }
 
 std::span<const HandledEvent> HandledEvents::events() {
-  Places changes(changes_);
-  Places stopped_tasks(stopped_tasks_);
-  Places tasks(tasks_);
+  ConsecutiveSpans changes(changes_);
+  ConsecutiveSpans stopped_tasks(stopped_tasks_);
+  ConsecutiveSpans tasks(tasks_);
   for (HandledEvent& event : events_) {
     changes.set(event.changes);
     stopped_tasks.set(event.stopped_tasks);
@@ -218,8 +208,6 @@ std::span<const HandledEvent> HandledEvents::events() {
   for (BehaviorChange& change : changes_) tasks.set(change.tasks);
   return events_;
 }
-
-namespace {
 
 CoordinatorOptions to_internal(const LiveOptions& options) {
   CoordinatorOptions internal;
@@ -264,7 +252,7 @@ class LiveCoordinator::Impl {
     if (status == LiveStatus::ok) status = move_clock(time);
     if (status != LiveStatus::ok) return end_call(status);
     const Coordinator::Status done = coordinator_.handle(event);
-    // Where what follows the event is too much, the event itself is done, and the rest is due.
+    // If too many events follow, the event itself is done, and the others stay due.
     return end_call(done == Coordinator::Status::refused_answer ? LiveStatus::internal_error
                                                                 : LiveStatus::ok);
   }

@@ -22,16 +22,16 @@ std::optional<std::string> Checker::find_violation(const Problem& problem,
 }
 
 BehaviorId Checker::behavior_of(TaskId task) const {
-  const std::uint32_t place = (*answer_)[task - first_task_];
-  return place == none ? none : catalog_.values[task][place].behavior;
+  const std::uint32_t index = (*answer_)[task - first_task_];
+  return index == none ? none : catalog_.values[task][index].behavior;
 }
 
 bool Checker::is_in_domain(const Problem& problem, TaskId task) const {
-  const std::uint32_t place = (*answer_)[task - first_task_];
-  if (place == none) return problem.may_stop[task - first_task_] != 0;
-  if (place >= catalog_.values[task].size()) return false;
-  const std::size_t word = catalog_.words[task] - catalog_.words[first_task_] + place / 64;
-  return ((problem.domains[word] >> (place % 64)) & 1) != 0;
+  const std::uint32_t index = (*answer_)[task - first_task_];
+  if (index == none) return problem.may_stop[task - first_task_] != 0;
+  if (index >= catalog_.values[task].size()) return false;
+  const std::size_t word = catalog_.words[task] - catalog_.words[first_task_] + index / 64;
+  return ((problem.domains[word] >> (index % 64)) & 1) != 0;
 }
 
 std::optional<std::string> Checker::check_domains(const Problem& problem) const {
@@ -80,8 +80,8 @@ std::optional<std::string> Checker::check_requirements() {
   return std::nullopt;
 }
 
-/// Performance of the paper's equation 1, as an exact number in base 10^6 with one digit for each
-/// factor: after m factors below 1, the highest of the m digits is floor(performance * 10^6).
+/// Computes the performance (docs/semantics.md, "Performance") as an exact number in base 10^6 with
+/// one digit for each factor below 1: the highest digit is floor(performance * 10^6).
 bool Checker::performs_at_least(TaskId task, Millionths minimum) {
   if (minimum == 0) return true;
   ++number_;

@@ -10,8 +10,8 @@
 
 namespace cbc {
 
-/// Checks answers against the catalog before anyone acts on them. It shares nothing with the
-/// search but the catalog and the question: no costs, arcs or masks, and arithmetic of its own.
+/// Checks an answer against the catalog before anyone acts on it. It shares nothing with the search
+/// but the catalog and the problem: no costs, arcs or masks, and arithmetic of its own.
 class Checker {
  public:
   explicit Checker(const CompiledCatalog& catalog);
@@ -33,7 +33,7 @@ class Checker {
   const Assignment* answer_ = nullptr;
   TaskId first_task_ = 0;
   TaskId end_task_ = 0;
-  std::uint64_t number_ = 0;                  ///< of the present check, to mark what it has seen
+  std::uint64_t number_ = 0;                  ///< of the present check; marks what it has seen
   std::vector<std::uint64_t> clique_marks_;   ///< by clique
   std::vector<TaskId> clique_holders_;        ///< by clique: its running task, if marked
   std::vector<std::uint64_t> closure_marks_;  ///< by task

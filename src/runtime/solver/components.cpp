@@ -4,7 +4,7 @@
 
 namespace cbc {
 
-Parts::Parts(const CompiledCatalog& catalog, const Domains& domains)
+Components::Components(const CompiledCatalog& catalog, const Domains& domains)
     : catalog_(catalog),
       domains_(domains),
       has_zeros_(catalog.group_count(), 0),
@@ -27,14 +27,14 @@ Parts::Parts(const CompiledCatalog& catalog, const Domains& domains)
   reach_.reserve(tasks);
 }
 
-void Parts::load(const Problem& problem) {
+void Components::load(const Problem& problem) {
   depth_ = 0;
   std::fill_n(depth_of_.begin(), domains_.task_count(), 0);
-  // A suitability of 0 makes f2 of all parts together 0, so that they are not independent.
+  // A suitability of 0 makes the product of all components 0, so they are not independent.
   can_split_ = has_zeros_[problem.group] == 0;
 }
 
-bool Parts::enter_part_of(std::uint32_t task) {
+bool Components::enter_component_of(std::uint32_t task) {
   if (!can_split_ || depth_ == deepest) return false;
   ++number_;
   find_open_tasks();
@@ -53,16 +53,16 @@ bool Parts::enter_part_of(std::uint32_t task) {
   return true;
 }
 
-void Parts::leave() {
+void Components::leave() {
   --depth_;
   for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
     depth_of_[task] = std::min(depth_of_[task], depth_);
   }
 }
 
-/// Open: the needed tasks of the part with several behaviors left, and what may come to be needed
-/// through them.
-void Parts::find_open_tasks() {
+/// Open: the needed tasks of the present component with several behaviors left, and the tasks that
+/// may become needed through them.
+void Components::find_open_tasks() {
   open_.clear();
   for (const std::uint32_t task : domains_.needed_tasks()) {
     if (domains_.count(task) > 1 && contains(task, depth_)) open(task);
@@ -79,15 +79,15 @@ void Parts::find_open_tasks() {
   }
 }
 
-void Parts::open(std::uint32_t task) {
+void Components::open(std::uint32_t task) {
   if (is_open(task)) return;
   opened_[task] = number_;
   joined_to_[task] = task;
   open_.push_back(task);
 }
 
-/// The rivals of needed tasks are closed already; this is about those that may come to be needed.
-void Parts::join_by_cliques() {
+/// The rivals of needed tasks are closed already; this is about tasks that may become needed.
+void Components::join_by_cliques() {
   for (const std::uint32_t task : open_) {
     for (const std::uint32_t clique : catalog_.task_cliques[domains_.first_task() + task]) {
       if (clique_seen_[clique] == number_) {
@@ -100,13 +100,13 @@ void Parts::join_by_cliques() {
   }
 }
 
-/// A behavior of several tasks is one change of f4, however many of them choose it.
-void Parts::join_by_behaviors() {
+/// A behavior of several tasks counts as one change in f4, however many of them choose it.
+void Components::join_by_behaviors() {
   for (const std::uint32_t task : open_) {
     const auto values = domains_.values(task);
-    for (std::uint32_t place = 0; place < values.size(); ++place) {
-      const BehaviorId behavior = values[place].behavior;
-      if (catalog_.performs[behavior].size() == 1 || !domains_.has(task, place)) continue;
+    for (std::uint32_t index = 0; index < values.size(); ++index) {
+      const BehaviorId behavior = values[index].behavior;
+      if (catalog_.performs[behavior].size() == 1 || !domains_.has(task, index)) continue;
       const std::uint32_t local = behavior - domains_.first_behavior();
       if (behavior_seen_[local] == number_) {
         join(task, behavior_task_[local]);
@@ -118,8 +118,8 @@ void Parts::join_by_behaviors() {
   }
 }
 
-/// A minimum performance connects all that the performance may depend on, through fixed tasks too.
-void Parts::join_by_performance() {
+/// A minimum performance connects all tasks that it may depend on, also through fixed tasks.
+void Components::join_by_performance() {
   for (const std::uint32_t task : domains_.needed_tasks()) {
     if (has_rules(task)) join_reach_of(task);
   }
@@ -128,7 +128,7 @@ void Parts::join_by_performance() {
   }
 }
 
-void Parts::join_reach_of(std::uint32_t task) {
+void Components::join_reach_of(std::uint32_t task) {
   ++reach_number_;
   reach_.assign(1, task);
   reached_[task] = reach_number_;
@@ -148,8 +148,8 @@ void Parts::join_reach_of(std::uint32_t task) {
   }
 }
 
-/// Whether a behavior that is left of the task requires the target of the arc.
-bool Parts::may_use(std::uint32_t task, const Arc& arc) const {
+/// Whether a behavior in the domain of the task requires the target of the arc.
+bool Components::may_use(std::uint32_t task, const Arc& arc) const {
   const auto words = domains_.words(task);
   for (std::size_t word = 0; word < words.size(); ++word) {
     if ((words[word] & catalog_.masks[arc.mask + word]) != 0) return true;
@@ -157,9 +157,9 @@ bool Parts::may_use(std::uint32_t task, const Arc& arc) const {
   return false;
 }
 
-void Parts::join(std::uint32_t a, std::uint32_t b) { joined_to_[root_of(a)] = root_of(b); }
+void Components::join(std::uint32_t a, std::uint32_t b) { joined_to_[root_of(a)] = root_of(b); }
 
-std::uint32_t Parts::root_of(std::uint32_t task) {
+std::uint32_t Components::root_of(std::uint32_t task) {
   while (joined_to_[task] != task) {
     joined_to_[task] = joined_to_[joined_to_[task]];
     task = joined_to_[task];

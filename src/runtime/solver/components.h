@@ -8,30 +8,34 @@
 
 namespace cbc {
 
-/// Splits what is undecided into independent parts: with most domains fixed, a group often falls
-/// into pieces that no constraint and no objective connects any more. Each can be solved apart.
+/// Splits the undecided tasks into components: once most domains are fixed, a group often falls
+/// into sets of tasks that no constraint and no objective connects any more. Each is solved apart.
 ///
-/// Parts nest: a part can be split again. The present part is the innermost one that was entered;
-/// at depth 0 it is the whole group.
-class Parts {
+/// This is component decomposition as in counting models (R. J. Bayardo and J. D. Pehoushek,
+/// "Counting models using connected components", AAAI 2000), for a best solution in place of a
+/// count: components are connected by shared terms of the objective, too.
+///
+/// Components nest: a component can be split again. The present one is the innermost that was
+/// entered; at depth 0 it is the whole group.
+class Components {
  public:
-  Parts(const CompiledCatalog& catalog, const Domains& domains);
+  Components(const CompiledCatalog& catalog, const Domains& domains);
 
   /// To be called after Domains::load.
   void load(const Problem& problem);
 
-  /// Parts nest no deeper.
+  /// Components do not nest deeper.
   static constexpr std::uint32_t deepest = 8;
 
   [[nodiscard]] std::uint32_t depth() const { return depth_; }
-  /// Whether the task belongs to the part that was entered at `depth`.
+  /// Whether the task belongs to the component that was entered at `depth`.
   [[nodiscard]] bool contains(std::uint32_t task, std::uint32_t depth) const {
     return depth_of_[task] >= depth;
   }
 
-  /// If the undecided tasks of the present part are in several parts, enters the one of `task`. All
-  /// requests are decided.
-  [[nodiscard]] bool enter_part_of(std::uint32_t task);
+  /// If the undecided tasks of the present component are in several, enters the one of `task`.
+  /// All requests must be decided.
+  [[nodiscard]] bool enter_component_of(std::uint32_t task);
   void leave();
 
  private:
@@ -57,11 +61,11 @@ class Parts {
   std::vector<std::uint8_t> has_zeros_;  ///< by group: a suitability of 0
   bool can_split_ = true;
   std::uint32_t depth_ = 0;
-  std::vector<std::uint32_t> depth_of_;   ///< by task: of the innermost part that it is in
-  std::uint64_t number_ = 0;              ///< of the present look for parts
+  std::vector<std::uint32_t> depth_of_;   ///< by task: of its innermost component
+  std::uint64_t number_ = 0;              ///< of the present decomposition
   std::vector<std::uint64_t> opened_;     ///< by task
-  std::vector<std::uint32_t> open_;       ///< tasks whose value is not decided, or may be needed
-  std::vector<std::uint32_t> joined_to_;  ///< by task: towards the root of its part
+  std::vector<std::uint32_t> open_;       ///< see find_open_tasks
+  std::vector<std::uint32_t> joined_to_;  ///< by task: towards the root of its component
   std::vector<std::uint64_t> clique_seen_;
   std::vector<std::uint32_t> clique_task_;
   std::vector<std::uint64_t> behavior_seen_;  ///< by behavior of the group

@@ -5,27 +5,28 @@
 namespace cbc {
 namespace {
 
-/// More than any sum of costs: a suitability of 0 spoils the whole product.
+/// More than any sum of costs: a suitability of 0 makes the whole product 0.
 constexpr std::int64_t prohibitive = std::int64_t{1} << 61;
 
 }  // namespace
 
-Lookahead::Cost& Lookahead::Cost::operator+=(const Cost& other) {
+CostBound::Cost& CostBound::Cost::operator+=(const Cost& other) {
   log = std::min(prohibitive, log + other.log);
   idle += other.idle;
   return *this;
 }
 
-Lookahead::Cost& Lookahead::Cost::operator-=(const Cost& other) {
+CostBound::Cost& CostBound::Cost::operator-=(const Cost& other) {
   log -= other.log;
   idle -= other.idle;
   return *this;
 }
 
-Lookahead::Lookahead(const CompiledCatalog& catalog, const Domains& domains, const Parts& parts)
-    : catalog_(catalog), domains_(domains), parts_(parts) {
+CostBound::CostBound(const CompiledCatalog& catalog, const Domains& domains,
+                     const Components& components)
+    : catalog_(catalog), domains_(domains), components_(components) {
   const std::size_t most_tasks = most_in_a_group(catalog.group_tasks);
-  left_.resize(most_values_in_a_group(catalog));
+  residual_.resize(most_values_in_a_group(catalog));
   opened_.resize(most_tasks, 0);
   settled_.resize(most_tasks, 0);
   in_cut_.resize(most_tasks, 0);
@@ -33,65 +34,66 @@ Lookahead::Lookahead(const CompiledCatalog& catalog, const Domains& domains, con
   visits_.reserve(most_tasks);
 }
 
-Lookahead::Cost Lookahead::bound(const Cost& enough, Roots roots) {
+CostBound::Cost CostBound::bound(const Cost& threshold, Roots roots) {
   ++bound_number_;
   Cost total;
   for (const std::uint32_t task : domains_.needed_tasks()) {
     if (!is_root(task, roots)) continue;
     while (collect_cut(task)) {
-      total += lower_cut();
-      if (total > enough) return total;
+      total += subtract_cut_minimum();
+      if (total > threshold) return total;
     }
   }
   return total;
 }
 
-Lookahead::Cost& Lookahead::left(std::uint32_t task, std::uint32_t place) {
+CostBound::Cost& CostBound::residual(std::uint32_t task, std::uint32_t index) {
   const TaskId first = domains_.first_task();
-  return left_[catalog_.values.begin[first + task] - catalog_.values.begin[first] + place];
+  return residual_[catalog_.values.begin[first + task] - catalog_.values.begin[first] + index];
 }
 
-Lookahead::Cost Lookahead::reduced_cost(std::uint32_t task, std::uint32_t place) {
-  Cost cost = left(task, place);
+CostBound::Cost CostBound::reduced_cost(std::uint32_t task, std::uint32_t index) {
+  Cost cost = residual(task, index);
   for (const CompiledRequirement& requirement :
-       catalog_.requirements[domains_.value(task, place).behavior]) {
+       catalog_.requirements[domains_.value(task, index).behavior]) {
     const std::uint32_t target = requirement.task - domains_.first_task();
     if (domains_.needed(target) || is_settled(target)) continue;
     open(target);
-    cost += cheapest_left(target);
+    cost += least_residual(target);
   }
   return cost;
 }
 
-bool Lookahead::is_root(std::uint32_t task, Roots roots) const {
-  const std::uint32_t depth = parts_.depth();
-  if (roots == Roots::in_part) return parts_.contains(task, depth);
-  return parts_.contains(task, depth - 1) && !parts_.contains(task, depth);
+bool CostBound::is_root(std::uint32_t task, Roots roots) const {
+  const std::uint32_t depth = components_.depth();
+  if (roots == Roots::in_component) return components_.contains(task, depth);
+  return components_.contains(task, depth - 1) && !components_.contains(task, depth);
 }
 
-Lookahead::Cost Lookahead::cheapest_left(std::uint32_t task) {
+CostBound::Cost CostBound::least_residual(std::uint32_t task) {
   Cost cheapest{prohibitive, 0};
-  for (std::uint32_t place = 0; place < domains_.values(task).size(); ++place) {
-    if (domains_.has(task, place)) cheapest = std::min(cheapest, left(task, place));
+  for (std::uint32_t index = 0; index < domains_.values(task).size(); ++index) {
+    if (domains_.has(task, index)) cheapest = std::min(cheapest, residual(task, index));
   }
   return cheapest;
 }
 
-void Lookahead::open(std::uint32_t task) {
+void CostBound::open(std::uint32_t task) {
   if (opened_[task] == bound_number_) return;
   opened_[task] = bound_number_;
   const std::int64_t idle = catalog_.tasks[domains_.first_task() + task].start_on_request ? 0 : 1;
   const auto values = domains_.values(task);
-  for (std::uint32_t place = 0; place < values.size(); ++place) {
-    left(task, place) = {values[place].suitability == 0 ? prohibitive : values[place].cost, idle};
+  for (std::uint32_t index = 0; index < values.size(); ++index) {
+    residual(task, index) = {values[index].suitability == 0 ? prohibitive : values[index].cost,
+                             idle};
   }
 }
 
-bool Lookahead::is_settled(std::uint32_t task) const { return settled_[task] == bound_number_; }
+bool CostBound::is_settled(std::uint32_t task) const { return settled_[task] == bound_number_; }
 
-/// The tasks on which the root still hangs: of each of their values that costs nothing any more,
-/// one requirement that is not settled. False, and no cut, if the root itself runs at no cost.
-bool Lookahead::collect_cut(std::uint32_t root) {
+/// Collects the tasks that keep the root from running at no residual cost: each of their values
+/// has a residual cost or a requirement in the cut. False, and no cut, if the root is settled.
+bool CostBound::collect_cut(std::uint32_t root) {
   if (is_settled(root)) return false;
   ++cut_number_;
   cut_.clear();
@@ -100,7 +102,7 @@ bool Lookahead::collect_cut(std::uint32_t root) {
   while (!visits_.empty()) {
     const std::uint32_t task = visits_.back().task;
     std::uint32_t target = none;
-    switch (go_on(visits_.back(), target)) {
+    switch (advance(visits_.back(), target)) {
       case Step::descend:
         begin_visit(target);
         break;
@@ -118,19 +120,20 @@ bool Lookahead::collect_cut(std::uint32_t root) {
   return !is_settled(root);
 }
 
-void Lookahead::begin_visit(std::uint32_t task) {
+void CostBound::begin_visit(std::uint32_t task) {
   open(task);
   in_cut_[task] = cut_number_;
   visits_.push_back({task, 0, 0});
 }
 
-/// Looks for a value that costs nothing and whose requirements are all settled. On the way it stops
-/// at a requirement that has not been visited in this cut: the `target`.
-Lookahead::Step Lookahead::go_on(Visit& visit, std::uint32_t& target) {
+/// Looks for a value of no residual cost whose requirements are all settled. Stops at the first
+/// requirement not yet visited in this cut, the `target`.
+CostBound::Step CostBound::advance(Visit& visit, std::uint32_t& target) {
   const auto values = domains_.values(visit.task);
-  for (; visit.place < values.size(); ++visit.place, visit.requirement = 0) {
-    if (!domains_.has(visit.task, visit.place) || left(visit.task, visit.place) > Cost{}) continue;
-    const auto requirements = catalog_.requirements[values[visit.place].behavior];
+  for (; visit.index < values.size(); ++visit.index, visit.requirement = 0) {
+    if (!domains_.has(visit.task, visit.index) || residual(visit.task, visit.index) > Cost{})
+      continue;
+    const auto requirements = catalog_.requirements[values[visit.index].behavior];
     for (; visit.requirement < requirements.size(); ++visit.requirement) {
       target = requirements[visit.requirement].task - domains_.first_task();
       if (domains_.needed(target) || is_settled(target)) continue;
@@ -142,29 +145,30 @@ Lookahead::Step Lookahead::go_on(Visit& visit, std::uint32_t& target) {
   return Step::cut;
 }
 
-bool Lookahead::requires_cut(const Value& value) const {
+bool CostBound::requires_cut(const Value& value) const {
   for (const CompiledRequirement& requirement : catalog_.requirements[value.behavior]) {
     if (in_cut_[requirement.task - domains_.first_task()] == cut_number_) return true;
   }
   return false;
 }
 
-/// Takes the cheapest way out of the cut off all ways out of it.
-Lookahead::Cost Lookahead::lower_cut() {
+/// Subtracts the cut's minimum from its arcs, and returns it.
+CostBound::Cost CostBound::subtract_cut_minimum() {
   Cost cheapest{INT64_MAX, 0};
   for (const std::uint32_t task : cut_) {
     const auto values = domains_.values(task);
-    for (std::uint32_t place = 0; place < values.size(); ++place) {
-      if (domains_.has(task, place) && left(task, place) < cheapest &&
-          !requires_cut(values[place])) {
-        cheapest = left(task, place);
+    for (std::uint32_t index = 0; index < values.size(); ++index) {
+      if (domains_.has(task, index) && residual(task, index) < cheapest &&
+          !requires_cut(values[index])) {
+        cheapest = residual(task, index);
       }
     }
   }
   for (const std::uint32_t task : cut_) {
     const auto values = domains_.values(task);
-    for (std::uint32_t place = 0; place < values.size(); ++place) {
-      if (domains_.has(task, place) && !requires_cut(values[place])) left(task, place) -= cheapest;
+    for (std::uint32_t index = 0; index < values.size(); ++index) {
+      if (domains_.has(task, index) && !requires_cut(values[index]))
+        residual(task, index) -= cheapest;
     }
   }
   return cheapest;

@@ -75,9 +75,9 @@ bool Domains::close(std::uint32_t task) {
   return true;
 }
 
-bool Domains::remove(std::uint32_t task, std::uint32_t place) {
-  const std::uint32_t word = tasks_[task].word + place / 64;
-  return narrow(task, word, words_[word] & ~(std::uint64_t{1} << (place % 64)));
+bool Domains::remove(std::uint32_t task, std::uint32_t index) {
+  const std::uint32_t word = tasks_[task].word + index / 64;
+  return narrow(task, word, words_[word] & ~(std::uint64_t{1} << (index % 64)));
 }
 
 bool Domains::remove_all(std::uint32_t task, const std::uint64_t* mask) {
@@ -88,11 +88,11 @@ bool Domains::remove_all(std::uint32_t task, const std::uint64_t* mask) {
   return true;
 }
 
-bool Domains::keep_only(std::uint32_t task, std::uint32_t place) {
+bool Domains::keep_only(std::uint32_t task, std::uint32_t index) {
   const TaskState& state = tasks_[task];
-  const std::uint32_t kept = state.word + place / 64;
+  const std::uint32_t kept = state.word + index / 64;
   for (std::uint32_t word = state.word; word < state.word + state.word_count; ++word) {
-    const std::uint64_t bit = word == kept ? std::uint64_t{1} << (place % 64) : 0;
+    const std::uint64_t bit = word == kept ? std::uint64_t{1} << (index % 64) : 0;
     // The kept word comes last, so that no step on the way leaves the domain empty.
     if (word != kept && !narrow(task, word, 0)) return false;
     if (word == kept && !narrow(task, word, words_[word] & bit)) return false;
@@ -115,7 +115,7 @@ bool Domains::narrow(std::uint32_t task, std::uint32_t word, std::uint64_t after
   if (!has(task, best)) {
     find_best(state);
     if (!state.may_stop) {
-      take_share(state.values[best]);
+      subtract_share(state.values[best]);
       add_share(state.values[state.best]);
     }
   }
@@ -162,7 +162,7 @@ void Domains::add_share(const Value& best) {
   }
 }
 
-void Domains::take_share(const Value& best) {
+void Domains::subtract_share(const Value& best) {
   sums_.cost -= best.cost;
   if (best.suitability == 0) {
     --sums_.zeros;

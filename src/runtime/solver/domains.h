@@ -12,10 +12,11 @@ namespace cbc {
 
 /// The domains of the tasks of one group during a search, with a trail to undo changes, and sums
 /// over the *needed* tasks: those that run in every solution of the present subtree ("not running"
-/// has left their domain). The most suitable place of each bounds its share of the objective.
+/// has left their domain). The most suitable value of each bounds its share of the objective.
 ///
-/// All other tasks can be left at "not running": a task that nothing needs only makes f2 and f3
-/// worse, or equal and worse. So a subtree is solved when each needed task has one value.
+/// All other tasks can be left at "not running": running a task that nothing needs improves neither
+/// f2 nor f3, and makes f3 or a later objective worse. So a subtree is solved when each needed task
+/// has one value.
 class Domains {
  public:
   /// Sums over the needed tasks, each taken with the most suitable behavior it still has.
@@ -23,7 +24,7 @@ class Domains {
     std::int64_t cost = 0;      ///< log_cost of the suitabilities, zeros left out
     std::uint32_t factors = 0;  ///< suitabilities other than 1 and 0
     std::uint32_t zeros = 0;    ///< suitabilities of 0
-    std::uint32_t idle = 0;     ///< tasks that are not start_on_request: a of f3
+    std::uint32_t idle = 0;     ///< tasks that do not start on request only (f3)
   };
 
   struct Mark {
@@ -44,18 +45,18 @@ class Domains {
   [[nodiscard]] bool needed(std::uint32_t task) const { return !tasks_[task].may_stop; }
   /// Number of behaviors in the domain.
   [[nodiscard]] std::uint32_t count(std::uint32_t task) const { return tasks_[task].count; }
-  /// Place of the most suitable behavior in the domain; needs count > 0.
+  /// Value index of the most suitable behavior in the domain; needs count > 0.
   [[nodiscard]] std::uint32_t best(std::uint32_t task) const { return tasks_[task].best; }
-  [[nodiscard]] bool has(std::uint32_t task, std::uint32_t place) const {
-    return ((words_[tasks_[task].word + place / 64] >> (place % 64)) & 1) != 0;
+  [[nodiscard]] bool has(std::uint32_t task, std::uint32_t index) const {
+    return ((words_[tasks_[task].word + index / 64] >> (index % 64)) & 1) != 0;
   }
   [[nodiscard]] std::span<const std::uint64_t> words(std::uint32_t task) const {
     return {words_.data() + tasks_[task].word, tasks_[task].word_count};
   }
   /// First word of the task among those of the group.
   [[nodiscard]] std::uint32_t word_begin(std::uint32_t task) const { return tasks_[task].word; }
-  [[nodiscard]] const Value& value(std::uint32_t task, std::uint32_t place) const {
-    return tasks_[task].values[place];
+  [[nodiscard]] const Value& value(std::uint32_t task, std::uint32_t index) const {
+    return tasks_[task].values[index];
   }
   [[nodiscard]] std::span<const Value> values(std::uint32_t task) const {
     return {tasks_[task].values, tasks_[task].value_count};
@@ -72,10 +73,10 @@ class Domains {
   [[nodiscard]] bool need(std::uint32_t task);
   /// Takes all behaviors out of the domain.
   [[nodiscard]] bool close(std::uint32_t task);
-  [[nodiscard]] bool remove(std::uint32_t task, std::uint32_t place);
+  [[nodiscard]] bool remove(std::uint32_t task, std::uint32_t index);
   [[nodiscard]] bool remove_all(std::uint32_t task, const std::uint64_t* mask);
   /// Leaves one behavior; "not running", if it is in the domain, stays.
-  [[nodiscard]] bool keep_only(std::uint32_t task, std::uint32_t place);
+  [[nodiscard]] bool keep_only(std::uint32_t task, std::uint32_t index);
 
   [[nodiscard]] Mark mark() const { return {trail_.size(), needed_.size(), sums_}; }
   void undo_to(const Mark& mark);
@@ -107,7 +108,7 @@ class Domains {
 
   [[nodiscard]] bool narrow(std::uint32_t task, std::uint32_t word, std::uint64_t after);
   void add_share(const Value& best);
-  void take_share(const Value& best);
+  void subtract_share(const Value& best);
   void find_best(TaskState& state) const;
   void note_change(std::uint32_t task);
 

@@ -45,12 +45,12 @@ std::strong_ordering ExactProduct::compare(ExactProduct& a, ExactProduct& b) {
 
 namespace {
 
-bool has(const std::uint64_t* words, std::uint32_t place) {
-  return ((words[place / 64] >> (place % 64)) & 1) != 0;
+bool has(const std::uint64_t* words, std::uint32_t index) {
+  return ((words[index / 64] >> (index % 64)) & 1) != 0;
 }
 
-/// Place of the most suitable behavior; there is one.
-std::uint32_t first_place(const std::uint64_t* words) {
+/// Index of the most suitable behavior; there is one.
+std::uint32_t first_index(const std::uint64_t* words) {
   std::uint32_t word = 0;
   while (words[word] == 0) ++word;
   return word * 64 + static_cast<std::uint32_t>(std::countr_zero(words[word]));
@@ -67,7 +67,7 @@ CanonicalOrder::CanonicalOrder(const CompiledCatalog& catalog,
 }
 
 void CanonicalOrder::load(const Problem& problem) {
-  const Problem& whole = problem.part_of != nullptr ? *problem.part_of : problem;
+  const Problem& whole = problem.subproblem_of != nullptr ? *problem.subproblem_of : problem;
   first_task_ = catalog_.group_tasks[whole.group];
   const auto tasks = static_cast<std::uint32_t>(whole.present.size());
   empty_first_.resize(tasks);
@@ -80,14 +80,14 @@ void CanonicalOrder::load(const Problem& problem) {
     empty_first_[task] = present == none && whole.may_stop[task] != 0;
     const bool is_best = present != none && has(words, present) &&
                          catalog_.values[id][present].suitability ==
-                             catalog_.values[id][first_place(words)].suitability;
+                             catalog_.values[id][first_index(words)].suitability;
     kept_first_[task] = is_best ? present : none;
   }
 }
 
-Objective::Objective(const CompiledCatalog& catalog, const Domains& domains, const Parts& parts,
-                     const std::vector<std::uint32_t>& ranks)
-    : catalog_(catalog), domains_(domains), parts_(parts), order_(catalog, ranks) {
+Objective::Objective(const CompiledCatalog& catalog, const Domains& domains,
+                     const Components& components, const std::vector<std::uint32_t>& ranks)
+    : catalog_(catalog), domains_(domains), components_(components), order_(catalog, ranks) {
   const std::size_t tasks = most_in_a_group(catalog.group_tasks);
   const std::size_t behaviors = most_in_a_group(catalog.group_behaviors);
   is_request_.reserve(tasks);
@@ -113,10 +113,10 @@ void Objective::load(const Problem& problem) {
   free_.assign(problem.domains.size(), 0);
   for (std::uint32_t task = 0; task < tasks; ++task) {
     const auto values = domains_.values(task);
-    for (std::uint32_t place = 0; place < values.size(); ++place) {
-      const BehaviorId behavior = values[place].behavior;
+    for (std::uint32_t index = 0; index < values.size(); ++index) {
+      const BehaviorId behavior = values[index].behavior;
       if (was_active(behavior) || catalog_.performs[behavior].size() > 1) {
-        free_[domains_.word_begin(task) + place / 64] |= std::uint64_t{1} << (place % 64);
+        free_[domains_.word_begin(task) + index / 64] |= std::uint64_t{1} << (index % 64);
       }
     }
   }
@@ -138,13 +138,13 @@ bool Objective::may_beat(const Incumbent& incumbent, std::uint32_t depth) {
   return compare_keys(incumbent, depth) < 0;
 }
 
-/// f1 and, where it is equal, the requests from the most important one down. "less" is better.
+/// f1, then the requests from the most important one down. "less" is better.
 std::strong_ordering Objective::compare_requests(const Incumbent& incumbent) const {
   std::uint32_t possible = 0;
   auto order = std::strong_ordering::equal;
   for (const std::uint32_t task : problem_->requests) {
     const bool ours = domains_.count(task) > 0;
-    const bool theirs = incumbent.places[task] != none;
+    const bool theirs = incumbent.assignment[task] != none;
     if (ours) ++possible;
     if (order == 0 && ours != theirs) {
       order = ours ? std::strong_ordering::less : std::strong_ordering::greater;
@@ -173,23 +173,23 @@ std::strong_ordering Objective::compare_exactly(const Incumbent& incumbent) {
   ours_.clear();
   theirs_.clear();
   for (const std::uint32_t task : domains_.needed_tasks()) {
-    const std::uint32_t place = incumbent.places[task];
+    const std::uint32_t index = incumbent.assignment[task];
     const Millionths ours = domains_.value(task, domains_.best(task)).suitability;
-    const Millionths theirs = place == none ? one_million : domains_.value(task, place).suitability;
+    const Millionths theirs = index == none ? one_million : domains_.value(task, index).suitability;
     if (ours == theirs) continue;
     ours_.multiply(ours);
     theirs_.multiply(theirs);
   }
   for (const std::uint32_t task : incumbent.running) {
     if (!domains_.needed(task)) {
-      theirs_.multiply(domains_.value(task, incumbent.places[task]).suitability);
+      theirs_.multiply(domains_.value(task, incumbent.assignment[task]).suitability);
     }
   }
   return ExactProduct::compare(theirs_, ours_);
 }
 
-/// f4: the fewest changes of any solution that ties with the incumbent so far. In such a solution
-/// only needed tasks and requests run.
+/// f4: the fewest changes of any solution that ties with the incumbent on f1 to f3. In such a
+/// solution only needed tasks and requests run.
 std::uint32_t Objective::least_changes() { return least_activations() + least_deactivations(); }
 
 std::uint32_t Objective::least_activations() {
@@ -203,7 +203,7 @@ std::uint32_t Objective::least_activations() {
       if ((words[word] & free[word]) != 0) is_free = true;
     }
     if (is_free) {
-      // Of a behavior of several tasks, chosen for good, one activation is counted.
+      // A behavior of several tasks counts once, and only where it is decided.
       if (domains_.count(task) > 1) continue;
       const BehaviorId behavior = domains_.value(task, domains_.best(task)).behavior;
       if (was_active(behavior)) continue;
@@ -232,19 +232,19 @@ std::uint32_t Objective::least_deactivations() const {
   return deactivations;
 }
 
-/// Rule 5: compares the best keys that are left, task by task. "less" is better.
+/// The canonical order: compares the lowest ranks that are left, task by task. "less" is better.
 std::strong_ordering Objective::compare_keys(const Incumbent& incumbent,
                                              std::uint32_t depth) const {
   for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
-    if (!parts_.contains(task, depth)) continue;
+    if (!components_.contains(task, depth)) continue;
     std::uint32_t least = domains_.needed(task) ? none : key(task, none);
     if (may_run(task)) {
       const auto values = domains_.values(task);
-      for (std::uint32_t place = 0; place < values.size(); ++place) {
-        if (domains_.has(task, place)) least = std::min(least, key(task, place));
+      for (std::uint32_t index = 0; index < values.size(); ++index) {
+        if (domains_.has(task, index)) least = std::min(least, key(task, index));
       }
     }
-    const std::uint32_t theirs = key(task, incumbent.places[task]);
+    const std::uint32_t theirs = key(task, incumbent.assignment[task]);
     if (least != theirs) return least <=> theirs;
   }
   return std::strong_ordering::equal;
@@ -252,10 +252,10 @@ std::strong_ordering Objective::compare_keys(const Incumbent& incumbent,
 
 void Objective::record(Incumbent& incumbent) {
   incumbent.exists = true;
-  incumbent.places.assign(domains_.task_count(), none);
+  incumbent.assignment.assign(domains_.task_count(), none);
   incumbent.running.assign(domains_.needed_tasks().begin(), domains_.needed_tasks().end());
   for (const std::uint32_t task : incumbent.running) {
-    incumbent.places[task] = domains_.best(task);
+    incumbent.assignment[task] = domains_.best(task);
   }
   incumbent.satisfied = 0;
   for (const std::uint32_t task : problem_->requests) {

@@ -12,15 +12,15 @@
 
 namespace cbc {
 
-/// An exact product of degrees, to decide what sums of logarithms leave open.
+/// An exact product of degrees, which decides where sums of logarithms are too close to tell.
 class ExactProduct {
  public:
-  /// Makes products of up to `factors` factors without further allocation.
+  /// Products of up to `factors` factors allocate nothing from here on.
   void reserve(std::size_t factors);
   void clear();
   void multiply(Millionths degree);
 
-  /// Compares the products. Both may grow by factors of 1 in doing so.
+  /// Compares the products. Brings both to one denominator first.
   static std::strong_ordering compare(ExactProduct& a, ExactProduct& b);
 
  private:
@@ -30,21 +30,22 @@ class ExactProduct {
   std::uint32_t factors_ = 0;            ///< the denominator is 10^6 to this power
 };
 
-/// The order of the values of each task that decides where all objectives are equal (rule 5).
+/// The order of the values of each task that decides where all objectives are equal
+/// (docs/semantics.md, "Canonical order").
 class CanonicalOrder {
  public:
-  /// `ranks`: by value, place in the order of its task; empty: as the values stand.
+  /// `ranks`: by value, its rank in the task; empty: as the values stand.
   CanonicalOrder(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks);
 
   /// Takes up a problem. Allocates nothing.
   void load(const Problem& problem);
 
-  /// Order of a value (or none) of a task: lower is better, and no two values have the same.
-  [[nodiscard]] std::uint32_t key(std::uint32_t task, std::uint32_t place) const {
-    if (place == none) return empty_first_[task] != 0 ? 0 : none;
-    if (place == kept_first_[task]) return 0;
-    if (ranks_.empty()) return place + 1;
-    return ranks_[catalog_.values.begin[first_task_ + task] + place] + 1;
+  /// Rank of a value (or none) of a task: lower is better, and no two values have the same.
+  [[nodiscard]] std::uint32_t key(std::uint32_t task, std::uint32_t index) const {
+    if (index == none) return empty_first_[task] != 0 ? 0 : none;
+    if (index == kept_first_[task]) return 0;
+    if (ranks_.empty()) return index + 1;
+    return ranks_[catalog_.values.begin[first_task_ + task] + index] + 1;
   }
 
  private:
@@ -52,46 +53,48 @@ class CanonicalOrder {
   const std::vector<std::uint32_t>& ranks_;
   TaskId first_task_ = 0;
   std::vector<std::uint8_t> empty_first_;  ///< by task: "not running" comes first
-  std::vector<std::uint32_t> kept_first_;  ///< by task: the place that comes first, or none
+  std::vector<std::uint32_t> kept_first_;  ///< by task: the value index that comes first, or none
 };
 
-/// A solution and its objectives, to be compared with.
+/// The best solution so far, and its objectives.
 struct Incumbent {
   bool exists = false;
-  Assignment places;                   ///< by task
+  Assignment assignment;               ///< by task
   std::vector<std::uint32_t> running;  ///< tasks that run
-  std::uint32_t satisfied = 0;         ///< r of f1
-  Domains::Sums sums;                  ///< f2, and a of f3
-  std::uint32_t changes = 0;           ///< c of f4
+  std::uint32_t satisfied = 0;         ///< requests, for f1
+  Domains::Sums sums;                  ///< for f2 and f3
+  std::uint32_t changes = 0;           ///< for f4
 };
 
-/// The lexicographic objective f1 to f4 and the canonical order (rule 5).
+/// The lexicographic objective: f1 to f4, then the canonical order (docs/semantics.md,
+/// "Objectives").
 class Objective {
  public:
-  /// `ranks`: by value, place in the order of its task; empty: as the values stand.
-  Objective(const CompiledCatalog& catalog, const Domains& domains, const Parts& parts,
+  /// `ranks`: by value, its rank in the task; empty: as the values stand.
+  Objective(const CompiledCatalog& catalog, const Domains& domains, const Components& components,
             const std::vector<std::uint32_t>& ranks);
 
   /// To be called after Domains::load.
   void load(const Problem& problem);
 
-  /// Whether a solution in the present subtree may be better than `incumbent`, the best of the part
-  /// entered at `depth`. Exact, i.e. whether *the* solution is better, where each needed task of
-  /// the part has one behavior left and no request is undecided.
+  /// Whether a solution in the present subtree may be better than `incumbent`, the best of the
+  /// component entered at `depth`. Exact where the subtree is solved: each needed task of the
+  /// component has one behavior left and no request is undecided.
   [[nodiscard]] bool may_beat(const Incumbent& incumbent, std::uint32_t depth);
 
-  /// Whether it satisfies the same requests as `incumbent`, so that f2 comes next.
+  /// Whether the best of the subtree satisfies the same requests as `incumbent`, so that f2
+  /// decides.
   [[nodiscard]] bool ties_on_requests(const Incumbent& incumbent) const {
     return compare_requests(incumbent) == 0;
   }
 
-  /// Takes the solution of the present part, in which each needed task has one behavior left.
-  /// Needed tasks outside of it count with their most suitable behavior, as they do in may_beat.
+  /// Makes the solution of the present component the incumbent; each of its needed tasks has one
+  /// behavior left. Needed tasks outside count with their most suitable behavior, as in may_beat.
   void record(Incumbent& incumbent);
 
-  /// Order of a value (or none) of a task in rule 5: lower is better.
-  [[nodiscard]] std::uint32_t key(std::uint32_t task, std::uint32_t place) const {
-    return order_.key(task, place);
+  /// Rank of a value (or none) of a task in the canonical order: lower is better.
+  [[nodiscard]] std::uint32_t key(std::uint32_t task, std::uint32_t index) const {
+    return order_.key(task, index);
   }
 
   [[nodiscard]] bool was_active(BehaviorId behavior) const {
@@ -111,14 +114,14 @@ class Objective {
 
   const CompiledCatalog& catalog_;
   const Domains& domains_;
-  const Parts& parts_;
+  const Components& components_;
   const Problem* problem_ = nullptr;
 
   CanonicalOrder order_;
   std::vector<std::uint8_t> is_request_;  ///< by task
   std::vector<std::uint8_t> active_;      ///< by behavior of the group: active before the event
-  std::vector<std::uint64_t> free_;     ///< as domains: choosing it may be no activation of its own
-  std::vector<std::uint64_t> counted_;  ///< by behavior of the group: last count it was in
+  std::vector<std::uint64_t> free_;       ///< as domains: values whose choice may add no activation
+  std::vector<std::uint64_t> counted_;    ///< by behavior of the group: last count it was in
   std::uint64_t count_number_ = 0;
   ExactProduct ours_;
   ExactProduct theirs_;

@@ -7,20 +7,20 @@
 
 namespace cbc {
 
-/// The constraint problem of one event in one group. Tasks are counted within the group; a place
-/// is the place of a value within its task (so 0 is the most suitable behavior).
+/// The constraint problem of one event in one group. Tasks are counted within the group. A value
+/// index is the position of a behavior among those of its task: 0 is the most suitable one.
 struct Problem {
   std::uint32_t group = 0;
-  std::vector<std::uint64_t> domains;  ///< bit sets of places, task by task as in words
-  std::vector<std::uint8_t> may_stop;  ///< by task: whether "not running" is in the domain
-  std::vector<std::uint32_t> present;  ///< by task: place of its behavior before the event, or none
+  std::vector<std::uint64_t> domains;   ///< bit sets of value indices, task by task as in words
+  std::vector<std::uint8_t> may_stop;   ///< by task: whether "not running" is in the domain
+  std::vector<std::uint32_t> present;   ///< by task: value index before the event, or none
   std::vector<std::uint32_t> requests;  ///< tasks with an active request, most important first
   std::vector<BehaviorId> active;       ///< active behaviors just before the event
-  /// The problem whose domains fix the canonical order, where this one is a part of it; null: this.
-  const Problem* part_of = nullptr;
+  /// Where this is a subproblem: the problem whose domains fix the canonical order. Null: this one.
+  const Problem* subproblem_of = nullptr;
 };
 
-/// A value for every task of a group: a place, or none.
+/// A value for every task of a group: a value index, or none.
 using Assignment = std::vector<std::uint32_t>;
 
 enum class SearchStatus : std::uint8_t {
@@ -36,9 +36,10 @@ enum class SearchStatus : std::uint8_t {
 
 struct SearchResult {
   SearchStatus status = SearchStatus::infeasible;
-  std::uint64_t solutions = 0;  ///< solutions met, each better than the one before (all, with m)
-  std::uint64_t nodes = 0;      ///< decisions taken
-  /// Times that the constraints of a task whose domain had changed were applied to the others.
+  std::uint64_t solutions =
+      0;  ///< each better than the one before; all that were met with max_solutions
+  std::uint64_t nodes = 0;  ///< decisions taken
+  /// How often the constraints of a task with a changed domain were applied to the other tasks.
   std::uint64_t propagations = 0;
 };
 

@@ -67,7 +67,7 @@ bool Propagator::need_requirements(std::uint32_t task) {
 }
 
 bool Propagator::revise_performance() {
-  // By index: the rules add needed tasks only through later calls of revise().
+  // The list does not grow in this loop: only revise() finds further needed tasks.
   for (const std::uint32_t task : domains_.needed_tasks()) {
     if (catalog_.tasks[first_task_ + task].has_performance_rules && !revise_performance_of(task)) {
       return false;
@@ -84,15 +84,15 @@ bool Propagator::revise_performance_of(std::uint32_t task) {
     return false;
   }
   const auto values = domains_.values(task);
-  for (std::uint32_t place = 0; place < values.size(); ++place) {
-    if (!domains_.has(task, place)) continue;
-    for (const CompiledRequirement& rule : catalog_.requirements[values[place].behavior]) {
+  for (std::uint32_t index = 0; index < values.size(); ++index) {
+    if (!domains_.has(task, index)) continue;
+    for (const CompiledRequirement& rule : catalog_.requirements[values[index].behavior]) {
       if (rule.minimum_performance == 0) continue;
       const std::uint32_t target = rule.task - first_task_;
       if (domains_.count(task) == 1) {
         if (!enforce(target, rule.minimum_performance, rule.minimum_cost)) return false;
       } else if (is_below(bound_performance(target), rule.minimum_performance, rule.minimum_cost)) {
-        if (!domains_.remove(task, place)) return false;
+        if (!domains_.remove(task, index)) return false;
         break;
       }
     }
@@ -145,25 +145,25 @@ bool Propagator::is_below(const Bound& bound, Millionths minimum, std::int64_t m
 bool Propagator::enforce(std::uint32_t task, Millionths minimum, std::int64_t minimum_cost) {
   const Bound bound = bound_performance(task);
   if (is_below(bound, minimum, minimum_cost)) return false;
-  // Values that push the product below the minimum, whatever else is chosen. What is too close to
-  // tell stays: the test above decides it once it is chosen.
+  // Removes values that push the product below the minimum, whatever else is chosen. A value that
+  // is too close to tell stays: the exact test above decides once it is chosen.
   for (const std::uint32_t member : closure_) {
     if (domains_.count(member) == 1) continue;
     const std::int64_t best_cost = domains_.value(member, domains_.best(member)).cost;
     const auto values = domains_.values(member);
-    for (std::uint32_t place = domains_.best(member) + 1; place < values.size(); ++place) {
-      if (!domains_.has(member, place)) continue;
-      std::int64_t cost = bound.cost - best_cost + values[place].cost;
+    for (std::uint32_t index = domains_.best(member) + 1; index < values.size(); ++index) {
+      if (!domains_.has(member, index)) continue;
+      std::int64_t cost = bound.cost - best_cost + values[index].cost;
       std::uint32_t factors = bound.factors + 2;
-      for (const CompiledRequirement& rule : catalog_.requirements[values[place].behavior]) {
+      for (const CompiledRequirement& rule : catalog_.requirements[values[index].behavior]) {
         const std::uint32_t required = rule.task - first_task_;
         if (in_closure_[required] == closure_number_ || domains_.count(required) == 0) continue;
         cost += domains_.value(required, domains_.best(required)).cost;
         ++factors;
       }
       const bool is_too_little =
-          values[place].suitability == 0 || cost > minimum_cost + log_cost_error * factors;
-      if (is_too_little && !domains_.remove(member, place)) return false;
+          values[index].suitability == 0 || cost > minimum_cost + log_cost_error * factors;
+      if (is_too_little && !domains_.remove(member, index)) return false;
     }
   }
   return true;

@@ -10,26 +10,30 @@
 
 namespace cbc {
 
-/// Removes values that no solution has, to a fixed point: exclusivity as cliques, requirements by
-/// support on the arcs of the requirement graph, performance by the best product that is left.
+/// Removes values that no solution has, to a fixed point.
+///
+/// Exclusivity lists are cliques, and requirements are arcs between domains: a needed task closes
+/// its rivals, and needs what all of its behaviors require; a task without behaviors removes those
+/// that require it. That makes each of these constraints arc consistent (GAC). A minimum
+/// performance is propagated by bounds: the product of the best suitabilities that are left.
 class Propagator {
  public:
   Propagator(const CompiledCatalog& catalog, Domains& domains);
 
   void load(const Problem& problem);
 
-  /// False: there is no solution in this subtree. Where every needed task has one behavior left,
-  /// true means that these behaviors, all other tasks not running, are a solution.
+  /// False: there is no solution in this subtree. True where every needed task has one behavior
+  /// left: these behaviors, with all other tasks not running, are a solution.
   [[nodiscard]] bool propagate();
 
-  /// Tasks looked at since the last load, each time that one is.
+  /// Revisions of tasks since the last load.
   [[nodiscard]] std::uint64_t propagations() const { return propagations_; }
 
  private:
-  /// The most that the performance of a task can be: product of the best suitabilities of the
-  /// task and of what it surely requires (its closure).
+  /// An upper bound on the performance of a task: the product of the best suitabilities of the task
+  /// and of all that it requires with every behavior it has left (its closure).
   struct Bound {
-    bool reachable = true;  ///< false: something it requires cannot run
+    bool reachable = true;  ///< false: a task of the closure cannot run
     bool zero = false;
     std::int64_t cost = 0;
     std::uint32_t factors = 0;

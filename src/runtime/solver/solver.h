@@ -20,22 +20,22 @@ namespace cbc {
 struct SearchOptions {
   std::uint64_t max_nodes = 0;              ///< decisions of one search; 0: no limit
   std::chrono::microseconds time_limit{0};  ///< for one search; 0: no limit
-  /// The paper's m: depth first, tasks in catalog order, values by rank, take the best of the first
-  /// m solutions. 0: branch and bound to the proven optimum.
+  /// The paper's m: take the best of the first m solutions, found depth first, with tasks in
+  /// catalog order and values by rank. 0: branch and bound to the proven optimum.
   std::uint64_t max_solutions = 0;
   /// Take the first solution instead of the best.
   bool any_solution = false;
-  /// A search that takes more decisions than this is hard: it begins anew, with what costs too much
-  /// on the many easy ones, looking ahead and splitting into parts. No answer depends on it.
+  /// A search that takes more decisions than this is hard: it restarts with cost bounds and
+  /// component decomposition, which cost too much for the many easy ones. No answer depends on it.
   std::uint64_t easy_nodes = 100;
 };
 
-/// Finds the best solution of a problem: the paper's objectives f1 to f4 in order, then the
-/// canonical order. Allocates in its constructor only.
+/// Finds the best solution of a problem (docs/semantics.md, "Objectives") by depth-first branch and
+/// bound. Allocates in its constructor only.
 class Solver {
  public:
-  /// `ranks`: by value, its place in the order of its task; empty: as the values stand. Both
-  /// references must outlive the solver.
+  /// `ranks`: by value, its rank in the task; empty: as the values stand. Both references must
+  /// outlive the solver.
   Solver(const CompiledCatalog& catalog, const SearchOptions& options,
          const std::vector<std::uint32_t>& ranks);
 
@@ -45,40 +45,40 @@ class Solver {
  private:
   struct Decision {
     enum class Kind : std::uint8_t {
-      assign,  ///< the task runs with the place, or else not with that place
+      assign,  ///< the task runs with the value, or else not with that value
       run,     ///< the task runs, or else it does not
       stop     ///< the task does not run, or else it does
     };
     Kind kind = Kind::run;
     std::uint32_t task = 0;
-    std::uint32_t place = none;
+    std::uint32_t value_index = none;
   };
   struct Frame {
     Decision decision;
     Domains::Mark mark;
   };
-  /// The search of one part: its frames lie above `base`.
-  struct Scope {
+  /// The search in one component: its frames lie above `base`.
+  struct ComponentSearch {
     Incumbent best;
     std::size_t base = 0;
     Domains::Mark mark;
-    std::int64_t floor_elsewhere = 0;  ///< cost of the needed tasks outside, at their best
-    std::int64_t bound_elsewhere = 0;  ///< least cost of all that is outside
+    std::int64_t best_cost_outside = 0;   ///< of the needed tasks outside, each at its best
+    std::int64_t cost_bound_outside = 0;  ///< of all that is outside
   };
 
   void load(const Problem& problem);
   [[nodiscard]] bool begin();
   [[nodiscard]] bool search();
-  [[nodiscard]] Scope& scope() { return scopes_[parts_.depth()]; }
+  [[nodiscard]] ComponentSearch& current() { return searches_[components_.depth()]; }
 
   [[nodiscard]] bool may_improve();
-  [[nodiscard]] Lookahead::Cost enough_to_prune(const Incumbent& best) const;
+  [[nodiscard]] CostBound::Cost pruning_threshold(const Incumbent& best) const;
   [[nodiscard]] bool accept();
   [[nodiscard]] bool is_out_of_budget() const;
-  [[nodiscard]] bool is_to_look_ahead() const;
-  void start_to_look_ahead();
-  [[nodiscard]] bool enter_part(const Decision& decision);
-  [[nodiscard]] bool leave_part();
+  [[nodiscard]] bool should_restart() const;
+  void restart();
+  [[nodiscard]] bool enter_component(const Decision& decision);
+  [[nodiscard]] bool leave_component();
 
   [[nodiscard]] bool branch(const Decision& decision);
   [[nodiscard]] bool backtrack();
@@ -88,22 +88,22 @@ class Solver {
   [[nodiscard]] std::optional<Decision> decide();
   [[nodiscard]] std::optional<Decision> decide_in_catalog_order() const;
   [[nodiscard]] std::uint32_t choose_task() const;
-  [[nodiscard]] std::uint32_t choose_place(std::uint32_t task);
-  [[nodiscard]] Lookahead::Cost estimate(std::uint32_t task, std::uint32_t place);
+  [[nodiscard]] std::uint32_t choose_value(std::uint32_t task);
+  [[nodiscard]] CostBound::Cost estimate(std::uint32_t task, std::uint32_t index);
 
   const CompiledCatalog& catalog_;
   const SearchOptions options_;
   Domains domains_;
   Propagator propagator_;
-  Parts parts_;
+  Components components_;
   Objective objective_;
-  Lookahead lookahead_;
+  CostBound cost_bound_;
 
   const Problem* problem_ = nullptr;
   SearchResult result_;
-  bool looks_ahead_ = false;
+  bool is_hard_ = false;
   std::vector<Frame> frames_;
-  std::array<Scope, Parts::deepest + 1> scopes_;
+  std::array<ComponentSearch, Components::deepest + 1> searches_;
   std::chrono::steady_clock::time_point deadline_;
 };
 

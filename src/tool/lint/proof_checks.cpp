@@ -194,9 +194,10 @@ class DeadChecks {
         semantics_.solve(goals, constraints) != Feasibility::no) {
       return {};
     }
-    const std::vector<Reason> reason = minimal_set(constraints, [&](std::span<const Reason> some) {
-      return semantics_.solve(goals, some) != Feasibility::no;
-    });
+    const std::vector<Reason> reason =
+        minimal_conflict_set(constraints, [&](std::span<const Reason> some) {
+          return semantics_.solve(goals, some) != Feasibility::no;
+        });
     return constraint_notes(reason, semantics_.catalog(), catalog_, semantics_.reporter());
   }
 
@@ -550,9 +551,10 @@ class RedundancyCheck {
     if (answer == Feasibility::unknown) note_undecided(id, requirement);
     if (answer != Feasibility::no) return;
 
-    const std::vector<Reason> reason = minimal_set(others, [&](std::span<const Reason> some) {
-      return can_be_broken(id, requirement, some) != Feasibility::no;
-    });
+    const std::vector<Reason> reason =
+        minimal_conflict_set(others, [&](std::span<const Reason> some) {
+          return can_be_broken(id, requirement, some) != Feasibility::no;
+        });
     const Behavior& behavior = semantics_.behavior(id);
     const TaskIndex task = catalog_.tasks[requirement.task].catalog_index;
     report(behavior, strongest_requirement(behavior, task),
@@ -583,7 +585,7 @@ class RedundancyCheck {
     without.push_back(closed);
     for (const ValueId value : catalog_.performs[id]) {
       const TaskId task = catalog_.task_of(value);
-      RelaxedProblem problem = semantics_.relaxed({task, value - catalog_.values.begin[task]});
+      ConflictSearch problem = semantics_.relaxed({task, value - catalog_.values.begin[task]});
       add(semantics_.solve(problem, without));
       if (answer == Feasibility::yes) return answer;
       if (requirement.minimum_performance == 0) continue;

@@ -305,13 +305,13 @@ Semantics::Semantics(const Catalog& catalog, AssignmentSearch& search, const Liv
       nothing_present_(most_in_a_group(compiled().group_tasks), none),
       effort_left_(most_effort_of_reasons) {}
 
-RelaxedProblem Semantics::relaxed(const Goal& goal) const {
-  const Demand::Kind kind = goal.place == none ? Demand::Kind::run : Demand::Kind::has;
+ConflictSearch Semantics::relaxed(const Goal& goal) const {
+  const Demand::Kind kind = goal.value_index == none ? Demand::Kind::run : Demand::Kind::has;
   const std::uint32_t group = compiled().tasks[goal.task].group;
-  return {compiled(), group, nothing_present_, {{kind, goal.task, goal.place}}};
+  return {compiled(), group, nothing_present_, {{kind, goal.task, goal.value_index}}};
 }
 
-Feasibility Semantics::solve(RelaxedProblem& problem, std::span<const Reason> reasons) {
+Feasibility Semantics::solve(ConflictSearch& problem, std::span<const Reason> reasons) {
   if (effort_left_ == 0) return Feasibility::unknown;
   const std::uint64_t before = problem.effort();
   const Feasibility answer = problem.solve(reasons);
@@ -322,7 +322,7 @@ Feasibility Semantics::solve(RelaxedProblem& problem, std::span<const Reason> re
 Feasibility Semantics::solve(std::span<const Goal> goals, std::span<const Reason> reasons) {
   Feasibility answer = Feasibility::no;
   for (const Goal& goal : goals) {
-    RelaxedProblem problem = relaxed(goal);
+    ConflictSearch problem = relaxed(goal);
     const Feasibility one = solve(problem, reasons);
     if (one == Feasibility::yes) return one;
     if (one == Feasibility::unknown) answer = one;

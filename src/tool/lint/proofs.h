@@ -158,15 +158,15 @@ class Semantics {
   /// A question about reasons: tasks of one group, of which at least one runs (with the value).
   struct Goal {
     TaskId task = none;
-    std::uint32_t place = none;  ///< none: with any behavior
+    std::uint32_t value_index = none;  ///< none: with any behavior
   };
   /// Whether one of the goals can be had with only some constraints in force.
   [[nodiscard]] Feasibility solve(std::span<const Goal> goals, std::span<const Reason> reasons);
   /// The same for a problem that was set up.
-  [[nodiscard]] Feasibility solve(RelaxedProblem& problem, std::span<const Reason> reasons);
+  [[nodiscard]] Feasibility solve(ConflictSearch& problem, std::span<const Reason> reasons);
 
   /// A relaxed problem in which a task runs.
-  [[nodiscard]] RelaxedProblem relaxed(const Goal& goal) const;
+  [[nodiscard]] ConflictSearch relaxed(const Goal& goal) const;
 
   /// Reports that a question took too many decisions.
   void report_undecided(const Range& range, const std::string& question);

@@ -72,8 +72,8 @@ Json configuration_to_json(const CompiledCatalog& catalog, const EventRecord& re
   const std::uint32_t group = record.search->group;
   const TaskId first = catalog.group_tasks[group];
   Json running = Json::object();
-  for (std::uint32_t task = 0; task < configuration.places.size(); ++task) {
-    const std::uint32_t place = configuration.places[task];
+  for (std::uint32_t task = 0; task < configuration.assignment.size(); ++task) {
+    const std::uint32_t place = configuration.assignment[task];
     if (place == none) continue;
     running[std::string(catalog.name_of_task(first + task))] =
         value_to_json(catalog, first + task, place);
@@ -83,7 +83,7 @@ Json configuration_to_json(const CompiledCatalog& catalog, const EventRecord& re
           {"objective",
            {{"satisfied", objective.satisfied},
             {"requests", objective.requests},
-            {"suitability", total_suitability(catalog, state, group, configuration.places)},
+            {"suitability", total_suitability(catalog, state, group, configuration.assignment)},
             {"idle", idle_share(objective)},
             {"changes", objective.changes}}}};
 }
@@ -112,8 +112,8 @@ Json loss_to_json(const CompiledCatalog& catalog, const EventRecord& record, con
       add(catalog.name_of_task(difference.task), catalog.name_of_task(difference.other_task));
       break;
     case Criterion::suitability:
-      add(exact_suitability(catalog, state, group, chosen.places),
-          exact_suitability(catalog, state, group, other.places));
+      add(exact_suitability(catalog, state, group, chosen.assignment),
+          exact_suitability(catalog, state, group, other.assignment));
       break;
     case Criterion::idle:
       add(idle_fraction(chosen.objective), idle_fraction(other.objective));
@@ -124,8 +124,8 @@ Json loss_to_json(const CompiledCatalog& catalog, const EventRecord& record, con
     case Criterion::canonical: {
       const std::uint32_t task = difference.task - catalog.group_tasks[group];
       json["task"] = catalog.name_of_task(difference.task);
-      add(value_to_json(catalog, difference.task, chosen.places[task]),
-          value_to_json(catalog, difference.task, other.places[task]));
+      add(value_to_json(catalog, difference.task, chosen.assignment[task]),
+          value_to_json(catalog, difference.task, other.assignment[task]));
       break;
     }
   }

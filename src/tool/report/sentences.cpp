@@ -53,7 +53,7 @@ void multiply_elsewhere(const CompiledCatalog& catalog, const State& state, std:
   for (const std::uint32_t index : state.running()) {
     const TaskId task = catalog.task_ids[index];
     if (catalog.tasks[task].group == group) continue;
-    product.multiply(catalog.values[task][state.place(task)].suitability);
+    product.multiply(catalog.values[task][state.value_index(task)].suitability);
   }
 }
 
@@ -346,8 +346,8 @@ std::string describe_loss(const CompiledCatalog& catalog, const EventRecord& rec
                          task_name(catalog, difference.other_task));
     case Criterion::suitability: {
       const auto [theirs, ours] =
-          shorten_both(exact_suitability(catalog, state, group, other.places),
-                       exact_suitability(catalog, state, group, chosen.places));
+          shorten_both(exact_suitability(catalog, state, group, other.assignment),
+                       exact_suitability(catalog, state, group, chosen.assignment));
       return fmt::format("suitability would be {}, not {}", theirs, ours);
     }
     case Criterion::idle:
@@ -361,8 +361,8 @@ std::string describe_loss(const CompiledCatalog& catalog, const EventRecord& rec
       return fmt::format(
           "all objectives would be the same; of {}, {} comes before {} in the canonical order",
           task_name(catalog, difference.task),
-          value_name(catalog, difference.task, chosen.places[task]),
-          value_name(catalog, difference.task, other.places[task]));
+          value_name(catalog, difference.task, chosen.assignment[task]),
+          value_name(catalog, difference.task, other.assignment[task]));
     }
   }
   return {};
@@ -407,7 +407,7 @@ Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record
   std::string condition;
   if (why.why_not.alternative) {
     const TaskId first = catalog.group_tasks[record.search->group];
-    const std::uint32_t place = why.why_not.alternative->places[why.task - first];
+    const std::uint32_t place = why.why_not.alternative->assignment[why.task - first];
     condition =
         place == none ? "if it did not run" : "with " + value_name(catalog, why.task, place);
   }
@@ -428,12 +428,12 @@ std::string describe_alternative(const CompiledCatalog& catalog, const EventReco
   std::string text =
       fmt::format("requests {}/{}, suitability {}, idle {}, changes {}:", objective.satisfied,
                   objective.requests,
-                  shorten_alone(exact_suitability(catalog, state, group, configuration.places)),
+                  shorten_alone(exact_suitability(catalog, state, group, configuration.assignment)),
                   idle_text(objective), objective.changes);
   bool is_first = true;
-  for (std::uint32_t task = 0; task < configuration.places.size(); ++task) {
-    const std::uint32_t value = configuration.places[task];
-    if (value == (place == 0 ? none : list.front().places[task])) continue;
+  for (std::uint32_t task = 0; task < configuration.assignment.size(); ++task) {
+    const std::uint32_t value = configuration.assignment[task];
+    if (value == (place == 0 ? none : list.front().assignment[task])) continue;
     text += fmt::format(
         "{} {} {}",
         !is_first    ? ","

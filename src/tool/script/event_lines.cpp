@@ -281,7 +281,7 @@ class StateReader {
     if (!entry.is_object()) throw Refusal("an entry of 'running' is no object");
     Snapshot::RunningTask& running = out_.running.emplace_back();
     running.task = task(text(entry, "task"));
-    running.place = place(running.task, behavior(text(entry, "behavior")));
+    running.value_index = value_index(running.task, behavior(text(entry, "behavior")));
     running.since = integer<Microseconds>(entry, "since_us");
     const Json& waits = member(entry, "waits_for_timeout");
     if (!waits.is_boolean()) throw Refusal("'waits_for_timeout' is neither true nor false");
@@ -302,10 +302,10 @@ class StateReader {
     if (const auto found = catalog_.find_behavior(name)) return catalog_.behavior_ids[*found];
     throw Refusal(fmt::format("there is no behavior {}", quote(name)));
   }
-  [[nodiscard]] std::uint32_t place(TaskId task, BehaviorId behavior) const {
+  [[nodiscard]] std::uint32_t value_index(TaskId task, BehaviorId behavior) const {
     const auto values = catalog_.values[task];
-    for (std::uint32_t place = 0; place < values.size(); ++place) {
-      if (values[place].behavior == behavior) return place;
+    for (std::uint32_t index = 0; index < values.size(); ++index) {
+      if (values[index].behavior == behavior) return index;
     }
     throw Refusal(fmt::format("task {} runs with {}, which does not perform it",
                               quote(catalog_.name_of_task(task)),
@@ -362,7 +362,7 @@ std::string write_state(const CompiledCatalog& catalog, const Snapshot& snapshot
   };
   Json running = Json::array();
   for (const Snapshot::RunningTask& entry : snapshot.running) {
-    const BehaviorId behavior = catalog.values[entry.task][entry.place].behavior;
+    const BehaviorId behavior = catalog.values[entry.task][entry.value_index].behavior;
     running.push_back({{"task", catalog.name_of_task(entry.task)},
                        {"behavior", catalog.name_of_behavior(behavior)},
                        {"since_us", entry.since},

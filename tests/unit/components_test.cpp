@@ -1,9 +1,10 @@
+#include "solver/components.h"
+
 #include <string>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "solver/components.h"
 #include "solver/propagator.h"
 #include "unit/compiled_fixture.h"
 
@@ -20,34 +21,35 @@ class Situation {
   Situation(const std::string& yaml, const std::vector<std::string>& needed)
       : catalog(compile_text(yaml)),
         domains(catalog),
-        parts(catalog, domains),
+        components(catalog, domains),
         problem_(open_problem(catalog)) {
     EXPECT_EQ(catalog.group_count(), 1U);
     Propagator propagator(catalog, domains);
     domains.load(problem_);
     propagator.load(problem_);
-    parts.load(problem_);
+    components.load(problem_);
     for (const std::string& task : needed) EXPECT_TRUE(domains.need(local_task(catalog, task)));
     EXPECT_TRUE(propagator.propagate());
   }
 
   /// Enters the part of the task: the tasks of the part, or "no split".
   std::string enter(std::string_view task) {
-    if (!parts.enter_part_of(local_task(catalog, task))) return "no split";
+    if (!components.enter_component_of(local_task(catalog, task))) return "no split";
     return describe();
   }
 
   [[nodiscard]] std::string describe() const {
     std::string text;
     for (std::uint32_t one = 0; one < domains.task_count(); ++one) {
-      if (parts.contains(one, parts.depth())) text += std::string(catalog.name_of_task(one));
+      if (components.contains(one, components.depth()))
+        text += std::string(catalog.name_of_task(one));
     }
     return text;
   }
 
   CompiledCatalog catalog;
   Domains domains;
-  Parts parts;
+  Components components;
 
  private:
   Problem problem_;
@@ -71,21 +73,21 @@ behaviors:
          "tasks: [{task: R}, {task: B}, {task: C}, {task: D}, {task: E}, {task: Z}]\n";
 }
 
-TEST(Parts, OpenBranchesUnderWhatIsFixedAreIndependent) {
+TEST(Components, OpenBranchesUnderWhatIsFixedAreIndependent) {
   Situation situation(two_branches(""), {"R"});
-  EXPECT_EQ(situation.parts.depth(), 0U);
+  EXPECT_EQ(situation.components.depth(), 0U);
   EXPECT_EQ(situation.describe(), "RBCDEZ") << "at first there is one part";
   EXPECT_EQ(situation.enter("B"), "BD");
-  EXPECT_EQ(situation.parts.depth(), 1U);
-  EXPECT_TRUE(situation.parts.contains(local_task(situation.catalog, "C"), 0));
+  EXPECT_EQ(situation.components.depth(), 1U);
+  EXPECT_TRUE(situation.components.contains(local_task(situation.catalog, "C"), 0));
   EXPECT_EQ(situation.enter("B"), "no split") << "it is one part";
-  situation.parts.leave();
-  EXPECT_EQ(situation.parts.depth(), 0U);
+  situation.components.leave();
+  EXPECT_EQ(situation.components.depth(), 0U);
   EXPECT_EQ(situation.describe(), "RBCDEZ");
   EXPECT_EQ(situation.enter("C"), "CE");
 }
 
-TEST(Parts, OneOpenBranchIsNoSplit) {
+TEST(Components, OneOpenBranchIsNoSplit) {
   Situation situation(two_branches(""), {"R"});
   const std::uint32_t c = local_task(situation.catalog, "C");
   EXPECT_TRUE(situation.domains.keep_only(c, 0));
@@ -93,20 +95,20 @@ TEST(Parts, OneOpenBranchIsNoSplit) {
   EXPECT_EQ(situation.enter("B"), "no split");
 }
 
-TEST(Parts, AnOpenTaskThatBothMayRequireJoins) {
+TEST(Components, AnOpenTaskThatBothMayRequireJoins) {
   EXPECT_EQ(Situation(two_branches("- {behavior: c3, task: C, requires: [{task: D}]}\n"), {"R"})
                 .enter("B"),
             "no split");
 }
 
-TEST(Parts, AFixedTaskThatBothMayRequireDoesNotJoin) {
+TEST(Components, AFixedTaskThatBothMayRequireDoesNotJoin) {
   EXPECT_EQ(
       Situation(two_branches("- {behavior: c3, task: C, requires: [{task: D}]}\n"), {"R", "D"})
           .enter("B"),
       "B");
 }
 
-TEST(Parts, ExclusivityOfTasksThatMayComeToBeNeededJoins) {
+TEST(Components, ExclusivityOfTasksThatMayComeToBeNeededJoins) {
   EXPECT_EQ(Situation(two_branches("",
                                    "- mutually_exclusive: [R, Z]\n"
                                    "- mutually_exclusive: [D, E]\n"),
@@ -115,7 +117,7 @@ TEST(Parts, ExclusivityOfTasksThatMayComeToBeNeededJoins) {
             "no split");
 }
 
-TEST(Parts, ABehaviorOfSeveralTasksJoins) {
+TEST(Components, ABehaviorOfSeveralTasksJoins) {
   EXPECT_EQ(Situation(two_branches("- {behavior: x, tasks: [{task: B, suitability: 70}, "
                                    "{task: C, suitability: 70}]}\n"),
                       {"R"})
@@ -123,14 +125,14 @@ TEST(Parts, ABehaviorOfSeveralTasksJoins) {
             "no split");
 }
 
-TEST(Parts, APerformanceThatDependsOnBothJoinsThroughFixedTasks) {
+TEST(Components, APerformanceThatDependsOnBothJoinsThroughFixedTasks) {
   const std::string more =
       "- {behavior: z1, task: Q, requires: [{task: R, minimum_performance: 60}]}\n";
   EXPECT_EQ(Situation(two_branches(more), {"Q"}).enter("B"), "no split");
   EXPECT_EQ(Situation(two_branches(more), {"R"}).enter("B"), "BD") << "Q need not run";
 }
 
-TEST(Parts, AMinimumOfOneBranchLeavesThemApart) {
+TEST(Components, AMinimumOfOneBranchLeavesThemApart) {
   EXPECT_EQ(Situation(two_branches("- {behavior: b3, task: B, suitability: 85, requires: "
                                    "[{task: D, minimum_performance: 50}]}\n"),
                       {"R"})
@@ -138,12 +140,12 @@ TEST(Parts, AMinimumOfOneBranchLeavesThemApart) {
             "BD");
 }
 
-TEST(Parts, ASuitabilityOfZeroAnywhereForbidsSplitting) {
+TEST(Components, ASuitabilityOfZeroAnywhereForbidsSplitting) {
   EXPECT_EQ(Situation(two_branches("- {behavior: z, task: Z, suitability: 0}\n"), {"R"}).enter("B"),
             "no split");
 }
 
-TEST(Parts, Nest) {
+TEST(Components, Nest) {
   Situation situation(R"(
 default_values: {tasks: {start_on_request: false}}
 behaviors:
@@ -164,14 +166,14 @@ behaviors:
   EXPECT_TRUE(situation.domains.keep_only(local_task(situation.catalog, "B"), 0));
   EXPECT_TRUE(propagator.propagate());
   EXPECT_EQ(situation.enter("C"), "C");
-  EXPECT_EQ(situation.parts.depth(), 2U);
-  situation.parts.leave();
+  EXPECT_EQ(situation.components.depth(), 2U);
+  situation.components.leave();
   EXPECT_EQ(situation.describe(), "BCD");
-  situation.parts.leave();
+  situation.components.leave();
   EXPECT_EQ(situation.describe(), "RABCD");
 }
 
-TEST(Parts, NestNoDeeperThanTheirLimit) {
+TEST(Components, NestNoDeeperThanTheirLimit) {
   std::string text = "default_values: {tasks: {start_on_request: false}}\nbehaviors:\n";
   // A chain in which every task Ti has a choice, next to a task Si with a choice.
   const int length = 12;
@@ -195,8 +197,8 @@ TEST(Parts, NestNoDeeperThanTheirLimit) {
     EXPECT_TRUE(propagator.propagate());
     if (situation.enter("T" + std::to_string(i + 1)) != "no split") ++entered;
   }
-  EXPECT_EQ(entered, Parts::deepest);
-  EXPECT_EQ(situation.parts.depth(), Parts::deepest);
+  EXPECT_EQ(entered, Components::deepest);
+  EXPECT_EQ(situation.components.depth(), Components::deepest);
 }
 
 }  // namespace

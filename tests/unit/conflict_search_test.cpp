@@ -1,5 +1,7 @@
 // Problems with only some reasons in force, against a search through all assignments.
 
+#include "explain/conflict_search.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -10,7 +12,6 @@
 #include <gtest/gtest.h>
 
 #include "compile/compile.h"
-#include "explain/conflict_search.h"
 #include "explain/reasons.h"
 #include "support/rounds.h"
 #include "unit/compiled_fixture.h"
@@ -34,7 +35,7 @@ class Question {
       : catalog_(catalog), group_(test::largest_group(catalog)), random_(random) {
     for (TaskId task = first(); task < end(); ++task) {
       tasks_.push_back(task);
-      present.push_back(random.percent(50) ? any_place(task) : none);
+      present.push_back(random.percent(50) ? any_value(task) : none);
     }
     draw_demands();
     draw_reasons();
@@ -42,18 +43,18 @@ class Question {
   }
 
   Feasibility solve(const std::vector<Reason>& some) {
-    RelaxedProblem problem(catalog_, group_, present, demands);
+    ConflictSearch problem(catalog_, group_, present, demands);
     if (low) problem.keep_below(low->task, low->minimum);
     const Feasibility answer = problem.solve(some);
     used.clear();
-    for (std::size_t place = 0; place < some.size(); ++place) {
-      if (problem.is_used()[place] != 0) used.push_back(some[place]);
+    for (std::size_t index = 0; index < some.size(); ++index) {
+      if (problem.is_used()[index] != 0) used.push_back(some[index]);
     }
     return answer;
   }
 
   bool has_solution(const std::vector<Reason>& some) {
-    places_.assign(tasks_.size(), none);
+    assignment_.assign(tasks_.size(), none);
     return try_from(0, some);
   }
 
@@ -66,7 +67,7 @@ class Question {
  private:
   [[nodiscard]] TaskId first() const { return catalog_.group_tasks[group_]; }
   [[nodiscard]] TaskId end() const { return catalog_.group_tasks[group_ + 1]; }
-  [[nodiscard]] std::uint32_t any_place(TaskId task) {
+  [[nodiscard]] std::uint32_t any_value(TaskId task) {
     const std::size_t count = catalog_.values[task].size();
     return count == 0 ? none : static_cast<std::uint32_t>(random_.below(count));
   }
@@ -74,10 +75,10 @@ class Question {
   void draw_demands() {
     for (std::size_t count = 1 + random_.below(5); count > 0; --count) {
       const TaskId task = random_.pick(tasks_);
-      const std::uint32_t place = any_place(task);
+      const std::uint32_t index = any_value(task);
       Demand demand{Demand::Kind::run, task, none};
-      if (place != none && random_.percent(40)) {
-        demand = {random_.percent(60) ? Demand::Kind::has : Demand::Kind::has_not, task, place};
+      if (index != none && random_.percent(40)) {
+        demand = {random_.percent(60) ? Demand::Kind::has : Demand::Kind::has_not, task, index};
       } else if (random_.percent(20)) {
         demand.kind = Demand::Kind::stop;
       }
@@ -107,20 +108,20 @@ class Question {
     random_.shuffle(reasons);
   }
 
-  bool try_from(std::size_t place, const std::vector<Reason>& some) {
-    if (place == tasks_.size()) return holds(some);
-    for (std::uint32_t value = 0; value < catalog_.values[tasks_[place]].size(); ++value) {
-      places_[place] = value;
-      if (try_from(place + 1, some)) return true;
+  bool try_from(std::size_t index, const std::vector<Reason>& some) {
+    if (index == tasks_.size()) return holds(some);
+    for (std::uint32_t value = 0; value < catalog_.values[tasks_[index]].size(); ++value) {
+      assignment_[index] = value;
+      if (try_from(index + 1, some)) return true;
     }
-    places_[place] = none;
-    return try_from(place + 1, some);
+    assignment_[index] = none;
+    return try_from(index + 1, some);
   }
 
-  [[nodiscard]] std::uint32_t place_of(TaskId task) const { return places_[task - first()]; }
-  [[nodiscard]] bool runs(TaskId task) const { return place_of(task) != none; }
+  [[nodiscard]] std::uint32_t value_index(TaskId task) const { return assignment_[task - first()]; }
+  [[nodiscard]] bool runs(TaskId task) const { return value_index(task) != none; }
   [[nodiscard]] BehaviorId behavior_of(TaskId task) const {
-    return runs(task) ? catalog_.values[task][place_of(task)].behavior : none;
+    return runs(task) ? catalog_.values[task][value_index(task)].behavior : none;
   }
   [[nodiscard]] bool is_active(BehaviorId behavior) const {
     return std::any_of(tasks_.begin(), tasks_.end(),
@@ -142,9 +143,9 @@ class Question {
       case Demand::Kind::stop:
         return !runs(demand.task);
       case Demand::Kind::has:
-        return place_of(demand.task) == demand.place;
+        return value_index(demand.task) == demand.value_index;
       case Demand::Kind::has_not:
-        return place_of(demand.task) != demand.place;
+        return value_index(demand.task) != demand.value_index;
     }
     return false;
   }
@@ -164,7 +165,8 @@ class Question {
         return !runs(reason.task) || performs(reason.task, reason.minimum_performance);
       case Reason::Kind::unavailable:
         return std::none_of(tasks_.begin(), tasks_.end(), [&](TaskId task) {
-          return behavior_of(task) == reason.behavior && place_of(task) != present[task - first()];
+          return behavior_of(task) == reason.behavior &&
+                 value_index(task) != present[task - first()];
         });
       default:
         return !is_active(reason.behavior);
@@ -177,7 +179,7 @@ class Question {
     Wide least = minimum;
     for (std::size_t next = 0; next < closure.size(); ++next) {
       const TaskId one = closure[next];
-      product *= catalog_.values[one][place_of(one)].suitability;
+      product *= catalog_.values[one][value_index(one)].suitability;
       if (next > 0) least *= one_million;
       for (const CompiledRequirement& requirement : catalog_.requirements[behavior_of(one)]) {
         if (!runs(requirement.task)) continue;
@@ -193,7 +195,7 @@ class Question {
   const std::uint32_t group_;
   test::Random& random_;
   std::vector<TaskId> tasks_;
-  std::vector<std::uint32_t> places_;
+  std::vector<std::uint32_t> assignment_;
 };
 
 test::Shape shape_for(test::Random& random) {
@@ -206,7 +208,7 @@ test::Shape shape_for(test::Random& random) {
   return shape;
 }
 
-TEST(RelaxedProblem, AnswersAsASearchThroughAllAssignments) {
+TEST(ConflictSearch, AnswersAsASearchThroughAllAssignments) {
   test::Random random(20);
   std::size_t answers[2] = {};
   std::size_t narrowed = 0;
@@ -230,7 +232,7 @@ TEST(RelaxedProblem, AnswersAsASearchThroughAllAssignments) {
 
 /// Four tasks that need one of three places each, so that one is left over: that takes a search.
 /// Beside them stand thirty tasks that can run in two ways each, and that are decided on before.
-TEST(RelaxedProblem, DoesNotSearchWhatHasNoPartInAFailure) {
+TEST(ConflictSearch, DoesNotSearchWhatHasNoPartInAFailure) {
   std::string text = "behaviors:\n";
   const auto add = [&text](const std::string& behavior, const std::string& task,
                            const std::string& required) {
@@ -269,7 +271,7 @@ TEST(RelaxedProblem, DoesNotSearchWhatHasNoPartInAFailure) {
   }
   for (const BehaviorId one : relevant.behaviors()) add_requirements(catalog, one, reasons);
   const std::vector<std::uint32_t> present(catalog.tasks.size(), none);
-  RelaxedProblem problem(catalog, 0, present, {{Demand::Kind::run, task, none}});
+  ConflictSearch problem(catalog, 0, present, {{Demand::Kind::run, task, none}});
   EXPECT_EQ(problem.solve(reasons), Feasibility::no);
   EXPECT_LT(problem.effort(), 100'000U);
 }

@@ -1,3 +1,5 @@
+#include "solver/cost_bound.h"
+
 #include <optional>
 #include <string>
 
@@ -5,7 +7,6 @@
 
 #include "compile/compile.h"
 #include "compiled/compiled_catalog.h"
-#include "solver/cost_bound.h"
 #include "solver/propagator.h"
 #include "support/rounds.h"
 #include "unit/brute_force.h"
@@ -15,7 +16,7 @@
 namespace cbc {
 namespace {
 
-using Cost = Lookahead::Cost;
+using Cost = CostBound::Cost;
 constexpr Cost unbounded{INT64_MAX, INT64_MAX};
 
 /// Everything that a bound needs, at the fixed point of the demanded tasks.
@@ -24,29 +25,29 @@ class Situation {
   Situation(const std::string& yaml, const std::vector<std::string>& needed)
       : catalog(test::compile_text(yaml)),
         domains(catalog),
-        parts(catalog, domains),
-        lookahead(catalog, domains, parts) {
+        components(catalog, domains),
+        cost_bound(catalog, domains, components) {
     const Problem problem = test::open_problem(catalog);
     Propagator propagator(catalog, domains);
     domains.load(problem);
     propagator.load(problem);
-    parts.load(problem);
+    components.load(problem);
     for (const std::string& task : needed) {
       EXPECT_TRUE(domains.need(test::local_task(catalog, task)));
     }
     EXPECT_TRUE(propagator.propagate());
   }
 
-  Cost bound() { return lookahead.bound(unbounded, Lookahead::Roots::in_part); }
+  Cost bound() { return cost_bound.bound(unbounded, CostBound::Roots::in_component); }
   Cost reduced(std::string_view task, std::string_view behavior) {
-    return lookahead.reduced_cost(test::local_task(catalog, task),
-                                  test::place_of(catalog, task, behavior));
+    return cost_bound.reduced_cost(test::local_task(catalog, task),
+                                   test::value_index(catalog, task, behavior));
   }
 
   CompiledCatalog catalog;
   Domains domains;
-  Parts parts;
-  Lookahead lookahead;
+  Components components;
+  CostBound cost_bound;
 };
 
 Cost cost(std::int64_t log, std::int64_t idle) {
@@ -72,12 +73,12 @@ behaviors:
 - {behavior: c, task: C, suitability: 80}
 )";
 
-TEST(Lookahead, NothingNeededCostsNothing) {
+TEST(CostBound, NothingNeededCostsNothing) {
   Situation situation(chain, {});
   expect_equal(situation.bound(), cost(0, 0));
 }
 
-TEST(Lookahead, SeesWhatWillBeRequiredOnTheWayDown) {
+TEST(CostBound, SeesWhatWillBeRequiredOnTheWayDown) {
   // a1, b1, c: 72 %; a1, b2: 50 %; a2: 60 %.
   Situation situation(chain, {"A"});
   expect_equal(situation.bound(), cost(log_cost(720'000), 2));
@@ -87,7 +88,7 @@ TEST(Lookahead, SeesWhatWillBeRequiredOnTheWayDown) {
   EXPECT_GT(situation.reduced("B", "b2"), cost(0, 0));
 }
 
-TEST(Lookahead, CountsWhatTwoNeededTasksShareOnce) {
+TEST(CostBound, CountsWhatTwoNeededTasksShareOnce) {
   Situation situation(R"(
 default_values: {tasks: {start_on_request: false}}
 behaviors:
@@ -104,7 +105,7 @@ behaviors:
   EXPECT_GE(bound, cost(2 * log_cost(900'000), 2));
 }
 
-TEST(Lookahead, ATaskThatIsNeededAnywayIsNotChargedToWhatRequiresIt) {
+TEST(CostBound, ATaskThatIsNeededAnywayIsNotChargedToWhatRequiresIt) {
   Situation situation(R"(
 behaviors:
 - {behavior: a1, task: A, requires: [{task: B}]}
@@ -115,7 +116,7 @@ behaviors:
   expect_equal(situation.bound(), cost(log_cost(500'000), 0));
 }
 
-TEST(Lookahead, AZeroIsAvoidedAtAnyPrice) {
+TEST(CostBound, AZeroIsAvoidedAtAnyPrice) {
   const std::string yaml = R"(
 behaviors:
 - {behavior: a1, task: A, suitability: 0}
@@ -127,7 +128,7 @@ behaviors:
   EXPECT_GT(situation.bound(), cost(std::int64_t{1} << 60, 0));
 }
 
-TEST(Lookahead, EndsAsSoonAsItIsEnough) {
+TEST(CostBound, EndsAsSoonAsItIsEnough) {
   Situation situation(R"(
 behaviors:
 - {behavior: a, task: A, suitability: 90}
@@ -140,13 +141,14 @@ tasks: [{task: A}, {task: B}, {task: Z}]
 )",
                       {"A", "B"});
   expect_equal(situation.bound(), cost(log_cost(720'000), 0));
-  expect_equal(situation.lookahead.bound(cost(1, 0), Lookahead::Roots::in_part),
+  expect_equal(situation.cost_bound.bound(cost(1, 0), CostBound::Roots::in_component),
                cost(log_cost(900'000), 0));
-  expect_equal(situation.lookahead.bound(cost(log_cost(900'000), 0), Lookahead::Roots::in_part),
-               cost(log_cost(720'000), 0));
+  expect_equal(
+      situation.cost_bound.bound(cost(log_cost(900'000), 0), CostBound::Roots::in_component),
+      cost(log_cost(720'000), 0));
 }
 
-TEST(Lookahead, BoundsAPartAndWhatIsAroundIt) {
+TEST(CostBound, BoundsAComponentAndWhatIsAroundIt) {
   Situation situation(R"(
 default_values: {tasks: {start_on_request: false}}
 behaviors:
@@ -159,13 +161,13 @@ behaviors:
                       {"R"});
   expect_equal(situation.bound(),
                cost(log_cost(700'000) + log_cost(900'000) + log_cost(600'000), 3));
-  ASSERT_TRUE(situation.parts.enter_part_of(test::local_task(situation.catalog, "B")));
+  ASSERT_TRUE(situation.components.enter_component_of(test::local_task(situation.catalog, "B")));
   expect_equal(situation.bound(), cost(log_cost(600'000), 1));
-  expect_equal(situation.lookahead.bound(unbounded, Lookahead::Roots::around_part),
+  expect_equal(situation.cost_bound.bound(unbounded, CostBound::Roots::around_component),
                cost(log_cost(700'000) + log_cost(900'000), 2));
 }
 
-TEST(Lookahead, AroundANestedPartIsOnlyTheRestOfThePartAroundIt) {
+TEST(CostBound, AroundANestedPartIsOnlyTheRestOfThePartAroundIt) {
   Situation situation(R"(
 default_values: {tasks: {start_on_request: false}}
 behaviors:
@@ -180,14 +182,14 @@ behaviors:
 - {behavior: d2, task: D, suitability: 79}
 )",
                       {"R"});
-  ASSERT_TRUE(situation.parts.enter_part_of(test::local_task(situation.catalog, "B")));
+  ASSERT_TRUE(situation.components.enter_component_of(test::local_task(situation.catalog, "B")));
   EXPECT_TRUE(situation.domains.keep_only(test::local_task(situation.catalog, "B"), 0));
   EXPECT_TRUE(situation.domains.need(test::local_task(situation.catalog, "C")));
   EXPECT_TRUE(situation.domains.need(test::local_task(situation.catalog, "D")));
-  ASSERT_TRUE(situation.parts.enter_part_of(test::local_task(situation.catalog, "D")));
-  ASSERT_EQ(situation.parts.depth(), 2U);
+  ASSERT_TRUE(situation.components.enter_component_of(test::local_task(situation.catalog, "D")));
+  ASSERT_EQ(situation.components.depth(), 2U);
   expect_equal(situation.bound(), cost(log_cost(800'000), 1));
-  expect_equal(situation.lookahead.bound(unbounded, Lookahead::Roots::around_part),
+  expect_equal(situation.cost_bound.bound(unbounded, CostBound::Roots::around_component),
                cost(log_cost(900'000) + log_cost(850'000), 2));
 }
 
@@ -205,7 +207,7 @@ std::optional<Cost> cost_of(const CompiledCatalog& catalog, std::uint32_t group,
   return sum;
 }
 
-TEST(Lookahead, NeverExceedsTheTrueOptimum) {
+TEST(CostBound, NeverExceedsTheTrueOptimum) {
   test::Random random(6);
   test::Shape shape;
   shape.exclusivity_lists = 0;
@@ -229,18 +231,18 @@ TEST(Lookahead, NeverExceedsTheTrueOptimum) {
 
     Domains domains(catalog);
     Propagator propagator(catalog, domains);
-    Parts parts(catalog, domains);
-    Lookahead lookahead(catalog, domains, parts);
+    Components components(catalog, domains);
+    CostBound cost_bound(catalog, domains, components);
     domains.load(problem);
     propagator.load(problem);
-    parts.load(problem);
+    components.load(problem);
     for (std::uint32_t task = 0; task < domains.task_count(); ++task) {
       if (problem.may_stop[task] == 0) {
         ASSERT_TRUE(domains.need(task));
       }
     }
     ASSERT_TRUE(propagator.propagate());
-    const Cost bound = lookahead.bound(unbounded, Lookahead::Roots::in_part);
+    const Cost bound = cost_bound.bound(unbounded, CostBound::Roots::in_component);
     ASSERT_LE(bound, *optimum) << "round " << round << ": " << bound.log << " > " << optimum->log;
     ++compared;
     if (bound == *optimum && optimum->log > 0) ++exact;
