@@ -588,7 +588,7 @@ TEST(AllowComments, RandomFilesAgreeWithTheDescription) {
     for (const std::size_t at : comments) {
       const auto end = static_cast<std::uint32_t>(file.lines[at].size() + 1);
       const auto line = static_cast<std::uint32_t>(at + 1);
-      const auto begin = static_cast<std::uint32_t>(end - rule::dead_task.size());
+      const auto begin = static_cast<std::uint32_t>(end - rule::dead_task.name.size());
       expected.add({rule::unused_allow,
                     Severity::warning,
                     "a.yaml",
