@@ -24,7 +24,8 @@ Directed to_directed(std::size_t vertices, const Edges& edges) {
 }  // namespace
 
 std::vector<std::uint32_t> connected_components(std::size_t vertices, const Edges& edges) {
-  // Trees of which the root is the first vertex. Boost's graph would need a list for each vertex.
+  // Union and find: the root of each tree is its first vertex. Boost would need a list for each
+  // vertex.
   std::vector<std::uint32_t> parent(vertices);
   std::iota(parent.begin(), parent.end(), 0U);
   const auto find_root = [&](std::uint32_t vertex) {
@@ -110,7 +111,7 @@ class Search {
 
   Edges edges_;
   std::vector<std::size_t> height_;
-  std::vector<std::size_t> visit_;  ///< number of the last search that came by
+  std::vector<std::size_t> visit_;  ///< the last search that visited it
   std::size_t visits_ = 0;
 };
 
