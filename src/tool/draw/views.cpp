@@ -1,3 +1,4 @@
+// The views of a catalog: how a diagram is made of a part of it.
 #include <algorithm>
 #include <cstddef>
 #include <map>

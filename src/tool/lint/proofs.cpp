@@ -331,9 +331,9 @@ ProofContext::ProofContext(const Catalog& catalog, AssignmentSearch& search,
       effort_left_(most_effort_of_reasons) {}
 
 RelaxedProblem ProofContext::relaxed(const Goal& goal) const {
-  const Demand::Kind kind = goal.place == none ? Demand::Kind::run : Demand::Kind::has;
+  const Demand::Kind kind = goal.value_index == none ? Demand::Kind::run : Demand::Kind::has;
   const std::uint32_t group = compiled().tasks[goal.task].group;
-  return {compiled(), group, nothing_present_, {{kind, goal.task, goal.place}}};
+  return {compiled(), group, nothing_present_, {{kind, goal.task, goal.value_index}}};
 }
 
 Feasibility ProofContext::solve(RelaxedProblem& problem, std::span<const Reason> reasons) {

@@ -153,7 +153,7 @@ class ProofContext {
   /// A task that is to run, perhaps with a certain value.
   struct Goal {
     TaskId task = none;
-    std::uint32_t place = none;  ///< none: with any behavior
+    std::uint32_t value_index = none;  ///< none: with any behavior
   };
   /// Whether one of several goals, all of one group, can be reached under some of the constraints
   /// alone.
