@@ -17,7 +17,6 @@
 
 #include "base/text.h"
 #include "catalog/catalog.h"
-#include "catalog/draft.h"
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/input.h"

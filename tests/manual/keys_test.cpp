@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "catalog/allowed_values.h"
-#include "catalog/reader.h"
+#include "catalog/draft.h"
 #include "cbc/event.h"
 #include "manual/page.h"
 #include "script/script.h"

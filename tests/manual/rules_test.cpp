@@ -1,17 +1,19 @@
-// The rules in cbc-rules(7) are those of the table that 'cbc lint --explain' reads. After a change
-// of the table this writes them anew:
+// cbc-rules(7) and schemas/lint.json have the rules that 'cbc lint --explain' has. After a change
+// of the rules this writes both anew:
 //
 //   CBC_UPDATE_GOLDEN=1 build/release/tests/cbc_manual_tests
 #include "diagnostic/rules.h"
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <string>
 #include <string_view>
 
 #include <gtest/gtest.h>
 
 #include "manual/page.h"
+#include "support/read_file.h"
 
 namespace cbc::manual {
 namespace {
@@ -111,19 +113,37 @@ std::string all_sections() {
          literal(example_catalog());
 }
 
-TEST(ManualTest, HasTheRulesOfTheTable) {
-  const std::string page = read_page(page_name);
-  const std::string_view written = between(page, first_line, last_line);
-  const std::string expected = all_sections();
+/// What stands between two lines of a text is as expected, or is replaced by it. Whether it was
+/// replaced.
+bool check_or_update(std::string& text, std::string_view first, std::string_view last,
+                     const std::string& expected) {
+  const std::string_view written = between(text, first, last);
   const char* const update = std::getenv("CBC_UPDATE_GOLDEN");
-  if (update != nullptr && std::string_view(update) == "1" && written.data() != nullptr) {
-    std::string updated = page;
-    updated.replace(static_cast<std::size_t>(written.data() - page.data()), written.size(),
-                    expected);
-    write_page(page_name, updated);
-  } else {
+  if (update == nullptr || std::string_view(update) != "1" || written.data() == nullptr) {
     EXPECT_EQ(written, expected);
+    return false;
   }
+  text.replace(static_cast<std::size_t>(written.data() - text.data()), written.size(), expected);
+  return true;
+}
+
+TEST(ManualTest, HasTheRules) {
+  std::string page = read_page(page_name);
+  if (check_or_update(page, first_line, last_line, all_sections())) write_page(page_name, page);
+}
+
+TEST(LintSchema, HasTheRules) {
+  const std::string path = CBC_SOURCE_DIR "/schemas/lint.json";
+  std::string schema = test::read_file(path);
+  std::string names;
+  for (const Rule& rule : all_rules()) {
+    names +=
+        (names.empty() ? "" : ",\n") + std::string(12, ' ') + '"' + std::string(rule.name) + '"';
+  }
+  constexpr std::string_view first =
+      R"(          "description": "See `cbc lint --explain RULE`.",)";
+  const std::string expected = "          \"enum\": [\n" + names + '\n';
+  if (check_or_update(schema, first, "          ]", expected)) std::ofstream(path) << schema;
 }
 
 }  // namespace

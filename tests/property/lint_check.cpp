@@ -157,7 +157,7 @@ class Checker {
     return performance * whole_degree < oracle_.scale(task) * minimum;
   }
 
-  // The best of a task, if it runs at all, but never so well as it should.
+  // The best performance of a task, if it can run, but never as well as it should.
   std::optional<std::string> unreached(std::size_t task, ConstraintSet in_force,
                                        Millionths minimum) const {
     const std::optional<Integer> best = oracle_.best_performance(task, in_force);
@@ -202,7 +202,7 @@ class Checker {
         [behavior](const Constraint& constraint) { return constraint.behavior == behavior; });
   }
 
-  // What is said about a task without behaviors explains these.
+  // The finding about a task without behaviors explains these.
   ConstraintSet requirements_without_behaviors(std::size_t group) const {
     return oracle_.those(group, [this](const Constraint& constraint) {
       return constraint.behavior != none && !has_behaviors(constraint.task);
@@ -242,8 +242,8 @@ class Checker {
     return tasks;
   }
 
-  // The constraints that explain a dead thing, as none of its own: without those of what has an
-  // explanation itself. `explained`: values that have one.
+  // The constraints that may explain something dead, without those of what has an explanation
+  // itself. `explained`: values that have one.
   ConstraintSet unexplained(std::size_t group, const std::set<std::size_t>& tasks_below,
                             const std::set<Value>& explained) const {
     ConstraintSet dropped = requirements_without_behaviors(group);
@@ -333,7 +333,7 @@ class Checker {
     }
   }
 
-  // Each reason leaves nothing, and with any part of it left out something.
+  // Each reason leaves no assignment; with any part of it left out, there is one.
   void check_minimal(ConstraintSet reason, const std::function<bool(ConstraintSet)>& has_any,
                      const std::string& what) const {
     demand(!has_any(reason), "the reason is not enough: " + what);

@@ -146,7 +146,7 @@ class StrictGenerator {
     }
   }
 
-  // A fault that a look at the behavior and the lists shows.
+  // A mistake that the behavior and the lists alone show.
   bool is_plain_fault(const Behavior& behavior, std::size_t task) const {
     return exclude(behavior.performs.front().task, task) ||
            std::any_of(behavior.requirements.begin(), behavior.requirements.end(),
@@ -181,8 +181,8 @@ class StrictGenerator {
     return product;
   }
 
-  // Nothing in a catalog says what comes first. Tasks that only behaviors name start on request and
-  // end, by default.
+  // A catalog does not fix the order of its sections. Tasks that only behaviors name start on
+  // request and end, by default.
   void shuffle() {
     std::vector<std::size_t> order(catalog_.tasks.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

@@ -76,7 +76,7 @@ std::pair<std::string, std::string> identity(const Diagnostic& finding) {
   return {std::string(finding.rule), finding.message.substr(0, end)};
 }
 
-/// A good catalog with what lint has to say about it all the same.
+/// A valid catalog and the findings that lint has about it.
 struct Base {
   std::string name;
   std::unique_ptr<CatalogOutline> outline;
@@ -182,7 +182,7 @@ std::string show_changes(const Lines& before, const Lines& after) {
   return text;
 }
 
-/// Windows writes lines and files like this; nothing else changes by it.
+/// Line breaks and a byte order mark as Windows writes them, which change nothing else.
 std::string as_on_windows(const std::string& text) {
   std::string result = "\xEF\xBB\xBF";
   for (const char byte : text) result += byte == '\n' ? "\r\n" : std::string(1, byte);

@@ -30,7 +30,7 @@ Expected at_value(const CatalogOutline& mutated, std::string_view rule, const Fi
   return at(mutated.lines(), rule, field.value.line, field.value.column, std::move(says));
 }
 
-/// Whether the behavior would require one of its own tasks in the end.
+/// Whether the behavior would require one of its own tasks, directly or indirectly.
 bool closes_cycle(const CatalogOutline& catalog, const Behavior& behavior, std::size_t required) {
   return std::any_of(
       behavior.performs.begin(), behavior.performs.end(), [&](const Performance& performance) {
@@ -91,13 +91,13 @@ std::unique_ptr<CatalogOutline> with_attribute(const CatalogOutline& catalog, co
 const std::set<std::string_view> fewer_assignments{"redundant-requirement", "requires-on-request",
                                                    "unreachable-performance"};
 
-/// What a new exclusion may bring with it besides, above what it is about.
+/// Findings that a new exclusion may also cause, on higher levels than its own.
 const std::set<std::string_view> also_of_exclusion{
     "conflicting-requirements", "dead-behavior",         "dead-task",
     "duplicate-exclusion",      "redundant-requirement", "requires-on-request",
     "unreachable-performance"};
 
-/// What a new requirement may bring with it besides.
+/// Findings that a new requirement may also cause.
 std::set<std::string_view> also_of_requirement(const CatalogOutline& catalog, std::size_t task) {
   std::set<std::string_view> also = fewer_assignments;
   if (!catalog.tasks()[task].keeps_running) also.insert("required-goal");
@@ -212,7 +212,7 @@ Result conflict_of_what_is_required(const CatalogOutline& catalog, Random& rando
   return mutation;
 }
 
-/// What behaviors require is only together what excludes itself, one level further down.
+/// Requirements of a behavior that conflict only through what they require in turn.
 Result conflict_further_down(const CatalogOutline& catalog, Random& random) {
   if (!can_all_run(catalog)) return std::nullopt;
   for (int i = 0; i < 20 * attempts; ++i) {
@@ -475,7 +475,7 @@ Result required_on_request(const CatalogOutline& catalog, Random& random) {
                    in_quotes(behavior.name) + " requires " + in_quotes(task->name)));
     }
   }
-  // What behaviors of the tasks above have to request first is more now.
+  // Behaviors of the tasks above have more to request first now.
   mutation.also = {"requires-on-request"};
   return mutation.expected.empty() ? std::nullopt : std::optional(mutation);
 }

@@ -30,7 +30,7 @@ Result put(const CatalogOutline& catalog, Random& random, const std::set<std::st
   Lines lines = catalog.lines();
   set_value(lines, *placed->field, random.pick(values));
   const Item& value = placed->field->value;
-  // What the value was good for is no longer there.
+  // The effect of the value is gone.
   return Mutation{lines.text(), {at(lines, rule, value.line, value.column, says)}};
 }
 

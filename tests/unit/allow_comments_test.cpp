@@ -78,7 +78,7 @@ TEST(AllowComments, WithoutCommentsAllFindingsStayInOrder) {
 
 TEST(AllowComments, AtTheEndOfALineItIsAboutThisLine) {
   EXPECT_EQ(allowed_lines("a: 1\nb: 2  # cbc: allow dead-task\nc:\n  d: 3\n", 4), "2 ");
-  // Not about what stands in the entry.
+  // Not about the rest of the entry.
   EXPECT_EQ(allowed_lines("a:  # cbc: allow dead-task\n  b: 1\n", 2), "1 ");
   EXPECT_EQ(allowed_lines("- a: 1  # cbc: allow dead-task\n  b: 1\n", 2), "1 ");
   EXPECT_EQ(allowed_lines("a: 1\t# cbc: allow dead-task\n", 1), "1 ");
@@ -247,7 +247,7 @@ TEST(AllowComments, OfSeveralTheInnermostIsUsed) {
 
 TEST(AllowComments, UndecidedAllowsAreNotCalledUnused) {
   EXPECT_EQ(control("a: 1 # cbc: allow dead-task, unused-allow\n", {}, false), "");
-  // What is certain is reported all the same.
+  // What is certain is still reported.
   EXPECT_EQ(control("a: 1 # cbc: allow dead-tasks, missing-key\n", {}, false),
             "1:19-29 warning unknown-rule: there is no rule 'dead-tasks'; did you mean "
             "'dead-task'?\n"
@@ -330,7 +330,7 @@ TEST(AllowComments, LinesOfBlockScalarsAreNoComments) {
   for (const std::string header :
        {"|", ">", "|-", ">+", "|2", ">2-", "| # word", "!!str |", "&x >"}) {
     for (const std::string lead : {"", "\n", "      \n", "    more\n", "\n    more\n"}) {
-      // Where the text says nothing of its indentation, its first line shows it.
+      // If the text does not give its indentation, its first line does.
       if (lead.size() > 1 && header.find('2') == std::string::npos) continue;
       std::string text = "a: ";
       text.append(header).append("\n").append(lead).append(
@@ -345,7 +345,7 @@ TEST(AllowComments, LinesOfBlockScalarsAreNoComments) {
 TEST(AllowComments, CommentsAroundBlockScalarsAreComments) {
   EXPECT_EQ(control("a: | # cbc: allow dead-task\n  # cbc: alow\nb: 1\n", {{1}}), "");
   EXPECT_EQ(control("- |\n # cbc: alow\n- > # cbc: allow dead-task\n  # cbc: alow\n", {{3}}), "");
-  // Nothing in it, so that the comment is one.
+  // The text is empty, so the comment is one.
   EXPECT_EQ(control("a: |\n# cbc: allow dead-task\nb: 1\n", {{3}}), "");
   EXPECT_EQ(control("a: |\n\n# cbc: allow dead-task\nb: 1\n", {{4}}), "");
   // The text belongs to the entry.
@@ -588,7 +588,7 @@ TEST(AllowComments, RandomFilesAgreeWithTheDescription) {
     for (const std::size_t at : comments) {
       const auto end = static_cast<std::uint32_t>(file.lines[at].size() + 1);
       const auto line = static_cast<std::uint32_t>(at + 1);
-      const auto begin = static_cast<std::uint32_t>(end - rule::dead_task.size());
+      const auto begin = static_cast<std::uint32_t>(end - rule::dead_task.name.size());
       expected.add({rule::unused_allow,
                     Severity::warning,
                     "a.yaml",

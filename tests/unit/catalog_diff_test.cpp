@@ -125,7 +125,7 @@ TEST(CatalogDiff, CountsExclusionsThatAreTooManyToList) {
   }
   const CatalogDiff none = compare_catalogs(with, with);
   EXPECT_EQ(none.size(), 0U);
-  // A task more is in 600 pairs more, each of which is listed.
+  // One more task is in 600 more pairs, each of which is listed.
   const CatalogDiff one_more = compare_catalogs(with, compiled(exclusive(601, true)));
   EXPECT_EQ(one_more.further_exclusions, 0U);
   EXPECT_EQ(one_more.size(), 600U + 3U);

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/draft.h"
+#include "catalog/catalog.h"
 #include "diagnostic/rules.h"
 #include "lint/fixes.h"
 #include "lint/lint.h"

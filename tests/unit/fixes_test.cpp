@@ -354,7 +354,7 @@ TEST(FixExclusions, ATaskTwiceInAList) {
   expect_unchanged(list("[B, A, !!str A]"));
   expect_unchanged(list("[A, B, # first\n  A]"));
   expect_unchanged(list("&l [A, B, A]\nx-list: *l"));
-  // A person has to know what the other task was meant to be.
+  // Only a person knows which other task was meant.
   expect_unchanged(list("[A, A]"));
 }
 

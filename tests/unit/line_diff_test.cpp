@@ -99,7 +99,7 @@ class RandomTexts {
   std::mt19937 random_;
 };
 
-/// Whether a program of this machine makes the second text of the first one with the difference.
+/// Whether a program turns the first text into the second one by the difference.
 void expect_applies(const std::string& before, const std::string& after,
                     const std::string& command) {
   const test::ScratchFolder folder;
@@ -134,7 +134,7 @@ TEST(LineDiff, PatchAndGitTakeIt) {
   }
 }
 
-/// Applies a difference of one's own, strictly.
+/// Applies a difference strictly, without another program.
 std::string patched(const std::string& before, const std::string& difference) {
   const auto split = [](const std::string& text) {
     std::vector<std::string> lines;

@@ -23,7 +23,7 @@ TEST(LintCascade, AttributesThatCouldNotBeRead) {
       "behaviors:\n"
       "- {behavior: A, task: X, requires: [{task: Y}]}\n"
       "- {behavior: B, task: Y, timeout: 3}\n";
-  // By default the task would achieve a goal, and by its own word it starts reactively.
+  // The task has achieve_goal by default, and says itself that it starts reactively.
   EXPECT_EQ(findings(std::string("tasks:\n"
                                  "- task: X\n"
                                  "- {task: Y, execution_goal: forever, reactive_start: TRUE}\n") +
@@ -73,7 +73,7 @@ TEST(LintCascade, ExclusivityListsWithUndefinedNames) {
             "found an empty list\n");
 }
 
-// What does not depend on the fault is found all the same.
+// What does not depend on the mistake is still found.
 
 constexpr const char* several_faults = R"(
 - {behavior: B, task: B}

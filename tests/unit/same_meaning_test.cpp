@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/draft.h"
 #include "catalog/reader.h"
 #include "unit/findings.h"
 

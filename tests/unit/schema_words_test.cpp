@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "catalog/reader.h"
+#include "catalog/draft.h"
 #include "cbc/event.h"
 #include "coordinator/record.h"
 #include "diagnostic/diagnostic.h"

@@ -331,7 +331,8 @@ exclusivity_constraints:
             "  10:3-21 'B' excludes 'C'\n");
 }
 
-// What is wrong with one task of a behavior does not hide what it does to others as another task.
+// A mistake about one task of a behavior does not hide what the behavior does to others as another
+// task.
 TEST(SemanticChecks, MinimumOfOneTaskDoesNotExplainAnother) {
   EXPECT_EQ(lint(R"(behaviors:
 - behavior: ab
@@ -448,7 +449,8 @@ tasks: [{task: A}, {task: B}, {task: C}]
             "  8:68-70 behavior 'b' requires 'C' with at least 81 %\n");
 }
 
-// That which the task depends on may run without being required, and lower its performance.
+// A task that the required one depends on may run without being required, and lower its
+// performance.
 TEST(SemanticChecks, ReasonOfARedundantMinimumIsWhatHoldsItUp) {
   EXPECT_EQ(lint(R"(behaviors:
 - {behavior: a, task: A, requires: [{task: B}, {task: C, minimum_performance: 60}]}

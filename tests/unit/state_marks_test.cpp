@@ -257,7 +257,7 @@ TEST(StateMarks, OtherViewsShowWhatIsInUse) {
             "GO POWER active\nGO SEE started\nPOWER SEE \nGO WATCH faint\n");
 }
 
-/// What a coordinator says of its state after each event.
+/// The state of a coordinator after each event, in words.
 class Witness final : public RunListener {
  public:
   struct Moment {

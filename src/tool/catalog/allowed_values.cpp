@@ -196,7 +196,7 @@ bool has_type_name(const Parameter& parameter) {
   return !parameter.allowed_is_list && !parameter.allowed_values.empty();
 }
 
-// Equal for numbers of the same value only.
+// A text that is equal for numbers of equal value only.
 std::string value_text(const Number& number) {
   return (number.negative ? "-" : "") + number.digits + "e" + std::to_string(number.exponent);
 }

@@ -50,8 +50,8 @@ class AllowedValues {
   /// `parameter` must outlive this object.
   explicit AllowedValues(const Parameter& parameter);
 
-  /// The first thing that is wrong with a value. A null one is as if it were not given; without
-  /// allowed values, and where their type is not known, anything goes.
+  /// The first thing that is wrong with a value. Null counts as not given; without allowed values,
+  /// or if their type is unknown, any value will do.
   [[nodiscard]] std::optional<ValueFault> find_fault(const yaml::Node& value);
 
  private:

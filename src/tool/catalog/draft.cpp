@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
-#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -11,9 +9,70 @@
 #include <vector>
 
 #include "base/text.h"
-#include "catalog/reader.h"
 #include "diagnostic/rules.h"
 #include "yaml/values.h"
+
+namespace cbc::shape {
+namespace {
+
+using yaml::Key;
+using yaml::Shape;
+
+std::optional<std::string_view> present_goal(const yaml::Node& category) {
+  if (category.text == "goal_based") return "achieve_goal";
+  if (category.text == "recurrent") return "keep_running";
+  return std::nullopt;
+}
+
+constexpr Key catalog_keys[] = {
+    {"default_values"}, {"behaviors"}, {"tasks"}, {"exclusivity_constraints"}};
+constexpr Key default_values_keys[] = {{"tasks"}, {"behaviors"}};
+constexpr Key task_defaults_keys[] = {{"execution_goal"},
+                                      {"start_on_request"},
+                                      {"reactive_start"},
+                                      {"timeout"},
+                                      {"category", "execution_goal", present_goal},
+                                      {"automatic_activation", "start_on_request", yaml::opposite},
+                                      {"default", "reactive_start"}};
+constexpr Key behavior_defaults_keys[] = {
+    {"suitability"}, {"package"}, {"efficacy", "suitability"}};
+constexpr Key behavior_keys[] = {
+    {"behavior"}, {"package"}, {"task"},        {"tasks"},
+    {"requires"}, {"timeout"}, {"suitability"}, {"efficacy", "suitability"}};
+constexpr Key performance_keys[] = {{"task"}, {"suitability"}, {"efficacy", "suitability"}};
+constexpr Key requirement_keys[] = {{"task"}, {"minimum_performance"}};
+constexpr Key task_keys[] = {{"task"},
+                             {"execution_goal"},
+                             {"start_on_request"},
+                             {"reactive_start"},
+                             {"timeout"},
+                             {"minimum_performance"},
+                             {"parameters"},
+                             {"category", "execution_goal", present_goal},
+                             {"automatic_activation", "start_on_request", yaml::opposite},
+                             {"default", "reactive_start"}};
+constexpr Key parameter_keys[] = {{"parameter"}, {"allowed_values"}};
+constexpr Key exclusivity_list_keys[] = {{"mutually_exclusive"}};
+
+constexpr const Shape* in_catalog[] = {&behavior, &task, &exclusivity_list};
+constexpr const Shape* in_default_values[] = {&task_defaults, &behavior_defaults};
+constexpr const Shape* in_behavior[] = {&requirement, &performance};
+constexpr const Shape* in_task[] = {&parameter};
+
+}  // namespace
+
+const Shape catalog{"a catalog", catalog_keys, nullptr, in_catalog};
+const Shape default_values{"default_values", default_values_keys, &catalog, in_default_values};
+const Shape task_defaults{"the defaults of tasks", task_defaults_keys, &default_values};
+const Shape behavior_defaults{"the defaults of behaviors", behavior_defaults_keys, &default_values};
+const Shape behavior{"a behavior", behavior_keys, &catalog, in_behavior};
+const Shape performance{"a task of a behavior", performance_keys, &behavior};
+const Shape requirement{"a requirement", requirement_keys, &behavior};
+const Shape task{"a task", task_keys, &catalog, in_task};
+const Shape parameter{"a parameter", parameter_keys, &task};
+const Shape exclusivity_list{"an exclusivity constraint", exclusivity_list_keys, &catalog};
+
+}  // namespace cbc::shape
 
 namespace cbc::draft {
 namespace {
@@ -44,7 +103,7 @@ class Reader {
   }
 
  private:
-  // Counts errors of `read` as such of values.
+  // Counts the errors that `read` reports as errors in values.
   template <typename Read>
   auto read_value(Read read) {
     const std::size_t errors = reporter_.errors();
@@ -55,7 +114,7 @@ class Reader {
 
   void read_sections(const Node& root) {
     Fields fields(root, shape::catalog, reporter_);
-    // Of a section that is given twice only the first part is read.
+    // If a section is given twice, only the first is read.
     catalog_.lacks_a_section = reporter_.errors(rule::duplicate_key) > 0;
     if (const Node* node = fields.find("default_values")) read_default_values(*node);
     if (const Node* node = fields.find("tasks")) {
@@ -86,7 +145,7 @@ class Reader {
 
   // Default values ---------------------------------------------------------------------------
 
-  // The mappings of a list, or a single one. Published files write one key to a list entry.
+  // The mappings of a list, or a single mapping. Published files have one key in each list entry.
   std::vector<const Node*> mappings_of(const Node& node, std::string_view key) {
     constexpr std::string_view expected = "a mapping, or a list of mappings";
     std::vector<const Node*> mappings;
@@ -260,7 +319,7 @@ class Reader {
     for (const std::string_view key : {"suitability", "efficacy"}) {
       const Node* node = fields.find(key);
       if (node == nullptr) continue;
-      // What could not be read excludes nothing.
+      // A suitability that could not be read must exclude nothing.
       return Percent{yaml::read_percent(*node, key, reporter_).value_or(one_million), node->range};
     }
     return std::nullopt;
@@ -329,7 +388,7 @@ class Reader {
       ++catalog_.nameless_tasks;
     }
     if (list->items.size() > most_tasks) {
-      // Each of them with each requirement of the behavior is a constraint.
+      // Each of them makes a constraint with each requirement of the behavior.
       reporter_.report(rule::invalid_value, key,
                        "a behavior may have at most " + std::to_string(most_tasks) +
                            " tasks, found " + std::to_string(list->items.size()));
@@ -410,7 +469,7 @@ class Reader {
     return false;
   }
 
-  // Where an entry begins, if all that it says was understood; `errors` are those before it.
+  // Where an entry begins, if all of it was understood. `errors`: the number before it was read.
   [[nodiscard]] std::optional<Range> entry_of(const Node& node, const Fields& fields,
                                               std::size_t errors) const {
     if (!fields.is_understood() || reporter_.errors() > errors) return std::nullopt;
@@ -423,7 +482,7 @@ class Reader {
     if (node == nullptr) return std::nullopt;
     const std::optional<std::string_view> name = yaml::read_name(*node, key, expected, reporter_);
     if (name) return Name{*name, node->range};
-    // A list of one name is understood, so that the name is not reported as undefined elsewhere.
+    // A list of one name is read as that name, so that it is not reported as undefined elsewhere.
     if (node->items.size() == 1 && node->items[0]->kind == Kind::scalar) {
       return Name{node->items[0]->text, node->items[0]->range};
     }
@@ -439,108 +498,3 @@ class Reader {
 Catalog read(const yaml::Node& root, Reporter& reporter) { return Reader(reporter).read(root); }
 
 }  // namespace cbc::draft
-
-namespace cbc {
-namespace {
-
-bool same_allowed(const Parameter& a, const Parameter& b) {
-  return a.allowed_is_list == b.allowed_is_list && a.allowed_values == b.allowed_values;
-}
-
-/// The parameters of a task, without those that repeat the last one of their name.
-std::vector<const Parameter*> without_repetitions(const Task& task) {
-  std::vector<const Parameter*> parameters;
-  std::map<std::string_view, const Parameter*> last;
-  for (const Parameter& parameter : task.parameters) {
-    const Parameter*& before = last[parameter.name];
-    if (before == nullptr || !same_allowed(*before, parameter)) parameters.push_back(&parameter);
-    before = &parameter;
-  }
-  return parameters;
-}
-
-bool same_parameters(const Task& a, const Task& b) {
-  const std::vector<const Parameter*> of_a = without_repetitions(a);
-  const std::vector<const Parameter*> of_b = without_repetitions(b);
-  return std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
-                    [](const Parameter* x, const Parameter* y) {
-                      return x->name == y->name && same_allowed(*x, *y);
-                    });
-}
-
-bool same_task(const Task& a, const Task& b) {
-  return a.name == b.name && a.implicit == b.implicit && a.execution_goal == b.execution_goal &&
-         a.start_on_request == b.start_on_request && a.reactive_start == b.reactive_start &&
-         a.timeout == b.timeout && a.minimum_performance == b.minimum_performance &&
-         same_parameters(a, b);
-}
-
-/// What a behavior requires of each task: the highest of the minimums.
-std::map<TaskIndex, Millionths> requirements_of(const Behavior& behavior) {
-  std::map<TaskIndex, Millionths> requirements;
-  for (const Requirement& requirement : behavior.requirements) {
-    Millionths& minimum = requirements[requirement.task];
-    minimum = std::max(minimum, requirement.minimum_performance);
-  }
-  return requirements;
-}
-
-bool same_behavior(const Behavior& a, const Behavior& b) {
-  const bool same_performs =
-      std::equal(a.performs.begin(), a.performs.end(), b.performs.begin(), b.performs.end(),
-                 [](const Performance& x, const Performance& y) {
-                   return x.task == y.task && x.suitability == y.suitability;
-                 });
-  return same_performs && a.name == b.name && a.package == b.package && a.timeout == b.timeout &&
-         requirements_of(a) == requirements_of(b);
-}
-
-/// The tasks of one list, ascending, each once.
-using Clique = std::vector<TaskIndex>;
-
-std::set<Clique> cliques_of(const Catalog& catalog) {
-  std::set<Clique> cliques;
-  for (const ExclusivityList& list : catalog.exclusivity) {
-    Clique clique = list.tasks;
-    std::sort(clique.begin(), clique.end());
-    clique.erase(std::unique(clique.begin(), clique.end()), clique.end());
-    if (clique.size() > 1) cliques.insert(std::move(clique));
-  }
-  return cliques;
-}
-
-/// Whether each of some cliques is one of `others`, or a part of one.
-bool are_contained(const std::set<Clique>& cliques, const std::set<Clique>& others,
-                   std::size_t tasks) {
-  std::vector<std::vector<const Clique*>> others_of(tasks);
-  for (const Clique& other : others) {
-    for (const TaskIndex task : other) others_of[task].push_back(&other);
-  }
-  return std::all_of(cliques.begin(), cliques.end(), [&](const Clique& clique) {
-    if (others.contains(clique)) return true;
-    const TaskIndex rarest = *std::min_element(
-        clique.begin(), clique.end(),
-        [&](TaskIndex a, TaskIndex b) { return others_of[a].size() < others_of[b].size(); });
-    return std::any_of(
-        others_of[rarest].begin(), others_of[rarest].end(), [&clique](const Clique* other) {
-          return std::includes(other->begin(), other->end(), clique.begin(), clique.end());
-        });
-  });
-}
-
-}  // namespace
-
-bool same_meaning(const Catalog& a, const Catalog& b) {
-  if (!std::equal(a.tasks.begin(), a.tasks.end(), b.tasks.begin(), b.tasks.end(), same_task)) {
-    return false;
-  }
-  if (!std::equal(a.behaviors.begin(), a.behaviors.end(), b.behaviors.begin(), b.behaviors.end(),
-                  same_behavior)) {
-    return false;
-  }
-  const std::set<Clique> of_a = cliques_of(a);
-  const std::set<Clique> of_b = cliques_of(b);
-  return are_contained(of_a, of_b, a.tasks.size()) && are_contained(of_b, of_a, a.tasks.size());
-}
-
-}  // namespace cbc

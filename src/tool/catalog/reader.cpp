@@ -18,91 +18,7 @@
 #include "yaml/document.h"
 #include "yaml/values.h"
 
-namespace cbc::shape {
-namespace {
-
-using yaml::Key;
-using yaml::Shape;
-
-std::optional<std::string_view> present_goal(const yaml::Node& category) {
-  if (category.text == "goal_based") return "achieve_goal";
-  if (category.text == "recurrent") return "keep_running";
-  return std::nullopt;
-}
-
-constexpr Key catalog_keys[] = {
-    {"default_values"}, {"behaviors"}, {"tasks"}, {"exclusivity_constraints"}};
-constexpr Key default_values_keys[] = {{"tasks"}, {"behaviors"}};
-constexpr Key task_defaults_keys[] = {{"execution_goal"},
-                                      {"start_on_request"},
-                                      {"reactive_start"},
-                                      {"timeout"},
-                                      {"category", "execution_goal", present_goal},
-                                      {"automatic_activation", "start_on_request", yaml::opposite},
-                                      {"default", "reactive_start"}};
-constexpr Key behavior_defaults_keys[] = {
-    {"suitability"}, {"package"}, {"efficacy", "suitability"}};
-constexpr Key behavior_keys[] = {
-    {"behavior"}, {"package"}, {"task"},        {"tasks"},
-    {"requires"}, {"timeout"}, {"suitability"}, {"efficacy", "suitability"}};
-constexpr Key performance_keys[] = {{"task"}, {"suitability"}, {"efficacy", "suitability"}};
-constexpr Key requirement_keys[] = {{"task"}, {"minimum_performance"}};
-constexpr Key task_keys[] = {{"task"},
-                             {"execution_goal"},
-                             {"start_on_request"},
-                             {"reactive_start"},
-                             {"timeout"},
-                             {"minimum_performance"},
-                             {"parameters"},
-                             {"category", "execution_goal", present_goal},
-                             {"automatic_activation", "start_on_request", yaml::opposite},
-                             {"default", "reactive_start"}};
-constexpr Key parameter_keys[] = {{"parameter"}, {"allowed_values"}};
-constexpr Key exclusivity_list_keys[] = {{"mutually_exclusive"}};
-
-constexpr const Shape* in_catalog[] = {&behavior, &task, &exclusivity_list};
-constexpr const Shape* in_default_values[] = {&task_defaults, &behavior_defaults};
-constexpr const Shape* in_behavior[] = {&requirement, &performance};
-constexpr const Shape* in_task[] = {&parameter};
-
-}  // namespace
-
-const Shape catalog{"a catalog", catalog_keys, nullptr, in_catalog};
-const Shape default_values{"default_values", default_values_keys, &catalog, in_default_values};
-const Shape task_defaults{"the defaults of tasks", task_defaults_keys, &default_values};
-const Shape behavior_defaults{"the defaults of behaviors", behavior_defaults_keys, &default_values};
-const Shape behavior{"a behavior", behavior_keys, &catalog, in_behavior};
-const Shape performance{"a task of a behavior", performance_keys, &behavior};
-const Shape requirement{"a requirement", requirement_keys, &behavior};
-const Shape task{"a task", task_keys, &catalog, in_task};
-const Shape parameter{"a parameter", parameter_keys, &task};
-const Shape exclusivity_list{"an exclusivity constraint", exclusivity_list_keys, &catalog};
-
-}  // namespace cbc::shape
-
 namespace cbc {
-
-/// Applies defaults to the attributes that tasks give themselves.
-class TaskAttributes {
- public:
-  /// `defaults` must outlive this object.
-  TaskAttributes(const draft::TaskAttributes& defaults, Reporter& reporter)
-      : defaults_(defaults), reporter_(reporter) {}
-
-  /// Fills in a task from its entry, which stands at `range`. Reports both start flags at once.
-  void apply(const Range& range, const draft::TaskAttributes& own, Task& task);
-
-  /// What a later entry of a task changes, for people: "timeout 15 s, was 180 s". Empty if nothing.
-  [[nodiscard]] std::string describe_changes(const draft::Task& before,
-                                             const draft::Task& now) const;
-
- private:
-  void report_both_flags(const Range& range, const draft::TaskAttributes& own, const Task& task);
-
-  const draft::TaskAttributes& defaults_;
-  Reporter& reporter_;
-};
-
 namespace {
 
 struct Flags {
@@ -144,8 +60,7 @@ std::string name_of_minimum(const draft::Percent& minimum) {
 bool same_parameters(const std::vector<Parameter>& a, const std::vector<Parameter>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const Parameter& x, const Parameter& y) {
-                      return x.name == y.name && x.allowed_values == y.allowed_values &&
-                             x.allowed_is_list == y.allowed_is_list;
+                      return x.name == y.name && allow_the_same(x, y);
                     });
 }
 
@@ -166,7 +81,26 @@ class Changes {
   std::string text_;
 };
 
-}  // namespace
+/// Completes the attributes of tasks with the defaults.
+class TaskAttributes {
+ public:
+  /// `defaults` must outlive this object.
+  TaskAttributes(const draft::TaskAttributes& defaults, Reporter& reporter)
+      : defaults_(defaults), reporter_(reporter) {}
+
+  /// Fills in a task from its entry, which stands at `range`. Reports both start flags at once.
+  void apply(const Range& range, const draft::TaskAttributes& own, Task& task);
+
+  /// What a later entry of a task changes, in words: "timeout 15 s, was 180 s". Empty if nothing.
+  [[nodiscard]] std::string describe_changes(const draft::Task& before,
+                                             const draft::Task& now) const;
+
+ private:
+  void report_both_flags(const Range& range, const draft::TaskAttributes& own, const Task& task);
+
+  const draft::TaskAttributes& defaults_;
+  Reporter& reporter_;
+};
 
 void TaskAttributes::apply(const Range& range, const draft::TaskAttributes& own, Task& task) {
   task.is_unclear = own.is_unclear || defaults_.is_unclear;
@@ -185,8 +119,8 @@ void TaskAttributes::apply(const Range& range, const draft::TaskAttributes& own,
   }
 }
 
-// The finding stands at what the task itself says; where it says nothing, at the defaults, once for
-// all tasks.
+// The place of the finding is the flag that the task itself gives; if it gives none, that of the
+// defaults, once for all tasks.
 void TaskAttributes::report_both_flags(const Range& range, const draft::TaskAttributes& own,
                                        const Task& task) {
   if (!own.start_on_request && !own.reactive_start) {
@@ -239,9 +173,7 @@ std::string TaskAttributes::describe_changes(const draft::Task& before,
   return changes.text();
 }
 
-namespace {
-
-// Makes a catalog of a draft: gives tasks and behaviors their places, resolves names, applies
+// Makes a catalog of a draft: gives tasks and behaviors their indices, resolves names, and applies
 // defaults.
 class Resolver {
  public:
@@ -268,7 +200,7 @@ class Resolver {
   };
 
   void define_listed_tasks() {
-    std::vector<const draft::Task*> last;  // entry of each task that counts
+    std::vector<const draft::Task*> last;  // by task: the entry that counts
     for (const draft::Task& entry : draft_.tasks) {
       const auto index = static_cast<TaskIndex>(last.size());
       const auto [known, is_new] = tasks_.try_emplace(entry.name.text, index);
@@ -316,7 +248,7 @@ class Resolver {
         task.range = performance.task.range;
         task.implicit = true;
         attributes_.apply(task.range, {}, task);
-        // It may have an entry that could not be read.
+        // It may have an entry, one that could not be read.
         task.is_unclear |= draft_.lacks_a_section || draft_.nameless_tasks > 0;
         catalog_.tasks.push_back(std::move(task));
       }
@@ -400,8 +332,8 @@ class Resolver {
     return std::nullopt;
   }
 
-  // A name that resembles no other may be defined where the file could not be understood; then the
-  // fault is that one, and has been reported.
+  // A name that resembles no other may be defined in a part of the file that was not understood;
+  // that mistake has been reported.
   void report_undefined() {
     if (undefined_.empty() || draft_.lacks_a_section) return;
     std::vector<std::string_view> names;
@@ -416,7 +348,7 @@ class Resolver {
       entry->second = suggestions.nearest(undefined.name.text);
       if (!entry->second) ++strange;
     }
-    std::set<Range> reported;  // through aliases a name stands in several places of the tree
+    std::set<Range> reported;  // aliases give a name several places in the tree
     for (const Undefined& undefined : undefined_) {
       const auto& suggestion = suggested.at(undefined.name.text);
       if (!suggestion && strange <= draft_.nameless_tasks) continue;

@@ -9,27 +9,11 @@
 #include "catalog/catalog.h"
 #include "diagnostic/diagnostic.h"
 #include "yaml/document.h"
-#include "yaml/values.h"
 
-/// The keys of each kind of mapping in a catalog.
-namespace cbc::shape {
-
-extern const yaml::Shape catalog;
-extern const yaml::Shape default_values;
-extern const yaml::Shape task_defaults;
-extern const yaml::Shape behavior_defaults;
-extern const yaml::Shape behavior;
-extern const yaml::Shape performance;
-extern const yaml::Shape requirement;
-extern const yaml::Shape task;
-extern const yaml::Shape parameter;
-extern const yaml::Shape exclusivity_list;
-
-}  // namespace cbc::shape
-
+/// Reads catalogs.
 namespace cbc {
 
-/// A name that stands where a task is required or excluded, and that no task has.
+/// The name of a required or excluded task that no task has.
 struct UndefinedTask {
   std::string name;
   std::optional<BehaviorIndex> behavior;  ///< that requires it; empty: an exclusivity list has it
@@ -41,20 +25,20 @@ struct UndefinedTask {
 struct CatalogReading {
   /// As far as it was understood.
   Catalog catalog;
-  /// What it leaves out of requirements and exclusivity lists.
+  /// The names in requirements and exclusivity lists that it leaves out.
   std::vector<UndefinedTask> undefined_tasks;
-  /// Whether it was understood as a whole, though it may break assumptions of the semantics.
+  /// Whether all of it was understood, though it may break rules about its meaning.
   bool is_complete = false;
   /// Whether all entries and names were understood. Values may be missing, and then exclude
   /// nothing.
   bool has_all_names = false;
-  /// Whether all behaviors were understood, but for what the named ones without a task perform.
+  /// Whether all behaviors were understood, except that named ones may lack their tasks.
   bool has_all_behaviors = false;
   /// Whether its requirements have no cycle.
   bool is_acyclic = false;
 };
 
-/// Understands as much of a catalog as there is. All problems of the text are reported into
+/// Understands as much of a catalog as possible. All problems of the text are reported into
 /// `diagnostics` at once.
 [[nodiscard]] CatalogReading understand_catalog(const yaml::Document& document,
                                                 Diagnostics& diagnostics);

@@ -26,7 +26,7 @@ std::string_view name_of(Severity severity) {
 void Diagnostics::add(Diagnostic diagnostic) { all_.push_back(std::move(diagnostic)); }
 
 void Diagnostics::sort() {
-  // Findings at one place keep the order in which they were found.
+  // Findings at the same place keep the order in which they were reported.
   std::stable_sort(all_.begin(), all_.end(), [](const Diagnostic& a, const Diagnostic& b) {
     return std::tie(a.file, a.range.begin, a.rule) < std::tie(b.file, b.range.begin, b.rule);
   });
@@ -38,24 +38,28 @@ std::size_t Diagnostics::count(Severity severity) const {
       [severity](const Diagnostic& diagnostic) { return diagnostic.severity == severity; }));
 }
 
-void Reporter::report(std::string_view rule, const Range& range, std::string message,
+void Reporter::report(const Rule& rule, const Range& range, std::string message,
                       std::vector<Note> notes, std::vector<Edit> edits) {
-  report_as(find_rule(rule)->severity, rule, range, std::move(message), std::move(notes),
-            std::move(edits));
+  report_as(rule.severity, rule, range, std::move(message), std::move(notes), std::move(edits));
 }
 
-void Reporter::report_as(Severity severity, std::string_view rule, const Range& range,
+void Reporter::report_as(Severity severity, const Rule& rule, const Range& range,
                          std::string message, std::vector<Note> notes, std::vector<Edit> edits) {
-  std::string identity(rule);
+  std::string identity(rule.name);
   identity += ' ' + std::to_string(range.begin.line) + ' ' + std::to_string(range.begin.column) +
               ' ' + message;
   if (!reported_.insert(std::move(identity)).second) return;
   if (severity == Severity::error) {
     ++errors_;
-    ++errors_of_[rule];
+    ++errors_of_[rule.name];
   }
   diagnostics_.add(
-      {rule, severity, file_, range, std::move(message), std::move(notes), std::move(edits)});
+      {rule.name, severity, file_, range, std::move(message), std::move(notes), std::move(edits)});
+}
+
+std::size_t Reporter::errors(const Rule& rule) const {
+  const auto found = errors_of_.find(rule.name);
+  return found == errors_of_.end() ? 0 : found->second;
 }
 
 namespace {
@@ -64,8 +68,8 @@ constexpr std::size_t stride = 256;
 
 bool is_continuation(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
 
-// Bytes that begin a character. Texts that are no valid UTF-8 are refused at the first bad byte,
-// so what stray continuation bytes count for does not matter.
+// Bytes that begin a character. Texts that are not valid UTF-8 are refused at the first bad byte,
+// so it does not matter how stray continuation bytes count.
 std::size_t count_beginnings(std::string_view text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char byte) { return !is_continuation(byte); }));
@@ -163,7 +167,7 @@ constexpr std::size_t context_before = 48;
 // One character of a line as it is printed.
 struct Cell {
   std::string_view text;
-  std::string_view blank;  // what takes the same columns in the line of the caret
+  std::string_view blank;  // takes the same number of columns in the line of the caret
   std::size_t width = 1;
 };
 
@@ -186,7 +190,7 @@ std::vector<Cell> split(std::string_view line) {
   return cells;
 }
 
-// The line of a place and a caret below it, with a tail to the end of the range.
+// The line of a place, and a caret below it with a tail up to the end of the range.
 std::string render_line(const Range& range, const PositionMap::Excerpt& line, const Style& style) {
   const std::vector<Cell> cells = split(line.text);
   const auto cell_of = [&](std::uint32_t column) {

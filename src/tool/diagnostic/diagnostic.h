@@ -11,10 +11,14 @@
 #include <utility>
 #include <vector>
 
+/// Findings about input files: what they are, how they are collected, and how they look in a
+/// terminal.
 namespace cbc {
 
-/// How much a finding matters: an error makes the input unusable, a warning is a clear meaning that
-/// is surely not meant, a note is advice.
+struct Rule;  // diagnostic/rules.h
+
+/// How much a finding matters: an error makes the input unusable; with a warning its meaning is
+/// clear, but hardly intended; a note is advice.
 enum class Severity : std::uint8_t { note, warning, error };
 
 /// "note", "warning", "error".
@@ -34,7 +38,7 @@ struct Range {
   auto operator<=>(const Range&) const = default;
 };
 
-/// Another place that belongs to a finding ("first defined here").
+/// Another place that a finding is about ("first defined here").
 struct Note {
   std::string file;
   Range range;
@@ -54,13 +58,13 @@ struct Edit {
 
 /// One finding about an input file.
 struct Diagnostic {
-  std::string_view rule;  ///< name of the rule, one of those in cbc/rules.h
+  std::string_view rule;  ///< the name of one in diagnostic/rules.h
   Severity severity = Severity::error;
   std::string file;
   Range range;
   std::string message;
   std::vector<Note> notes;
-  std::vector<Edit> edits = {};  ///< all of them together mend it; empty: a person has to
+  std::vector<Edit> edits = {};  ///< together they mend it; empty: it takes a person
 };
 
 /// Collects the findings of one or several files. Readers add to it and go on; nothing is thrown.
@@ -72,7 +76,7 @@ class Diagnostics {
   void sort();
 
   [[nodiscard]] const std::vector<Diagnostic>& all() const { return all_; }
-  /// Gives the findings away.
+  /// Hands the findings over and keeps none.
   [[nodiscard]] std::vector<Diagnostic> release() { return std::exchange(all_, {}); }
   [[nodiscard]] std::size_t count(Severity severity) const;
   [[nodiscard]] bool has_errors() const { return count(Severity::error) > 0; }
@@ -81,19 +85,19 @@ class Diagnostics {
   std::vector<Diagnostic> all_;
 };
 
-/// Reports findings about one file. The same finding is reported once, though a piece of the file
-/// may be read several times through aliases.
+/// Reports findings about one file. The same finding is reported once, even if aliases make a piece
+/// of the file be read several times.
 class Reporter {
  public:
   Reporter(std::string file, Diagnostics& diagnostics)
       : file_(std::move(file)), diagnostics_(diagnostics) {}
 
   /// Reports with the severity of the rule.
-  void report(std::string_view rule, const Range& range, std::string message,
+  void report(const Rule& rule, const Range& range, std::string message,
               std::vector<Note> notes = {}, std::vector<Edit> edits = {});
 
   /// Reports with another severity.
-  void report_as(Severity severity, std::string_view rule, const Range& range, std::string message,
+  void report_as(Severity severity, const Rule& rule, const Range& range, std::string message,
                  std::vector<Note> notes = {}, std::vector<Edit> edits = {});
 
   /// A note about another place of this file.
@@ -102,11 +106,8 @@ class Reporter {
   }
 
   [[nodiscard]] std::size_t errors() const { return errors_; }
-  /// Errors of one rule.
-  [[nodiscard]] std::size_t errors(std::string_view rule) const {
-    const auto found = errors_of_.find(rule);
-    return found == errors_of_.end() ? 0 : found->second;
-  }
+  /// The number of errors of one rule.
+  [[nodiscard]] std::size_t errors(const Rule& rule) const;
 
  private:
   std::string file_;
@@ -213,14 +214,14 @@ class SourceTexts {
   std::map<std::string, PositionMap, std::less<>> texts_;
 };
 
-/// A finding as a person reads it, each line of it ended by a line break:
+/// A finding for people to read; every line ends with a line break:
 ///
 ///     a.yaml:3:9: error: task 'HOVR' is not defined; did you mean 'HOVER'? [undefined-task]
 ///       task: HOVR
 ///             ^~~~
 ///
-/// and then its notes in the same way. Lines that are not known are left out; control characters
-/// are made harmless.
+/// Its notes follow in the same form. Unknown lines are left out; control characters are made
+/// harmless.
 [[nodiscard]] std::string render(const Diagnostic& diagnostic, const SourceTexts& sources,
                                  const Style& style);
 

@@ -1,20 +1,20 @@
+// Rules about single entries: how tasks and behaviors are defined, their attributes and parameters.
 #include "diagnostic/rules.h"
 
-namespace cbc {
-namespace {
+namespace cbc::rule {
 
-constexpr Rule definition_table[] = {
-    {.name = rule::duplicate_behavior,
-     .severity = Severity::error,
-     .is_fixed = true,
-     .summary = "A behavior is defined twice.",
-     .explanation =
-         "A behavior is known by its name alone: a script says which behavior finishes, fails or "
-         "is available, and the coordinator which one it activates. With two definitions it is "
-         "unclear what the behavior performs, how well, and what it requires, so the catalog is "
-         "neither compiled nor solved. This holds even for two definitions that are equal. A task "
-         "and a behavior may have the same name.",
-     .example = R"(behaviors:
+const Rule duplicate_behavior = {
+    .name = "duplicate-behavior",
+    .severity = Severity::error,
+    .is_fixed = true,
+    .summary = "A behavior is defined twice.",
+    .explanation =
+        "A behavior is known by its name alone: a script says which behavior finishes, fails or is "
+        "available, and the coordinator which one it activates. With two definitions it is unclear "
+        "what the behavior performs, how well, and what it requires, so the catalog is neither "
+        "compiled nor solved. This holds even if the two definitions are equal. A task and a "
+        "behavior may have the same name.",
+    .example = R"(behaviors:
 - behavior: PID_CONTROL
   task: HOVER
 - behavior: PID_CONTROL
@@ -23,10 +23,10 @@ tasks:
 - task: HOVER
 - task: ROTATE
 )",
-     .mending =
-         "Remove one of the definitions, or give it another name. A behavior that performs several "
-         "tasks is defined once, with 'tasks' in place of 'task'.",
-     .mended = R"(behaviors:
+    .mending =
+        "Remove one of the definitions, or give it another name. A behavior that performs several "
+        "tasks is defined once, with 'tasks' in place of 'task'.",
+    .mended = R"(behaviors:
 - behavior: PID_CONTROL
   tasks:
   - task: HOVER
@@ -34,20 +34,22 @@ tasks:
 tasks:
 - task: HOVER
 - task: ROTATE
-)"},
+)",
+};
 
-    {.name = rule::undefined_task,
-     .severity = Severity::error,
-     .is_fixed = true,
-     .summary = "A task is named that is not defined.",
-     .explanation =
-         "An entry of the section 'tasks' defines a task, and so does a behavior that performs it. "
-         "A name that stands only in a requirement, in an exclusivity list or in a script defines "
-         "none. Usually it is misspelt; the message gives the nearest known name.\n\n"
-         "A requirement of such a task could never be met, and an exclusivity list with it would "
-         "let tasks run together that are meant to exclude one another. So such a file is neither "
-         "compiled nor solved.",
-     .example = R"(behaviors:
+const Rule undefined_task = {
+    .name = "undefined-task",
+    .severity = Severity::error,
+    .is_fixed = true,
+    .summary = "A task is named that is not defined.",
+    .explanation =
+        "An entry of the section 'tasks' defines a task, and so does a behavior that performs it. "
+        "A name that stands only in a requirement, in an exclusivity list or in a script defines "
+        "none. Usually it is misspelt; the message gives the nearest known name.\n\n"
+        "A requirement of such a task could never be met, and an exclusivity list with it would "
+        "let tasks run together that are meant to exclude one another. So such a file is neither "
+        "compiled nor solved.",
+    .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   requires:
@@ -60,8 +62,8 @@ tasks:
   execution_goal: keep_running
   start_on_request: FALSE
 )",
-     .mending = "Correct the name, or define the task.",
-     .mended = R"(behaviors:
+    .mending = "Correct the name, or define the task.",
+    .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   requires:
@@ -73,114 +75,114 @@ tasks:
 - task: LOCALIZE
   execution_goal: keep_running
   start_on_request: FALSE
-)"},
-
-    {.name = rule::task_without_behavior,
-     .severity = Severity::warning,
-     .summary = "No behavior performs a task.",
-     .explanation =
-         "The task is listed in the section 'tasks', but no behavior can perform it, so it can "
-         "never run. The coordinator rejects every request of it, and never chooses a behavior "
-         "that requires it; such a behavior is not reported again.",
-     .example = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-tasks:
-- task: HOVER
-- task: LAND
 )",
-     .mending =
-         "Add a behavior that performs the task, correct the name that differs between the task "
-         "and its behavior, or remove the task.",
-     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-- behavior: LAND_WITH_PID
-  task: LAND
-tasks:
-- task: HOVER
-- task: LAND
-)"},
-
-    {.name = rule::implicit_task,
-     .severity = Severity::note,
-     .summary = "A task is named by a behavior only.",
-     .explanation =
-         "A behavior performs the task, but the section 'tasks' does not list it. It is a task all "
-         "the same, with the default attributes and without parameters.\n\n"
-         "This is allowed, but a misspelt name looks just like it: it makes one more task, and the "
-         "task that is meant has one behavior fewer. In a catalog without a section 'tasks' there "
-         "is one finding for all of them, at the first.",
-     .example = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-- behavior: LAND_WITH_PID
-  task: LAND
-tasks:
-- task: HOVER
-)",
-     .mending = "List the task, or correct its name in the behavior.",
-     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-- behavior: LAND_WITH_PID
-  task: LAND
-tasks:
-- task: HOVER
-- task: LAND
-)"},
-
-    {.name = rule::duplicate_task,
-     .severity = Severity::warning,
-     .summary = "A task is listed twice.",
-     .explanation =
-         "The task keeps the place of its first entry, but has all attributes of the last one. "
-         "What the last entry does not mention has its default, whatever the earlier ones say: so "
-         "a timeout or parameters of an earlier entry are lost without a sign. The message says "
-         "which attributes the later entry changes.",
-     .example = R"(behaviors:
-- behavior: ROTATE_WITH_PID
-  task: ROTATE
-tasks:
-- task: ROTATE
-  timeout: 30
-- task: ROTATE
-  parameters:
-  - parameter: angle
-    allowed_values: [-360, 360]
-)",
-     .mending = "Make one entry of the two, or correct the name of one of them.",
-     .mended = R"(behaviors:
-- behavior: ROTATE_WITH_PID
-  task: ROTATE
-tasks:
-- task: ROTATE
-  timeout: 30
-  parameters:
-  - parameter: angle
-    allowed_values: [-360, 360]
-)"},
 };
 
-}  // namespace
+const Rule task_without_behavior = {
+    .name = "task-without-behavior",
+    .severity = Severity::warning,
+    .summary = "No behavior performs a task.",
+    .explanation =
+        "The task is listed in the section 'tasks', but no behavior can perform it, so it can "
+        "never run. The coordinator rejects every request of it, and never chooses a behavior that "
+        "requires it; such a behavior is not reported again.",
+    .example = R"(behaviors:
+- behavior: HOVER_WITH_PID
+  task: HOVER
+tasks:
+- task: HOVER
+- task: LAND
+)",
+    .mending =
+        "Add a behavior that performs the task, correct the name that differs between the task and "
+        "its behavior, or remove the task.",
+    .mended = R"(behaviors:
+- behavior: HOVER_WITH_PID
+  task: HOVER
+- behavior: LAND_WITH_PID
+  task: LAND
+tasks:
+- task: HOVER
+- task: LAND
+)",
+};
 
-std::span<const Rule> definition_rules() { return definition_table; }
+const Rule implicit_task = {
+    .name = "implicit-task",
+    .severity = Severity::note,
+    .summary = "A task is named by a behavior only.",
+    .explanation =
+        "A behavior performs the task, but the section 'tasks' does not list it. It is still a "
+        "task, with the default attributes and without parameters.\n\n"
+        "This is allowed, but a misspelt name looks just like it: it makes one more task, and the "
+        "task that is meant has one behavior fewer. In a catalog without a section 'tasks' there "
+        "is one finding for all of them, at the first.",
+    .example = R"(behaviors:
+- behavior: HOVER_WITH_PID
+  task: HOVER
+- behavior: LAND_WITH_PID
+  task: LAND
+tasks:
+- task: HOVER
+)",
+    .mending = "List the task, or correct its name in the behavior.",
+    .mended = R"(behaviors:
+- behavior: HOVER_WITH_PID
+  task: HOVER
+- behavior: LAND_WITH_PID
+  task: LAND
+tasks:
+- task: HOVER
+- task: LAND
+)",
+};
 
-namespace {
+const Rule duplicate_task = {
+    .name = "duplicate-task",
+    .severity = Severity::warning,
+    .summary = "A task is listed twice.",
+    .explanation =
+        "The task keeps the place of its first entry, but has all attributes of the last one. What "
+        "the last entry does not mention has its default, whatever the earlier ones say: so a "
+        "timeout or parameters of an earlier entry are lost silently. The message says which "
+        "attributes the later entry changes.",
+    .example = R"(behaviors:
+- behavior: ROTATE_WITH_PID
+  task: ROTATE
+tasks:
+- task: ROTATE
+  timeout: 30
+- task: ROTATE
+  parameters:
+  - parameter: angle
+    allowed_values: [-360, 360]
+)",
+    .mending = "Make one entry of the two, or correct the name of one of them.",
+    .mended = R"(behaviors:
+- behavior: ROTATE_WITH_PID
+  task: ROTATE
+tasks:
+- task: ROTATE
+  timeout: 30
+  parameters:
+  - parameter: angle
+    allowed_values: [-360, 360]
+)",
+};
 
-constexpr Rule attribute_table[] = {
-    {.name = rule::on_request_and_reactive,
-     .severity = Severity::error,
-     .is_fixed = true,
-     .summary = "A task is to start on request only, and also by itself.",
-     .explanation =
-         "With start_on_request TRUE the coordinator starts a task only when it is requested; with "
-         "reactive_start TRUE it starts the task by itself whenever that is possible. A task "
-         "cannot have both, so the catalog is neither compiled nor solved.\n\n"
-         "A task that itself says 'reactive_start: TRUE' and nothing about start_on_request has "
-         "start_on_request FALSE, whatever default_values says. In all other cases in which both "
-         "are TRUE, by the task itself or by default, the rule is broken.",
-     .example = R"(behaviors:
+const Rule on_request_and_reactive = {
+    .name = "on-request-and-reactive",
+    .severity = Severity::error,
+    .is_fixed = true,
+    .summary = "A task is to start on request only, and also by itself.",
+    .explanation =
+        "With start_on_request TRUE the coordinator starts a task only when it is requested; with "
+        "reactive_start TRUE it starts the task by itself whenever that is possible. A task cannot "
+        "have both, so the catalog is neither compiled nor solved.\n\n"
+        "A task that itself says 'reactive_start: TRUE' and nothing about start_on_request has "
+        "start_on_request FALSE, whatever default_values says. In all other cases in which both "
+        "are TRUE, by the task itself or by default, the rule is broken.",
+    .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
 tasks:
@@ -189,30 +191,32 @@ tasks:
   reactive_start: TRUE
   start_on_request: TRUE
 )",
-     .mending =
-         "Remove the one that is not meant, or set it to FALSE. A reactive task can be requested "
-         "all the same.",
-     .mended = R"(behaviors:
+    .mending =
+        "Remove the one that is not meant, or set it to FALSE. A reactive task can still be "
+        "requested.",
+    .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
 tasks:
 - task: HOVER
   execution_goal: keep_running
   reactive_start: TRUE
-)"},
+)",
+};
 
-    {.name = rule::reactive_timeout,
-     .severity = Severity::warning,
-     .summary = "A reactive task is ended by a timeout, only to start again.",
-     .explanation =
-         "A reactive task is to run whenever nothing speaks against it. With execution_goal "
-         "achieve_goal and a timeout its behavior fails each time that the timeout is over. Then "
-         "another behavior of the task goes on, if there is one, and they take turns for ever; or "
-         "the task stops, and starts again at the next occasion, for example when a task stops "
-         "that excludes it.\n\n"
-         "It does not matter where the timeout comes from: the task, default_values, or a behavior "
-         "that performs the task.",
-     .example = R"(behaviors:
+const Rule reactive_timeout = {
+    .name = "reactive-timeout",
+    .severity = Severity::warning,
+    .summary = "A reactive task is ended by a timeout, only to start again.",
+    .explanation =
+        "A reactive task is meant to run whenever nothing prevents it. With execution_goal "
+        "achieve_goal and a timeout, its behavior fails each time the timeout expires. Then "
+        "another behavior of the task takes over, if there is one, and they take turns forever; or "
+        "the task stops, and starts again at the next opportunity, for example when a task that "
+        "excludes it stops.\n\n"
+        "It does not matter where the timeout comes from: the task, default_values, or a behavior "
+        "that performs the task.",
+    .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
 tasks:
@@ -220,27 +224,29 @@ tasks:
   reactive_start: TRUE
   timeout: 60
 )",
-     .mending = "Give the task 'execution_goal: keep_running', and remove its timeout.",
-     .mended = R"(behaviors:
+    .mending = "Give the task 'execution_goal: keep_running', and remove its timeout.",
+    .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
 tasks:
 - task: HOVER
   reactive_start: TRUE
   execution_goal: keep_running
-)"},
+)",
+};
 
-    {.name = rule::no_timeout_effect,
-     .severity = Severity::note,
-     .summary = "A timeout has no effect, since the task is to keep running.",
-     .explanation =
-         "A timeout ends a behavior that does not achieve the goal of its task in time. A task "
-         "with execution_goal keep_running has no goal to achieve, so the coordinator sets no "
-         "timer: the task runs on, whatever its timeout says.\n\n"
-         "The rule is about the timeout of such a task itself, and about that of a behavior all of "
-         "whose tasks are such. A timeout in default_values is for the other tasks, and is not "
-         "reported.",
-     .example = R"(behaviors:
+const Rule no_timeout_effect = {
+    .name = "no-timeout-effect",
+    .severity = Severity::note,
+    .summary = "A timeout has no effect, since the task is to keep running.",
+    .explanation =
+        "A timeout ends a behavior that does not achieve the goal of its task in time. A task with "
+        "execution_goal keep_running has no goal to achieve, so the coordinator sets no timer: the "
+        "task runs on, whatever its timeout says.\n\n"
+        "The rule is about the timeout of such a task itself, and about the timeout of a behavior "
+        "all of whose tasks keep running. A timeout in default_values is meant for other tasks, "
+        "and is not reported.",
+    .example = R"(behaviors:
 - behavior: GPS
   task: LOCALIZE
 tasks:
@@ -248,54 +254,58 @@ tasks:
   execution_goal: keep_running
   timeout: 30
 )",
-     .mending =
-         "Remove the timeout, or, if the task is to end, give it 'execution_goal: achieve_goal'.",
-     .mended = R"(behaviors:
+    .mending =
+        "Remove the timeout, or, if the task is to end, give it 'execution_goal: achieve_goal'.",
+    .mended = R"(behaviors:
 - behavior: GPS
   task: LOCALIZE
 tasks:
 - task: LOCALIZE
   execution_goal: keep_running
-)"},
+)",
+};
 
-    {.name = rule::suspicious_suitability,
-     .severity = Severity::warning,
-     .summary = "A suitability is 1 percent or less.",
-     .explanation =
-         "Suitabilities are given in percent, from 0 to 100. One that is at most 1 is probably a "
-         "fraction: 0.9 means 0.9 percent, not 90. Of the configurations that serve the same "
-         "requests the coordinator takes the one with the highest product of suitabilities, so it "
-         "avoids such a behavior where it can, and no minimum_performance worth the name is "
-         "reached with it.\n\n"
-         "A suitability of 0 makes the whole product 0, however suitable all other behaviors are, "
-         "so that they no longer count.",
-     .example = R"(behaviors:
+const Rule suspicious_suitability = {
+    .name = "suspicious-suitability",
+    .severity = Severity::warning,
+    .summary = "A suitability is 1 percent or less.",
+    .explanation =
+        "Suitabilities are given in percent, from 0 to 100. One that is at most 1 is probably a "
+        "fraction: 0.9 means 0.9 percent, not 90. Of the configurations that serve the same "
+        "requests the coordinator takes the one with the highest product of suitabilities, so it "
+        "avoids such a behavior where it can, and no minimum_performance worth the name is reached "
+        "with it.\n\n"
+        "A suitability of 0 makes the whole product 0, however suitable all other behaviors are, "
+        "so that they no longer count.",
+    .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 0.9
 tasks:
 - task: HOVER
 )",
-     .mending =
-         "Give the suitability in percent. If a last resort is meant, which is chosen only where "
-         "nothing else will do, keep it and allow the rule there.",
-     .mended = R"(behaviors:
+    .mending =
+        "Give the suitability in percent. If a last resort is meant, which is chosen only where "
+        "nothing else will do, keep it and allow the rule there.",
+    .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 90
 tasks:
 - task: HOVER
-)"},
+)",
+};
 
-    {.name = rule::suspicious_minimum,
-     .severity = Severity::warning,
-     .summary = "A minimum performance is over 0, but 1 percent or less.",
-     .explanation =
-         "A minimum_performance, of a requirement or of a task, is given in percent, from 0 to "
-         "100. One that is over 0 and at most 1 is probably a fraction: 0.8 means 0.8 percent, not "
-         "80. Nearly every choice of behaviors reaches it, so the coordinator accepts ones that "
-         "the author of the catalog wanted to rule out.",
-     .example = R"(behaviors:
+const Rule suspicious_minimum = {
+    .name = "suspicious-minimum",
+    .severity = Severity::warning,
+    .summary = "A minimum performance is over 0, but 1 percent or less.",
+    .explanation =
+        "A minimum_performance, of a requirement or of a task, is given in percent, from 0 to 100. "
+        "One that is over 0 and at most 1 is probably a fraction: 0.8 means 0.8 percent, not 80. "
+        "Nearly every choice of behaviors reaches it, so the coordinator accepts ones that the "
+        "author of the catalog wanted to rule out.",
+    .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   requires:
@@ -310,8 +320,8 @@ tasks:
   execution_goal: keep_running
   start_on_request: FALSE
 )",
-     .mending = "Give the minimum in percent.",
-     .mended = R"(behaviors:
+    .mending = "Give the minimum in percent.",
+    .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   requires:
@@ -325,24 +335,18 @@ tasks:
 - task: LOCALIZE
   execution_goal: keep_running
   start_on_request: FALSE
-)"},
+)",
 };
 
-}  // namespace
-
-std::span<const Rule> attribute_rules() { return attribute_table; }
-
-namespace {
-
-constexpr Rule parameter_table[] = {
-    {.name = rule::duplicate_parameter,
-     .severity = Severity::warning,
-     .summary = "A parameter is listed twice in one task.",
-     .explanation =
-         "Two entries of one name say twice what the parameter may be, perhaps differently. Often "
-         "the second one was copied, and not renamed: then the parameter that it was to be is not "
-         "declared, and a request that gives it breaks undeclared-parameter.",
-     .example = R"(behaviors:
+const Rule duplicate_parameter = {
+    .name = "duplicate-parameter",
+    .severity = Severity::warning,
+    .summary = "A parameter is listed twice in one task.",
+    .explanation =
+        "Two entries of one name say twice which values the parameter may have, perhaps "
+        "differently. Often the second one was copied and not renamed: then the parameter that was "
+        "meant is not declared, and a request that gives it breaks undeclared-parameter.",
+    .example = R"(behaviors:
 - behavior: ROTATE_WITH_PID
   task: ROTATE
 tasks:
@@ -353,8 +357,8 @@ tasks:
   - parameter: angle
     allowed_values: [0, 90]
 )",
-     .mending = "Give the second entry the name that is meant, or remove one of the two.",
-     .mended = R"(behaviors:
+    .mending = "Give the second entry the name that is meant, or remove one of the two.",
+    .mended = R"(behaviors:
 - behavior: ROTATE_WITH_PID
   task: ROTATE
 tasks:
@@ -364,16 +368,18 @@ tasks:
     allowed_values: [-360, 360]
   - parameter: speed
     allowed_values: [0, 90]
-)"},
+)",
+};
 
-    {.name = rule::empty_range,
-     .severity = Severity::warning,
-     .summary = "A range of allowed values contains nothing.",
-     .explanation =
-         "Two numbers as allowed_values are a range: from the first to the second, both of them "
-         "included. Here the first is the greater one, so that no value is allowed, and every "
-         "request that gives the parameter breaks parameter-value.",
-     .example = R"(behaviors:
+const Rule empty_range = {
+    .name = "empty-range",
+    .severity = Severity::warning,
+    .summary = "A range of allowed values contains nothing.",
+    .explanation =
+        "Two numbers as allowed_values are a range: from the first to the second, both of them "
+        "included. Here the first is greater than the second, so no value is allowed, and every "
+        "request that gives the parameter breaks parameter-value.",
+    .example = R"(behaviors:
 - behavior: ROTATE_WITH_PID
   task: ROTATE
 tasks:
@@ -382,8 +388,8 @@ tasks:
   - parameter: angle
     allowed_values: [360, -360]
 )",
-     .mending = "Give the lowest value first.",
-     .mended = R"(behaviors:
+    .mending = "Give the lowest value first.",
+    .mended = R"(behaviors:
 - behavior: ROTATE_WITH_PID
   task: ROTATE
 tasks:
@@ -391,18 +397,20 @@ tasks:
   parameters:
   - parameter: angle
     allowed_values: [-360, 360]
-)"},
+)",
+};
 
-    {.name = rule::unknown_type,
-     .severity = Severity::note,
-     .summary = "Allowed values are given as a type that is not known.",
-     .explanation =
-         "allowed_values is a range of numbers, a list of words, or a single word, which is the "
-         "name of a type. The types that cbc knows are string, boolean, integer, number and point, "
-         "and lists of them, such as list_of_strings and point_list. With any other name every "
-         "value is accepted, as there is nothing to check it against; the robot may still refuse "
-         "it.",
-     .example = R"(behaviors:
+const Rule unknown_type = {
+    .name = "unknown-type",
+    .severity = Severity::note,
+    .summary = "Allowed values are given as a type that is not known.",
+    .explanation =
+        "allowed_values is a range of numbers, a list of words, or a single word, which is the "
+        "name of a type. The types that cbc knows are string, boolean, integer, number and point, "
+        "and lists of them, such as list_of_strings and point_list. With any other name every "
+        "value is accepted, as there is nothing to check it against; the robot may still refuse "
+        "it.",
+    .example = R"(behaviors:
 - behavior: SPEAK_WITH_LOUDSPEAKER
   task: SPEAK
 tasks:
@@ -411,10 +419,10 @@ tasks:
   - parameter: message
     allowed_values: sentence
 )",
-     .mending =
-         "Name a known type. A single allowed word is written as a list, in brackets. If the type "
-         "is one of your own, keep it and allow the rule there.",
-     .mended = R"(behaviors:
+    .mending =
+        "Name a known type. A single allowed word is written as a list, in brackets. If the type "
+        "is one of your own, keep it and allow the rule there.",
+    .mended = R"(behaviors:
 - behavior: SPEAK_WITH_LOUDSPEAKER
   task: SPEAK
 tasks:
@@ -422,11 +430,7 @@ tasks:
   parameters:
   - parameter: message
     allowed_values: string
-)"},
+)",
 };
 
-}  // namespace
-
-std::span<const Rule> parameter_rules() { return parameter_table; }
-
-}  // namespace cbc
+}  // namespace cbc::rule

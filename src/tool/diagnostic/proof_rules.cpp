@@ -1,24 +1,24 @@
+// Rules that a search decides.
 #include "diagnostic/rules.h"
 
-namespace cbc {
-namespace {
+namespace cbc::rule {
 
-constexpr Rule proof_table[] = {
-    {.name = rule::dead_behavior,
-     .severity = Severity::warning,
-     .summary = "A behavior can never be active, though its task can run.",
-     .explanation =
-         "No assignment of behaviors to tasks that satisfies all constraints has this behavior, "
-         "even if all behaviors are available. The coordinator never chooses it: where only this "
-         "behavior would do, it rejects the request. Whether tasks start on request plays no part "
-         "in this.\n\n"
-         "The finding is proven by a search through all assignments. It gives a minimal set of "
-         "constraints that are the reason together: with any one of them left out, the others have "
-         "such an assignment.\n\n"
-         "A fault is reported once, where it is: there is no finding for a behavior that is dead "
-         "only because of another finding, such as conflicting-requirements or a dead-task. If all "
-         "behaviors of a task are dead, the finding is dead-task.",
-     .example = R"(default_values:
+const Rule dead_behavior = {
+    .name = "dead-behavior",
+    .severity = Severity::warning,
+    .summary = "A behavior can never be active, though its task can run.",
+    .explanation =
+        "No assignment of behaviors to tasks that satisfies all constraints has this behavior, "
+        "even if all behaviors are available. The coordinator never chooses it: where only this "
+        "behavior would do, it rejects the request. Whether tasks start on request plays no part "
+        "in this.\n\n"
+        "The finding is proven by a search through all assignments. It gives a minimal set of "
+        "constraints that are the reason together: if any one of them is left out, the others have "
+        "such an assignment.\n\n"
+        "A fault is reported once, where it is: there is no finding for a behavior that is dead "
+        "only because of another finding, such as conflicting-requirements or a dead-task. If all "
+        "behaviors of a task are dead, the finding is dead-task.",
+    .example = R"(default_values:
   tasks: {execution_goal: keep_running, start_on_request: FALSE}
 behaviors:
 - behavior: LAND_ON_MARKER
@@ -47,8 +47,8 @@ tasks:
 exclusivity_constraints:
 - mutually_exclusive: [LOOK_AHEAD, LOOK_DOWN]
 )",
-     .mending = "Relax one of the constraints that the finding names, or remove the behavior.",
-     .mended = R"(default_values:
+    .mending = "Relax one of the constraints that the finding names, or remove the behavior.",
+    .mended = R"(default_values:
   tasks: {execution_goal: keep_running, start_on_request: FALSE}
 behaviors:
 - behavior: LAND_ON_MARKER
@@ -75,22 +75,24 @@ tasks:
 - task: LOOK_DOWN
 exclusivity_constraints:
 - mutually_exclusive: [LOOK_AHEAD, LOOK_DOWN]
-)"},
+)",
+};
 
-    {.name = rule::dead_task,
-     .severity = Severity::warning,
-     .summary = "A task can never run, though behaviors perform it.",
-     .explanation =
-         "No assignment of behaviors to tasks that satisfies all constraints has the task running, "
-         "even if all behaviors are available. The coordinator rejects every request of it. "
-         "Whether tasks start on request plays no part in this.\n\n"
-         "The finding is proven by a search through all assignments. It gives a minimal set of "
-         "constraints that are the reason together: with any one of them left out, the others have "
-         "such an assignment.\n\n"
-         "A fault is reported once, where it is: there is no finding for each behavior of the "
-         "task, nor for what requires it. For a task that is dead only because of another finding, "
-         "such as exclusive-requirement or unreachable-performance, there is none either.",
-     .example = R"(default_values:
+const Rule dead_task = {
+    .name = "dead-task",
+    .severity = Severity::warning,
+    .summary = "A task can never run, though behaviors perform it.",
+    .explanation =
+        "No assignment of behaviors to tasks that satisfies all constraints has the task running, "
+        "even if all behaviors are available. The coordinator rejects every request of it. Whether "
+        "tasks start on request plays no part in this.\n\n"
+        "The finding is proven by a search through all assignments. It gives a minimal set of "
+        "constraints that are the reason together: if any one of them is left out, the others have "
+        "such an assignment.\n\n"
+        "A fault is reported once, where it is: there is no finding for each behavior of the task, "
+        "nor for what requires it. For a task that is dead only because of another finding, such "
+        "as exclusive-requirement or unreachable-performance, there is none either.",
+    .example = R"(default_values:
   tasks: {execution_goal: keep_running, start_on_request: FALSE}
 behaviors:
 - behavior: INSPECT_WITH_CAMERA
@@ -116,10 +118,10 @@ tasks:
 exclusivity_constraints:
 - mutually_exclusive: [FOLLOW_PATH, HOVER]
 )",
-     .mending =
-         "Relax one of the constraints that the finding names, or add a behavior that does without "
-         "it.",
-     .mended = R"(default_values:
+    .mending =
+        "Relax one of the constraints that the finding names, or add a behavior that does without "
+        "it.",
+    .mended = R"(default_values:
   tasks: {execution_goal: keep_running, start_on_request: FALSE}
 behaviors:
 - behavior: INSPECT_WITH_CAMERA
@@ -143,20 +145,22 @@ tasks:
 - task: HOVER
 exclusivity_constraints:
 - mutually_exclusive: [FOLLOW_PATH, HOVER]
-)"},
+)",
+};
 
-    {.name = rule::unreachable_performance,
-     .severity = Severity::warning,
-     .summary = "A minimum performance is higher than any choice of behaviors reaches.",
-     .explanation =
-         "The performance of a task is the suitability of its behavior times the suitabilities of "
-         "the behaviors of all tasks that it requires, directly or through others, each task once. "
-         "No choice of behaviors that satisfies the other constraints brings it up to this "
-         "minimum_performance. If the minimum stands in a requirement, the behavior that has it "
-         "can never be active; if it is that of a task, the task can never run.\n\n"
-         "The message gives the best performance that can be reached. It is exact, as "
-         "suitabilities are decimals and are multiplied as such.",
-     .example = R"(behaviors:
+const Rule unreachable_performance = {
+    .name = "unreachable-performance",
+    .severity = Severity::warning,
+    .summary = "A minimum performance is higher than any choice of behaviors reaches.",
+    .explanation =
+        "The performance of a task is the suitability of its behavior times the suitabilities of "
+        "the behaviors of all tasks that it requires, directly or through others, each task once. "
+        "No choice of behaviors that satisfies the other constraints brings it up to this "
+        "minimum_performance. If the minimum stands in a requirement, the behavior that has it can "
+        "never be active; if it is that of a task, the task can never run.\n\n"
+        "The message gives the best performance that can be reached. It is exact, as suitabilities "
+        "are decimals and are multiplied as such.",
+    .example = R"(behaviors:
 - behavior: FOLLOW_PATH_WITH_PID
   task: FOLLOW_PATH
   requires:
@@ -179,9 +183,9 @@ tasks:
   execution_goal: keep_running
   start_on_request: FALSE
 )",
-     .mending = "Lower the minimum to what can be reached, here 95 % times 80 %, or add a better "
-                "behavior.",
-     .mended = R"(behaviors:
+    .mending =
+        "Lower the minimum to what can be reached, here 95 % times 80 %, or add a better behavior.",
+    .mended = R"(behaviors:
 - behavior: FOLLOW_PATH_WITH_PID
   task: FOLLOW_PATH
   requires:
@@ -203,20 +207,22 @@ tasks:
 - task: PROVIDE_IMAGES
   execution_goal: keep_running
   start_on_request: FALSE
-)"},
+)",
+};
 
-    {.name = rule::undecided,
-     .severity = Severity::note,
-     .summary = "The search for a proof met its limit, so a rule is left undecided.",
-     .explanation =
-         "Rules such as dead-behavior and redundant-requirement hold if there is no assignment of "
-         "behaviors to tasks of some kind, which a search has to prove. This search took as many "
-         "decisions as --max-nodes allows before it came to an end. So the catalog may break the "
-         "rule that the message names, or may not.\n\n"
-         "The example shows it only with a low limit, as in 'cbc lint --max-nodes 1'. With the "
-         "usual one nothing is wrong with it: of two neighboring sensors at most one is on, and "
-         "what has none does without.",
-     .example = R"(default_values:
+const Rule undecided = {
+    .name = "undecided",
+    .severity = Severity::note,
+    .summary = "The search for a proof reached its limit, so a rule is left undecided.",
+    .explanation =
+        "Rules such as dead-behavior and redundant-requirement hold if there is no assignment of "
+        "behaviors to tasks of a certain kind, which takes a search to prove. This search took as "
+        "many decisions as --max-nodes allows before it came to an end. So the catalog may break "
+        "the rule that the message names, or may not.\n\n"
+        "The example shows it only with a low limit, as in 'cbc lint --max-nodes 1'. With the "
+        "usual one, nothing is wrong with it: of two neighboring sensors at most one is on, and "
+        "each task that needs a sensor has a behavior that does not.",
+    .example = R"(default_values:
   tasks: {execution_goal: keep_running, start_on_request: FALSE}
 behaviors:
 - behavior: DELIVERY
@@ -265,11 +271,11 @@ exclusivity_constraints:
 - mutually_exclusive: [SONAR, RADAR]
 - mutually_exclusive: [RADAR, CAMERA]
 )",
-     .mending =
-         "Raise the limit with --max-nodes. Where that does not help, the catalog has more choices "
-         "than it needs: leave out alternatives that do not differ in what matters, and list all "
-         "tasks that exclude one another in one list.",
-     .mended = R"(default_values:
+    .mending =
+        "Raise the limit with --max-nodes. Where that does not help, the catalog has more choices "
+        "than it needs: leave out alternatives that do not differ in what matters, and list all "
+        "tasks that exclude one another in one list.",
+    .mended = R"(default_values:
   tasks: {execution_goal: keep_running, start_on_request: FALSE}
 behaviors:
 - behavior: DELIVERY
@@ -291,11 +297,7 @@ tasks:
 - task: AVOID
 - task: MAP
 - task: TRACK
-)"},
+)",
 };
 
-}  // namespace
-
-std::span<const Rule> proof_rules() { return proof_table; }
-
-}  // namespace cbc
+}  // namespace cbc::rule

@@ -1,110 +1,119 @@
 #include "diagnostic/rules.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace cbc {
-namespace {
 
-constexpr Rule file_table[] = {
-    {.name = rule::yaml_syntax,
-     .severity = Severity::error,
-     .is_fixed = true,
-     .summary = "The file is not one valid YAML document.",
-     .explanation =
-         "What is not YAML cannot be understood at all: this is the only finding about the file, "
-         "and it is neither compiled nor solved. The finding stands where reading had to stop. The "
-         "mistake may be a little before that place: an indentation that differs from that of the "
-         "line above, a bracket or a quote that is not closed, a tab that indents, a text with ': "
-         "' in it that is not in quotes.\n\n"
-         "The rule also covers a text that is not UTF-8 or has control characters, a second "
-         "document in the file, tags of other programs, lists and mappings that are nested too "
-         "deeply, and aliases that stand for too many values.",
-     .example = R"(behaviors:
+namespace rule {
+
+// Rules about any file, and about comments and settings that control findings.
+
+const Rule yaml_syntax = {
+    .name = "yaml-syntax",
+    .severity = Severity::error,
+    .is_fixed = true,
+    .summary = "The file is not one valid YAML document.",
+    .explanation =
+        "What is not YAML cannot be understood at all: this is the only finding about the file, "
+        "and it is neither compiled nor solved. The finding stands where reading had to stop. The "
+        "mistake may be a little before that place: an indentation that differs from that of the "
+        "line above, a bracket or a quote that is not closed, a tab that indents, a text with ': ' "
+        "in it that is not in quotes.\n\n"
+        "The rule also covers a text that is not UTF-8 or has control characters, a second "
+        "document in the file, tags of other programs, lists and mappings that are nested too "
+        "deeply, and aliases that stand for too many values.",
+    .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
  suitability: 90
 tasks:
 - task: HOVER
 )",
-     .mending =
-         "Look at the place of the finding and at the lines just above it. Give all keys of one "
-         "mapping the same indentation, indent with spaces, and close what was opened.",
-     .mended = R"(behaviors:
+    .mending =
+        "Look at the place of the finding and at the lines just above it. Give all keys of one "
+        "mapping the same indentation, indent with spaces, and close what was opened.",
+    .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 90
 tasks:
 - task: HOVER
-)"},
+)",
+};
 
-    {.name = rule::unknown_key,
-     .severity = Severity::warning,
-     .summary = "A key has no meaning where it stands.",
-     .explanation =
-         "What an unknown key says has no effect. With a misspelt 'suitability' a behavior has the "
-         "default one; with a misspelt 'requires' it requires nothing, and the coordinator runs it "
-         "without what it needs. The message gives the key that is probably meant, or the level of "
-         "the file at which the key belongs.\n\n"
-         "In a catalog this is a warning, in an event script an error that settings cannot change. "
-         "Keys that begin with 'x-' "
-         "are the user's own, and are ignored. Where a key that must be there is misspelt, the "
-         "finding is missing-key.",
-     .example = R"(behaviors:
+const Rule unknown_key = {
+    .name = "unknown-key",
+    .severity = Severity::warning,
+    .summary = "A key has no meaning where it stands.",
+    .explanation =
+        "An unknown key has no effect. With a misspelt 'suitability' a behavior has the default "
+        "one; with a misspelt 'requires' it requires nothing, and the coordinator runs it without "
+        "what it needs. The message gives the key that is probably meant, or the level of the file "
+        "at which the key belongs.\n\n"
+        "In a catalog this is a warning, in an event script an error that settings cannot change. "
+        "Keys that begin with 'x-' are the user's own, and are ignored. Where a key that must be "
+        "there is misspelt, the finding is missing-key.",
+    .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitabilty: 80
 tasks:
 - task: HOVER
 )",
-     .mending = "Correct the key, move it to where it belongs, or remove it. Let a key for another "
-                "program begin with 'x-'.",
-     .mended = R"(behaviors:
+    .mending =
+        "Correct the key, move it to where it belongs, or remove it. Let a key for another program "
+        "begin with 'x-'.",
+    .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 80
 tasks:
 - task: HOVER
-)"},
+)",
+};
 
-    {.name = rule::missing_key,
-     .severity = Severity::error,
-     .is_fixed = true,
-     .summary = "A mapping lacks a key that it must have.",
-     .explanation =
-         "A catalog must have 'behaviors'; a behavior its name, 'behavior', and 'task' or 'tasks'; "
-         "a task, a requirement and each task of a behavior 'task'; a parameter 'parameter'; an "
-         "exclusivity constraint 'mutually_exclusive'. A script must have 'events', unless it is "
-         "just a list of events, and an event must have a verb or a time.\n\n"
-         "A key with a null value is as if it were absent. A key that resembles the missing one is "
-         "taken in its place, so that the rest can be checked; the message then names both. As "
-         "nothing else can stand for what is missing, such a file is neither compiled nor solved.",
-     .example = R"(behaviors:
+const Rule missing_key = {
+    .name = "missing-key",
+    .severity = Severity::error,
+    .is_fixed = true,
+    .summary = "A mapping lacks a key that it must have.",
+    .explanation =
+        "A catalog must have 'behaviors'; a behavior its name, 'behavior', and 'task' or 'tasks'; "
+        "a task, a requirement and each task of a behavior 'task'; a parameter 'parameter'; an "
+        "exclusivity constraint 'mutually_exclusive'. A script must have 'events', unless it is "
+        "just a list of events, and an event must have a verb or a time.\n\n"
+        "A key with a null value is as if it were absent. A key that resembles the missing one is "
+        "taken in its place, so that the rest can be checked; the message then names both. As "
+        "nothing can take the place of what is missing, such a file is neither compiled nor "
+        "solved.",
+    .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   package: motion_control
 tasks:
 - task: HOVER
 )",
-     .mending = "Add the key, or correct the one that is misspelt.",
-     .mended = R"(behaviors:
+    .mending = "Add the key, or correct the one that is misspelt.",
+    .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   package: motion_control
   task: HOVER
 tasks:
 - task: HOVER
-)"},
+)",
+};
 
-    {.name = rule::wrong_type,
-     .severity = Severity::error,
-     .is_fixed = true,
-     .summary = "A value is of another type than its key takes.",
-     .explanation =
-         "A list, a mapping, a number, a boolean or a text stands where something else is "
-         "expected; the message says what. Often it is a name where a list is expected, a bare "
-         "name in the place of 'task: NAME', a number with a unit ('90 %', '15 s'), or a number or "
-         "a boolean in quotes, which make it a text.\n\n"
-         "cbc does not guess what is meant: such a file is neither compiled nor solved.",
-     .example = R"(behaviors:
+const Rule wrong_type = {
+    .name = "wrong-type",
+    .severity = Severity::error,
+    .is_fixed = true,
+    .summary = "A value is of another type than its key takes.",
+    .explanation =
+        "A list, a mapping, a number, a boolean or a text stands where something else is expected; "
+        "the message says what. Often it is a name where a list is expected, a bare name in the "
+        "place of 'task: NAME', a number with a unit ('90 %', '15 s'), or a number or a boolean in "
+        "quotes, which make it a text.\n\n"
+        "cbc does not guess what is meant: such a file is neither compiled nor solved.",
+    .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   requires: LOCALIZE
@@ -116,8 +125,8 @@ tasks:
   execution_goal: keep_running
   start_on_request: FALSE
 )",
-     .mending = "Write the value as the message says.",
-     .mended = R"(behaviors:
+    .mending = "Write the value as the message says.",
+    .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   requires:
@@ -129,48 +138,52 @@ tasks:
 - task: LOCALIZE
   execution_goal: keep_running
   start_on_request: FALSE
-)"},
+)",
+};
 
-    {.name = rule::invalid_value,
-     .severity = Severity::error,
-     .is_fixed = true,
-     .summary = "A value is of the right type, but not one that is allowed.",
-     .explanation =
-         "Percentages go from 0 to 100 and have at most four decimals. Times are in seconds and "
-         "have at most six, and a timeout is over 0. execution_goal is achieve_goal or "
-         "keep_running. A name is not empty, and a behavior performs at least one task, each of "
-         "them once. In a script, an event has one verb and not both 'at' and 'wait', a priority "
-         "is an integer, at least 1 for a start and 0 for a stop, and causes and outcomes are "
-         "known words.\n\n"
-         "A value is never rounded or cut to an allowed one, since the file would then mean "
-         "something that nobody wrote: it is neither compiled nor solved.",
-     .example = R"(behaviors:
+const Rule invalid_value = {
+    .name = "invalid-value",
+    .severity = Severity::error,
+    .is_fixed = true,
+    .summary = "A value is of the right type, but not one that is allowed.",
+    .explanation =
+        "Percentages go from 0 to 100 and have at most four decimals. Times are in seconds and "
+        "have at most six, and a timeout is over 0. execution_goal is achieve_goal or "
+        "keep_running. A name is not empty, and a behavior performs at least one task, each of "
+        "them once. In a script, an event has one verb and not both 'at' and 'wait', a priority is "
+        "an integer, at least 1 for a start and 0 for a stop, and causes and outcomes are known "
+        "words.\n\n"
+        "A value is never rounded or cut to an allowed one, since the file would then mean "
+        "something that nobody wrote: it is neither compiled nor solved.",
+    .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 120
 tasks:
 - task: HOVER
 )",
-     .mending = "Give one of the values that the message names.",
-     .mended = R"(behaviors:
+    .mending = "Give one of the values that the message names.",
+    .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 100
 tasks:
 - task: HOVER
-)"},
+)",
+};
 
-    {.name = rule::duplicate_key,
-     .severity = Severity::error,
-     .is_fixed = true,
-     .summary = "A key is given twice in one mapping.",
-     .explanation =
-         "Programs that read YAML differ in which of the two values they take, so what the file "
-         "means is unclear, and it is neither compiled nor solved.\n\n"
-         "An older name and the name that replaced it are one key given twice, and so are 'task' "
-         "and 'tasks' of a behavior. default_values may be written as lists of mappings, which "
-         "count as one mapping.",
-     .example = R"(behaviors:
+const Rule duplicate_key = {
+    .name = "duplicate-key",
+    .severity = Severity::error,
+    .is_fixed = true,
+    .summary = "A key is given twice in one mapping.",
+    .explanation =
+        "Programs that read YAML differ in which of the two values they take, so what the file "
+        "means is unclear, and it is neither compiled nor solved.\n\n"
+        "An older name and the name that replaced it are one key given twice, and so are 'task' "
+        "and 'tasks' of a behavior. default_values may be written as lists of mappings, which "
+        "count as one mapping.",
+    .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 90
@@ -178,27 +191,29 @@ tasks:
 tasks:
 - task: HOVER
 )",
-     .mending =
-         "Remove the one that is not meant. If the second was to begin another entry of a list, "
-         "the '- ' before it is missing.",
-     .mended = R"(behaviors:
+    .mending =
+        "Remove the one that is not meant. If the second was to begin another entry of a list, the "
+        "'- ' before it is missing.",
+    .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 80
 tasks:
 - task: HOVER
-)"},
+)",
+};
 
-    {.name = rule::deprecated_key,
-     .severity = Severity::warning,
-     .summary = "A key has an older name.",
-     .explanation =
-         "Catalogs for earlier versions of the coordinator have other names for some keys. cbc "
-         "understands them, but a reader of the catalog has to know both. 'efficacy' is now "
-         "'suitability'; 'default' is 'reactive_start'; 'category: goal_based' is 'execution_goal: "
-         "achieve_goal', and 'category: recurrent' is 'execution_goal: keep_running'; "
-         "'automatic_activation' is the opposite of 'start_on_request', so TRUE becomes FALSE.",
-     .example = R"(behaviors:
+const Rule deprecated_key = {
+    .name = "deprecated-key",
+    .severity = Severity::warning,
+    .summary = "A key has an older name.",
+    .explanation =
+        "Catalogs for earlier versions of the coordinator have other names for some keys. cbc "
+        "understands them, but a reader of the catalog has to know both. 'efficacy' is now "
+        "'suitability'; 'default' is 'reactive_start'; 'category: goal_based' is 'execution_goal: "
+        "achieve_goal', and 'category: recurrent' is 'execution_goal: keep_running'; "
+        "'automatic_activation' is the opposite of 'start_on_request', so TRUE becomes FALSE.",
+    .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   efficacy: 80
@@ -212,8 +227,8 @@ tasks:
   category: recurrent
   automatic_activation: TRUE
 )",
-     .mending = "Write the present name, which the message gives; 'cbc lint --fix' does so.",
-     .mended = R"(behaviors:
+    .mending = "Write the present name, which the message gives; 'cbc lint --fix' does so.",
+    .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 80
@@ -226,74 +241,214 @@ tasks:
 - task: LOCALIZE
   execution_goal: keep_running
   start_on_request: FALSE
-)"},
+)",
 };
 
-}  // namespace
-
-std::span<const Rule> file_rules() { return file_table; }
-
-namespace {
-
-constexpr Rule control_table[] = {
-    {.name = rule::unused_allow,
-     .severity = Severity::warning,
-     .summary = "A comment allows a rule that is not broken there.",
-     .explanation =
-         "A comment '# cbc: allow RULE' at the end of a line allows the rule on this line; alone "
-         "above an entry, on the whole entry. Several rules are separated by commas, and a reason "
-         "may follow after ' -- '. Here there is no finding of the rule: the mistake was mended, "
-         "or is on another line.\n\n"
-         "Left behind, the comment would hide the next mistake of its kind.",
-     .example = R"(behaviors:
+const Rule unused_allow = {
+    .name = "unused-allow",
+    .severity = Severity::warning,
+    .summary = "A comment allows a rule that is not broken there.",
+    .explanation =
+        "A comment '# cbc: allow RULE' at the end of a line allows the rule on this line; alone "
+        "above an entry, on the whole entry. Several rules are separated by commas, and a reason "
+        "may follow after ' -- '. Here there is no finding of the rule: the mistake was mended, or "
+        "is on another line.\n\n"
+        "Left behind, the comment would hide the next mistake of its kind.",
+    .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 90  # cbc: allow suspicious-suitability -- a last resort
 tasks:
 - task: HOVER
 )",
-     .mending =
-         "Remove the comment, or the rule from it, or move the comment to the line of the finding.",
-     .mended = R"(behaviors:
+    .mending =
+        "Remove the comment, or the rule from it, or move the comment to the line of the finding.",
+    .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 90
 tasks:
 - task: HOVER
-)"},
+)",
+};
 
-    {.name = rule::unknown_rule,
-     .severity = Severity::warning,
-     .summary = "A setting names a rule that does not exist.",
-     .explanation =
-         "A comment '# cbc: allow RULE' in a file, or a setting in .cbc.yaml, names a rule that "
-         "cbc does not have, so it has no effect: what it was to allow is still reported. The "
-         "message gives the nearest known name; 'cbc lint --list-rules' shows all of them. A "
-         "reason has to stand after ' -- ', else its words are taken for names of rules.",
-     .example = R"(behaviors:
+const Rule unknown_rule = {
+    .name = "unknown-rule",
+    .severity = Severity::warning,
+    .summary = "A setting names a rule that does not exist.",
+    .explanation =
+        "A comment '# cbc: allow RULE' in a file, or a setting in .cbc.yaml, names a rule that cbc "
+        "does not have, so it has no effect: what it was to allow is still reported. The message "
+        "gives the nearest known name; 'cbc lint --list-rules' shows all of them. A reason has to "
+        "follow ' -- '; otherwise its words are taken for names of rules.",
+    .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 1  # cbc: allow suspicious-suitability, last-resort
 tasks:
 - task: HOVER
 )",
-     .mending = "Correct the name, or remove it.",
-     .mended = R"(behaviors:
+    .mending = "Correct the name, or remove it.",
+    .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 1  # cbc: allow suspicious-suitability -- a last resort
 tasks:
 - task: HOVER
-)"},
+)",
 };
 
-}  // namespace
+// Rules about event scripts.
 
-std::span<const Rule> control_rules() { return control_table; }
+const Rule undefined_behavior = {
+    .name = "undefined-behavior",
+    .severity = Severity::error,
+    .is_fixed = true,
+    .is_of_scripts = true,
+    .summary = "A script names a behavior that the catalog does not have.",
+    .explanation =
+        "finish, fault and repair, the keys of situation, and the expectations about running and "
+        "active behaviors name behaviors. Without such a behavior the event has no meaning, so the "
+        "script is not run. The message gives the nearest known name, and says so if there is a "
+        "task of this name.",
+    .example = R"(events:
+- start: ROTATE
+- finish: GSP
+  cause: process_failure
+  at: 5
+)",
+    .mending = "Correct the name, or give the catalog that the script is for.",
+    .mended = R"(events:
+- start: ROTATE
+- finish: GPS
+  cause: process_failure
+  at: 5
+)",
+};
 
-namespace {
+const Rule time_order = {
+    .name = "time-order",
+    .severity = Severity::error,
+    .is_fixed = true,
+    .is_of_scripts = true,
+    .summary = "A script goes back in time.",
+    .explanation =
+        "'at' is the time of an event in seconds since the beginning of the script, and each event "
+        "happens at the time of the one before it or later. Here it is earlier. The clock of the "
+        "coordinator only goes forward, and what was due by then has already happened, so the "
+        "script is not run.",
+    .example = R"(events:
+- start: ROTATE
+  at: 8
+- finish: ROTATE_WITH_PID
+  at: 3
+)",
+    .mending =
+        "Correct the time, or put the events in the order of their times. 'wait' gives the time "
+        "since the event before.",
+    .mended = R"(events:
+- start: ROTATE
+  at: 3
+- finish: ROTATE_WITH_PID
+  at: 8
+)",
+};
 
-constexpr std::string_view catalog_text = R"(behaviors:
+const Rule undeclared_parameter = {
+    .name = "undeclared-parameter",
+    .severity = Severity::error,
+    .is_of_scripts = true,
+    .summary = "A start gives a parameter that its task does not declare.",
+    .explanation =
+        "The coordinator hands parameters on to the behavior as they are. A misspelt one stops "
+        "nothing: the behavior runs without the value that is meant for it, or fails on the robot. "
+        "The message gives the nearest declared name.\n\n"
+        "'cbc solve' reports it as a warning and goes on, since the choice of behaviors does not "
+        "depend on parameters.",
+    .example = R"(events:
+- start: ROTATE
+  parameters: {angel: 90}
+)",
+    .mending = "Correct the name, or declare the parameter in the catalog.",
+    .mended = R"(events:
+- start: ROTATE
+  parameters: {angle: 90}
+)",
+};
+
+const Rule parameter_value = {
+    .name = "parameter-value",
+    .severity = Severity::error,
+    .is_of_scripts = true,
+    .summary = "A start gives a parameter a value that its task does not allow.",
+    .explanation =
+        "In the catalog, allowed_values says what the parameter may be: a number in a range, a "
+        "word from a list, or any value of a type, such as string or point_list. This value is not "
+        "allowed. On the robot the behavior would refuse it, or do something that nobody wants.\n\n"
+        "'cbc solve' reports it as a warning and goes on, since the choice of behaviors does not "
+        "depend on parameters.",
+    .example = R"(events:
+- start: ROTATE
+  parameters: {angle: 720}
+)",
+    .mending = "Give an allowed value, or allow this one in the catalog.",
+    .mended = R"(events:
+- start: ROTATE
+  parameters: {angle: 360}
+)",
+};
+
+const Rule still_available = {
+    .name = "still-available",
+    .severity = Severity::warning,
+    .is_of_scripts = true,
+    .summary = "A behavior ends because of the situation, but stays available.",
+    .explanation =
+        "A finish with cause situation_change says that the behavior stopped because the situation "
+        "no longer allows it. But only an event 'situation' makes the behavior unavailable. As "
+        "long as it is available, the coordinator may choose it again at this very event, and "
+        "usually does, since it was the best choice just before. On a robot, the behavior would "
+        "already have reported that its situation does not hold.",
+    .example = R"(events:
+- start: ROTATE
+- finish: GPS
+  cause: situation_change
+  at: 12.5
+)",
+    .mending = "Say 'situation: {BEHAVIOR: false}' before the behavior finishes.",
+    .mended = R"(events:
+- start: ROTATE
+- situation: {GPS: false}
+  at: 12.5
+- finish: GPS
+  cause: situation_change
+)",
+};
+
+const Rule impossible_expectation = {
+    .name = "impossible-expectation",
+    .severity = Severity::warning,
+    .is_of_scripts = true,
+    .summary = "A script expects what can never be.",
+    .explanation =
+        "A behavior is expected to run a task that it does not perform, or a task is expected both "
+        "to run and to be stopped. Whatever happens before, this expectation fails.",
+    .example = R"(events:
+- start: ROTATE
+- expect: {running: {ROTATE: GPS}}
+)",
+    .mending =
+        "Name a behavior that performs the task, or leave the task out of one of the two lists.",
+    .mended = R"(events:
+- start: ROTATE
+- expect: {running: {ROTATE: ROTATE_WITH_PID}}
+)",
+};
+
+}  // namespace rule
+
+std::string_view example_catalog() {
+  return R"(behaviors:
 - behavior: ROTATE_WITH_PID
   task: ROTATE
   requires:
@@ -312,168 +467,12 @@ tasks:
   execution_goal: keep_running
   start_on_request: FALSE
 )";
-
-constexpr Rule script_table[] = {
-    {.name = rule::undefined_behavior,
-     .severity = Severity::error,
-     .is_fixed = true,
-     .is_of_scripts = true,
-     .summary = "A script names a behavior that the catalog does not have.",
-     .explanation =
-         "finish, fault and repair, the keys of situation, and the expectations about running and "
-         "active behaviors name behaviors. Without such a behavior the event has no meaning, so "
-         "the script is not run. The message gives the nearest known name, and says so if there is "
-         "a task of this name.",
-     .example = R"(events:
-- start: ROTATE
-- finish: GSP
-  cause: process_failure
-  at: 5
-)",
-     .mending = "Correct the name, or give the catalog that the script is for.",
-     .mended = R"(events:
-- start: ROTATE
-- finish: GPS
-  cause: process_failure
-  at: 5
-)"},
-
-    {.name = rule::time_order,
-     .severity = Severity::error,
-     .is_fixed = true,
-     .is_of_scripts = true,
-     .summary = "A script goes back in time.",
-     .explanation =
-         "'at' is the time of an event in seconds since the beginning of the script, and each "
-         "event happens at the time of the one before it or later. Here it is earlier. The clock "
-         "of the coordinator only goes forward, and what was due by then has already happened, so "
-         "the script is not run.",
-     .example = R"(events:
-- start: ROTATE
-  at: 8
-- finish: ROTATE_WITH_PID
-  at: 3
-)",
-     .mending =
-         "Correct the time, or put the events in the order of their times. 'wait' gives the time "
-         "since the event before.",
-     .mended = R"(events:
-- start: ROTATE
-  at: 3
-- finish: ROTATE_WITH_PID
-  at: 8
-)"},
-
-    {.name = rule::undeclared_parameter,
-     .severity = Severity::error,
-     .is_of_scripts = true,
-     .summary = "A start gives a parameter that its task does not declare.",
-     .explanation =
-         "The coordinator hands parameters on to the behavior as they are. A misspelt one stops "
-         "nothing: the behavior runs without the value that is meant for it, or fails on the "
-         "robot. The message gives the nearest declared name.\n\n"
-         "'cbc solve' reports it as a warning and goes on, since the choice of behaviors does not "
-         "depend on parameters.",
-     .example = R"(events:
-- start: ROTATE
-  parameters: {angel: 90}
-)",
-     .mending = "Correct the name, or declare the parameter in the catalog.",
-     .mended = R"(events:
-- start: ROTATE
-  parameters: {angle: 90}
-)"},
-
-    {.name = rule::parameter_value,
-     .severity = Severity::error,
-     .is_of_scripts = true,
-     .summary = "A start gives a parameter a value that its task does not allow.",
-     .explanation =
-         "The catalog says by allowed_values what the parameter may be: a number from the first to "
-         "the second of two, one of a list of words, or anything of a type, such as string or "
-         "point_list. The value is none of these. On the robot the behavior would refuse it, or do "
-         "something that nobody wants.\n\n"
-         "'cbc solve' reports it as a warning and goes on, since the choice of behaviors does not "
-         "depend on parameters.",
-     .example = R"(events:
-- start: ROTATE
-  parameters: {angle: 720}
-)",
-     .mending = "Give an allowed value, or allow this one in the catalog.",
-     .mended = R"(events:
-- start: ROTATE
-  parameters: {angle: 360}
-)"},
-
-    {.name = rule::still_available,
-     .severity = Severity::warning,
-     .is_of_scripts = true,
-     .summary = "A behavior ends because of the situation, but stays available.",
-     .explanation =
-         "A finish with cause situation_change says that the behavior stopped because the "
-         "situation does not allow it any more. That it may not be activated is another thing to "
-         "say, by situation. As long as the behavior is available the coordinator may choose it "
-         "again at this very event, and mostly does, since it was the best choice just before. On "
-         "a robot, the behavior would say by then that its situation does not hold.",
-     .example = R"(events:
-- start: ROTATE
-- finish: GPS
-  cause: situation_change
-  at: 12.5
-)",
-     .mending = "Say 'situation: {BEHAVIOR: false}' before the behavior finishes.",
-     .mended = R"(events:
-- start: ROTATE
-- situation: {GPS: false}
-  at: 12.5
-- finish: GPS
-  cause: situation_change
-)"},
-
-    {.name = rule::impossible_expectation,
-     .severity = Severity::warning,
-     .is_of_scripts = true,
-     .summary = "A script expects what can never be.",
-     .explanation =
-         "A behavior is expected to run a task that it does not perform, or a task is expected "
-         "both to run and to be stopped. Whatever happens before, this expect fails.",
-     .example = R"(events:
-- start: ROTATE
-- expect: {running: {ROTATE: GPS}}
-)",
-     .mending =
-         "Name a behavior that performs the task, or leave the task out of one of the two lists.",
-     .mended = R"(events:
-- start: ROTATE
-- expect: {running: {ROTATE: ROTATE_WITH_PID}}
-)"},
-};
-
-}  // namespace
-
-std::span<const Rule> script_rules() { return script_table; }
-
-std::string_view example_catalog() { return catalog_text; }
-
-namespace {
-
-std::vector<Rule> collect_rules() {
-  std::vector<Rule> rules;
-  for (const auto topic :
-       {attribute_rules, control_rules, definition_rules, exclusivity_rules, file_rules,
-        parameter_rules, proof_rules, requirement_rules, script_rules}) {
-    const std::span<const Rule> more = topic();
-    rules.insert(rules.end(), more.begin(), more.end());
-  }
-  std::sort(rules.begin(), rules.end(),
-            [](const Rule& a, const Rule& b) { return a.name < b.name; });
-  return rules;
 }
 
-}  // namespace
-
 std::span<const Rule> all_rules() {
-  static const std::vector<Rule> rules = collect_rules();
+#define CBC_COPY_RULE(name) rule::name,
+  static const Rule rules[] = {CBC_RULES(CBC_COPY_RULE)};
+#undef CBC_COPY_RULE
   return rules;
 }
 

@@ -5,13 +5,14 @@
 
 #include "diagnostic/diagnostic.h"
 
+/// The rules of lint: the kinds of findings there are, with all that is to be said about each.
 namespace cbc {
 
-/// What findings refer to: a kind of mistake, with all that is to be said about it.
+/// A kind of mistake.
 struct Rule {
   std::string_view name = {};
   Severity severity = Severity::error;  ///< unless the settings say otherwise
-  /// Where the rule is broken the file has no meaning, so that its severity cannot be lowered.
+  /// A file that breaks the rule has no meaning, so the severity cannot be lowered.
   bool is_fixed = false;
   bool is_of_scripts = false;  ///< the examples are event scripts, for the catalog below
   // The texts are ASCII. A paragraph is one line.
@@ -20,9 +21,12 @@ struct Rule {
   std::string_view example = {};      ///< a whole file that breaks this rule, and no other
   std::string_view mending = {};      ///< what to do about it: a paragraph
   std::string_view mended = {};       ///< the example as it should be
+
+  /// Findings name their rule.
+  constexpr operator std::string_view() const { return name; }
 };
 
-/// All rules, by name.
+/// All rules, in the order of their names.
 [[nodiscard]] std::span<const Rule> all_rules();
 
 /// The rule of a name, or nullptr.
@@ -31,62 +35,57 @@ struct Rule {
 /// The catalog that the examples of rules about scripts run on.
 [[nodiscard]] std::string_view example_catalog();
 
+/// All rules, in the order of their names. One of the files *_rules.cpp, or rules.cpp, defines
+/// each; a rule that is listed but not defined does not link.
+#define CBC_RULES(RULE)          \
+  RULE(conflicting_requirements) \
+  RULE(dead_behavior)            \
+  RULE(dead_task)                \
+  RULE(deprecated_key)           \
+  RULE(duplicate_behavior)       \
+  RULE(duplicate_exclusion)      \
+  RULE(duplicate_key)            \
+  RULE(duplicate_parameter)      \
+  RULE(duplicate_task)           \
+  RULE(empty_range)              \
+  RULE(exclusive_requirement)    \
+  RULE(implicit_task)            \
+  RULE(impossible_expectation)   \
+  RULE(invalid_value)            \
+  RULE(missing_key)              \
+  RULE(no_timeout_effect)        \
+  RULE(on_request_and_reactive)  \
+  RULE(parameter_value)          \
+  RULE(reactive_timeout)         \
+  RULE(redundant_requirement)    \
+  RULE(required_goal)            \
+  RULE(requirement_cycle)        \
+  RULE(requires_on_request)      \
+  RULE(self_exclusion)           \
+  RULE(still_available)          \
+  RULE(suspicious_minimum)       \
+  RULE(suspicious_suitability)   \
+  RULE(task_without_behavior)    \
+  RULE(time_order)               \
+  RULE(trivial_exclusion)        \
+  RULE(undecided)                \
+  RULE(undeclared_parameter)     \
+  RULE(undefined_behavior)       \
+  RULE(undefined_task)           \
+  RULE(unknown_key)              \
+  RULE(unknown_rule)             \
+  RULE(unknown_type)             \
+  RULE(unreachable_performance)  \
+  RULE(unused_allow)             \
+  RULE(wrong_type)               \
+  RULE(yaml_syntax)
+
 namespace rule {
 
-inline constexpr std::string_view conflicting_requirements = "conflicting-requirements";
-inline constexpr std::string_view dead_behavior = "dead-behavior";
-inline constexpr std::string_view dead_task = "dead-task";
-inline constexpr std::string_view deprecated_key = "deprecated-key";
-inline constexpr std::string_view duplicate_behavior = "duplicate-behavior";
-inline constexpr std::string_view duplicate_exclusion = "duplicate-exclusion";
-inline constexpr std::string_view duplicate_key = "duplicate-key";
-inline constexpr std::string_view duplicate_parameter = "duplicate-parameter";
-inline constexpr std::string_view duplicate_task = "duplicate-task";
-inline constexpr std::string_view empty_range = "empty-range";
-inline constexpr std::string_view exclusive_requirement = "exclusive-requirement";
-inline constexpr std::string_view implicit_task = "implicit-task";
-inline constexpr std::string_view impossible_expectation = "impossible-expectation";
-inline constexpr std::string_view invalid_value = "invalid-value";
-inline constexpr std::string_view missing_key = "missing-key";
-inline constexpr std::string_view no_timeout_effect = "no-timeout-effect";
-inline constexpr std::string_view on_request_and_reactive = "on-request-and-reactive";
-inline constexpr std::string_view parameter_value = "parameter-value";
-inline constexpr std::string_view reactive_timeout = "reactive-timeout";
-inline constexpr std::string_view redundant_requirement = "redundant-requirement";
-inline constexpr std::string_view required_goal = "required-goal";
-inline constexpr std::string_view requirement_cycle = "requirement-cycle";
-inline constexpr std::string_view requires_on_request = "requires-on-request";
-inline constexpr std::string_view self_exclusion = "self-exclusion";
-inline constexpr std::string_view still_available = "still-available";
-inline constexpr std::string_view suspicious_minimum = "suspicious-minimum";
-inline constexpr std::string_view suspicious_suitability = "suspicious-suitability";
-inline constexpr std::string_view task_without_behavior = "task-without-behavior";
-inline constexpr std::string_view time_order = "time-order";
-inline constexpr std::string_view trivial_exclusion = "trivial-exclusion";
-inline constexpr std::string_view undecided = "undecided";
-inline constexpr std::string_view undeclared_parameter = "undeclared-parameter";
-inline constexpr std::string_view undefined_behavior = "undefined-behavior";
-inline constexpr std::string_view undefined_task = "undefined-task";
-inline constexpr std::string_view unknown_key = "unknown-key";
-inline constexpr std::string_view unknown_rule = "unknown-rule";
-inline constexpr std::string_view unknown_type = "unknown-type";
-inline constexpr std::string_view unreachable_performance = "unreachable-performance";
-inline constexpr std::string_view unused_allow = "unused-allow";
-inline constexpr std::string_view wrong_type = "wrong-type";
-inline constexpr std::string_view yaml_syntax = "yaml-syntax";
+#define CBC_DECLARE_RULE(name) extern const Rule name;
+CBC_RULES(CBC_DECLARE_RULE)
+#undef CBC_DECLARE_RULE
 
 }  // namespace rule
-
-/// The rules, by topic: one function and one file for each.
-
-[[nodiscard]] std::span<const Rule> attribute_rules();
-[[nodiscard]] std::span<const Rule> control_rules();
-[[nodiscard]] std::span<const Rule> definition_rules();
-[[nodiscard]] std::span<const Rule> exclusivity_rules();
-[[nodiscard]] std::span<const Rule> file_rules();
-[[nodiscard]] std::span<const Rule> parameter_rules();
-[[nodiscard]] std::span<const Rule> proof_rules();
-[[nodiscard]] std::span<const Rule> requirement_rules();
-[[nodiscard]] std::span<const Rule> script_rules();
 
 }  // namespace cbc

@@ -49,14 +49,9 @@ std::string describe(const CatalogChange& change, const AttributeChange& attribu
   return fmt::format("{} {} -> {}", name, before, after);
 }
 
-/// Adds the pairs of tasks that exclude one another in one of the catalogs only, in the order of
-/// names.
-void compare_exclusions(const CompiledCatalog& before, const CompiledCatalog& after,
-                        CatalogDiff& diff);
-
 namespace {
 
-/// Place of a task among the names of both catalogs, in their order.
+/// Place of a task among the sorted names of both catalogs.
 using Place = std::uint32_t;
 
 /// One of the two catalogs, by places.
@@ -83,6 +78,8 @@ std::vector<std::string_view> names_of_both(const CompiledCatalog& before,
   return names;
 }
 
+/// Finds the pairs of tasks that exclude one another in one of the catalogs only, in the order of
+/// names.
 class ExclusionDiff {
  public:
   ExclusionDiff(const CompiledCatalog& before, const CompiledCatalog& after)
@@ -99,7 +96,7 @@ class ExclusionDiff {
       classes.emplace_back(first, end);
       first = end;
     }
-    // By names, so that the order of lists does not decide which pairs are listed.
+    // By name, so that the order of lists does not decide which pairs are listed.
     std::sort(classes.begin(), classes.end(),
               [](const auto& a, const auto& b) { return a.front() < b.front(); });
     for (const auto alike : classes) compare_class(alike);
@@ -128,8 +125,8 @@ class ExclusionDiff {
     return side;
   }
 
-  /// Orders by the lists that a task is in, so that those which are in the same ones lie side by
-  /// side, and among them by name.
+  /// Orders tasks by the lists they are in, so that tasks in the same lists are adjacent, and those
+  /// by name.
   [[nodiscard]] bool precedes(Place a, Place b, bool by_name = true) const {
     for (const Side& side : sides_) {
       const auto [first, second] = std::pair(side.cliques_of(a), side.cliques_of(b));
@@ -140,8 +137,8 @@ class ExclusionDiff {
     return by_name && a < b;
   }
 
-  /// Tasks that are in the same lists, before as after, exclude the same tasks (and each other), so
-  /// that these are found once for all of them.
+  /// Tasks that are in the same lists, in both catalogs, exclude the same tasks and each other, so
+  /// these are found once for all of them.
   void compare_class(std::span<const Place> alike) {
     for (Side& side : sides_) mark_excluded(side, alike.front());
     constexpr std::array kinds{CatalogChange::Kind::removed, CatalogChange::Kind::added};
@@ -186,19 +183,10 @@ class ExclusionDiff {
   const std::vector<std::string_view> names_;
   std::array<Side, 2> sides_;
   std::vector<Place> only_;  ///< what the tasks of a class exclude in one of the catalogs only
-  bool has_itself_ = false;  ///< whether these tasks stand there themselves
+  bool has_itself_ = false;  ///< whether these tasks are among them
   std::vector<std::tuple<Place, Place, CatalogChange::Kind>> pairs_;
   std::uint64_t ends_of_pairs_ = 0;
 };
-
-}  // namespace
-
-void compare_exclusions(const CompiledCatalog& before, const CompiledCatalog& after,
-                        CatalogDiff& diff) {
-  ExclusionDiff(before, after).run(diff);
-}
-
-namespace {
 
 using ChangeKind = CatalogChange::Kind;
 using ChangeSubject = CatalogChange::Subject;
@@ -210,19 +198,23 @@ struct Attribute {
 };
 using Attributes = std::vector<Attribute>;  ///< in the order of names
 
-/// Something that a catalog says, and by which names it is known in another one.
+/// Something that a catalog says, and the names by which to find it in another one.
 struct Fact {
   std::string_view first;
   std::string_view second;  ///< of pairs
   Attributes attributes;
 };
 
+bool precedes(const Fact& a, const Fact& b) {
+  return std::pair(a.first, a.second) < std::pair(b.first, b.second);
+}
+
 template <typename Number>
 AttributeValue unless_zero(Number number) {
   return number == 0 ? AttributeValue() : AttributeValue(number);
 }
 
-/// Values that could be taken for several, or for none, are quoted.
+/// Puts a value in quotes that could be taken for several values, or for none.
 std::string spell(const std::string& value) {
   const bool is_clear = !value.empty() && value.find_first_of(",[]'") == std::string::npos;
   if (is_clear) return value;
@@ -321,37 +313,42 @@ std::vector<Fact> facts(const CompiledCatalog& catalog, ChangeSubject subject) {
       }
       break;
     case ChangeSubject::exclusion:
-      break;  // see compare_exclusions
+      break;  // see ExclusionDiff
   }
-  std::sort(result.begin(), result.end(), [](const Fact& a, const Fact& b) {
-    return std::pair(a.first, a.second) < std::pair(b.first, b.second);
-  });
+  std::sort(result.begin(), result.end(), precedes);
   return result;
 }
 
-/// What the attributes, in the order of names, do not have in common. Either may be missing as a
-/// whole.
+/// Walks through two sorted lists side by side. Calls `removed` for what only the old one has,
+/// `added` for what only the new one has, and `kept` for what both have.
+template <typename Item, typename Precedes, typename Removed, typename Added, typename Kept>
+void walk(const std::vector<Item>& before, const std::vector<Item>& after, const Precedes& precedes,
+          const Removed& removed, const Added& added, const Kept& kept) {
+  auto old = before.begin();
+  auto now = after.begin();
+  while (old != before.end() || now != after.end()) {
+    if (now == after.end() || (old != before.end() && precedes(*old, *now))) {
+      removed(*old++);
+    } else if (old == before.end() || precedes(*now, *old)) {
+      added(*now++);
+    } else {
+      kept(*old++, *now++);
+    }
+  }
+}
+
+/// The attributes that differ. Both lists are in the order of names; either may be empty.
 std::vector<AttributeChange> compare(const Attributes& before, const Attributes& after) {
   std::vector<AttributeChange> changes;
   const auto add = [&](const std::string& name, const AttributeValue& old,
                        const AttributeValue& now) {
     if (old != now) changes.push_back({name, old, now});
   };
-  auto old = before.begin();
-  auto now = after.begin();
-  while (old != before.end() || now != after.end()) {
-    if (now == after.end() || (old != before.end() && old->name < now->name)) {
-      add(old->name, old->value, {});
-      ++old;
-    } else if (old == before.end() || now->name < old->name) {
-      add(now->name, {}, now->value);
-      ++now;
-    } else {
-      add(now->name, old->value, now->value);
-      ++old;
-      ++now;
-    }
-  }
+  walk(
+      before, after, [](const Attribute& a, const Attribute& b) { return a.name < b.name; },
+      [&](const Attribute& old) { add(old.name, old.value, {}); },
+      [&](const Attribute& now) { add(now.name, {}, now.value); },
+      [&](const Attribute& old, const Attribute& now) { add(now.name, old.value, now.value); });
   return changes;
 }
 
@@ -366,31 +363,22 @@ CatalogChange to_change(ChangeKind kind, ChangeSubject subject, const Fact& fact
   return change;
 }
 
-/// Walks through both in the order of names.
 void compare_facts(ChangeSubject subject, const std::vector<Fact>& before,
                    const std::vector<Fact>& after, std::vector<CatalogChange>& changes) {
-  auto old = before.begin();
-  auto now = after.begin();
-  const auto precedes = [](const Fact& a, const Fact& b) {
-    return std::pair(a.first, a.second) < std::pair(b.first, b.second);
-  };
-  while (old != before.end() || now != after.end()) {
-    if (now == after.end() || (old != before.end() && precedes(*old, *now))) {
-      changes.push_back(
-          to_change(ChangeKind::removed, subject, *old, compare(old->attributes, {})));
-      ++old;
-    } else if (old == before.end() || precedes(*now, *old)) {
-      changes.push_back(to_change(ChangeKind::added, subject, *now, compare({}, now->attributes)));
-      ++now;
-    } else {
-      std::vector<AttributeChange> attributes = compare(old->attributes, now->attributes);
-      if (!attributes.empty()) {
-        changes.push_back(to_change(ChangeKind::changed, subject, *now, std::move(attributes)));
-      }
-      ++old;
-      ++now;
-    }
-  }
+  walk(
+      before, after, precedes,
+      [&](const Fact& old) {
+        changes.push_back(
+            to_change(ChangeKind::removed, subject, old, compare(old.attributes, {})));
+      },
+      [&](const Fact& now) {
+        changes.push_back(to_change(ChangeKind::added, subject, now, compare({}, now.attributes)));
+      },
+      [&](const Fact& old, const Fact& now) {
+        std::vector<AttributeChange> attributes = compare(old.attributes, now.attributes);
+        if (attributes.empty()) return;
+        changes.push_back(to_change(ChangeKind::changed, subject, now, std::move(attributes)));
+      });
 }
 
 }  // namespace
@@ -412,7 +400,7 @@ CatalogDiff compare_catalogs(const CompiledCatalog& before, const CompiledCatalo
                                       ChangeSubject::performs, ChangeSubject::requirement}) {
     compare_facts(subject, facts(before, subject), facts(after, subject), diff.changes);
   }
-  compare_exclusions(before, after, diff);
+  ExclusionDiff(before, after).run(diff);
   return diff;
 }
 

@@ -80,7 +80,7 @@ std::string_view name_of(Mark mark) {
 
 namespace {
 
-/// The places of `items` by key, which is less than `keys`; in order.
+/// The indices of `items` by key, which is less than `keys`; in order.
 template <typename Items, typename Key>
 GrowingRows<std::uint32_t> places_by(const Items& items, std::size_t keys, const Key& key) {
   GrowingRows<std::uint32_t> rows;
@@ -123,7 +123,7 @@ void connect(CatalogGraph& graph) {
   graph.requirements_of_behavior = places_by(graph.requirements, behaviors, behavior_of);
   graph.exclusions_of_task =
       places_by(graph.exclusions.items, tasks, [](std::uint32_t task) { return task; });
-  // From the places of the names to those of the lists that have them.
+  // From the index of a task in all lists to that of the list.
   for (std::uint32_t& place : graph.exclusions_of_task.items) {
     const auto& begin = graph.exclusions.begin;
     place = static_cast<std::uint32_t>(std::upper_bound(begin.begin(), begin.end(), place) -
@@ -194,7 +194,7 @@ CatalogGraph to_graph(const CompiledCatalog& catalog) {
 
 namespace {
 
-/// What errors point at in a file.
+/// The places in a file that errors point at.
 std::set<Range> faulty_ranges(const std::vector<Diagnostic>& findings, const std::string& file) {
   std::set<Range> ranges;
   for (const Diagnostic& finding : findings) {
@@ -204,7 +204,7 @@ std::set<Range> faulty_ranges(const std::vector<Diagnostic>& findings, const std
       if (note.file == file) ranges.insert(note.range);
     }
   }
-  ranges.erase(Range{});  // stands for what the file does not say
+  ranges.erase(Range{});  // stands for what is not in the file
   return ranges;
 }
 
@@ -351,7 +351,7 @@ class ReadingGraph {
     }
   }
 
-  /// Edges within a strongly connected component are those on cycles.
+  /// An edge is on a cycle if both ends are in one strongly connected component.
   void mark_cycles() {
     if (reading_.is_acyclic) return;
     Edges edges;

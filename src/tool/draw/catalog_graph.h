@@ -12,49 +12,51 @@
 #include "compiled/compiled_catalog.h"
 #include "diagnostic/diagnostic.h"
 
+/// A catalog as a graph: what pictures of it are drawn from.
 namespace cbc::draw {
 
 /// How something stands out.
 enum class Mark : std::uint8_t {
   plain,
-  faint,    ///< it is here for what is next to it
+  faint,    ///< drawn only for its neighbors
   faulty,   ///< an error of the catalog
   added,    ///< of two catalogs, only the newer one has it
   removed,  ///< only the older one
-  changed,  ///< both, and they say different things of it
-  // Of a state. What is in use runs, is active, or is between what does; what is not is faint.
-  active,      ///< in use before the last event and after it
+  changed,  ///< both, with different attributes
+  // Of a state. In use are tasks that run, active behaviors, and links between them; the rest is
+  // faint.
+  active,      ///< in use before and after the last event
   started,     ///< only after it
   stopped,     ///< only before it
   unavailable  ///< a behavior that could not be activated
 };
 
-/// The mark, in a state, of what was in use before the last event, and is after it.
+/// The mark, in a state, of what is in use before the last event, and after it.
 [[nodiscard]] Mark mark_of_use(bool was_in_use, bool is_in_use);
 
-/// The mark of what stands for both: the same; else of a fault, and of a change of any kind. In a
-/// state it is in use when one of them is.
+/// One mark for two things that are drawn as one. If the marks differ, faulty prevails, and others
+/// make it changed. In a state, it is in use when one of the two is.
 [[nodiscard]] Mark combine(Mark a, Mark b);
 
-/// Added and removed as they are, anything else as plain: what does not carry over to what is there
-/// through it.
+/// Keeps added and removed, and makes any other mark plain: what exists only through a thing shares
+/// its presence, not its changes.
 [[nodiscard]] Mark presence_of(Mark mark);
 
-/// The same, but for marks of a state, which are as they are: a behavior in use for one task may be
-/// of no use to another one that it could perform.
+/// The same, but keeps marks of a state, too: a behavior in use for one task may be of no use to
+/// another one that it could perform.
 [[nodiscard]] Mark use_of(Mark mark);
 
-/// The mark of what is there through both. Empty: of two catalogs, none has both. In a state it is
+/// The mark of what exists through both. Empty: neither of two catalogs has both. In a state, it is
 /// in use when both are.
 [[nodiscard]] std::optional<Mark> join(Mark a, Mark b);
 
-/// The word for it; empty for what does not stand out.
+/// The word for a mark; empty for one that does not stand out.
 [[nodiscard]] std::string_view name_of(Mark mark);
 
-/// What a catalog has that can be drawn, good or bad. Places of tasks and behaviors are those in
-/// the catalog, with the undefined tasks behind the others. Texts are views of what it was made of.
+/// What can be drawn of a catalog, valid or not. Tasks and behaviors have their indices in the
+/// catalog; undefined tasks follow. Texts are views of the source of the graph.
 ///
-/// A good catalog and the compiled file of it give the same.
+/// A valid catalog and its compiled file give the same graph.
 struct CatalogGraph {
   struct Task {
     std::string_view name;
@@ -63,7 +65,7 @@ struct CatalogGraph {
     bool is_defined = true;
     std::optional<std::int32_t> priority;  ///< of its request, in a state
     Mark mark = Mark::plain;
-    std::vector<std::string> notes;  ///< what is to be said of it beside the above
+    std::vector<std::string> notes;  ///< further lines
   };
   struct Behavior {
     std::string_view name;  ///< may be missing in a bad catalog
@@ -93,14 +95,14 @@ struct CatalogGraph {
   std::vector<Performance> performances;  ///< by behavior, then by task; pairs differ
   std::vector<Requirement> requirements;  ///< the same
   GrowingRows<std::uint32_t> exclusions;  ///< the tasks of each list, ascending; at least two
-  /// Of each task of each list. Two tasks exclude one another as their marks, joined, say; if these
-  /// are plain in one list, other lists say nothing.
+  /// By list, of each task. The exclusion of two tasks has their marks, joined; a list in which
+  /// both are plain prevails over others.
   GrowingRows<Mark> exclusion_marks;
 
-  // Places in the arrays above: what a task or a behavior has to do with.
+  // Indices in the arrays above: the neighbors of each task and behavior.
   GrowingRows<std::uint32_t> performances_of_task;
   GrowingRows<std::uint32_t> performances_of_behavior;
-  GrowingRows<std::uint32_t> requirements_of_task;  ///< those that ask for it
+  GrowingRows<std::uint32_t> requirements_of_task;  ///< those of the task by behaviors
   GrowingRows<std::uint32_t> requirements_of_behavior;
   GrowingRows<std::uint32_t> exclusions_of_task;
 };
@@ -108,16 +110,16 @@ struct CatalogGraph {
 /// `catalog` must outlive the result.
 [[nodiscard]] CatalogGraph to_graph(const CompiledCatalog& catalog);
 
-/// The same of a catalog that may have errors. What an error among the findings points at is
-/// faulty, and so is all that is on a cycle. `reading` must outlive the result.
+/// The same for a catalog that may have errors. What an error among the findings points at is
+/// faulty, and so is everything on a cycle. `reading` must outlive the result.
 [[nodiscard]] CatalogGraph to_graph(const CatalogReading& reading,
                                     const std::vector<Diagnostic>& findings);
 
-/// Which tasks and behaviors constraints connect: the number of the component of each task, then of
-/// each behavior, counted by the first task of each. Needs no more than the links and the lists.
+/// The connected component of each task, then of each behavior, numbered in the order of their
+/// first tasks. Uses only the links and lists of the graph.
 [[nodiscard]] std::vector<std::uint32_t> components_of(const CatalogGraph& graph);
 
-/// Fills in what is next to what. The other arrays are complete.
+/// Fills in the arrays of neighbors from the others.
 void connect(CatalogGraph& graph);
 
 }  // namespace cbc::draw

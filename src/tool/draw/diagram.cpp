@@ -8,23 +8,14 @@
 #include <utility>
 
 #include "base/text.h"
+#include "support/wording.h"
 
 namespace cbc::draw {
 namespace {
 
-/// Characters with a meaning of their own in ids or in the formats that they are written to.
+/// Characters with a special meaning in ids, or in the formats of pictures.
 bool is_special(char32_t character) {
   return character == '%' || character == '#' || character == '\\' || character == '&';
-}
-
-void append_encoded(std::string& id, std::string_view bytes) {
-  constexpr std::string_view digits = "0123456789ABCDEF";
-  for (const char byte : bytes) {
-    const unsigned value = static_cast<unsigned char>(byte);
-    id += '%';
-    id += digits[value / 16];
-    id += digits[value % 16];
-  }
 }
 
 }  // namespace
@@ -36,7 +27,7 @@ std::string id_of(std::string_view kind, std::string_view name) {
     const utf8::Decoded decoded = utf8::decode(name, offset);
     const std::string_view bytes = name.substr(offset, decoded.bytes);
     if (!decoded.valid || is_control(decoded.character) || is_special(decoded.character)) {
-      append_encoded(id, bytes);
+      for (const char byte : bytes) append_percent_encoded(id, byte);
     } else {
       id += bytes;
     }
@@ -149,7 +140,7 @@ class Legend {
     }
   }
 
-  /// Empty for what needs no word.
+  /// Empty if a mark needs no explanation.
   [[nodiscard]] std::string describe(Mark mark) const {
     if (mark == Mark::unavailable) return "unavailable or faulty";
     if (mark == Mark::faint && diagram_.moment) return "inactive";
@@ -204,103 +195,7 @@ std::vector<std::vector<const Node*>> cluster_members(const Diagram& diagram) {
 
 namespace {
 
-std::string cluster_name(const Node& node, Clustering clustering) {
-  if (clustering == Clustering::packages) return std::string(node.package);
-  return node.group == none ? std::string() : "group " + std::to_string(node.group);
-}
-
-}  // namespace
-
-Builder::Builder(const CatalogGraph& graph, const Part& part, const ViewOptions& options)
-    : graph_(graph),
-      part_(part),
-      task_nodes_(graph.tasks.size(), none),
-      behavior_nodes_(graph.behaviors.size(), none) {
-  diagram_.view = options.view;
-  diagram_.file = graph.file;
-}
-
-std::string Builder::unique_id(const std::string& id) {
-  const std::uint32_t uses = ++uses_of_id_[id];
-  return uses == 1 ? id : id + "#" + std::to_string(uses);
-}
-
-void Builder::add_node(Node node) {
-  node.id = unique_id(node.id);
-  diagram_.nodes.push_back(std::move(node));
-}
-
-void Builder::add_tasks() {
-  for (const std::uint32_t task : part_.tasks) {
-    const CatalogGraph::Task& from = graph_.tasks[task];
-    task_nodes_[task] = static_cast<std::uint32_t>(diagram_.nodes.size());
-    Node node;
-    node.kind = NodeKind::task;
-    node.id = id_of("task", from.name);
-    node.name = from.name;
-    node.group = from.group;
-    node.minimum_performance = from.minimum_performance;
-    node.priority = from.priority;
-    node.label = label_of(from.name);
-    node.mark = from.mark == Mark::plain && part_.is_beside[task] ? Mark::faint : from.mark;
-    if (from.minimum_performance > 0) node.notes.push_back(at_least(from.minimum_performance));
-    if (!from.is_defined) node.notes.emplace_back("not defined");
-    node.notes.insert(node.notes.end(), from.notes.begin(), from.notes.end());
-    node.is_defined = from.is_defined;
-    add_node(std::move(node));
-  }
-}
-
-void Builder::add_behaviors() {
-  for (const std::uint32_t behavior : part_.behaviors) {
-    const CatalogGraph::Behavior& from = graph_.behaviors[behavior];
-    behavior_nodes_[behavior] = static_cast<std::uint32_t>(diagram_.nodes.size());
-    Node node;
-    node.kind = NodeKind::behavior;
-    node.id = id_of("behavior", from.name);
-    node.name = from.name;
-    node.package = from.package;
-    node.group = from.group;
-    node.label = from.name.empty() ? "a behavior without a name" : label_of(from.name);
-    node.mark = from.mark;
-    node.notes = from.notes;
-    add_node(std::move(node));
-  }
-}
-
-Edge& Builder::add_edge(EdgeKind kind, std::uint32_t from, std::uint32_t to, Mark mark) {
-  Edge& edge = diagram_.edges.emplace_back();
-  edge.kind = kind;
-  edge.from = from;
-  edge.to = to;
-  const auto is_faint = [&](std::uint32_t node) {
-    const Mark of_node = diagram_.nodes[node].mark;
-    return of_node == Mark::faint || of_node == Mark::unavailable;
-  };
-  edge.label = with_sign(mark, {});
-  edge.mark = mark == Mark::plain && (is_faint(from) || is_faint(to)) ? Mark::faint : mark;
-  return edge;
-}
-
-void Builder::add_clusters(Clustering clustering) {
-  if (clustering == Clustering::nothing) return;
-  const std::size_t fewest = clustering == Clustering::groups ? 2 : 1;
-  std::map<std::string, std::size_t> sizes;
-  for (const Node& node : diagram_.nodes) ++sizes[cluster_name(node, clustering)];
-  std::map<std::string, std::uint32_t> places;
-  for (Node& node : diagram_.nodes) {
-    const std::string name = cluster_name(node, clustering);
-    if (name.empty() || sizes[name] < fewest) continue;
-    const auto place = static_cast<std::uint32_t>(diagram_.clusters.size());
-    const auto [entry, is_new] = places.try_emplace(name, place);
-    if (is_new) diagram_.clusters.push_back({id_of("cluster", name), label_of(name)});
-    node.cluster = entry->second;
-  }
-}
-
-namespace {
-
-/// More of them would hide what was asked for.
+/// More of them would distract from what was asked for.
 constexpr std::size_t most_excluded_beside = 8;
 
 Part nothing(const CatalogGraph& graph) {
@@ -339,7 +234,7 @@ class Surroundings {
     walk(depth, [&](std::uint32_t task, auto&& reach) {
       for (const std::uint32_t place : graph_.requirements_of_task[task]) {
         const std::uint32_t behavior = graph_.requirements[place].behavior;
-        // At the last step only what is drawn already is connected.
+        // At the last step, only what is already drawn is connected.
         const auto performed = graph_.performances_of_behavior[behavior];
         bool is_reached = performed.empty();
         for (const std::uint32_t link : performed) {
@@ -369,8 +264,8 @@ class Surroundings {
   }
 
  private:
-  /// Step by step from the tasks asked for. `expand` calls a function for each task that is next
-  /// to one; the function says whether that one is within reach.
+  /// Step by step from the tasks asked for. `expand` calls a function for each neighbor of a task,
+  /// which says whether the neighbor is within reach.
   template <typename Expand>
   void walk(std::optional<std::uint32_t> depth, const Expand& expand) {
     std::vector<bool> is_known(graph_.tasks.size());

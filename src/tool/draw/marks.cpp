@@ -18,7 +18,7 @@
 namespace cbc::draw {
 namespace {
 
-/// Which behavior each task has, and whether each behavior has a task.
+/// The behavior of each task that runs, and whether each behavior is active.
 struct Use {
   Use(const CatalogGraph& graph, const std::vector<RunState::RunningTask>& running)
       : behavior_of_task(graph.tasks.size(), none), is_active(graph.behaviors.size()) {
@@ -94,7 +94,7 @@ class StateMarker {
       const RunState::Change& change = state_.changes[place];
       CatalogGraph::Behavior& behavior = graph_.behaviors[change.behavior];
       behavior.notes.push_back(std::to_string(place + 1) + ". " + describe(change));
-      // One that was restarted, or had finished.
+      // It was restarted, or had finished.
       const bool is_new = change.is_activation && change.is_successful && !change.is_undoing;
       if (is_new && behavior.mark == Mark::active) behavior.mark = Mark::started;
     }
@@ -120,7 +120,7 @@ class StateMarker {
     }
   }
 
-  /// Lines to what has nothing to do with the state are faint.
+  /// Lines to tasks that have no part in the state are faint.
   void mark_exclusions() {
     for (std::size_t place = 0; place < graph_.exclusions.items.size(); ++place) {
       const bool is_idle = mark_of_task(graph_.exclusions.items[place]) == Mark::faint;
@@ -146,7 +146,7 @@ using Tasks = std::vector<std::uint32_t>;              // ascending
 /// Tasks of a list, each with a mark.
 using List = std::vector<std::pair<std::uint32_t, Mark>>;
 
-/// The pairs of one kind.
+/// Pairs of tasks.
 class Pairs {
  public:
   void add(std::uint32_t a, std::uint32_t b) {
@@ -166,7 +166,7 @@ class Pairs {
     });
   }
 
-  /// Those of the tasks that are in a pair with each of the others.
+  /// The tasks that are in a pair with each of the others.
   [[nodiscard]] Tasks with_all_of(std::span<const std::uint32_t> tasks) const {
     Tasks found;
     for (const std::uint32_t task : tasks) {
@@ -190,11 +190,18 @@ Tasks without(std::span<const std::uint32_t> tasks, const Tasks& others) {
   return rest;
 }
 
-class DiffMarker {
+/// Marks what has changed in the lists of exclusive tasks of a graph, which are those of the newer
+/// catalog, and adds what the older one alone excludes. `tasks` finds the tasks of both catalogs in
+/// the graph by name.
+///
+/// A task that now excludes all others of a list, or no longer does, is marked in that list. Where
+/// lists were joined or split, the new or the old one is marked as a whole, beside those that have
+/// been there all the time: tasks exclude one another if any list says so without a mark.
+class ExclusionMarker {
  public:
-  DiffMarker(const CompiledCatalog& before,
-             const std::unordered_map<std::string_view, std::uint32_t>& tasks,
-             const CatalogDiff& diff, CatalogGraph& graph)
+  ExclusionMarker(const CompiledCatalog& before,
+                  const std::unordered_map<std::string_view, std::uint32_t>& tasks,
+                  const CatalogDiff& diff, CatalogGraph& graph)
       : before_(before), tasks_(tasks), graph_(graph) {
     for (const CatalogChange& change : diff.changes) {
       if (change.subject != CatalogChange::Subject::exclusion) continue;
@@ -225,7 +232,7 @@ class DiffMarker {
     return tasks;
   }
 
-  /// False if the list is new as a whole, but some of its tasks excluded one another before.
+  /// False if the list is marked as a whole, though some of its tasks excluded one another before.
   bool mark_added(std::span<const std::uint32_t> tasks) {
     const Tasks since = added_.with_all_of(tasks);
     const bool is_joined = added_.has_any_of(without(tasks, since));
@@ -237,7 +244,7 @@ class DiffMarker {
     return !is_joined;
   }
 
-  /// What tasks of an older list still exclude one another in a list that is new as a whole.
+  /// Adds the parts of older lists that remain in a list that is marked as a whole.
   void add_kept(std::span<const std::uint32_t> joined) {
     std::set<std::uint32_t> cliques;
     for (const std::uint32_t task : joined) {
@@ -278,8 +285,8 @@ class DiffMarker {
                        [&](std::uint32_t other) { return removed_.contains(task, other); });
   }
 
-  /// The list that has just these tasks and what came to them, if those that are gone from it may
-  /// stand there side by side.
+  /// The list that has exactly these tasks, apart from added ones, if what was removed from it
+  /// before excluded all of `gone`.
   [[nodiscard]] List* find_list(const Tasks& tasks, const Tasks& gone) {
     for (const std::uint32_t place : graph_.exclusions_of_task[tasks.front()]) {
       Tasks present;
@@ -316,16 +323,6 @@ class DiffMarker {
   Pairs removed_;
   std::vector<List> lists_;  ///< first those of the graph, then those that are added
 };
-
-}  // namespace
-
-void mark_exclusions(const CompiledCatalog& before,
-                     const std::unordered_map<std::string_view, std::uint32_t>& tasks,
-                     const CatalogDiff& diff, CatalogGraph& graph) {
-  DiffMarker(before, tasks, diff, graph).run();
-}
-
-namespace {
 
 using ChangeKind = CatalogChange::Kind;
 using ChangeSubject = CatalogChange::Subject;
@@ -392,19 +389,19 @@ class Union {
           mark_requirement(change);
           break;
         case ChangeSubject::exclusion:
-          break;  // all at once
+          break;  // marked together, by ExclusionMarker
       }
     }
     sort(graph_.performances);
     sort(graph_.requirements);
-    mark_exclusions(before_, tasks_, diff_, graph_);
+    ExclusionMarker(before_, tasks_, diff_, graph_).run();
     find_groups();
     connect(graph_);
     return std::move(graph_);
   }
 
  private:
-  /// Of what the newer catalog no longer has: the first group of what it was connected with.
+  /// What the newer catalog no longer has gets the first group of what it was connected with.
   void find_groups() {
     const std::vector<std::uint32_t> components = components_of(graph_);
     std::vector<std::uint32_t> groups(components.size(),
@@ -422,7 +419,7 @@ class Union {
     fill_in(graph_.behaviors, graph_.tasks.size());
   }
 
-  /// Of what both have: what has changed. Of others, that is said by the word.
+  /// What has changed; for what only one catalog has, the word "added" or "removed".
   static std::vector<std::string> notes_of(const CatalogChange& change) {
     if (change.kind != ChangeKind::changed) return {std::string(cbc::name_of(change.kind))};
     std::vector<std::string> notes;
@@ -456,8 +453,8 @@ class Union {
     behavior.notes = notes_of(change);
   }
 
-  /// The link of the change, which is a new one if the newer catalog does not have it. `known` of
-  /// the links, the first ones, are in order.
+  /// The link of a change, a new one if the newer catalog does not have it. The first `known` links
+  /// are sorted.
   template <typename Link>
   Link& link_of(const CatalogChange& change, std::vector<Link>& links, std::size_t known) {
     const std::uint32_t behavior = behaviors_.at(change.behavior);

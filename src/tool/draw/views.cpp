@@ -1,6 +1,9 @@
+// The views of a catalog: how a diagram is made of a part of it.
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,62 +14,148 @@
 namespace cbc::draw {
 namespace {
 
-/// What a task requires of another one now, and what it required in an older catalog.
-struct Sums {
-  TaskRequirement present;
-  TaskRequirement removed;
+/// Makes the nodes of a picture; the views connect them.
+class Builder {
+ public:
+  Builder(const CatalogGraph& graph, const Part& part, const ViewOptions& options);
+
+  /// A node for each task, or each behavior, of the part.
+  void add_tasks();
+  void add_behaviors();
+
+  /// Exclusivity lists, between tasks or, if these are not drawn, between their behaviors.
+  void add_exclusions(ExclusivityStyle style);
+
+  /// `from` and `to` are nodes. The label of the edge has the sign of its mark; an edge at a faint
+  /// node is faint.
+  Edge& add_edge(EdgeKind kind, std::uint32_t from, std::uint32_t to, Mark mark = Mark::plain);
+
+  [[nodiscard]] const CatalogGraph& graph() const { return graph_; }
+  [[nodiscard]] const Part& part() const { return part_; }
+  [[nodiscard]] Diagram& diagram() { return diagram_; }
+  /// The node of a task, a behavior of the part.
+  [[nodiscard]] std::uint32_t node_of_task(std::uint32_t task) const { return task_nodes_[task]; }
+  [[nodiscard]] std::uint32_t node_of_behavior(std::uint32_t behavior) const {
+    return behavior_nodes_[behavior];
+  }
+
+  /// Puts the nodes into clusters.
+  void add_clusters(Clustering clustering);
+
+ private:
+  /// A task of an exclusivity list: its node, or those of its behaviors.
+  struct Member {
+    std::vector<std::uint32_t> nodes;
+    Mark mark = Mark::plain;
+  };
+
+  void add_node(Node node);
+  [[nodiscard]] std::string unique_id(const std::string& id);
+  [[nodiscard]] std::vector<std::uint32_t> nodes_of_exclusion(std::uint32_t task) const;
+  [[nodiscard]] std::vector<Member> members_of(std::uint32_t list) const;
+  void add_hub(std::uint32_t list, const std::vector<Member>& members);
+
+  const CatalogGraph& graph_;
+  const Part& part_;
+  Diagram diagram_;
+  std::vector<std::uint32_t> task_nodes_;      ///< by task; none: not drawn
+  std::vector<std::uint32_t> behavior_nodes_;  ///< by behavior; the same
+  std::map<std::string, std::uint32_t> uses_of_id_;
 };
 
-void count(Mark mark, Millionths minimum, TaskRequirement& sum) {
-  const bool is_first = sum.requiring == 0;
-  sum.lowest = is_first ? minimum : std::min(sum.lowest, minimum);
-  sum.highest = std::max(sum.highest, minimum);
-  sum.mark = is_first ? mark : combine(sum.mark, mark);
-  ++sum.requiring;
+std::string cluster_name(const Node& node, Clustering clustering) {
+  if (clustering == Clustering::packages) return std::string(node.package);
+  return node.group == none ? std::string() : "group " + std::to_string(node.group);
 }
 
-TaskRequirement total(const Sums& sums) {
-  if (sums.present.requiring == 0) return sums.removed;
-  TaskRequirement total = sums.present;
-  if (sums.removed.requiring > 0) total.mark = combine(total.mark, Mark::removed);
-  return total;
+Builder::Builder(const CatalogGraph& graph, const Part& part, const ViewOptions& options)
+    : graph_(graph),
+      part_(part),
+      task_nodes_(graph.tasks.size(), none),
+      behavior_nodes_(graph.behaviors.size(), none) {
+  diagram_.view = options.view;
+  diagram_.file = graph.file;
 }
 
-}  // namespace
+std::string Builder::unique_id(const std::string& id) {
+  const std::uint32_t uses = ++uses_of_id_[id];
+  return uses == 1 ? id : id + "#" + std::to_string(uses);
+}
 
-std::vector<TaskRequirement> task_requirements(const CatalogGraph& graph, const Part& part) {
-  std::vector<TaskRequirement> all;
-  for (const std::uint32_t task : part.tasks) {
-    std::uint32_t behaviors = 0;
-    std::map<std::uint32_t, Sums> by_target;
-    for (const std::uint32_t link : graph.performances_of_task[task]) {
-      const CatalogGraph::Performance& performance = graph.performances[link];
-      if (!part.has_behavior[performance.behavior]) continue;
-      if (performance.mark != Mark::removed) ++behaviors;
-      const Mark mark = use_of(performance.mark);
-      for (const std::uint32_t place : graph.requirements_of_behavior[performance.behavior]) {
-        const CatalogGraph::Requirement& requirement = graph.requirements[place];
-        if (!part.has_task[requirement.task]) continue;
-        const std::optional<Mark> joined = join(mark, requirement.mark);
-        if (!joined) continue;
-        Sums& sums = by_target[requirement.task];
-        count(*joined, requirement.minimum_performance,
-              joined == Mark::removed ? sums.removed : sums.present);
-      }
-    }
-    for (const auto& [target, sums] : by_target) {
-      TaskRequirement& sum = all.emplace_back(total(sums));
-      sum.from = task;
-      sum.to = target;
-      sum.behaviors = behaviors;
-    }
+void Builder::add_node(Node node) {
+  node.id = unique_id(node.id);
+  diagram_.nodes.push_back(std::move(node));
+}
+
+void Builder::add_tasks() {
+  for (const std::uint32_t task : part_.tasks) {
+    const CatalogGraph::Task& from = graph_.tasks[task];
+    task_nodes_[task] = static_cast<std::uint32_t>(diagram_.nodes.size());
+    Node node;
+    node.kind = NodeKind::task;
+    node.id = id_of("task", from.name);
+    node.name = from.name;
+    node.group = from.group;
+    node.minimum_performance = from.minimum_performance;
+    node.priority = from.priority;
+    node.label = label_of(from.name);
+    node.mark = from.mark == Mark::plain && part_.is_beside[task] ? Mark::faint : from.mark;
+    if (from.minimum_performance > 0) node.notes.push_back(at_least(from.minimum_performance));
+    if (!from.is_defined) node.notes.emplace_back("not defined");
+    node.notes.insert(node.notes.end(), from.notes.begin(), from.notes.end());
+    node.is_defined = from.is_defined;
+    add_node(std::move(node));
   }
-  return all;
 }
 
-namespace {
+void Builder::add_behaviors() {
+  for (const std::uint32_t behavior : part_.behaviors) {
+    const CatalogGraph::Behavior& from = graph_.behaviors[behavior];
+    behavior_nodes_[behavior] = static_cast<std::uint32_t>(diagram_.nodes.size());
+    Node node;
+    node.kind = NodeKind::behavior;
+    node.id = id_of("behavior", from.name);
+    node.name = from.name;
+    node.package = from.package;
+    node.group = from.group;
+    node.label = from.name.empty() ? "a behavior without a name" : label_of(from.name);
+    node.mark = from.mark;
+    node.notes = from.notes;
+    add_node(std::move(node));
+  }
+}
 
-/// Lists of so many tasks are drawn as pairs where nothing else is asked for.
+Edge& Builder::add_edge(EdgeKind kind, std::uint32_t from, std::uint32_t to, Mark mark) {
+  Edge& edge = diagram_.edges.emplace_back();
+  edge.kind = kind;
+  edge.from = from;
+  edge.to = to;
+  const auto is_faint = [&](std::uint32_t node) {
+    const Mark of_node = diagram_.nodes[node].mark;
+    return of_node == Mark::faint || of_node == Mark::unavailable;
+  };
+  edge.label = with_sign(mark, {});
+  edge.mark = mark == Mark::plain && (is_faint(from) || is_faint(to)) ? Mark::faint : mark;
+  return edge;
+}
+
+void Builder::add_clusters(Clustering clustering) {
+  if (clustering == Clustering::nothing) return;
+  const std::size_t fewest = clustering == Clustering::groups ? 2 : 1;
+  std::map<std::string, std::size_t> sizes;
+  for (const Node& node : diagram_.nodes) ++sizes[cluster_name(node, clustering)];
+  std::map<std::string, std::uint32_t> places;
+  for (Node& node : diagram_.nodes) {
+    const std::string name = cluster_name(node, clustering);
+    if (name.empty() || sizes[name] < fewest) continue;
+    const auto place = static_cast<std::uint32_t>(diagram_.clusters.size());
+    const auto [entry, is_new] = places.try_emplace(name, place);
+    if (is_new) diagram_.clusters.push_back({id_of("cluster", name), label_of(name)});
+    node.cluster = entry->second;
+  }
+}
+
+/// Lists of up to this many tasks are drawn as pairs unless something else is asked for.
 constexpr std::size_t most_for_pairs = 3;
 
 using Nodes = std::vector<std::uint32_t>;
@@ -88,14 +177,12 @@ std::vector<std::uint32_t> lists_of(const CatalogGraph& graph, const Part& part)
   return lists;
 }
 
-/// A task that was asked for is shown to have exclusions, even if none of the others is drawn.
+/// Whether a list has a task that was asked for. Then it is drawn even if no other task of it is.
 bool has_named_task(const CatalogGraph& graph, const Part& part, std::uint32_t list) {
   const auto tasks = graph.exclusions[list];
   return std::any_of(tasks.begin(), tasks.end(),
                      [&](std::uint32_t task) { return part.is_named[task]; });
 }
-
-}  // namespace
 
 Nodes Builder::nodes_of_exclusion(std::uint32_t task) const {
   if (!part_.has_task[task]) return {};
@@ -160,7 +247,7 @@ void Builder::add_exclusions(ExclusivityStyle style) {
           for (const std::uint32_t to : members[b].nodes) {
             if (from == to) continue;
             Mark& known = pairs.try_emplace(std::minmax(from, to), *mark).first->second;
-            // What one list says counts, whatever others no longer or newly say.
+            // A list in which both tasks are plain prevails over others.
             const bool is_certain = *mark == Mark::plain && known != Mark::faulty;
             if (is_certain || *mark == Mark::faulty) known = *mark;
           }
@@ -174,11 +261,72 @@ void Builder::add_exclusions(ExclusivityStyle style) {
   for (const auto& [list, members] : hubs) add_hub(list, members);
 }
 
-namespace {
+/// What the behaviors of one task require of another task.
+struct TaskRequirement {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  std::uint32_t behaviors = 0;  ///< of `from` in the part; of two catalogs, of the newer one
+  std::uint32_t requiring = 0;  ///< how many of these require `to`
+  Millionths lowest = 0;        ///< of their minimum performances; 0: none
+  Millionths highest = 0;
+  Mark mark = Mark::plain;
+};
+
+/// What a task requires of another one now, and what it required only in the older catalog.
+struct Sums {
+  TaskRequirement present;
+  TaskRequirement removed;
+};
+
+void count(Mark mark, Millionths minimum, TaskRequirement& sum) {
+  const bool is_first = sum.requiring == 0;
+  sum.lowest = is_first ? minimum : std::min(sum.lowest, minimum);
+  sum.highest = std::max(sum.highest, minimum);
+  sum.mark = is_first ? mark : combine(sum.mark, mark);
+  ++sum.requiring;
+}
+
+TaskRequirement total(const Sums& sums) {
+  if (sums.present.requiring == 0) return sums.removed;
+  TaskRequirement total = sums.present;
+  if (sums.removed.requiring > 0) total.mark = combine(total.mark, Mark::removed);
+  return total;
+}
+
+/// All of them between tasks of a part, by `from`, then by `to`.
+std::vector<TaskRequirement> task_requirements(const CatalogGraph& graph, const Part& part) {
+  std::vector<TaskRequirement> all;
+  for (const std::uint32_t task : part.tasks) {
+    std::uint32_t behaviors = 0;
+    std::map<std::uint32_t, Sums> by_target;
+    for (const std::uint32_t link : graph.performances_of_task[task]) {
+      const CatalogGraph::Performance& performance = graph.performances[link];
+      if (!part.has_behavior[performance.behavior]) continue;
+      if (performance.mark != Mark::removed) ++behaviors;
+      const Mark mark = use_of(performance.mark);
+      for (const std::uint32_t place : graph.requirements_of_behavior[performance.behavior]) {
+        const CatalogGraph::Requirement& requirement = graph.requirements[place];
+        if (!part.has_task[requirement.task]) continue;
+        const std::optional<Mark> joined = join(mark, requirement.mark);
+        if (!joined) continue;
+        Sums& sums = by_target[requirement.task];
+        count(*joined, requirement.minimum_performance,
+              joined == Mark::removed ? sums.removed : sums.present);
+      }
+    }
+    for (const auto& [target, sums] : by_target) {
+      TaskRequirement& sum = all.emplace_back(total(sums));
+      sum.from = task;
+      sum.to = target;
+      sum.behaviors = behaviors;
+    }
+  }
+  return all;
+}
 
 using Requirements = std::vector<CatalogGraph::Requirement>;
 
-/// What a behavior requires of each one that may do it, by node.
+/// What a behavior requires of other behaviors that may fulfil it, by node.
 std::map<std::uint32_t, Requirements> required_behaviors(const Builder& builder,
                                                          std::uint32_t behavior) {
   const CatalogGraph& graph = builder.graph();
@@ -195,7 +343,7 @@ std::map<std::uint32_t, Requirements> required_behaviors(const Builder& builder,
   return required;
 }
 
-/// All of them as one, with the highest minimum performance of those that there are.
+/// All of them as one, with the highest minimum performance of those that are not removed.
 CatalogGraph::Requirement combine(const Requirements& requirements) {
   CatalogGraph::Requirement all = requirements.front();
   for (const CatalogGraph::Requirement& one : requirements) {
@@ -208,8 +356,6 @@ CatalogGraph::Requirement combine(const Requirements& requirements) {
   if (requirements.size() > 1) all.before.reset();
   return all;
 }
-
-}  // namespace
 
 void draw_behavior_view(Builder& builder) {
   builder.add_behaviors();
@@ -224,10 +370,8 @@ void draw_behavior_view(Builder& builder) {
   }
 }
 
-namespace {
-
-/// Tasks of one behavior are of one group; a chain of them shows it. What one of two catalogs has
-/// is connected to what both have.
+/// Joins the tasks of each behavior by a chain, since they are of one group. What only one of two
+/// catalogs has is joined to what both have.
 void connect_tasks_of_behaviors(Builder& builder) {
   const CatalogGraph& graph = builder.graph();
   for (const std::uint32_t behavior : builder.part().behaviors) {
@@ -249,7 +393,7 @@ void connect_tasks_of_behaviors(Builder& builder) {
   }
 }
 
-/// One color a group, but for tasks that are alone in theirs, or in none.
+/// One color for each group, except for tasks that are alone in theirs or have none.
 void color_groups(std::vector<Node>& tasks) {
   std::map<std::uint32_t, std::uint32_t> sizes;
   for (const Node& task : tasks) ++sizes[task.group];
@@ -260,8 +404,6 @@ void color_groups(std::vector<Node>& tasks) {
     task.color = colors.try_emplace(task.group, next).first->second;
   }
 }
-
-}  // namespace
 
 void draw_constraint_view(Builder& builder) {
   builder.add_tasks();
@@ -301,9 +443,7 @@ void draw_full_view(Builder& builder) {
   }
 }
 
-namespace {
-
-/// "1 of 2, ≥ 60 %": how many of the behaviors require the task, and the performance they ask for.
+/// "1 of 2, ≥ 60 %": how many of the behaviors require the task, and the minimum they ask for.
 std::string label_of(const TaskRequirement& requirement) {
   std::string label;
   if (requirement.requiring < requirement.behaviors && requirement.mark != Mark::removed) {
@@ -316,7 +456,7 @@ std::string label_of(const TaskRequirement& requirement) {
          format_percent(requirement.highest);
 }
 
-/// Which of them follow from others; what stands out is shown in any case.
+/// Which of them follow from others. What stands out is never left out.
 std::vector<bool> implied(const Builder& builder,
                           const std::vector<TaskRequirement>& requirements) {
   Edges edges;
@@ -331,8 +471,6 @@ std::vector<bool> implied(const Builder& builder,
   }
   return result;
 }
-
-}  // namespace
 
 void draw_task_view(Builder& builder, bool reduce) {
   builder.add_tasks();
@@ -349,8 +487,6 @@ void draw_task_view(Builder& builder, bool reduce) {
     edge.label = with_sign(requirement.mark, label_of(requirement));
   }
 }
-
-namespace {
 
 ExclusivityStyle default_style(View view) {
   const bool has_exclusivity = view == View::full || view == View::constraints;

@@ -27,21 +27,28 @@ std::vector<std::string_view> names_of_rules() {
   return names;
 }
 
-}  // namespace
+/// Explains why a name is not that of a rule, with the nearest that is.
+class RuleNames {
+ public:
+  RuleNames() : suggestions_(names_of_rules()) {}
 
-RuleNames::RuleNames() : suggestions_(names_of_rules()) {}
+  std::string describe_unknown(std::string_view name) {
+    return "there is no rule " + quote(name) + did_you_mean(suggestions_.nearest(name));
+  }
 
-std::string RuleNames::describe_unknown(std::string_view name) {
-  std::string message = "there is no rule " + quote(name);
-  message += did_you_mean(suggestions_.nearest(name));
-  return message;
+ private:
+  Suggestions suggestions_;
+};
+
+/// Whether a rule may have a setting: a fixed one stays an error.
+bool is_possible(const Rule& rule, RuleSetting setting) {
+  return !rule.is_fixed || setting == RuleSetting::error;
 }
 
+/// Why a rule cannot be anything but an error.
 std::string describe_fixed(const Rule& rule) {
   return quote(rule.name) + " is always an error: a file that breaks this rule has no meaning";
 }
-
-namespace {
 
 const std::vector<std::string>& names_for(RuleSetting setting, const SeverityOptions& options) {
   switch (setting) {
@@ -55,7 +62,7 @@ const std::vector<std::string>& names_for(RuleSetting setting, const SeverityOpt
   return options.allow;
 }
 
-/// "a, b" has a blank before the second name.
+/// Of "a, b", the second name begins with a blank.
 std::string without_blanks(const std::string& name) {
   const std::size_t begin = name.find_first_not_of(' ');
   if (begin == std::string::npos) return {};
@@ -76,10 +83,6 @@ std::string_view name_of(RuleSetting setting) {
       break;
   }
   return "allow";
-}
-
-bool is_possible(const Rule& rule, RuleSetting setting) {
-  return !rule.is_fixed || setting == RuleSetting::error;
 }
 
 bool is_fixed(const Diagnostic& finding) {
@@ -146,7 +149,7 @@ namespace fs = std::filesystem;
 constexpr yaml::Key settings_keys[] = {{"error"}, {"warn"}, {"allow"}, {"strict"}};
 constexpr yaml::Shape settings_shape{"the settings", settings_keys};
 
-/// The folder of a file as it is to be searched from: without links and "..", where possible.
+/// The folder of a file, where the search begins: without links and "..", where possible.
 fs::path folder_of(const fs::path& file) {
   std::error_code error;
   const fs::path folder = fs::absolute(fs::path(".") / file, error).parent_path();
@@ -186,7 +189,7 @@ class SettingsReader {
   void read_rule(std::string_view name, const Range& range, RuleSetting setting) {
     const Rule* rule = find_rule(name);
     if (rule == nullptr) {
-      // Not a warning, as it is in a catalog: settings that are not understood are of no use.
+      // An error, though a warning in a catalog: settings that are not understood are of no use.
       reporter_.report_as(Severity::error, rule::unknown_rule, range,
                           names_.describe_unknown(name));
       return;
@@ -281,10 +284,11 @@ class Scopes {
     find_entries();
   }
 
-  /// For the comment of a line. Any two results are disjoint, or one contains the other.
+  /// Those that the comment of a line is about. Any two results are disjoint, or one contains the
+  /// other.
   [[nodiscard]] Lines of_comment(std::size_t number) const {
     if (lines_[number - 1].has_content) return {number, number};
-    // Comments above are about the same entry, and those above this one can be allowed by it.
+    // Comments above are about the same entry, and this one can allow findings about them.
     return {last_content_[number] + 1, std::max(number, entries_[number])};
   }
 
@@ -295,7 +299,7 @@ class Scopes {
       std::size_t depth = 0;
       std::size_t number = 0;
     };
-    std::vector<Entry> below;  // the entries that end those above them, the nearest last
+    std::vector<Entry> below;  // the entries that end the ones above, the nearest last
     std::size_t last_line = 0;
     for (std::size_t number = lines_.size(); number > 0; --number) {
       entries_[number] = last_line;
@@ -313,14 +317,14 @@ class Scopes {
   std::vector<std::size_t> entries_;       ///< the last line of the entry that begins below, or 0
 };
 
-/// Reads the comments of a file that are meant for this program, in order.
+/// Reads the comments of a file that are for this program, in order.
 class CommentReader {
  public:
   CommentReader(std::string_view text, Reporter& reporter)
       : text_(text), positions_(text), reporter_(reporter) {}
 
   std::vector<Allow> read(const yaml::Document* document) {
-    // Most files have no such comment, and are not looked at closely.
+    // Most files have no such comment, and need no closer look.
     if (text_.find(mark) == std::string_view::npos) return {};
     const std::vector<yaml::SourceLine> lines = yaml::split_lines(text_, document);
     const Scopes scopes(lines);
@@ -363,7 +367,7 @@ class CommentReader {
       skip_blanks();
       if (is_at_end()) return true;
       if (text_[next_] == ',') continue;
-      // What is said after an unknown name has no other fault than that name.
+      // After an unknown name, one finding is enough.
       const std::string_view other = next_word();
       if (rule != nullptr) {
         report(range_of(other),
@@ -420,7 +424,7 @@ class CommentReader {
   std::size_t end_ = 0;
 };
 
-/// Moves the findings that are not allowed from one collection to another.
+/// Moves the findings that no comment allows from one collection to another.
 void filter(Diagnostics& findings, std::vector<Allow>& allows, Diagnostics& kept) {
   findings.sort();
   std::unordered_map<const Rule*, std::vector<Allow*>> open;  // by rule, the innermost last
@@ -469,7 +473,7 @@ std::vector<Diagnostic> apply_allow_comments(std::vector<Diagnostic> findings,
   }
   filter(unused, allows, kept);
 
-  // Nothing allows what is found now, so that this is the end of it.
+  // No comment allows what is found now, so this is the last round.
   Reporter last_reporter(file.file, kept);
   for (const Allow& allow : allows) {
     const bool is_needed = allow.is_used || allow.rule->name != rule::unused_allow;
@@ -481,7 +485,7 @@ std::vector<Diagnostic> apply_allow_comments(std::vector<Diagnostic> findings,
 
 std::vector<Diagnostic> control_findings(std::vector<Diagnostic> findings, CommentedFile file,
                                          const SeveritySettings& settings) {
-  // Past the node limit the finding that a comment is for may just not have been found.
+  // Past the node limit, the finding that a comment allows may just not have been found.
   file.is_complete = file.is_complete &&
                      std::none_of(findings.begin(), findings.end(), [](const Diagnostic& finding) {
                        return finding.rule == rule::undecided;

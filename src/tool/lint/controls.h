@@ -10,25 +10,11 @@
 
 #include "diagnostic/diagnostic.h"
 #include "diagnostic/rules.h"
-#include "support/wording.h"
 #include "yaml/document.h"
 
+/// What people say about findings: severities of rules, on the command line and in settings files,
+/// and comments that allow findings.
 namespace cbc {
-
-/// Explains what is wrong with rules that people name.
-class RuleNames {
- public:
-  RuleNames();
-
-  /// Of a name that no rule has: with the nearest that one has.
-  [[nodiscard]] std::string describe_unknown(std::string_view name);
-
- private:
-  Suggestions suggestions_;
-};
-
-/// Why a rule cannot be anything but an error.
-[[nodiscard]] std::string describe_fixed(const Rule& rule);
 
 /// What becomes of the findings of a rule; `allow`: they are not reported.
 enum class RuleSetting : std::uint8_t { error, warn, allow };
@@ -39,17 +25,14 @@ inline constexpr std::array rule_settings = {RuleSetting::error, RuleSetting::wa
 /// "error", "warn", "allow": the key of a settings file, and the option.
 [[nodiscard]] std::string_view name_of(RuleSetting setting);
 
-/// Whether a rule may have a setting: a fixed one stays an error.
-[[nodiscard]] bool is_possible(const Rule& rule, RuleSetting setting);
-
-/// Whether a finding stays what it is: its rule is fixed, or it is an error though its rule is not
-/// (an unknown key of a script).
+/// Whether the severity of a finding cannot be changed: its rule is fixed, or it is an error though
+/// the rule's severity is not (an unknown key in a script).
 [[nodiscard]] bool is_fixed(const Diagnostic& finding);
 
-/// What people want of the severities of findings, by rule.
+/// The severities that people set for findings, by rule.
 class SeveritySettings {
  public:
-  /// The setting must be possible for this rule.
+  /// A fixed rule can only be set to error.
   void set(const Rule& rule, RuleSetting setting);
   /// Lets warnings count as failure.
   void make_strict() { is_strict_ = true; }
@@ -63,7 +46,7 @@ class SeveritySettings {
   [[nodiscard]] bool is_strict() const { return is_strict_; }
 
  private:
-  std::map<std::string_view, RuleSetting> settings_;  // names of the table of rules
+  std::map<std::string_view, RuleSetting> settings_;  // by name of the rule
   bool is_strict_ = false;
 };
 
@@ -75,8 +58,8 @@ struct SeverityOptions {
   bool strict = false;
 };
 
-/// Understands options. A message for each that is wrong is added to `errors`; the settings are
-/// not to be used then.
+/// Reads options. Adds a message to `errors` for each that is wrong; then the settings are not to
+/// be used.
 [[nodiscard]] SeveritySettings settings_of_options(const SeverityOptions& options,
                                                    std::vector<std::string>& errors);
 
@@ -96,7 +79,7 @@ inline constexpr std::string_view settings_file_name = ".cbc.yaml";
 ///     allow: [required-goal]
 ///     strict: true
 ///
-/// All that is wrong with it is reported, as errors; there are no settings then.
+/// Everything that is wrong with it is reported as an error, and there are no settings then.
 [[nodiscard]] std::optional<SeveritySettings> read_settings(std::string_view text, std::string file,
                                                             Diagnostics& diagnostics);
 
@@ -105,7 +88,7 @@ struct CommentedFile {
   std::string file;                          ///< name in messages
   std::string_view text;                     ///< as it was read
   const yaml::Document* document = nullptr;  ///< of the text, if it is valid YAML
-  /// Whether every rule could be decided. If not, an allow without a finding may be needed yet.
+  /// Whether every rule could be decided. If not, an allow without a finding may still be needed.
   bool is_complete = true;
 };
 
@@ -115,20 +98,20 @@ struct CommentedFile {
 ///     - task: A
 ///       timeout: 5   # cbc: allow no-timeout-effect
 ///
-/// At the end of a line a comment is about what begins on this line; on a line of its own it is
-/// about the entry that follows, with all that is in it. If several comments allow a finding, the
-/// innermost, or else the last one, is the one that is used.
+/// At the end of a line, a comment is about what begins on this line; on a line of its own, it is
+/// about the entry that follows, with everything in it. If several comments allow a finding, the
+/// innermost of them, or else the last, counts as used.
 ///
-/// Adds findings about the comments: of unknown-rule for what is not understood, and of
-/// unused-allow for an allow that nothing needs, or that is of a fixed rule. Such findings can be
-/// allowed, too; but not that an allow of unused-allow is itself unused.
+/// Adds findings about the comments: unknown-rule for what is not understood, and unused-allow for
+/// an allow that no finding needs, or of a fixed rule. These can be allowed, too, except that an
+/// allow of unused-allow is itself unused.
 ///
 /// The result is in the order of Diagnostics::sort.
 [[nodiscard]] std::vector<Diagnostic> apply_allow_comments(std::vector<Diagnostic> findings,
                                                            const CommentedFile& file);
 
-/// What is to be reported of the findings of one file, in the order of Diagnostics::sort: its
-/// comments are applied first, then the settings, to the findings about comments, too.
+/// What is to be reported of the findings of one file, in the order of Diagnostics::sort. Comments
+/// are applied first, then the settings, also to the findings about comments.
 [[nodiscard]] std::vector<Diagnostic> control_findings(std::vector<Diagnostic> findings,
                                                        CommentedFile file,
                                                        const SeveritySettings& settings);

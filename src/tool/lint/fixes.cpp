@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,248 +18,14 @@
 namespace cbc {
 namespace {
 
-constexpr std::size_t context = 3;
-
-// After as many changes, or as many equal lines, the way found so far is taken.
-constexpr int most_changes = 200;
-constexpr int sure_match = 32;
-
-using Lines = std::vector<std::string_view>;
-
-/// Each with its line break; the last one may lack it.
-Lines split(std::string_view text) {
-  Lines lines;
-  while (!text.empty()) {
-    const std::size_t line_break = text.find('\n');
-    const std::size_t size = line_break == std::string_view::npos ? text.size() : line_break + 1;
-    lines.push_back(text.substr(0, size));
-    text.remove_prefix(size);
-  }
-  return lines;
-}
-
-/// Lines [begin, end) of each text, of which the ones take the place of the others.
-struct LineChange {
-  std::size_t old_begin = 0;
-  std::size_t old_end = 0;
-  std::size_t new_begin = 0;
-  std::size_t new_end = 0;
-};
-
-/// Finds the changes from front to back, by the greedy algorithm of Myers in pieces: a piece ends
-/// where the texts agree again for a while, or when it gets too long.
-class LineComparison {
- public:
-  LineComparison(const Lines& before, const Lines& after) : before_(before), after_(after) {}
-
-  std::vector<LineChange> run() {
-    skip_equal();
-    while (x_ < before_.size() || y_ < after_.size()) {
-      add_piece();
-      skip_equal();
-    }
-    return std::move(changes_);
-  }
-
- private:
-  // Where the furthest ways with a number of changes end, by diagonal: lines of the old text that
-  // are behind them. `furthest_[d]` has those of the diagonals -d to d.
-  using Reach = std::vector<int>;
-
-  void skip_equal() {
-    while (x_ < before_.size() && y_ < after_.size() && before_[x_] == after_[y_]) {
-      ++x_;
-      ++y_;
-    }
-  }
-
-  [[nodiscard]] int old_left() const { return static_cast<int>(before_.size() - x_); }
-  [[nodiscard]] int new_left() const { return static_cast<int>(after_.size() - y_); }
-
-  [[nodiscard]] bool equal(int x, int y) const {
-    return x < old_left() && y < new_left() &&
-           before_[x_ + static_cast<std::size_t>(x)] == after_[y_ + static_cast<std::size_t>(y)];
-  }
-
-  static std::size_t slot(int changes, int diagonal) {
-    const int place = diagonal + changes;
-    return static_cast<std::size_t>(place);
-  }
-
-  [[nodiscard]] int reached(int changes, int diagonal) const {
-    return furthest_[static_cast<std::size_t>(changes)][slot(changes, diagonal)];
-  }
-
-  [[nodiscard]] bool is_possible(int x, int diagonal) const {
-    return x >= 0 && x <= old_left() && x >= diagonal && x - diagonal <= new_left();
-  }
-
-  // Where a way that ends on a diagonal comes to with one more change; below 0: nowhere.
-  [[nodiscard]] int step(int changes, int diagonal) const {
-    if (changes == 0) return 0;
-    int best = -1;
-    if (diagonal > -changes + 1) {  // a line goes
-      const int from = reached(changes - 1, diagonal - 1);
-      if (from >= 0 && is_possible(from + 1, diagonal)) best = from + 1;
-    }
-    if (diagonal < changes - 1) {  // a line comes
-      const int from = reached(changes - 1, diagonal + 1);
-      if (from > best && is_possible(from, diagonal)) best = from;
-    }
-    return best;
-  }
-
-  void add_piece() {
-    furthest_.clear();
-    int best_diagonal = 0;
-    for (int changes = 0;; ++changes) {
-      furthest_.emplace_back(slot(changes, changes) + 1, -1);
-      int best_sum = -1;
-      for (int diagonal = -changes; diagonal <= changes; diagonal += 2) {
-        const int from = step(changes, diagonal);
-        if (from < 0) continue;
-        int x = from;
-        while (equal(x, x - diagonal)) ++x;
-        furthest_.back()[slot(changes, diagonal)] = x;
-        if (2 * x - diagonal > best_sum) {
-          best_sum = 2 * x - diagonal;
-          best_diagonal = diagonal;
-        }
-        const bool at_end = x == old_left() && x - diagonal == new_left();
-        if (at_end || x - from >= sure_match) return take(changes, diagonal);
-      }
-      if (changes == most_changes) return take(changes, best_diagonal);
-    }
-  }
-
-  // Goes back along the way that ends on a diagonal, and adds its changes.
-  void take(int changes, int diagonal) {
-    const int end = reached(changes, diagonal);
-    const int end_diagonal = diagonal;
-    std::vector<LineChange> way;
-    for (; changes > 0; --changes) {
-      const int to = step(changes, diagonal);
-      const bool goes = diagonal > -changes + 1 && reached(changes - 1, diagonal - 1) >= 0 &&
-                        reached(changes - 1, diagonal - 1) + 1 == to;
-      const auto x = x_ + static_cast<std::size_t>(to);
-      const auto y = y_ + static_cast<std::size_t>(to - diagonal);
-      way.push_back(goes ? LineChange{x - 1, x, y, y} : LineChange{x, x, y - 1, y});
-      diagonal += goes ? -1 : 1;
-    }
-    std::reverse(way.begin(), way.end());
-    for (const LineChange& change : way) add(change);
-    x_ += static_cast<std::size_t>(end);
-    y_ += static_cast<std::size_t>(end - end_diagonal);
-  }
-
-  void add(const LineChange& change) {
-    if (!changes_.empty() && changes_.back().old_end == change.old_begin &&
-        changes_.back().new_end == change.new_begin) {
-      changes_.back().old_end = change.old_end;
-      changes_.back().new_end = change.new_end;
-    } else {
-      changes_.push_back(change);
-    }
-  }
-
-  const Lines& before_;
-  const Lines& after_;
-  std::size_t x_ = 0;  // lines that were compared
-  std::size_t y_ = 0;
-  std::vector<Reach> furthest_;
-  std::vector<LineChange> changes_;
-};
-
-void add_line(char mark, std::string_view line, std::string& diff) {
-  diff += mark;
-  diff += line;
-  if (!line.ends_with('\n')) diff += "\n\\ No newline at end of file\n";
-}
-
-/// "12,3"; a single line has no number, and where there is none, it is the line before.
-std::string extent(std::size_t begin, std::size_t end) {
-  if (end == begin + 1) return std::to_string(end);
-  return std::to_string(begin == end ? begin : begin + 1) + "," + std::to_string(end - begin);
-}
-
-/// Changes [first, last), which are near to one another, with the lines around them.
-void add_hunk(const Lines& before, const Lines& after, const std::vector<LineChange>& changes,
-              std::size_t first, std::size_t last, std::string& diff) {
-  const std::size_t lead = std::min(context, changes[first].old_begin);
-  const std::size_t tail = std::min(context, before.size() - changes[last - 1].old_end);
-  diff += "@@ -" + extent(changes[first].old_begin - lead, changes[last - 1].old_end + tail) +
-          " +" + extent(changes[first].new_begin - lead, changes[last - 1].new_end + tail) +
-          " @@\n";
-  std::size_t line = changes[first].old_begin - lead;
-  for (std::size_t i = first; i < last; ++i) {
-    for (; line < changes[i].old_begin; ++line) add_line(' ', before[line], diff);
-    for (; line < changes[i].old_end; ++line) add_line('-', before[line], diff);
-    for (std::size_t added = changes[i].new_begin; added < changes[i].new_end; ++added) {
-      add_line('+', after[added], diff);
-    }
-  }
-  for (const std::size_t end = line + tail; line < end; ++line) add_line(' ', before[line], diff);
-}
-
-/// A file name as git writes it: in quotes if need be, and marked off by a tab if it has blanks.
-std::string name_in_head(std::string_view prefix, std::string_view file) {
-  const auto is_special = [](char byte) {
-    return static_cast<unsigned char>(byte) < 0x20 || byte == 0x7F || byte == '"' || byte == '\\';
-  };
-  std::string name(prefix);
-  if (std::none_of(file.begin(), file.end(), is_special)) {
-    name += file;
-    if (file.find(' ') != std::string_view::npos) name += '\t';
-    return name;
-  }
-  name.insert(0, "\"");
-  for (const char byte : file) {
-    if (byte == '"' || byte == '\\') {
-      name += '\\';
-      name += byte;
-    } else if (is_special(byte)) {
-      const auto code = static_cast<unsigned char>(byte);
-      name += '\\';
-      for (const unsigned shift : {6U, 3U, 0U}) {
-        name += static_cast<char>('0' + ((code >> shift) & 7U));
-      }
-    } else {
-      name += byte;
-    }
-  }
-  return name + '"';
-}
-
-}  // namespace
-
-std::string unified_diff(std::string_view before, std::string_view after, std::string_view file) {
-  const Lines old_lines = split(before);
-  const Lines new_lines = split(after);
-  const std::vector<LineChange> changes = LineComparison(old_lines, new_lines).run();
-  if (changes.empty()) return {};
-  std::string diff = "--- " + name_in_head("a/", file) + "\n+++ " + name_in_head("b/", file) + "\n";
-  for (std::size_t first = 0; first < changes.size();) {
-    std::size_t last = first + 1;
-    while (last < changes.size() &&
-           changes[last].old_begin - changes[last - 1].old_end <= 2 * context) {
-      ++last;
-    }
-    add_hunk(old_lines, new_lines, changes, first, last, diff);
-    first = last;
-  }
-  return diff;
-}
-
-namespace {
-
+using yaml::is_blank;
 using yaml::Kind;
 using yaml::Node;
+using yaml::Span;
 
 constexpr std::string_view blanks = " \t\r\n";
 
-bool is_blank(char byte) { return blanks.find(byte) != std::string_view::npos; }
-
-/// Whether a comment for this program stands alone above a line: it would be about what follows.
+/// Whether a comment for this program stands above a line: it would be about what follows.
 bool has_control_above(std::string_view text, std::size_t line_begin) {
   std::string_view above = text.substr(0, line_begin);
   while (!above.empty()) {
@@ -274,8 +41,8 @@ bool has_control_above(std::string_view text, std::size_t line_begin) {
   return false;
 }
 
-/// Whether a comment may stand in a piece of a text: any '#', as what begins one is a matter of
-/// taste among parsers.
+/// Whether a comment may stand in a piece of a text. Any '#' counts, since parsers differ in what
+/// begins one.
 bool may_have_comment(std::string_view text, const Span& span) {
   return text.substr(span.begin, span.end - span.begin).find('#') != std::string_view::npos;
 }
@@ -307,7 +74,40 @@ bool is_dash(std::string_view text, std::size_t offset) {
   return text[offset] == '-' && (offset + 1 == text.size() || is_blank(text[offset + 1]));
 }
 
-}  // namespace
+/// Finds the piece of a text to delete for an entry of a list to be removed, and nothing else: the
+/// lines of an entry with a dash; in brackets, the entry and one comma.
+class EntrySpans {
+ public:
+  struct Entry {
+    const yaml::Node* list = nullptr;
+    std::size_t place = 0;  ///< among its items
+  };
+
+  /// `document` is that of `text`, which has no byte order mark; `positions` are those in it. All
+  /// three must outlive this object.
+  EntrySpans(std::string_view text, const yaml::Document& document, const PositionMap& positions);
+
+  /// The entry that begins at a place. None if the place has more than one meaning because of
+  /// aliases.
+  [[nodiscard]] std::optional<Entry> find(const Position& begin) const;
+
+  /// The piece to delete. None if a comment or an anchor would be deleted with it, or if the layout
+  /// is unusual.
+  [[nodiscard]] std::optional<Span> span_of(const Entry& entry) const;
+
+ private:
+  void index(const yaml::Node& node);
+  [[nodiscard]] char first_byte(const yaml::Node& node) const;
+  [[nodiscard]] bool is_in_brackets(const yaml::Node& node) const;
+  [[nodiscard]] bool lies_within(const yaml::Node& node, const Span& span) const;
+  [[nodiscard]] std::optional<std::size_t> end_of(const yaml::Node& node) const;
+  [[nodiscard]] std::optional<Span> lines_of(const Entry& entry) const;
+  [[nodiscard]] std::optional<Span> item_and_comma(const Entry& entry) const;
+
+  std::string_view text_;
+  const PositionMap& positions_;
+  std::map<Position, Entry> entries_;
+};
 
 EntrySpans::EntrySpans(std::string_view text, const yaml::Document& document,
                        const PositionMap& positions)
@@ -347,8 +147,8 @@ bool EntrySpans::is_in_brackets(const Node& node) const {
   return first_byte(node) == '[' || first_byte(node) == '{';
 }
 
-/// Whether a value stands in a span as a whole. What an alias stands for may be anywhere, but not
-/// in the span, as it would go with it.
+/// Whether a value lies in a span as a whole. The target of an alias may be anywhere but in the
+/// span, as it would be deleted with it.
 bool EntrySpans::lies_within(const Node& node, const Span& span) const {
   const std::size_t begin = positions_.offset(node.range.begin);
   const bool begins_within = span.begin <= begin && begin < span.end;
@@ -370,7 +170,7 @@ bool EntrySpans::lies_within(const Node& node, const Span& span) const {
          });
 }
 
-/// One past a text or a collection in brackets, if that can be told.
+/// One past a scalar or a collection in brackets, if its end can be found.
 std::optional<std::size_t> EntrySpans::end_of(const Node& node) const {
   if (node.shared || node.kind == Kind::null) return std::nullopt;
   if (node.kind == Kind::scalar) return positions_.offset(node.range.end);
@@ -451,8 +251,6 @@ std::optional<Span> EntrySpans::item_and_comma(const Entry& entry) const {
   return Span{*before, *end};
 }
 
-namespace {
-
 /// An edit whose place in the text is known.
 struct Change {
   Span span;
@@ -460,7 +258,7 @@ struct Change {
   const yaml::Node* list = nullptr;  ///< from which it removes an entry
 };
 
-/// All that mends one finding.
+/// All changes that mend one finding.
 struct Fix {
   std::size_t finding = 0;
   std::vector<Change> changes;  ///< at least one
@@ -521,10 +319,10 @@ class Placement {
   std::optional<EntrySpans> entries_;
 };
 
-/// The changes that do not get in the way of one another.
+/// A set of changes that do not overlap.
 class Selection {
  public:
-  /// Whether a fix could be taken, or is not needed any more.
+  /// Whether a fix could be taken, or is no longer needed.
   bool take(const Fix& fix) {
     if (std::all_of(fix.changes.begin(), fix.changes.end(),
                     [this](const Change& change) { return is_removed(change.span); })) {
@@ -561,7 +359,7 @@ class Selection {
     return before.list != nullptr && span.end <= before.span.end;
   }
 
-  /// A list must keep an entry: an empty one is something else.
+  /// A list must keep an entry: an empty one means something else.
   [[nodiscard]] bool is_possible(const Change& change) const {
     const auto next = changes_.lower_bound(change.span.begin);
     if (next != changes_.end() && next->first < change.span.end) return false;
@@ -578,7 +376,7 @@ class Selection {
   std::map<const yaml::Node*, std::size_t> removed_;
 };
 
-/// Removals first, what is around others before them; otherwise as given.
+/// Removals first, outer ones before inner ones; otherwise as given.
 void order(std::vector<Fix>& fixes) {
   std::stable_sort(fixes.begin(), fixes.end(), [](const Fix& a, const Fix& b) {
     if (!a.removes() || !b.removes()) return a.removes() && !b.removes();
@@ -588,7 +386,7 @@ void order(std::vector<Fix>& fixes) {
   });
 }
 
-/// Takes the line break off that became the last one because the line after it was removed.
+/// Removes a line break at the end that is there only because the line after it was removed.
 void drop_line_break(std::string& text) {
   if (!text.ends_with('\n')) return;
   text.pop_back();

@@ -10,16 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 #include "base/text.h"
 #include "catalog/allowed_values.h"
 #include "catalog/catalog.h"
-#include "catalog/draft.h"
+#include "catalog/reader.h"
 #include "compile/compile.h"
 #include "diagnostic/diagnostic.h"
 #include "diagnostic/rules.h"
-#include "lint/checks.h"
+#include "lint/proofs.h"
 #include "support/wording.h"
 
 namespace cbc {
@@ -36,20 +34,12 @@ std::size_t count(const std::vector<LintedFile>& files, Severity severity) {
   return sum;
 }
 
+namespace {
+
+/// Whether a percentage is over 0 and at most 1, so that it is probably meant as a fraction.
 bool looks_like_fraction(Millionths degree) {
   constexpr Millionths one_percent = one_million / 100;
   return degree > 0 && degree <= one_percent;
-}
-
-std::string show_product(const std::vector<Millionths>& factors) {
-  using boost::multiprecision::cpp_int;
-  cpp_int product = 1;
-  cpp_int divisor = 1;
-  for (const Millionths factor : factors) {
-    product *= factor;
-    divisor *= one_million;
-  }
-  return format_percent(static_cast<Millionths>(product * one_million / divisor));
 }
 
 void check_suspicious_minimum(Millionths minimum, const Range& range, Reporter& reporter) {
@@ -59,8 +49,6 @@ void check_suspicious_minimum(Millionths minimum, const Range& range, Reporter& 
                       " is next to nothing; is " + format_percent(std::int64_t{minimum} * 100) +
                       " meant?");
 }
-
-namespace {
 
 void check_suitability(const Performance& performance, Reporter& reporter) {
   if (!performance.suitability_range) return;
@@ -89,8 +77,7 @@ void check_timeout(const Catalog& catalog, const Behavior& behavior, Reporter& r
                       " has no effect: the execution_goal of what it performs is keep_running");
 }
 
-}  // namespace
-
+/// Reports what is odd about behaviors, each by itself.
 void check_behaviors(const Catalog& catalog, bool is_complete, Reporter& reporter) {
   for (const Behavior& behavior : catalog.behaviors) {
     for (const Performance& performance : behavior.performs) {
@@ -104,9 +91,7 @@ void check_behaviors(const Catalog& catalog, bool is_complete, Reporter& reporte
   }
 }
 
-namespace {
-
-/// What behaviors say about each task.
+/// What behaviors say about a task.
 struct Use {
   std::size_t behaviors = 0;  ///< that perform it
   bool has_behavior_timeout = false;
@@ -159,7 +144,7 @@ void check_timeout(const Task& task, const Use& use, Reporter& reporter) {
                                            : "by the timeout of a behavior";
     reporter.report(rule::reactive_timeout, task.range,
                     "task " + quote(task.name) + " starts reactively and is ended " + after +
-                        ", so it can end and start again for ever");
+                        ", so it can end and start again forever");
   }
 }
 
@@ -176,10 +161,6 @@ void check_allowed_values(const Task& task, const Parameter& parameter, Reporter
     message += did_you_mean(nearest_type(parameter.allowed_values[0]));
     reporter.report(rule::unknown_type, parameter.allowed_range, std::move(message));
   }
-}
-
-bool allow_the_same(const Parameter& a, const Parameter& b) {
-  return a.allowed_values == b.allowed_values && a.allowed_is_list == b.allowed_is_list;
 }
 
 void check_parameters(const Task& task, Reporter& reporter) {
@@ -206,8 +187,8 @@ void check_parameters(const Task& task, Reporter& reporter) {
   }
 }
 
-/// Reports tasks that no behavior performs. Of those, behaviors whose task is missing in the file
-/// may have been meant to perform some: the task whose name begins theirs, or any one.
+/// Reports tasks that no behavior performs. Behaviors that lack a task may have been meant to
+/// perform some of them: the one whose name theirs begins with, or any other.
 void check_performed(const CatalogReading& reading, const std::vector<Use>& uses,
                      Reporter& reporter) {
   if (!reading.has_all_behaviors) return;
@@ -234,7 +215,7 @@ void check_performed(const CatalogReading& reading, const std::vector<Use>& uses
   }
 }
 
-/// Without a section of tasks all of them are named by behaviors only, and one finding says so.
+/// In a file without a section of tasks, one finding says so for all of them.
 void check_implicit_tasks(const Catalog& catalog, Reporter& reporter) {
   std::vector<std::string_view> listed;
   for (const Task& task : catalog.tasks) {
@@ -256,8 +237,7 @@ void check_implicit_tasks(const Catalog& catalog, Reporter& reporter) {
   }
 }
 
-}  // namespace
-
+/// Reports what is odd about tasks and their parameters, each by itself.
 void check_tasks(const CatalogReading& reading, Reporter& reporter) {
   const Catalog& catalog = reading.catalog;
   const std::vector<Use> uses = find_uses(catalog);
@@ -275,20 +255,10 @@ void check_tasks(const CatalogReading& reading, Reporter& reporter) {
   if (reading.has_all_names) check_implicit_tasks(catalog, reporter);
 }
 
-namespace {
-
-/// The tasks of a list, each once, in order.
-std::vector<TaskIndex> distinct_tasks(const ExclusivityList& list) {
-  std::vector<TaskIndex> tasks = list.tasks;
-  std::sort(tasks.begin(), tasks.end());
-  tasks.erase(std::unique(tasks.begin(), tasks.end()), tasks.end());
-  return tasks;
-}
-
 void check_own_tasks(const Catalog& catalog, const ExclusivityList& list, Reporter& reporter) {
   std::unordered_map<TaskIndex, Range> known;
   bool has_repetition = false;
-  // A list of one task, given twice, must have been meant to have another one.
+  // A list of one task, given twice, was meant to have another one.
   const bool is_mendable = distinct_tasks(list).size() > 1;
   for (std::size_t place = 0; place < list.tasks.size(); ++place) {
     const auto [first, is_new] = known.try_emplace(list.tasks[place], list.ranges[place]);
@@ -362,11 +332,10 @@ class Containment {
   const Catalog& catalog_;
   std::vector<std::vector<TaskIndex>> tasks_;       ///< by list
   std::vector<std::vector<std::size_t>> lists_of_;  ///< by task
-  std::size_t work_left_ = 100'000'000;  ///< so that no catalog takes long; it is only advice
+  std::size_t work_left_ = 100'000'000;             ///< bounds the time; the finding is only advice
 };
 
-}  // namespace
-
+/// Reports exclusivity lists that exclude nothing, or nothing new.
 void check_exclusivity(const Catalog& catalog, Reporter& reporter) {
   for (const ExclusivityList& list : catalog.exclusivity) {
     check_own_tasks(catalog, list, reporter);
@@ -374,14 +343,13 @@ void check_exclusivity(const Catalog& catalog, Reporter& reporter) {
   Containment(catalog).report(reporter);
 }
 
-namespace {
-
+/// Finds behaviors that require two tasks which exclude one another.
 class ConflictCheck {
  public:
   ConflictCheck(const Catalog& catalog, Reporter& reporter)
       : catalog_(catalog), reporter_(reporter), exclusions_(catalog) {}
 
-  /// Reports each requirement that conflicts with one before it, once. Whether there is one.
+  /// Reports each requirement that conflicts with an earlier one, once. Whether there is one.
   bool check(const Behavior& behavior) {
     bool has_conflict = false;
     std::unordered_map<std::size_t, const Requirement*> first_in;  // by list
@@ -420,14 +388,16 @@ class ConflictCheck {
   Exclusions exclusions_;
 };
 
-}  // namespace
-
+/// Returns, by behavior, whether it can never be active because of conflicting requirements, or
+/// because it requires a task that excludes its own (which the reader has reported).
 std::vector<bool> check_conflicting_requirements(const Catalog& catalog, Reporter& reporter) {
   ConflictCheck check(catalog, reporter);
   std::vector<bool> conflicts;
   for (const Behavior& behavior : catalog.behaviors) conflicts.push_back(check.check(behavior));
   return conflicts;
 }
+
+}  // namespace
 
 LintResult lint_catalog(const yaml::Document& document, const LintOptions& options,
                         Diagnostics& diagnostics) {
@@ -441,12 +411,12 @@ LintResult lint_catalog(const yaml::Document& document, const LintOptions& optio
   check_exclusivity(catalog, reporter);
   const std::vector<bool> conflicts = check_conflicting_requirements(catalog, reporter);
   if (!reading.has_all_names || !reading.is_acyclic) {
-    // What is missing may be the reason of anything else that could be found.
+    // Anything else that could be found may be due to what is missing.
     check_on_request_requirements(catalog, conflicts, reporter);
     return result;
   }
   CompiledCatalog compiled = compile(catalog);
-  check_semantics(reading, compiled, conflicts, options, reporter);
+  check_by_proof(reading, compiled, conflicts, options, reporter);
   if (reading.is_complete) result.compiled = std::move(compiled);
   return result;
 }

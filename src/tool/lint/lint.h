@@ -12,20 +12,21 @@
 #include "diagnostic/diagnostic.h"
 #include "yaml/document.h"
 
+/// Checks catalogs by all rules.
 namespace cbc {
 
 struct LintOptions {
-  /// Decisions that the search for one answer may take; past them there is a note `undecided`.
+  /// Decisions that the search for one answer may take; past them there is a finding `undecided`.
   std::uint64_t max_nodes = 100'000;
 };
 
-/// What lint found out about a catalog, beside its findings.
+/// What lint knows about a catalog, besides its findings.
 struct LintResult {
   CatalogReading reading;
-  std::optional<CompiledCatalog> compiled;  ///< if it was understood as a whole
+  std::optional<CompiledCatalog> compiled;  ///< if all of it was understood
 };
 
-/// Reports everything that is wrong with a catalog, of all rules, into `diagnostics`.
+/// Reports everything that is wrong with a catalog, by all rules, into `diagnostics`.
 [[nodiscard]] LintResult lint_catalog(const yaml::Document& document, const LintOptions& options,
                                       Diagnostics& diagnostics);
 

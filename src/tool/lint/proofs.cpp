@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/text.h"
 #include "diagnostic/rules.h"
 
 namespace cbc {
@@ -17,7 +18,7 @@ SearchOptions search_options(std::uint64_t max_nodes, bool any_solution) {
   SearchOptions options;
   options.max_nodes = max_nodes;
   options.any_solution = any_solution;
-  // Looking ahead bounds the objective, which does not matter for any solution.
+  // The bounds of the lookahead are about the objective, which does not matter for any solution.
   if (any_solution) options.easy_nodes = UINT64_MAX;
   return options;
 }
@@ -83,7 +84,7 @@ AssignmentSearch::Best AssignmentSearch::best_performance(TaskId task, bool igno
   return best;
 }
 
-/// The problem of a group with all that is not ruled out.
+/// The problem of a group with all values that are not ruled out.
 void AssignmentSearch::open_group(std::uint32_t group) {
   const TaskId first = catalog_.group_tasks[group];
   const TaskId end = catalog_.group_tasks[group + 1];
@@ -113,7 +114,7 @@ void AssignmentSearch::close(TaskId task) {
             problem_.domains.begin() + (catalog_.words[task + 1] - first), 0);
 }
 
-/// A solution that a limit left unproven is no answer: the best one may be another.
+/// A solution that a limit left unproven is no answer where the best one is sought.
 Feasibility AssignmentSearch::solve(Solver& solver, Assignment& solution) {
   if (effort_left_ == 0) return Feasibility::unknown;
   const SearchResult result = solver.solve(problem_, solution);
@@ -151,10 +152,34 @@ std::vector<Millionths> AssignmentSearch::factors_of(TaskId task,
 
 namespace {
 
-/// Values that may be taken in all.
+/// Values that may be taken in total.
 constexpr std::uint64_t most_effort_of_direct = 200'000'000;
 
 }  // namespace
+
+/// Finds assignments without search, which is enough for most values of most catalogs: each task
+/// that a value requires, directly or indirectly, runs with the first behavior that will do.
+class DirectAssignment {
+ public:
+  explicit DirectAssignment(const CompiledCatalog& catalog);
+
+  /// The values of an assignment that has a value and satisfies all constraints; valid until the
+  /// next call. Empty if none is found in this way. `is_dead`, `is_live`: by value.
+  [[nodiscard]] const std::vector<ValueId>& find(ValueId value, const std::vector<bool>& is_dead,
+                                                 const std::vector<bool>& is_live);
+
+ private:
+  [[nodiscard]] bool take(ValueId value);
+  [[nodiscard]] ValueId choose(TaskId task, const std::vector<bool>& is_dead,
+                               const std::vector<bool>& is_live) const;
+
+  const CompiledCatalog& catalog_;
+  std::vector<ValueId> values_;
+  std::uint64_t number_ = 0;            ///< of the present assignment
+  std::vector<std::uint64_t> running_;  ///< by task: last assignment in which it runs
+  std::vector<std::uint64_t> used_;     ///< by clique: last assignment in which a task of it runs
+  std::uint64_t effort_left_;
+};
 
 DirectAssignment::DirectAssignment(const CompiledCatalog& catalog)
     : catalog_(catalog),
@@ -196,7 +221,7 @@ bool DirectAssignment::take(ValueId value) {
   return true;
 }
 
-/// A value that is known to be live, or else one that may be.
+/// A value that is known to be live, or else one that may be live.
 ValueId DirectAssignment::choose(TaskId task, const std::vector<bool>& is_dead,
                                  const std::vector<bool>& is_live) const {
   ValueId chosen = none;
@@ -210,7 +235,7 @@ ValueId DirectAssignment::choose(TaskId task, const std::vector<bool>& is_dead,
 
 namespace {
 
-/// A sum of states: live if one is, dead if all are.
+/// The state of several things as one: live if one is, dead if all are.
 class Sum {
  public:
   void add(Liveness::State state) {
@@ -241,19 +266,19 @@ std::vector<TaskId> tasks_by_level(const CompiledCatalog& catalog) {
 Liveness::Liveness(AssignmentSearch& search)
     : catalog_(search.catalog()),
       is_live_(catalog_.values.items.size(), false),
-      is_dead_(catalog_.values.items.size(), false),
-      direct_(catalog_) {
+      is_dead_(catalog_.values.items.size(), false) {
+  DirectAssignment direct(catalog_);
   for (const TaskId task : tasks_by_level(catalog_)) {
     for (ValueId value = catalog_.values.begin[task]; value < catalog_.values.begin[task + 1];
          ++value) {
-      if (!is_live_[value]) decide(value, search);
+      if (!is_live_[value]) decide(value, direct, search);
     }
   }
 }
 
-/// What is in an assignment beside the value is live, too.
-void Liveness::decide(ValueId value, AssignmentSearch& search) {
-  const std::vector<ValueId>& values = direct_.find(value, is_dead_, is_live_);
+/// All other values of the assignment that is found are live, too.
+void Liveness::decide(ValueId value, DirectAssignment& direct, AssignmentSearch& search) {
+  const std::vector<ValueId>& values = direct.find(value, is_dead_, is_live_);
   for (const ValueId other : values) is_live_[other] = true;
   if (!values.empty()) return;
 
@@ -288,13 +313,13 @@ Liveness::State Liveness::of_task(TaskId task) const {
 
 namespace {
 
-/// Reasons that may be looked at in all; past them questions stay open.
+/// Reasons that may be examined in total; past them, questions stay open.
 constexpr std::uint64_t most_effort_of_reasons = 400'000'000;
 
 }  // namespace
 
-Semantics::Semantics(const Catalog& catalog, AssignmentSearch& search, const Liveness& liveness,
-                     std::uint64_t max_nodes, Reporter& reporter)
+ProofContext::ProofContext(const Catalog& catalog, AssignmentSearch& search,
+                           const Liveness& liveness, std::uint64_t max_nodes, Reporter& reporter)
     : catalog_(catalog),
       search_(search),
       liveness_(liveness),
@@ -305,13 +330,13 @@ Semantics::Semantics(const Catalog& catalog, AssignmentSearch& search, const Liv
       nothing_present_(most_in_a_group(compiled().group_tasks), none),
       effort_left_(most_effort_of_reasons) {}
 
-ConflictSearch Semantics::relaxed(const Goal& goal) const {
+ConflictSearch ProofContext::relaxed(const Goal& goal) const {
   const Demand::Kind kind = goal.value_index == none ? Demand::Kind::run : Demand::Kind::has;
   const std::uint32_t group = compiled().tasks[goal.task].group;
   return {compiled(), group, nothing_present_, {{kind, goal.task, goal.value_index}}};
 }
 
-Feasibility Semantics::solve(ConflictSearch& problem, std::span<const Reason> reasons) {
+Feasibility ProofContext::solve(ConflictSearch& problem, std::span<const Reason> reasons) {
   if (effort_left_ == 0) return Feasibility::unknown;
   const std::uint64_t before = problem.effort();
   const Feasibility answer = problem.solve(reasons);
@@ -319,7 +344,7 @@ Feasibility Semantics::solve(ConflictSearch& problem, std::span<const Reason> re
   return answer;
 }
 
-Feasibility Semantics::solve(std::span<const Goal> goals, std::span<const Reason> reasons) {
+Feasibility ProofContext::solve(std::span<const Goal> goals, std::span<const Reason> reasons) {
   Feasibility answer = Feasibility::no;
   for (const Goal& goal : goals) {
     ConflictSearch problem = relaxed(goal);
@@ -330,7 +355,80 @@ Feasibility Semantics::solve(std::span<const Goal> goals, std::span<const Reason
   return answer;
 }
 
-void Semantics::report_undecided(const Range& range, const std::string& question) {
+const Requirement& strongest_requirement(const Behavior& behavior, TaskIndex task) {
+  const Requirement* found = nullptr;
+  for (const Requirement& requirement : behavior.requirements) {
+    if (requirement.task != task) continue;
+    if (found == nullptr || requirement.minimum_performance > found->minimum_performance) {
+      found = &requirement;
+    }
+  }
+  return *found;  // NOLINT(clang-analyzer-core.uninitialized.UndefReturn): there is one
+}
+
+namespace {
+
+/// The first list that has both tasks.
+Range range_of_list(const Catalog& catalog, TaskIndex a, TaskIndex b) {
+  for (const ExclusivityList& list : catalog.exclusivity) {
+    const auto has = [&list](TaskIndex task) {
+      return std::find(list.tasks.begin(), list.tasks.end(), task) != list.tasks.end();
+    };
+    if (has(a) && has(b)) return list.range;
+  }
+  return {};
+}
+
+}  // namespace
+
+Note ProofContext::note_of(const Reason& reason) const {
+  const TaskIndex task_index = compiled().tasks[reason.task].catalog_index;
+  const Task& required = task(reason.task);
+  if (reason.kind == Reason::Kind::exclusive) {
+    const TaskIndex other = compiled().tasks[reason.other_task].catalog_index;
+    return reporter_.note(
+        range_of_list(catalog_, task_index, other),
+        quote(required.name) + " excludes " + quote(task(reason.other_task).name));
+  }
+  if (reason.behavior == none) {
+    return reporter_.note(
+        required.minimum_performance_range,
+        quote(required.name) + " runs with at least " + format_percent(reason.minimum_performance));
+  }
+  const Requirement& requirement = strongest_requirement(behavior(reason.behavior), task_index);
+  const std::string who = "behavior " + quote(behavior(reason.behavior).name);
+  if (reason.kind == Reason::Kind::performance) {
+    return reporter_.note(requirement.minimum_performance_range,
+                          who + " requires " + quote(required.name) + " with at least " +
+                              format_percent(reason.minimum_performance));
+  }
+  return reporter_.note(requirement.range, who + " requires " + quote(required.name));
+}
+
+std::vector<Note> ProofContext::notes_of(std::span<const Reason> constraints) const {
+  struct Entry {
+    bool requires_task = false;
+    std::uint32_t level = 0;
+    Note note;
+  };
+  std::vector<Entry> entries;
+  for (const Reason& reason : constraints) {
+    const std::uint32_t level =
+        reason.behavior == none ? 0 : compiled().behaviors[reason.behavior].level;
+    entries.push_back({reason.kind == Reason::Kind::requires_task, level, note_of(reason)});
+  }
+  // Requirements from the top down, then what they lead to; otherwise as in the file.
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    if (a.requires_task != b.requires_task) return a.requires_task;
+    return a.level != b.level ? a.level > b.level : a.note.range < b.note.range;
+  });
+  std::vector<Note> notes;
+  notes.reserve(entries.size());
+  for (Entry& entry : entries) notes.push_back(std::move(entry.note));
+  return notes;
+}
+
+void ProofContext::report_undecided(const Range& range, const std::string& question) {
   if (search_.is_exhausted()) {
     if (!std::exchange(has_told_exhaustion_, true)) {
       reporter_.report(

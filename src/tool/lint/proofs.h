@@ -7,14 +7,32 @@
 #include <vector>
 
 #include "catalog/catalog.h"
+#include "catalog/reader.h"
 #include "compiled/compiled_catalog.h"
 #include "diagnostic/diagnostic.h"
 #include "explain/conflict_search.h"
 #include "explain/reasons.h"
+#include "lint/lint.h"
 #include "solver/problem.h"
 #include "solver/solver.h"
 
+/// What the constraints of a catalog make impossible, or say in vain: decided exactly, by search.
+/// First the checks, then what they share.
 namespace cbc {
+
+/// All checks of a catalog whose names were all understood, and whose requirements have no cycle.
+/// `conflicts`: by behavior, whether a finding says already that it can never be active.
+void check_by_proof(const CatalogReading& reading, const CompiledCatalog& compiled,
+                    const std::vector<bool>& conflicts, const LintOptions& options,
+                    Reporter& reporter);
+
+/// The one check that is possible without a compiled catalog: reports requirements of tasks that
+/// start on request only. Only the required task itself is known to be requested first.
+void check_on_request_requirements(const Catalog& catalog, const std::vector<bool>& conflicts,
+                                   Reporter& reporter);
+
+/// The requirement of a task by a behavior that has one; of several the strongest, or the first.
+[[nodiscard]] const Requirement& strongest_requirement(const Behavior& behavior, TaskIndex task);
 
 /// Answers questions about the assignments that satisfy all constraints of a catalog, every
 /// behavior available and every task free to run or not.
@@ -33,11 +51,11 @@ class AssignmentSearch {
   /// Whether the effort is used up.
   [[nodiscard]] bool is_exhausted() const { return effort_left_ == 0; }
 
-  /// A value that no assignment has, which need not be tried again.
+  /// Rules out a value that no assignment has, so that it is not tried again.
   void rule_out(ValueId value);
 
-  /// Whether there is an assignment with a value, in which no task of `closed` runs. If so,
-  /// `solution` has it, by task of the group.
+  /// Whether there is an assignment with a value in which no task of `closed` runs. If so, it is in
+  /// `solution`, by task of the group.
   [[nodiscard]] Feasibility find(ValueId value, std::span<const TaskId> closed,
                                  Assignment& solution);
 
@@ -67,7 +85,7 @@ class AssignmentSearch {
   [[nodiscard]] std::vector<Millionths> factors_of(TaskId task, const Assignment& solution) const;
 
   CompiledCatalog catalog_;
-  std::vector<CompiledTask> tasks_;  ///< of the catalog, to leave out a minimum for a while
+  std::vector<CompiledTask> tasks_;  ///< those of the catalog, to suspend a minimum
   const std::vector<std::uint32_t> no_ranks_;
   Solver any_;
   Solver best_;
@@ -76,32 +94,10 @@ class AssignmentSearch {
   std::uint64_t effort_left_;
 };
 
-/// Finds assignments without search, which is enough for most values of most catalogs: what a value
-/// requires runs with the first behavior that will do, and so on.
-class DirectAssignment {
- public:
-  explicit DirectAssignment(const CompiledCatalog& catalog);
-
-  /// The values of an assignment that has a value and satisfies all constraints; valid until the
-  /// next call. Empty if none is found in this way. `is_dead`, `is_live`: by value.
-  [[nodiscard]] const std::vector<ValueId>& find(ValueId value, const std::vector<bool>& is_dead,
-                                                 const std::vector<bool>& is_live);
-
- private:
-  [[nodiscard]] bool take(ValueId value);
-  [[nodiscard]] ValueId choose(TaskId task, const std::vector<bool>& is_dead,
-                               const std::vector<bool>& is_live) const;
-
-  const CompiledCatalog& catalog_;
-  std::vector<ValueId> values_;
-  std::uint64_t number_ = 0;            ///< of the present assignment
-  std::vector<std::uint64_t> running_;  ///< by task: last assignment in which it runs
-  std::vector<std::uint64_t> used_;     ///< by clique: last assignment in which a task of it runs
-  std::uint64_t effort_left_;
-};
-
-/// All tasks, those that require little first, so that what is dead is known where it is required.
+/// All tasks from the lowest level up, so that what is required is decided before what requires it.
 [[nodiscard]] std::vector<TaskId> tasks_by_level(const CompiledCatalog& catalog);
+
+class DirectAssignment;
 
 /// Which values, behaviors and tasks occur in no assignment that satisfies all constraints.
 class Liveness {
@@ -115,27 +111,26 @@ class Liveness {
     if (is_live_[value]) return State::live;
     return is_dead_[value] ? State::dead : State::undecided;
   }
-  /// Dead if it is dead as a value of all its tasks.
+  /// Dead if the behavior is dead as a value of each of its tasks.
   [[nodiscard]] State of_behavior(BehaviorId behavior) const;
-  /// Dead if all its behaviors are dead as its values; a task without behaviors is dead.
+  /// Dead if all its values are dead, so also if it has none.
   [[nodiscard]] State of_task(TaskId task) const;
 
  private:
-  void decide(ValueId value, AssignmentSearch& search);
+  void decide(ValueId value, DirectAssignment& direct, AssignmentSearch& search);
 
   const CompiledCatalog& catalog_;
   std::vector<bool> is_live_;  ///< by value
   std::vector<bool> is_dead_;
-  DirectAssignment direct_;
   Assignment solution_;
 };
 
-/// What the semantic checks of one catalog share.
-class Semantics {
+/// What the proof checks of one catalog share.
+class ProofContext {
  public:
   /// All references must outlive this object.
-  Semantics(const Catalog& catalog, AssignmentSearch& search, const Liveness& liveness,
-            std::uint64_t max_nodes, Reporter& reporter);
+  ProofContext(const Catalog& catalog, AssignmentSearch& search, const Liveness& liveness,
+               std::uint64_t max_nodes, Reporter& reporter);
 
   [[nodiscard]] const Catalog& catalog() const { return catalog_; }
   [[nodiscard]] const CompiledCatalog& compiled() const { return search_.catalog(); }
@@ -155,23 +150,29 @@ class Semantics {
   void explain_behavior(BehaviorId id) { behaviors_[id] = true; }
   void explain_task(TaskId id) { tasks_[id] = true; }
 
-  /// A question about reasons: tasks of one group, of which at least one runs (with the value).
+  /// A task that is to run, perhaps with a certain value.
   struct Goal {
     TaskId task = none;
     std::uint32_t value_index = none;  ///< none: with any behavior
   };
-  /// Whether one of the goals can be had with only some constraints in force.
+  /// Whether one of several goals, all of one group, can be reached under some of the constraints
+  /// alone.
   [[nodiscard]] Feasibility solve(std::span<const Goal> goals, std::span<const Reason> reasons);
-  /// The same for a problem that was set up.
+  /// The same for a problem that was set up before.
   [[nodiscard]] Feasibility solve(ConflictSearch& problem, std::span<const Reason> reasons);
 
   /// A relaxed problem in which a task runs.
   [[nodiscard]] ConflictSearch relaxed(const Goal& goal) const;
 
-  /// Reports that a question took too many decisions.
+  /// Notes that say, for each of a set of constraints, what it is and where it stands.
+  [[nodiscard]] std::vector<Note> notes_of(std::span<const Reason> constraints) const;
+
+  /// Reports that a question could not be decided within the limits.
   void report_undecided(const Range& range, const std::string& question);
 
  private:
+  [[nodiscard]] Note note_of(const Reason& reason) const;
+
   const Catalog& catalog_;
   AssignmentSearch& search_;
   const Liveness& liveness_;

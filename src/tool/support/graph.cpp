@@ -96,7 +96,7 @@ class Search {
 
   Edges edges_;
   std::vector<std::size_t> height_;
-  std::vector<std::size_t> visit_;  ///< number of the last search that came by
+  std::vector<std::size_t> visit_;  ///< the last search that visited it
   std::size_t visits_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+/// Algorithms on graphs whose vertices are numbers from 0.
 namespace cbc {
 
 using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -17,12 +18,12 @@ using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 [[nodiscard]] std::vector<std::uint32_t> strong_components(std::size_t vertices,
                                                            const Edges& edges);
 
-/// Vertices of an acyclic graph such that every edge (from, to) has `to` before `from`.
+/// The vertices of an acyclic graph, ordered so that every edge (from, to) has `to` before `from`.
 [[nodiscard]] std::vector<std::uint32_t> reverse_topological_order(std::size_t vertices,
                                                                    const Edges& edges);
 
-/// Whether each edge says nothing new, because another path leads from its source to its target.
-/// Cycles count as one vertex each: edges within them stay. Edges are distinct.
+/// Whether each edge is implied by the others: another path leads from its source to its target.
+/// Each cycle counts as one vertex, so edges within cycles are not implied. Edges are distinct.
 [[nodiscard]] std::vector<bool> transitive_edges(std::size_t vertices, const Edges& edges);
 
 }  // namespace cbc

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t edit_cost = 4;
 constexpr std::size_t small_cost = 1;
 
-// Longer names are not typed by hand; comparing them is not worth the time.
+// Nobody types longer names, so it is not worth the time to compare them.
 constexpr std::size_t longest_name = 200;
 constexpr std::size_t shortest_word = 3;
 
@@ -33,8 +33,8 @@ std::size_t substitution_cost(char a, char b) {
   return edit_cost;
 }
 
-// What a suggestion may cost: an edit for every three characters, or every letter in the other
-// case.
+// The highest cost of a suggestion: an edit for every three characters, or every letter in the
+// other case.
 std::size_t limit_for(std::size_t length) { return std::max(length, edit_cost * (length / 3)); }
 
 // Edit distance with transpositions of neighbors (optimal string alignment).
@@ -167,7 +167,7 @@ bool can_break(std::string_view name, std::size_t place) {
   return is_lower(before) && is_upper(after);
 }
 
-/// The end of the first line: the place to break that leaves it nearest to the length.
+/// The end of the first line: the break that makes it nearest to the length.
 std::size_t end_of_first_line(std::string_view name, std::size_t length) {
   std::size_t best = name.size();
   std::size_t best_distance = utf8::count_characters(name) - length;
@@ -189,7 +189,7 @@ std::size_t end_of_first_line(std::string_view name, std::size_t length) {
 std::vector<std::string_view> wrap_name(std::string_view name, std::size_t width) {
   std::vector<std::string_view> lines;
   const std::size_t length = utf8::count_characters(name);
-  // A few characters more are better than another line.
+  // A few more characters are better than another line.
   const std::size_t count = (length - std::min(length, width / 3) + width - 1) / width;
   for (std::size_t left = count; left > 1 && !name.empty(); --left) {
     const std::size_t line = utf8::count_characters(name) / left;
@@ -212,19 +212,23 @@ bool stands_for_itself(char byte) {
 }  // namespace
 
 std::string percent_encode(std::string_view path) {
-  constexpr std::string_view digits = "0123456789ABCDEF";
   std::string encoded;
   for (const char byte : path) {
     if (stands_for_itself(byte)) {
       encoded += byte;
-      continue;
+    } else {
+      append_percent_encoded(encoded, byte);
     }
-    const unsigned value = static_cast<unsigned char>(byte);
-    encoded += '%';
-    encoded += digits[value / 16];
-    encoded += digits[value % 16];
   }
   return encoded;
+}
+
+void append_percent_encoded(std::string& text, char byte) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  const unsigned value = static_cast<unsigned char>(byte);
+  text += '%';
+  text += digits[value / 16];
+  text += digits[value % 16];
 }
 
 }  // namespace cbc

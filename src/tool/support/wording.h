@@ -10,15 +10,17 @@
 #include <utility>
 #include <vector>
 
+/// Words for people: suggestions for unknown names, plurals, line breaks in names; and texts for
+/// programs: URIs, fingerprints.
 namespace cbc {
 
 /// Suggests known names for unknown ones: the one at the smallest edit distance, where a
-/// difference in case, or between '-' and '_', counts little; failing that, the longest one that
-/// begins or ends the unknown name, or is begun or ended by it, at a word boundary. Of equally
-/// near names the first wins.
+/// difference in case, or between '-' and '_', counts little; failing that, the longest one of
+/// which one is the beginning or end of the other, at a word boundary. Of equally near names, the
+/// first wins.
 ///
-/// The work of one object is bounded, so that a file full of unknown names stays cheap: when it is
-/// used up there are no more suggestions.
+/// The work of one object is bounded, so that a file full of unknown names stays cheap: after that,
+/// there are no more suggestions.
 class Suggestions {
  public:
   /// `names` are views of texts that must outlive this object.
@@ -43,16 +45,19 @@ class Suggestions {
   return std::to_string(number) + " " + std::string(noun) + (number == 1 ? "" : "s");
 }
 
-/// Breaks a long name into lines of about equal length, behind a blank or one of "_-./" and before
-/// the capitals of CamelCase. A line may be longer than `width` characters if there is no such
-/// place. The lines together are the name.
+/// Breaks a long name into lines of about equal length, after a blank or one of "_-./" and before
+/// the capitals of CamelCase. A line may be longer than `width` characters if it has no such place.
+/// The lines, joined, are the name.
 [[nodiscard]] std::vector<std::string_view> wrap_name(std::string_view name, std::size_t width);
 
 /// The path of a URI (RFC 3986) for the path of a file: every byte but letters, digits, "-._~" and
 /// "/" is percent-encoded.
 [[nodiscard]] std::string percent_encode(std::string_view path);
 
-/// A number for a text: FNV-1a of 64 bits, the same on every machine and for ever.
+/// Appends a byte as "%2F".
+void append_percent_encoded(std::string& text, char byte);
+
+/// A number for a text: FNV-1a of 64 bits, the same on every machine, forever.
 [[nodiscard]] constexpr std::uint64_t fingerprint(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325;
   for (const char byte : text) {

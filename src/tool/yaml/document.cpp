@@ -22,70 +22,6 @@
 
 namespace cbc::yaml {
 
-/// A text as the input of a scanner that may look ahead without bound.
-///
-/// yaml-cpp keeps all tokens of a flow collection until it knows whether the collection is a
-/// mapping key, so "[[[[..." fills the memory before the first event. This input counts the
-/// brackets that were opened and not closed since the last event, and ends a text in which they
-/// are far too many. The count knows nothing of quotes and comments, hence the generous bound.
-class GuardedInput : public std::streambuf {
- public:
-  /// `allowed` is the depth of nesting after which the place of a refusal is reported.
-  GuardedInput(std::string_view text, std::size_t allowed) : text_(text), allowed_(allowed) {}
-
-  /// Tells that the scanner got on.
-  void reset() { open_ = 0; }
-
-  /// The bracket that was one too many, if the text was cut short.
-  [[nodiscard]] std::optional<std::size_t> refused_at() const { return refused_at_; }
-
- protected:
-  int_type underflow() override;
-
- private:
-  [[nodiscard]] bool accept(std::string_view chunk);
-
-  std::string_view text_;
-  std::size_t allowed_;
-  std::size_t next_ = 0;
-  std::size_t open_ = 0;
-  std::size_t suspect_ = 0;  // offset at which `open_` last passed `allowed_`
-  std::optional<std::size_t> refused_at_;
-  std::array<char, 2048> buffer_{};
-};
-
-namespace {
-
-constexpr std::size_t bound = 10'000;
-
-}  // namespace
-
-bool GuardedInput::accept(std::string_view chunk) {
-  for (std::size_t i = 0; i < chunk.size(); ++i) {
-    const char byte = chunk[i];
-    if (byte == '[' || byte == '{') {
-      ++open_;
-      if (open_ == allowed_ + 1) suspect_ = next_ + i;
-    } else if ((byte == ']' || byte == '}') && open_ > 0) {
-      --open_;
-    }
-  }
-  return open_ <= bound;
-}
-
-GuardedInput::int_type GuardedInput::underflow() {
-  const std::string_view chunk = text_.substr(next_, buffer_.size());
-  if (chunk.empty() || refused_at_) return traits_type::eof();
-  if (!accept(chunk)) {
-    refused_at_ = suspect_;
-    return traits_type::eof();
-  }
-  std::copy(chunk.begin(), chunk.end(), buffer_.begin());
-  next_ += chunk.size();
-  setg(buffer_.data(), buffer_.data(), buffer_.data() + chunk.size());
-  return traits_type::to_int_type(buffer_.front());
-}
-
 const Node* Node::find(std::string_view key) const {
   for (const auto& [name, value] : entries) {
     if (name->text == key) return value->kind == Kind::null ? nullptr : value;
@@ -95,9 +31,63 @@ const Node* Node::find(std::string_view key) const {
 
 namespace {
 
+/// A text as the input of a scanner that may look ahead without bound.
+///
+/// yaml-cpp keeps all tokens of a flow collection until it knows whether the collection is a
+/// mapping key, so "[[[[..." fills the memory before the first event. This input counts the
+/// brackets opened and not closed since the last event, and ends a text in which they are far too
+/// many. It does not understand quotes and comments, hence the generous bound.
+class GuardedInput : public std::streambuf {
+ public:
+  explicit GuardedInput(std::string_view text) : text_(text) {}
+
+  /// Tells that the scanner has produced an event.
+  void reset() { open_ = 0; }
+
+  /// The bracket that was one too many, if the text was cut short.
+  [[nodiscard]] std::optional<std::size_t> refused_at() const { return refused_at_; }
+
+ protected:
+  int_type underflow() override {
+    const std::string_view chunk = text_.substr(next_, buffer_.size());
+    if (chunk.empty() || refused_at_) return traits_type::eof();
+    count_brackets(chunk);
+    if (open_ > most_open) {
+      refused_at_ = suspect_;
+      return traits_type::eof();
+    }
+    std::copy(chunk.begin(), chunk.end(), buffer_.begin());
+    next_ += chunk.size();
+    setg(buffer_.data(), buffer_.data(), buffer_.data() + chunk.size());
+    return traits_type::to_int_type(buffer_.front());
+  }
+
+ private:
+  static constexpr std::size_t most_open = 10'000;
+
+  void count_brackets(std::string_view chunk) {
+    for (std::size_t i = 0; i < chunk.size(); ++i) {
+      const char byte = chunk[i];
+      if (byte == '[' || byte == '{') {
+        ++open_;
+        if (open_ == maximum_depth + 1) suspect_ = next_ + i;
+      } else if ((byte == ']' || byte == '}') && open_ > 0) {
+        --open_;
+      }
+    }
+  }
+
+  std::string_view text_;
+  std::size_t next_ = 0;
+  std::size_t open_ = 0;
+  std::size_t suspect_ = 0;  // offset at which `open_` last passed the allowed depth
+  std::optional<std::size_t> refused_at_;
+  std::array<char, 2048> buffer_{};
+};
+
 constexpr std::string_view core_tag = "tag:yaml.org,2002:";
 
-// Ends the parsing of a document; becomes a finding.
+// Thrown to end the parsing of a document; becomes a finding.
 struct Refusal : std::runtime_error {
   Refusal(const Range& where, const std::string& message, std::vector<Note> more = {})
       : std::runtime_error(message), range(where), notes(std::move(more)) {}
@@ -106,48 +96,45 @@ struct Refusal : std::runtime_error {
 };
 
 constexpr std::string_view unclosed_text = "a text in quotes does not end";
-constexpr std::string_view unclosed_said = "illegal EOF in scalar";
-constexpr std::string_view bad_escape_said = "invalid unicode";
-constexpr std::string_view undefined_anchor_said = "the referenced anchor is not defined";
 
 std::string too_deep() {
   return "nested too deeply: more than " + std::to_string(maximum_depth) + " levels";
 }
 
-// What yaml-cpp says in terms of its grammar, said in terms of the text.
+// Puts a message of yaml-cpp, which is about its grammar, in terms of the text. Its exceptions
+// differ in nothing but their messages, which it declares as constants.
 std::string explain(const std::string& message) {
   struct Explanation {
-    std::string_view said;
-    std::string_view meant;
+    std::string_view message;
+    std::string_view meaning;
   };
-  constexpr Explanation explanations[] = {
-      {"end of map not found",
+  static const Explanation explanations[] = {
+      {YAML::ErrorMsg::END_OF_MAP,
        "expected a key, or the end of the mapping: is the indentation right?"},
-      {"end of sequence not found",
+      {YAML::ErrorMsg::END_OF_SEQ,
        "expected '- ', or the end of the list: is the indentation right?"},
-      {"end of map flow not found", "expected ',' or '}' in a mapping in braces"},
-      {"end of sequence flow not found", "expected ',' or ']' in a list in brackets"},
-      {"illegal map value",
+      {YAML::ErrorMsg::END_OF_MAP_FLOW, "expected ',' or '}' in a mapping in braces"},
+      {YAML::ErrorMsg::END_OF_SEQ_FLOW, "expected ',' or ']' in a list in brackets"},
+      {YAML::ErrorMsg::MAP_VALUE,
        "unexpected ':': is the indentation right? a value with ': ' in it must be in quotes"},
-      {"illegal block entry", "unexpected '- ': is the indentation right?"},
-      {"illegal map key", "unexpected '? ': is the indentation right?"},
-      {"illegal flow end", "this bracket does not close the one that was opened last"},
-      {"illegal document indicator in scalar",
-       "a text in quotes does not end before '---' or "
-       "'...' at the start of a line"},
-      {"unknown token", "a value cannot begin with this character; put it in quotes"},
-      {"bad file", "cannot be read as YAML"},
+      {YAML::ErrorMsg::BLOCK_ENTRY, "unexpected '- ': is the indentation right?"},
+      {YAML::ErrorMsg::MAP_KEY, "unexpected '? ': is the indentation right?"},
+      {YAML::ErrorMsg::FLOW_END, "this bracket does not close the one that was opened last"},
+      {YAML::ErrorMsg::DOC_IN_SCALAR,
+       "a text in quotes does not end before '---' or '...' at the start of a line"},
+      {YAML::ErrorMsg::UNKNOWN_TOKEN, "a value cannot begin with this character; put it in quotes"},
+      {YAML::ErrorMsg::BAD_FILE, "cannot be read as YAML"},
   };
   for (const Explanation& explanation : explanations) {
-    if (message == explanation.said) return std::string(explanation.meant);
+    if (message == explanation.message) return std::string(explanation.meaning);
   }
   return message;
 }
 
-// Whether the parser may have said so because a line before was no key with a value.
+// Whether a line above that is no key with a value may be the cause of a message.
 bool may_lack_colon(const std::string& message) {
-  return message == "illegal map value" || message == "end of map not found" ||
-         message == "end of sequence not found";
+  return message == YAML::ErrorMsg::MAP_VALUE || message == YAML::ErrorMsg::END_OF_MAP ||
+         message == YAML::ErrorMsg::END_OF_SEQ;
 }
 
 bool is_null_text(std::string_view text) {
@@ -165,12 +152,12 @@ class Builder : public YAML::EventHandler {
     document_.file_ = std::move(file);
   }
 
-  // Whether the parser reported nothing at all: an empty text.
+  // Whether there was no event at all: the text is empty.
   [[nodiscard]] bool empty() const { return document_.root_ == nullptr; }
 
   void finish_empty() { document_.root_ = create(Kind::null, {}); }
 
-  // Marks what stands in several places of the tree, and all parts of mappings that merge others.
+  // Marks nodes that have several places in the tree, and all parts of mappings that merge others.
   void mark_shared() {
     std::unordered_set<const Node*> found;
     while (!shared_.empty()) {
@@ -191,7 +178,7 @@ class Builder : public YAML::EventHandler {
     return {positions_.at(begin), positions_.at(std::max(begin, end))};
   }
 
-  // Where what the parser could not read to its end may begin.
+  // Possible start of the unfinished token.
   [[nodiscard]] std::size_t last_end() const { return last_end_; }
 
   // The innermost collection in brackets or braces that is still open.
@@ -225,7 +212,7 @@ class Builder : public YAML::EventHandler {
                 const std::string& value) override {
     progress();
     const ScalarExtent extent = extent_of_scalar(text_, offset(mark), value);
-    // The parser accepts a text without its closing quote if a line break ends it.
+    // The parser accepts a text without its closing quote if a line break follows.
     if (!extent.closed)
       throw Refusal(range_at(extent.begin, extent.end), std::string(unclosed_text));
     last_end_ = std::max(last_end_, extent.end);
@@ -269,13 +256,13 @@ class Builder : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
 
  private:
-  // Of a value with all that is in it, aliases written out.
+  // The size of a value with all its parts, aliases expanded.
   struct Size {
     std::size_t nodes = 0;
     std::size_t height = 0;  // levels of collections
   };
   struct Anchored {
-    const Node* node = nullptr;  // nullptr as long as the value has not ended
+    const Node* node = nullptr;  // nullptr until the value ends
     Size size;
   };
   struct Frame {
@@ -383,8 +370,8 @@ class Builder : public YAML::EventHandler {
     }
   }
 
-  // A collection in the place of a key. At the end of the text the parser takes one in brackets
-  // that was not closed for a key, too.
+  // Refuses a collection in the place of a key. At the end of the text, the parser also takes an
+  // unclosed collection in brackets for a key.
   void refuse_as_key(const Range& range, std::size_t bracket) const {
     if (frames_.empty()) return;
     const Frame& frame = frames_.back();
@@ -426,8 +413,8 @@ class Builder : public YAML::EventHandler {
     frame.merge_key = nullptr;
   }
 
-  // The keys of the merged mappings that the mapping does not have itself come where '<<' stood;
-  // of equal ones the first counts. They count as aliases, as they may multiply like these.
+  // Inserts the keys of merged mappings that the mapping does not have itself in the place of '<<';
+  // of equal ones, the first counts. They count as aliases, since they may multiply like these.
   void merge(const Frame& frame) {
     auto& entries = frame.node->entries;
     std::unordered_set<std::string_view> known;
@@ -447,8 +434,8 @@ class Builder : public YAML::EventHandler {
                    merged.end());
   }
 
-  // Where nothing is written the parser gives the place of what comes next. The key, or the dash
-  // of the list, says more.
+  // The place of a value that is not written out. The parser gives the place of what comes next;
+  // the key, or the dash of the list item, says more.
   Range range_of_missing(std::size_t next) {
     if (frames_.empty()) return range_at(0, 0);
     const Frame& frame = frames_.back();
@@ -468,15 +455,15 @@ class Builder : public YAML::EventHandler {
   Document& document_;
   std::vector<Frame> frames_;
   std::vector<Anchored> anchors_;
-  std::vector<const Node*> shared_;  // that aliases stand for, or that merge others
+  std::vector<const Node*> shared_;  // targets of aliases, and mappings that merge others
   std::size_t alias_nodes_ = 0;
   std::optional<Range> alias_range_;  // while an alias is being added
-  std::size_t last_end_ = 0;          // where the last thing that was read ended, as far as known
+  std::size_t last_end_ = 0;          // end of the last token, as far as known
 };
 
 namespace {
 
-// A character that may not stand in YAML as it is.
+// Whether YAML allows a character only as an escape.
 bool is_forbidden(char32_t character) {
   if (character < 0x20) return character != '\t' && character != '\n' && character != '\r';
   return character >= 0x7F && character < 0xA0 && character != 0x85;
@@ -510,17 +497,17 @@ void check_characters(std::string_view text, const PositionMap& positions) {
   if (tab <= offset && tab < text.size() && text[tab] == '\t') {
     throw Refusal(builder.range_at(tab, tab + 1), "a tab may not indent; use spaces");
   }
-  if (exception.msg == unclosed_said) {
+  if (exception.msg == YAML::ErrorMsg::EOF_IN_SCALAR) {
     const std::size_t quote_at = find_quote(text, builder.last_end());
     throw Refusal(builder.range_at(quote_at, quote_at + 1), std::string(unclosed_text));
   }
-  if (exception.msg.starts_with(undefined_anchor_said)) {
+  if (exception.msg.starts_with(YAML::ErrorMsg::UNKNOWN_ANCHOR)) {
     const std::size_t end = end_of_alias(text, offset);
     throw Refusal(builder.range_at(offset, end),
                   "there is no anchor " + quote(text.substr(offset + 1, end - offset - 1)));
   }
-  if (exception.msg.starts_with(bad_escape_said)) {
-    // JSON writes such characters as two escapes; the parser does not know that.
+  if (exception.msg.starts_with(YAML::ErrorMsg::INVALID_UNICODE)) {
+    // JSON writes such characters as two escapes, which the parser does not combine.
     throw Refusal(builder.range_at(offset, offset + 1),
                   "this escape is no character; write the character itself, or \\U and 8 digits");
   }
@@ -541,7 +528,7 @@ void check_characters(std::string_view text, const PositionMap& positions) {
 void parse_document(std::string_view text, const PositionMap& positions, const std::string& file,
                     Document& document) {
   check_characters(text, positions);
-  GuardedInput input(text, maximum_depth);
+  GuardedInput input(text);
   std::istream stream(&input);
   Builder builder(text, positions, input, document, file);
   try {

@@ -35,7 +35,7 @@ class Document {
  public:
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const Node& root() const { return *root_; }
-  /// All nodes, also those that the root no longer reaches; scalars in the order of the text.
+  /// All nodes, including those that the root does not reach; scalars in the order of the text.
   [[nodiscard]] const std::vector<std::unique_ptr<Node>>& nodes() const { return nodes_; }
 
  private:

@@ -10,8 +10,6 @@
 namespace cbc::yaml {
 namespace {
 
-bool is_blank(char byte) { return byte == ' ' || byte == '\t' || byte == '\r' || byte == '\n'; }
-
 bool is_blank_at(std::string_view text, std::size_t offset) {
   return offset >= text.size() || is_blank(text[offset]);
 }
@@ -185,17 +183,11 @@ namespace {
 
 constexpr std::string_view blanks = " \t";
 
-/// A stretch of text in bytes.
-struct Span {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-};
-
 std::size_t count_leading_spaces(std::string_view text) {
   return std::min(text.find_first_not_of(' '), text.size());
 }
 
-/// Finds the offsets of places that are asked for in the order of the text.
+/// Finds the offsets of places, which must be asked for in the order of the text.
 class Cursor {
  public:
   explicit Cursor(std::string_view text) : text_(text) {}
@@ -224,8 +216,8 @@ class Cursor {
   Position at_;
 };
 
-/// The lines of a block scalar, from the end of the line with its indicator. How far they are
-/// indented is seen from the first one that is not blank: `value` has what it is indented more.
+/// The lines of a block scalar, from the end of the line with its indicator. Their indentation is
+/// that of the first one that is not blank, less the blanks with which `value` begins that line.
 Span find_block_text(std::string_view text, std::size_t indicator, std::string_view value) {
   const std::size_t begin = end_of_line(text, indicator);
   const std::size_t first = value.find_first_not_of(" \n");
@@ -246,7 +238,7 @@ Span find_block_text(std::string_view text, std::size_t indicator, std::string_v
   return {begin, end};
 }
 
-/// The scalars that may have a '#' which begins no comment, in order.
+/// The scalars that may contain a '#' that begins no comment, in order.
 std::vector<Span> find_scalars(std::string_view text, const Document& document) {
   std::vector<Span> scalars;
   Cursor cursor(text);
@@ -301,7 +293,7 @@ std::optional<std::size_t> find_comment(std::string_view text, const Span& line,
   return std::nullopt;
 }
 
-/// Of a line that begins with `content`. The mark before a document is no entry.
+/// The depth of a line that begins with `content`. The mark before a document is no entry.
 std::optional<std::size_t> depth_of(std::string_view content) {
   if (content.substr(0, 3) == "---" &&
       content.find_first_not_of(blanks, 3) == std::string_view::npos) {

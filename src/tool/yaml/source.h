@@ -8,7 +8,19 @@
 
 #include "yaml/document.h"
 
+/// The text of a YAML document: its lines and comments, and where things begin and end in it.
 namespace cbc::yaml {
+
+/// A piece of a text in bytes; `end` is one past the last.
+struct Span {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// Whether a byte separates words: a blank or a line break.
+[[nodiscard]] inline bool is_blank(char byte) {
+  return byte == ' ' || byte == '\t' || byte == '\r' || byte == '\n';
+}
 
 /// Where the line of `offset` ends: at its line feed, or at the end of the text.
 [[nodiscard]] inline std::size_t end_of_line(std::string_view text, std::size_t offset) {
@@ -27,17 +39,17 @@ struct SourceLine {
 };
 
 /// The lines of a text without byte order mark. `document` is what was read from it, and tells
-/// comments from texts with a '#'; if the text is no valid YAML it is nullptr, and every '#' that
-/// may begin a comment does.
+/// comments from texts with a '#'; if the text is not valid YAML, it is nullptr, and every '#' that
+/// may begin a comment counts as one.
 [[nodiscard]] std::vector<SourceLine> split_lines(std::string_view text, const Document* document);
 
-/// Looks in the text of a document for what the parser does not tell: where things end, and where
-/// something is missing. All offsets are in bytes.
+// What the parser does not report: where things end, and where something is missing. All offsets
+// are in bytes.
 
 /// The content that begins at or after `offset`: blanks, line breaks and comments are skipped.
 [[nodiscard]] std::size_t find_content(std::string_view text, std::size_t offset);
 
-/// The same after tags and anchors ("!!str &a text").
+/// The same, past tags and anchors ("!!str &a text").
 [[nodiscard]] std::size_t skip_properties(std::string_view text, std::size_t offset);
 
 /// One past a null that is written out at `offset`; `offset` if there is none.

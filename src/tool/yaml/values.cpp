@@ -31,7 +31,7 @@ std::string must_be(std::string_view what, std::string_view expected) {
   return quote(what) + " must be " + std::string(expected);
 }
 
-// Reports why a number could not be read. Texts that are no plain scalars were dealt with.
+// Reports why a number in a plain scalar could not be read.
 void report_number(const Node& node, std::string_view what, std::string_view expected,
                    std::string_view precision, DecimalError error, Reporter& reporter) {
   switch (error) {
@@ -62,7 +62,7 @@ constexpr Boolean booleans[] = {
     {"ON", "OFF"},     {"y", "n"},        {"Y", "N"},
 };
 
-// The spelling of a node that is a boolean, or nullptr.
+// The booleans in the spelling of a node, or nullptr if the node is no boolean.
 const Boolean* find_boolean(const Node& node) {
   if (node.kind != Kind::scalar || !node.plain) return nullptr;
   const auto* const found =
@@ -215,8 +215,8 @@ std::optional<std::size_t> read_choice(const Node& node, std::string_view what,
 
 namespace {
 
-// The place of a text without its quotes, if another one may be written there: it stands in one
-// place of the tree only, and as it is, without escapes and on one line.
+// The place of a text without its quotes, if another text may be written there: it has one place in
+// the tree only, and stands there literally, without escapes and on one line.
 std::optional<Range> replaceable(const Node& node) {
   if (node.kind != Kind::scalar || node.shared) return std::nullopt;
   Range range = node.range;
@@ -229,7 +229,7 @@ std::optional<Range> replaceable(const Node& node) {
   return as_it_is ? std::optional(range) : std::nullopt;
 }
 
-// Writes an older key and its value in the present way; no edit where that is not possible.
+// Edits that write an older key and its value in the present way; none if that is not possible.
 std::vector<Edit> modernize(const Key& key, const Node& name, const Node& value) {
   const std::optional<Range> name_range = replaceable(name);
   if (!name_range) return {};
@@ -299,13 +299,14 @@ void Fields::report_older_names() {
     const bool both = older.value->kind != Kind::null && present.value != nullptr &&
                       present.value->kind != Kind::null;
     if (!both) {
-      // Beside the present name, even one without a value, or itself again, it cannot be renamed.
+      // It cannot be renamed if the present name is there, even without a value, or if it is
+      // repeated.
       std::vector<Edit> edits;
       if (present.key == nullptr && !older.is_repeated)
         edits = modernize(key, *older.key, *older.value);
       std::string written(key.replaced_by);
       if (key.translate != nullptr) {
-        // Renamed only, it would say something else.
+        // A new name alone would change the meaning.
         if (const auto value = key.translate(*older.value)) written += ": " + std::string(*value);
       }
       reporter_.report(rule::deprecated_key, older.key->range,

@@ -14,9 +14,10 @@
 #include "diagnostic/diagnostic.h"
 #include "yaml/document.h"
 
+/// Mappings with known keys, and values of known types, with findings about all that is different.
 namespace cbc::yaml {
 
-/// Reports keys that stand twice in a mapping whose keys are free.
+/// Reports keys that are given twice in a mapping that may have any keys.
 void report_duplicate_keys(const Node& mapping, Reporter& reporter);
 
 /// A key that a mapping may have.
@@ -51,22 +52,22 @@ class Fields {
   /// Whether a key is there, with or without a value.
   [[nodiscard]] bool has(std::string_view key) const;
   [[nodiscard]] bool has_unknown() const { return !unknown_.empty(); }
-  /// Whether it says nothing but what is understood here: no unknown key, none of the user's own.
+  /// Whether all keys are understood: none is unknown, or the user's own.
   [[nodiscard]] bool is_understood() const { return unknown_.empty() && !has_own_; }
   /// The place of a key that is there.
   [[nodiscard]] const Range& range_of(std::string_view key) const;
 
-  /// What the mapping is, for messages: "behavior 'A'". At first what its shape is.
+  /// What the mapping is called in messages: "behavior 'A'". At first the name of its shape.
   void call(std::string what) { what_ = std::move(what); }
 
-  /// As `find`, but reports an absent key, as missing at `range`. A misspelt one is taken in its
+  /// As `find`, but reports an absent key as missing at `range`. A misspelt key is taken in its
   /// place.
   [[nodiscard]] const Node* require(std::string_view key, const Range& range);
 
   /// Takes a misspelt key in the place of `key`, which is absent, and reports it as missing.
   [[nodiscard]] const Node* adopt(std::string_view key);
 
-  /// Reports the keys that are unknown. Call it once, when all that is required was asked for.
+  /// Reports the unknown keys. Call it once, after all required keys were asked for.
   void report_unknown(Severity severity);
 
  private:
@@ -89,13 +90,13 @@ class Fields {
   bool has_own_ = false;  // a key that begins with "x-"
 };
 
-/// Values of a document as what they are meant to be. Each function reports what is wrong and
-/// returns nothing then; `what` is the name of the key they belong to.
+// Readers of values. Each reports a value that is not as expected, and then returns nothing; `what`
+// is the name of its key.
 
 /// What a node is, for messages: "a list", "'80' in quotes".
 [[nodiscard]] std::string describe(const Node& node);
 
-/// What one of YAML 1.1's booleans says; empty if the node is none of them.
+/// The value of one of YAML 1.1's booleans; empty if the node is none of them.
 [[nodiscard]] std::optional<bool> to_boolean(const Node& node);
 
 /// Reports a node that is not what was `expected` ("a list of tasks").
@@ -135,7 +136,7 @@ void report_wrong_type(const Node& node, std::string_view what, std::string_view
 [[nodiscard]] std::optional<std::int32_t> read_integer(const Node& node, std::string_view what,
                                                        std::int32_t lowest, Reporter& reporter);
 
-/// The place of a word among `choices`.
+/// The index of a word among `choices`.
 [[nodiscard]] std::optional<std::size_t> read_choice(
     const Node& node, std::string_view what, std::initializer_list<std::string_view> choices,
     Reporter& reporter);

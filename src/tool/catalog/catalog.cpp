@@ -1,19 +1,30 @@
+#include "catalog/catalog.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "base/text.h"
-#include "catalog/catalog.h"
-#include "catalog/draft.h"
 #include "diagnostic/rules.h"
 #include "support/graph.h"
 
 namespace cbc {
+
+std::vector<TaskIndex> distinct_tasks(const ExclusivityList& list) {
+  std::vector<TaskIndex> tasks = list.tasks;
+  std::sort(tasks.begin(), tasks.end());
+  tasks.erase(std::unique(tasks.begin(), tasks.end()), tasks.end());
+  return tasks;
+}
+
 namespace {
 
 std::optional<std::size_t> search(const std::vector<std::size_t>& few,
@@ -47,7 +58,7 @@ std::optional<std::size_t> Exclusions::find(TaskIndex a, TaskIndex b) {
 std::optional<std::size_t> Exclusions::find_for_all(const Behavior& behavior, TaskIndex task) {
   std::optional<std::size_t> first;
   for (const Performance& performance : behavior.performs) {
-    // What a behavior requires of itself is a cycle.
+    // A behavior that requires its own task is part of a cycle, which is another finding.
     if (performance.task == task) return std::nullopt;
     const auto list = find(performance.task, task);
     if (!list) return std::nullopt;
@@ -58,14 +69,26 @@ std::optional<std::size_t> Exclusions::find_for_all(const Behavior& behavior, Ta
 
 namespace {
 
+/// A behavior that performs `task`, and one of its requirements.
+struct CycleStep {
+  TaskIndex task = 0;
+  BehaviorIndex behavior = 0;
+  std::size_t requirement = 0;  ///< place in Behavior::requirements
+};
+
+/// Tasks that require themselves indirectly: each step's requirement is the task of the next step,
+/// and that of the last step the task of the first.
+using Cycle = std::vector<CycleStep>;
+
 using Vertex = std::uint32_t;
 
-// Steps that the search for the shortest cycles may take; enough for every catalog that a person
-// writes.
+// Steps that the search for the shortest cycles may take; enough for every catalog that people
+// write.
 constexpr std::size_t most_work = 100'000'000;
 
-// Vertices are the tasks, then the behaviors; edges go from a task to the behaviors that perform
-// it, from a behavior to the tasks it requires. So there are no more edges than lines in the file.
+// The vertices are the tasks, then the behaviors. Edges lead from a task to the behaviors that
+// perform it, and from a behavior to the tasks it requires, so there are no more edges than lines
+// in the file.
 class RequirementGraph {
  public:
   explicit RequirementGraph(const Catalog& catalog)
@@ -89,11 +112,13 @@ class RequirementGraph {
     from_.resize(vertices);
   }
 
+  /// A shortest cycle for each set of tasks that require one another, in catalog order of its first
+  /// task. In sets so large that the search for the shortest takes too long it is a short one.
   std::vector<Cycle> find_cycles() {
     std::vector<std::vector<Vertex>> members(components_);
     for (Vertex task = 0; task < tasks_; ++task) members[component_[task]].push_back(task);
     std::vector<Cycle> cycles;
-    // A component with edges has a behavior besides its tasks.
+    // A component that contains a cycle has behaviors as well as tasks.
     std::vector<bool> has_behavior(components_, false);
     for (std::size_t vertex = tasks_; vertex < component_.size(); ++vertex) {
       has_behavior[component_[vertex]] = true;
@@ -110,7 +135,7 @@ class RequirementGraph {
  private:
   static constexpr Vertex unreached = static_cast<Vertex>(-1);
 
-  // Of equally short ones the one with the first task in catalog order.
+  // Of equally short ones, the one whose task comes first in catalog order.
   Cycle shortest_cycle(const std::vector<Vertex>& members) {
     std::vector<Vertex> best;
     for (const Vertex start : members) {
@@ -185,21 +210,13 @@ class RequirementGraph {
   std::size_t work_ = 0;
 };
 
-}  // namespace
-
-std::vector<Cycle> find_requirement_cycles(const Catalog& catalog) {
-  return RequirementGraph(catalog).find_cycles();
-}
-
-namespace {
-
-// Longer cycles are shown by their beginning.
+// Longer cycles are shown by their first steps.
 constexpr std::size_t longest_chain = 10;
 
 }  // namespace
 
 void check_requirement_cycles(const Catalog& catalog, Reporter& reporter) {
-  for (const Cycle& cycle : find_requirement_cycles(catalog)) {
+  for (const Cycle& cycle : RequirementGraph(catalog).find_cycles()) {
     std::string chain;
     std::vector<Note> notes;
     for (const CycleStep& step : cycle) {
@@ -239,6 +256,102 @@ void check_exclusive_requirements(const Catalog& catalog, Reporter& reporter) {
           {reporter.note(catalog.exclusivity[*list].range, "mutually exclusive by this list")});
     }
   }
+}
+
+namespace {
+
+/// The parameters of a task, without those that repeat the previous one of the same name.
+std::vector<const Parameter*> without_repetitions(const Task& task) {
+  std::vector<const Parameter*> parameters;
+  std::map<std::string_view, const Parameter*> last;
+  for (const Parameter& parameter : task.parameters) {
+    const Parameter*& before = last[parameter.name];
+    if (before == nullptr || !allow_the_same(*before, parameter)) parameters.push_back(&parameter);
+    before = &parameter;
+  }
+  return parameters;
+}
+
+bool same_parameters(const Task& a, const Task& b) {
+  const std::vector<const Parameter*> of_a = without_repetitions(a);
+  const std::vector<const Parameter*> of_b = without_repetitions(b);
+  return std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                    [](const Parameter* x, const Parameter* y) {
+                      return x->name == y->name && allow_the_same(*x, *y);
+                    });
+}
+
+bool same_task(const Task& a, const Task& b) {
+  return a.name == b.name && a.implicit == b.implicit && a.execution_goal == b.execution_goal &&
+         a.start_on_request == b.start_on_request && a.reactive_start == b.reactive_start &&
+         a.timeout == b.timeout && a.minimum_performance == b.minimum_performance &&
+         same_parameters(a, b);
+}
+
+/// What a behavior requires of each task: the highest of the minimums.
+std::map<TaskIndex, Millionths> requirements_of(const Behavior& behavior) {
+  std::map<TaskIndex, Millionths> requirements;
+  for (const Requirement& requirement : behavior.requirements) {
+    Millionths& minimum = requirements[requirement.task];
+    minimum = std::max(minimum, requirement.minimum_performance);
+  }
+  return requirements;
+}
+
+bool same_behavior(const Behavior& a, const Behavior& b) {
+  const bool same_performs =
+      std::equal(a.performs.begin(), a.performs.end(), b.performs.begin(), b.performs.end(),
+                 [](const Performance& x, const Performance& y) {
+                   return x.task == y.task && x.suitability == y.suitability;
+                 });
+  return same_performs && a.name == b.name && a.package == b.package && a.timeout == b.timeout &&
+         requirements_of(a) == requirements_of(b);
+}
+
+/// The tasks of one list, ascending, each once.
+using Clique = std::vector<TaskIndex>;
+
+std::set<Clique> cliques_of(const Catalog& catalog) {
+  std::set<Clique> cliques;
+  for (const ExclusivityList& list : catalog.exclusivity) {
+    Clique clique = distinct_tasks(list);
+    if (clique.size() > 1) cliques.insert(std::move(clique));
+  }
+  return cliques;
+}
+
+/// Whether each clique is contained in one of `others`.
+bool are_contained(const std::set<Clique>& cliques, const std::set<Clique>& others,
+                   std::size_t tasks) {
+  std::vector<std::vector<const Clique*>> others_of(tasks);
+  for (const Clique& other : others) {
+    for (const TaskIndex task : other) others_of[task].push_back(&other);
+  }
+  return std::all_of(cliques.begin(), cliques.end(), [&](const Clique& clique) {
+    if (others.contains(clique)) return true;
+    const TaskIndex rarest = *std::min_element(
+        clique.begin(), clique.end(),
+        [&](TaskIndex a, TaskIndex b) { return others_of[a].size() < others_of[b].size(); });
+    return std::any_of(
+        others_of[rarest].begin(), others_of[rarest].end(), [&clique](const Clique* other) {
+          return std::includes(other->begin(), other->end(), clique.begin(), clique.end());
+        });
+  });
+}
+
+}  // namespace
+
+bool same_meaning(const Catalog& a, const Catalog& b) {
+  if (!std::equal(a.tasks.begin(), a.tasks.end(), b.tasks.begin(), b.tasks.end(), same_task)) {
+    return false;
+  }
+  if (!std::equal(a.behaviors.begin(), a.behaviors.end(), b.behaviors.begin(), b.behaviors.end(),
+                  same_behavior)) {
+    return false;
+  }
+  const std::set<Clique> of_a = cliques_of(a);
+  const std::set<Clique> of_b = cliques_of(b);
+  return are_contained(of_a, of_b, a.tasks.size()) && are_contained(of_b, of_a, a.tasks.size());
 }
 
 }  // namespace cbc
