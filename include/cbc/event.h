@@ -31,7 +31,7 @@ enum class Outcome : std::uint8_t { accepted, rejected, unchanged };
 
 /// Why a behavior was activated or deactivated.
 enum class ChangeCause : std::uint8_t {
-  requested,  ///< its task has a request of priority >= 1, or is the one of a stop event
+  requested,  ///< its task has a request of priority >= 1, or is the task of a stop event
   reactive,   ///< its task has a request of priority 0
   required,   ///< its task has no request
   replaced,   ///< its task continues with another behavior
@@ -41,7 +41,7 @@ enum class ChangeCause : std::uint8_t {
   undone      ///< rolls back an earlier change of the same event
 };
 
-/// The names of the enumerators in scripts and reports. Other values are not allowed.
+/// The word for a value in scripts and reports. The value must be one of the enumerators.
 [[nodiscard]] std::string_view name_of(Verb verb);
 [[nodiscard]] std::string_view name_of(FinishCause cause);
 [[nodiscard]] std::string_view name_of(Origin origin);

@@ -12,6 +12,7 @@
 
 #include "support/rounds.h"
 #include "yaml/document.h"
+#include "yaml/json_value.h"
 
 namespace cbc {
 namespace {
@@ -138,13 +139,74 @@ TEST(JsonReader, UnderstandsSurrogatePairs) {
 TEST(JsonReader, RefusesWhatIsNoJson) {
   yaml::JsonReader reader;
   for (const std::string_view text :
-       {"",           " ",       "{",         "[1",          "{\"a\"}",      "{\"a\":}",
-        "{\"a\":1,}", "[1,]",    "{a: 1}",    "01",          "1.",           ".5",
-        "+1",         "1e",      "-",         "tru",         "nul",          "\"a",
-        "\"\t\"",     R"("\x")", R"("\u12")", R"("\ud800")", R"("\udc00")",  R"("\ud800A")",
-        "{} {}",      "[1] x",   "\"\xff\"",  "'a'",         R"({"<<": {}})"}) {
+       {"",           " ",       "{",         "[1",          "{\"a\"}",     "{\"a\":}",
+        "{\"a\":1,}", "[1,]",    "{a: 1}",    "01",          "1.",          ".5",
+        "+1",         "1e",      "-",         "tru",         "nul",         "\"a",
+        "\"\t\"",     R"("\x")", R"("\u12")", R"("\ud800")", R"("\udc00")", R"("\ud800A")",
+        "{} {}",      "[1] x",   "\"\xff\"",  "'a'"}) {
     EXPECT_EQ(reader.read(text, 1), nullptr) << text;
   }
+}
+
+TEST(JsonReader, TellsOfMergeKeys) {
+  yaml::JsonReader reader;
+  ASSERT_NE(reader.read(R"({"<<": {}})", 1), nullptr);
+  EXPECT_TRUE(reader.has_merge_key());
+  ASSERT_NE(reader.read(R"({"a": "<<"})", 1), nullptr);
+  EXPECT_FALSE(reader.has_merge_key());
+}
+
+/// What the reading of a value ends with.
+template <typename Read>
+std::string fault_of(std::string_view text, Read read) {
+  yaml::JsonReader reader;
+  const Node* const root = reader.read(text);
+  if (root == nullptr) return "no JSON";
+  try {
+    static_cast<void>(read(yaml::JsonValue(*root)));
+  } catch (const yaml::JsonFault& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+TEST(JsonValue, GivesValuesOfTheirTypes) {
+  yaml::JsonReader reader;
+  const Node* const root =
+      reader.read(R"({"text":"","number":0.5,"whole":18446744073709551615,"no":false,
+                      "null":null,"list":[1,2],"text":"second"})");
+  ASSERT_NE(root, nullptr);
+  const yaml::JsonValue value(*root);
+  EXPECT_EQ(value["text"].text(), "");
+  EXPECT_EQ(value["number"].number(0, 1, ""), 0.5);
+  EXPECT_EQ(value["whole"].integer<std::uint64_t>(), UINT64_MAX);
+  EXPECT_FALSE(value["no"].truth());
+  EXPECT_TRUE(value["null"].is_null());
+  EXPECT_EQ(value["list"].items()[1].integer<int>(), 2);
+  EXPECT_FALSE(value.find("nothing"));
+  EXPECT_EQ(value.members().size(), 7U);
+}
+
+TEST(JsonValue, SaysWhatIsWrong) {
+  using Value = yaml::JsonValue;
+  const auto whole = [](const Value& value) { return value["a"].integer<std::uint32_t>(1, 9); };
+  for (const std::string_view wrong :
+       {"-1", "0", "10", "1.0", "1e0", "\"1\"", "true", "null", "[]"}) {
+    EXPECT_EQ(fault_of(R"({"a":)" + std::string(wrong) + "}", whole),
+              "'a' is not a whole number from 1 to 9");
+  }
+  EXPECT_EQ(fault_of(R"({"a":1})", whole), "");
+  EXPECT_EQ(fault_of("{}", whole), "'a' is missing");
+  EXPECT_EQ(fault_of("[]", whole), "it is not an object");
+  EXPECT_EQ(fault_of(R"({"a":1})", [](const Value& value) { return value["a"].text(); }),
+            "'a' is not a text");
+  EXPECT_EQ(fault_of(R"({"a":"true"})", [](const Value& value) { return value["a"].truth(); }),
+            "'a' is not true or false");
+  EXPECT_EQ(fault_of(R"({"a":{}})", [](const Value& value) { return value["a"].items(); }),
+            "'a' is not a list");
+  EXPECT_EQ(fault_of(R"({"a":2})",
+                     [](const Value& value) { return value["a"].number(0, 1, "from 0 to 1"); }),
+            "'a' is not a number from 0 to 1");
 }
 
 TEST(JsonReader, RefusesWhatIsTooDeep) {

@@ -1,7 +1,10 @@
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <random>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +17,11 @@ namespace cbc {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// As another writer has it.
+std::string dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 std::string text_of(std::string_view text) {
   std::string json = "[";
@@ -30,12 +38,12 @@ std::string seconds_of(Microseconds time) {
 TEST(JsonText, TextIsThatOfTheTree) {
   for (std::size_t size = 0; size <= 20; ++size) {
     const std::string plain(size, 'x');
-    EXPECT_EQ(text_of(plain), to_text(plain));
+    EXPECT_EQ(text_of(plain), dump(plain));
     for (std::size_t place = 0; place < size; ++place) {
       for (int byte = 0; byte < 256; ++byte) {
         std::string text = plain;
         text[place] = static_cast<char>(byte);
-        ASSERT_EQ(text_of(text), to_text(text)) << size << " " << place << " " << byte;
+        ASSERT_EQ(text_of(text), dump(text)) << size << " " << place << " " << byte;
       }
     }
   }
@@ -46,7 +54,7 @@ TEST(JsonText, NumberIsThatOfTheTree) {
   const auto check = [](double number) {
     std::string json;
     append_number(json, number);
-    ASSERT_EQ(json, to_text(number));
+    ASSERT_EQ(json, dump(number));
   };
   for (const double number :
        {0.0, -0.0, 1.0, -1.0, 0.5, 1e8, 999999999.0, 1e9, 1e15, 1e16, 1e300, 5e-324, 0.1}) {
@@ -62,6 +70,74 @@ TEST(JsonText, NumberIsThatOfTheTree) {
   append_integer(json, std::numeric_limits<std::int64_t>::min());
   append_integer(json, std::numeric_limits<std::uint64_t>::max());
   EXPECT_EQ(json, "-922337203685477580818446744073709551615");
+}
+
+TEST(JsonText, WhatIsWrittenAsANumberStaysAsItIs) {
+  const auto as_written = [](std::string_view text) {
+    std::string json;
+    append_as_written(json, text);
+    return json;
+  };
+  for (const std::string_view number : {"0", "-7", "0.50", "1e3", "1.25E-2"}) {
+    EXPECT_EQ(as_written(number), number);
+  }
+  for (const std::string_view text : {"", ".5", "5.", "05", "+1", "inf", "1e999", "0x1", "7 m"}) {
+    EXPECT_EQ(as_written(text), dump(text));
+  }
+}
+
+/// Every kind of value, as a tree and as it is written, on one line and indented.
+TEST(JsonWriter, WritesWhatTheTreeDoes) {
+  const Json tree = {{"text", "a\"b"},
+                     {"numbers", {1, -2, 0.25, std::numeric_limits<std::uint64_t>::max()}},
+                     {"truth", true},
+                     {"null", nullptr},
+                     {"list", Json::array()},
+                     {"object", Json::object()},
+                     {"nested", {{{"a", 1}}, Json::array({Json::array()})}}};
+  for (const auto layout : {JsonWriter::Layout::line, JsonWriter::Layout::indented}) {
+    std::string text;
+    JsonWriter json(text, layout);
+    json.open('{');
+    json.write("text", "a\"b");
+    json.open("numbers", '[');
+    json.write(1);
+    json.write(-2);
+    json.write(std::optional(0.25));
+    json.write(std::numeric_limits<std::uint64_t>::max());
+    json.close(']');
+    json.write("truth", true);
+    json.write("null", std::optional<int>());
+    json.write_list("list", std::vector<int>());
+    json.open("object", '{');
+    json.close('}');
+    json.write_list("nested", std::vector{0, 1}, [&](int item) {
+      json.open(item == 0 ? '{' : '[');
+      if (item == 0) {
+        json.write("a", 1);
+      } else {
+        json.open('[');
+        json.close(']');
+      }
+      json.close(item == 0 ? '}' : ']');
+    });
+    json.close('}');
+    EXPECT_EQ(text, tree.dump(layout == JsonWriter::Layout::line ? -1 : 1));
+  }
+}
+
+TEST(JsonWriter, PutsItemsOnLinesOfTheirOwn) {
+  std::string text;
+  JsonWriter json(text);
+  json.open('{');
+  json.open("list", '[');
+  for (const int item : {1, 2}) json.on_new_line().write(item);
+  json.close(']');
+  json.on_new_line().write_percent("whole", 80 * (one_million / 100));
+  json.write_percent("part", 1);
+  json.write_percent("none", std::nullopt);
+  json.close('}');
+  EXPECT_EQ(text, "{\"list\":[\n1,\n2],\n\"whole\":80,\"part\":0.0001,\"none\":null}");
 }
 
 TEST(JsonText, SecondsAreExact) {

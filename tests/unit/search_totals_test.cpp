@@ -8,6 +8,7 @@
 #include "coordinator/coordinator.h"
 #include "report/solve_report.h"
 #include "script/runner.h"
+#include "support/json.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc {
@@ -33,6 +34,15 @@ SearchRecord search_of(std::uint64_t solutions, std::uint64_t nodes, std::uint64
   return search;
 }
 
+json to_json(const SearchTotals& totals) {
+  std::string text;
+  JsonWriter writer(text);
+  writer.open('{');
+  write_totals(writer, totals);
+  writer.close('}');
+  return json::parse(text)["totals"];
+}
+
 TEST(SearchTotals, SumUpByKindAndInAll) {
   const SearchRecord small = search_of(1, 0, 7, 1500);
   const SearchRecord large = search_of(4, 10, 9, 2500);
@@ -40,7 +50,7 @@ TEST(SearchTotals, SumUpByKindAndInAll) {
   totals.add(event_of(Verb::start, Origin::script, &small));
   totals.add(event_of(Verb::start, Origin::script, &large));
   totals.add(event_of(Verb::finish, Origin::timeout, &large));
-  EXPECT_EQ(json(stats_to_json(totals)), json::parse(R"({
+  EXPECT_EQ(to_json(totals), json::parse(R"({
     "events": 3,
     "solutions": {"sum": 9, "mean": 3.0, "min": 1, "max": 4},
     "nodes": {"sum": 20, "mean": 6.666666666666667, "min": 0, "max": 10},
@@ -71,14 +81,14 @@ TEST(SearchTotals, OfPartsAreThoseOfAll) {
     sum.merge(part);
   }
   sum.merge(SearchTotals());
-  EXPECT_EQ(stats_to_json(sum), stats_to_json(all));
+  EXPECT_EQ(to_json(sum), to_json(all));
 }
 
 TEST(SearchTotals, LeaveOutEventsWithoutSearch) {
   SearchTotals totals;
   totals.add(event_of(Verb::wait, Origin::script, nullptr));
-  EXPECT_EQ(json(stats_to_json(totals))["events"], 0);
-  EXPECT_EQ(json(stats_to_json(totals))["nodes"],
+  EXPECT_EQ(to_json(totals)["events"], 0);
+  EXPECT_EQ(to_json(totals)["nodes"],
             json::parse(R"({"sum": 0, "mean": null, "min": null, "max": null})"));
   EXPECT_NE(stats_table(totals, {}, plain_style()).find("  none\n"), std::string::npos);
 }

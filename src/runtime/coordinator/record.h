@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -14,9 +17,84 @@
 #include "explain/reasons.h"
 #include "solver/problem.h"
 
+// The vocabulary of events, and the records of what they did. The words of scripts, streams, logs,
+// saved states and reports are in `verb_forms` and in the tables of record.cpp, and nowhere else.
+
 namespace cbc {
 
-/// A task or a behavior, by its index in the catalog.
+/// What an event with a verb consists of, beside its time.
+struct VerbForm {
+  /// What the verb is about; a situation is a mapping of behaviors to booleans.
+  enum class SubjectKind : std::uint8_t { nothing, task, behavior, situation };
+
+  std::string_view name;
+  SubjectKind subject = SubjectKind::nothing;
+  bool has_priority = false;
+  std::int32_t lowest_priority = 0;
+  bool has_parameters = false;
+  bool has_cause = false;
+  bool is_decided = false;  ///< the event is accepted, rejected, or changes nothing
+};
+
+/// In the order of the enumerators.
+inline constexpr std::array<VerbForm, 7> verb_forms{
+    {{.name = "start",
+      .subject = VerbForm::SubjectKind::task,
+      .has_priority = true,
+      .lowest_priority = 1,
+      .has_parameters = true,
+      .is_decided = true},
+     {.name = "stop",
+      .subject = VerbForm::SubjectKind::task,
+      .has_priority = true,
+      .is_decided = true},
+     {.name = "finish",
+      .subject = VerbForm::SubjectKind::behavior,
+      .has_cause = true,
+      .is_decided = true},
+     {.name = "situation", .subject = VerbForm::SubjectKind::situation},
+     {.name = "fault", .subject = VerbForm::SubjectKind::behavior},
+     {.name = "repair", .subject = VerbForm::SubjectKind::behavior},
+     {.name = "wait"}}};
+
+[[nodiscard]] constexpr const VerbForm& form_of(Verb verb) {
+  return verb_forms[static_cast<std::size_t>(verb)];
+}
+
+using Words = std::span<const std::string_view>;
+
+/// The words for the values of Verb, FinishCause, Origin, Outcome, ChangeCause or SearchStatus, in
+/// the order of the enumerators.
+template <typename Enum>
+[[nodiscard]] Words words_of() = delete;
+template <>
+Words words_of<Verb>();
+template <>
+Words words_of<FinishCause>();
+template <>
+Words words_of<Origin>();
+template <>
+Words words_of<Outcome>();
+template <>
+Words words_of<ChangeCause>();
+template <>
+Words words_of<SearchStatus>();
+
+template <typename Enum>
+[[nodiscard]] std::string_view word_of(Enum value) {
+  return words_of<Enum>()[static_cast<std::size_t>(value)];
+}
+
+/// The value that a word stands for, if there is one.
+template <typename Enum>
+[[nodiscard]] std::optional<Enum> find_word(std::string_view word) {
+  const Words words = words_of<Enum>();
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found == words.end()) return std::nullopt;
+  return static_cast<Enum>(found - words.begin());
+}
+
+/// A task or a behavior, by its catalog index.
 struct Subject {
   bool is_task = true;
   std::uint32_t catalog_index = 0;

@@ -204,12 +204,13 @@ class Reader {
   }
 
   std::optional<ExecutionGoal> read_execution_goal(const Fields& fields) {
+    constexpr std::string_view goals[] = {"achieve_goal", "keep_running"};
+    constexpr std::string_view older_goals[] = {"goal_based", "recurrent"};
     std::optional<std::size_t> goal;
     if (const Node* node = fields.find("execution_goal")) {
-      goal =
-          yaml::read_choice(*node, "execution_goal", {"achieve_goal", "keep_running"}, reporter_);
+      goal = yaml::read_choice(*node, "execution_goal", goals, reporter_);
     } else if (const Node* older = fields.find("category")) {
-      goal = yaml::read_choice(*older, "category", {"goal_based", "recurrent"}, reporter_);
+      goal = yaml::read_choice(*older, "category", older_goals, reporter_);
     }
     if (!goal) return std::nullopt;
     return *goal == 0 ? ExecutionGoal::achieve_goal : ExecutionGoal::keep_running;

@@ -1,11 +1,12 @@
 #include "report/catalog_dump.h"
 
+#include <cstddef>
 #include <iterator>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/text.h"
 #include "catalog/allowed_values.h"
@@ -138,126 +139,145 @@ std::string catalog_text(const CompiledFile& file) { return Listing(file).run();
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// The decimal number nearest to it is exact, and it is what is printed.
-Json percent(Millionths degree) {
-  if (degree % 10'000 == 0) return degree / 10'000;
-  return static_cast<double>(degree) / 10'000;
+void write_minimum(JsonWriter& json, Millionths minimum) {
+  json.write_percent("minimum_performance", minimum > 0 ? std::optional(minimum) : std::nullopt);
 }
 
-Json percent_or_null(Millionths degree) { return degree > 0 ? percent(degree) : Json(nullptr); }
-
-Json seconds_or_null(Microseconds time) {
-  if (time == 0) return nullptr;
-  if (time % second == 0) return time / second;
-  return to_seconds(time);
-}
-
-Json to_json(const ConstraintCount& constraints) {
-  return {{"exclusive_pairs", constraints.exclusive_pairs},
-          {"requirements", constraints.requirements},
-          {"task_minimums", constraints.task_minimums},
-          {"total", constraints.total()}};
-}
-
-Json to_json(const Parameter& parameter) {
-  Json json{{"parameter", parameter.name}, {"allowed_values", parameter.allowed_values}};
-  if (!parameter.allowed_is_list) {
-    json["allowed_values"] =
-        parameter.allowed_values.empty() ? Json(nullptr) : Json(parameter.allowed_values.front());
+void write_timeout(JsonWriter& json, Microseconds time) {
+  if (time == 0) {
+    json.write("timeout", nullptr);
+  } else if (time % second == 0) {
+    json.write("timeout", time / second);
+  } else {
+    json.write("timeout", to_seconds(time));
   }
-  return json;
 }
 
-Json task_to_json(const CompiledCatalog& catalog, TaskId id) {
+void write_parameter(JsonWriter& json, const Parameter& parameter) {
+  json.open('{');
+  json.write("parameter", parameter.name);
+  if (parameter.allowed_is_list) {
+    json.write_list("allowed_values", parameter.allowed_values);
+  } else if (parameter.allowed_values.empty()) {
+    json.write("allowed_values", nullptr);
+  } else {
+    json.write("allowed_values", parameter.allowed_values.front());
+  }
+  json.close('}');
+}
+
+void write_task(JsonWriter& json, const CompiledCatalog& catalog, TaskId id) {
   const CompiledTask& task = catalog.tasks[id];
-  Json json{{"task", catalog.name_of_task(id)},
-            {"level", task.level},
-            {"execution_goal", task.keep_running != 0 ? "keep_running" : "achieve_goal"},
-            {"start_on_request", task.start_on_request != 0},
-            {"reactive_start", task.reactive_start != 0},
-            {"timeout", seconds_or_null(task.timeout)},
-            {"minimum_performance", percent_or_null(task.minimum_performance)},
-            {"line", task.minimum_performance > 0 ? Json(task.minimum_line) : Json(nullptr)}};
-  Json& parameters = json["parameters"] = Json::array();
-  for (const Parameter& parameter : parameters_of(catalog, task.catalog_index)) {
-    parameters.push_back(to_json(parameter));
-  }
-  Json& behaviors = json["behaviors"] = Json::array();
-  for (const Value& value : catalog.values[id]) {
-    behaviors.push_back({{"behavior", catalog.name_of_behavior(value.behavior)},
-                         {"suitability", percent(value.suitability)}});
-  }
-  return json;
+  const bool has_minimum = task.minimum_performance > 0;
+  json.on_new_line().open('{');
+  json.write("task", catalog.name_of_task(id));
+  json.write("level", task.level);
+  json.write("execution_goal", task.keep_running != 0 ? "keep_running" : "achieve_goal");
+  json.write("start_on_request", task.start_on_request != 0);
+  json.write("reactive_start", task.reactive_start != 0);
+  write_timeout(json, task.timeout);
+  write_minimum(json, task.minimum_performance);
+  json.write("line", has_minimum ? std::optional(task.minimum_line) : std::nullopt);
+  json.write_list("parameters", parameters_of(catalog, task.catalog_index),
+                  [&](const Parameter& parameter) { write_parameter(json, parameter); });
+  json.write_list("behaviors", catalog.values[id], [&](const Value& value) {
+    json.open('{');
+    json.write("behavior", catalog.name_of_behavior(value.behavior));
+    json.write_percent("suitability", value.suitability);
+    json.close('}');
+  });
+  json.close('}');
 }
 
-Json behavior_to_json(const CompiledCatalog& catalog, BehaviorId id) {
+void write_behavior(JsonWriter& json, const CompiledCatalog& catalog, BehaviorId id) {
   const CompiledBehavior& behavior = catalog.behaviors[id];
-  Json required = Json::array();
-  for (const CompiledRequirement& requirement : catalog.requirements[id]) {
-    required.push_back({{"task", catalog.name_of_task(requirement.task)},
-                        {"minimum_performance", percent_or_null(requirement.minimum_performance)},
-                        {"line", catalog.line_of(requirement)}});
-  }
-  return {{"behavior", catalog.name_of_behavior(id)},
-          {"level", behavior.level},
-          {"package", catalog.texts[catalog.behavior_packages[behavior.catalog_index]]},
-          {"timeout", seconds_or_null(behavior.timeout)},
-          {"requires", std::move(required)}};
+  json.on_new_line().open('{');
+  json.write("behavior", catalog.name_of_behavior(id));
+  json.write("level", behavior.level);
+  json.write("package", catalog.texts[catalog.behavior_packages[behavior.catalog_index]]);
+  write_timeout(json, behavior.timeout);
+  json.write_list("requires", catalog.requirements[id], [&](const CompiledRequirement& required) {
+    json.open('{');
+    json.write("task", catalog.name_of_task(required.task));
+    write_minimum(json, required.minimum_performance);
+    json.write("line", catalog.line_of(required));
+    json.close('}');
+  });
+  json.close('}');
 }
 
-Json clique_to_json(const CompiledCatalog& catalog, std::uint32_t clique) {
-  Json tasks = Json::array();
-  for (const TaskId task : catalog.cliques[clique]) tasks.push_back(catalog.name_of_task(task));
-  return {{"tasks", std::move(tasks)}, {"line", catalog.clique_lines[clique]}};
+void write_clique(JsonWriter& json, const CompiledCatalog& catalog, std::uint32_t clique) {
+  json.on_new_line().open('{');
+  json.write_list("tasks", catalog.cliques[clique],
+                  [&](TaskId task) { json.write(catalog.name_of_task(task)); });
+  json.write("line", catalog.clique_lines[clique]);
+  json.close('}');
 }
 
-std::string numbers_to_text(const CatalogNumbers& numbers) {
-  return "\"levels\":" + std::to_string(numbers.levels) +
-         ",\n\"constraints\":" + to_text(to_json(numbers.constraints)) + ",\n\"search_space\":\"" +
-         numbers.search_space + "\"";
+void write_numbers(JsonWriter& json, const CatalogNumbers& numbers) {
+  json.on_new_line().write("levels", numbers.levels);
+  json.on_new_line();
+  write_constraints(json, numbers.constraints);
+  json.on_new_line().write("search_space", numbers.search_space);
 }
 
-std::string group_to_text(const CompiledCatalog& catalog, std::size_t group,
-                          const CatalogNumbers& numbers) {
-  std::string text = "{\"group\":" + std::to_string(group) + ",\n" + numbers_to_text(numbers);
-  text += ",\n\"tasks\":[";
+void write_group(JsonWriter& json, const CompiledCatalog& catalog, std::size_t group,
+                 const CatalogNumbers& numbers) {
+  json.on_new_line().open('{');
+  json.write("group", group);
+  write_numbers(json, numbers);
+  json.on_new_line().open("tasks", '[');
   for (TaskId id = catalog.group_tasks[group]; id < catalog.group_tasks[group + 1]; ++id) {
-    append_item(text, to_text(task_to_json(catalog, id)));
+    write_task(json, catalog, id);
   }
-  text += "],\n\"behaviors\":[";
+  json.close(']');
+  json.on_new_line().open("behaviors", '[');
   for (BehaviorId id = catalog.group_behaviors[group]; id < catalog.group_behaviors[group + 1];
        ++id) {
-    append_item(text, to_text(behavior_to_json(catalog, id)));
+    write_behavior(json, catalog, id);
   }
-  text += "],\n\"exclusivity\":[";
-  for (const std::uint32_t clique : cliques_of_group(catalog, group)) {
-    append_item(text, to_text(clique_to_json(catalog, clique)));
-  }
-  return text + "]}";
+  json.close(']');
+  json.on_new_line().write_list("exclusivity", cliques_of_group(catalog, group),
+                                [&](std::uint32_t clique) { write_clique(json, catalog, clique); });
+  json.close('}');
 }
 
 }  // namespace
 
+void write_constraints(JsonWriter& json, const ConstraintCount& constraints) {
+  json.open("constraints", '{');
+  json.write("exclusive_pairs", constraints.exclusive_pairs);
+  json.write("requirements", constraints.requirements);
+  json.write("task_minimums", constraints.task_minimums);
+  json.write("total", constraints.total());
+  json.close('}');
+}
+
 std::string catalog_json(const CompiledFile& file) {
   const CompiledCatalog& catalog = file.catalog;
   const CatalogSummary summary = summarize_groups(catalog);
-  const Json source{{"file", catalog.file}, {"digest", to_hex(file.source)}};
-  std::string text = R"({"schema":"cbc.catalog/1")";
-  text += ",\n\"format\":" + std::to_string(file.format);
-  text += ",\n\"written_by\":" + to_text(file.written_by);
-  text += ",\n\"source\":" + to_text(source);
-  text += ",\n\"content_digest\":\"" + to_hex(file.content) + "\"";
-  text += ",\n\"size\":" + std::to_string(file.size);
-  text += ",\n\"tasks\":" + std::to_string(summary.total.tasks);
-  text += ",\n\"behaviors\":" + std::to_string(summary.total.behaviors);
-  text += ",\n" + numbers_to_text(summary.total);
-  text += ",\n\"groups\":[";
+  std::string text;
+  JsonWriter json(text);
+  json.open('{');
+  json.write("schema", "cbc.catalog/1");
+  json.on_new_line().write("format", file.format);
+  json.on_new_line().write("written_by", file.written_by);
+  json.on_new_line().open("source", '{');
+  json.write("file", catalog.file);
+  json.write("digest", to_hex(file.source));
+  json.close('}');
+  json.on_new_line().write("content_digest", to_hex(file.content));
+  json.on_new_line().write("size", file.size);
+  json.on_new_line().write("tasks", summary.total.tasks);
+  json.on_new_line().write("behaviors", summary.total.behaviors);
+  write_numbers(json, summary.total);
+  json.on_new_line().open("groups", '[');
   for (std::size_t group = 0; group < summary.groups.size(); ++group) {
-    append_item(text, group_to_text(catalog, group, summary.groups[group]));
+    write_group(json, catalog, group, summary.groups[group]);
   }
-  return text + "]}\n";
+  json.close(']');
+  json.close('}');
+  return text + "\n";
 }
 
 }  // namespace cbc

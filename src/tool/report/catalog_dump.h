@@ -3,8 +3,11 @@
 #include <string>
 
 #include "compiled/compiled_file.h"
+#include "support/json.h"
 
 namespace cbc {
+
+struct ConstraintCount;
 
 /// Lists what a compiled catalog holds, for a person and for comparisons: one fact on a line, the
 /// terms of catalogs, and no numbers that a change elsewhere would shift (lines of the source are
@@ -54,5 +57,8 @@ namespace cbc {
 /// allowed_values is a list of texts, or one text that names a type. Bytes that are no valid UTF-8
 /// are replaced.
 [[nodiscard]] std::string catalog_json(const CompiledFile& file);
+
+/// Writes the member "constraints" of an object, which counts them.
+void write_constraints(JsonWriter& json, const ConstraintCount& constraints);
 
 }  // namespace cbc

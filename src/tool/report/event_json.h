@@ -5,8 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
-
-#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "cbc/event.h"
 #include "cbc/units.h"
@@ -17,19 +16,6 @@
 #include "script/script.h"
 
 namespace cbc {
-
-/// A set of reasons as the JSON of `cbc solve` has it, on one line.
-[[nodiscard]] std::string reasons_to_json(const CompiledCatalog& catalog, const EventRecord& record,
-                                          std::span<const Reason> reasons);
-
-/// The answers to --why about one event.
-[[nodiscard]] nlohmann::ordered_json why_to_json(const CompiledCatalog& catalog,
-                                                 const EventRecord& record, const State& state);
-
-/// The list of --alternatives of one event.
-[[nodiscard]] nlohmann::ordered_json alternatives_to_json(const CompiledCatalog& catalog,
-                                                          const EventRecord& record,
-                                                          const State& state);
 
 /// What the events have beside the keys that they always have.
 struct EventAdditions {

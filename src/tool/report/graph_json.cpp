@@ -57,86 +57,54 @@ std::string_view name_of(EdgeKind kind) {
   return "performed_by";
 }
 
-void write_percent(JsonWriter& json, std::string_view name, std::optional<Millionths> degree) {
-  if (!degree) {
-    json.write_null(name);
-  } else if (*degree % 10'000 == 0) {
-    json.write_integer(name, *degree / 10'000);
-  } else {
-    json.write_number(name, static_cast<double>(*degree) / 10'000);
-  }
-}
-
 void write_mark(JsonWriter& json, Mark mark) {
-  if (name_of(mark).empty()) {
-    json.write_null("mark");
-  } else {
-    json.write_text("mark", name_of(mark));
-  }
+  const std::string_view name = name_of(mark);
+  json.write("mark", name.empty() ? std::nullopt : std::optional(name));
 }
 
 void write_moment(JsonWriter& json, const draw::Moment& moment) {
   json.open("state", '{');
-  json.write_text("script", moment.script);
-  json.write_integer("index", moment.index);
+  json.write("script", moment.script);
+  json.write("index", moment.index);
   if (moment.index == 0) {
-    json.write_null("time");
-    json.write_null("event");
+    json.write("time", nullptr);
+    json.write("event", nullptr);
   } else {
     json.write_seconds("time", moment.time);
-    json.write_text("event", moment.event);
+    json.write("event", moment.event);
   }
   json.close('}');
 }
 
-std::string node_to_text(const Node& node, bool has_state) {
-  std::string text;
-  JsonWriter json(text);
-  json.open('{');
-  json.write_text("id", node.id);
-  json.write_text("kind", name_of(node.kind));
-  if (node.name.empty() && node.kind != NodeKind::task) {
-    json.write_null("name");
-  } else {
-    json.write_text("name", node.name);
-  }
-  if (node.group == none) {
-    json.write_null("group");
-  } else {
-    json.write_integer("group", node.group);
-  }
-  if (node.kind == NodeKind::behavior) json.write_text("package", node.package);
-  if (node.kind == NodeKind::hub) json.write_integer("left_out", node.left_out);
+void write_node(JsonWriter& json, const Node& node, bool has_state) {
+  json.on_new_line().open('{');
+  json.write("id", node.id);
+  json.write("kind", name_of(node.kind));
+  const bool is_unnamed = node.name.empty() && node.kind != NodeKind::task;
+  json.write("name", is_unnamed ? std::nullopt : std::optional(node.name));
+  json.write("group", node.group == none ? std::nullopt : std::optional(node.group));
+  if (node.kind == NodeKind::behavior) json.write("package", node.package);
+  if (node.kind == NodeKind::hub) json.write("left_out", node.left_out);
   if (node.kind == NodeKind::task) {
     const Millionths minimum = node.minimum_performance;
-    write_percent(json, "minimum_performance", minimum > 0 ? std::optional(minimum) : std::nullopt);
-    json.write_truth("defined", node.is_defined);
-    if (node.priority) {
-      json.write_integer("priority", *node.priority);
-    } else if (has_state) {
-      json.write_null("priority");
-    }
+    json.write_percent("minimum_performance", minimum > 0 ? std::optional(minimum) : std::nullopt);
+    json.write("defined", node.is_defined);
+    if (node.priority || has_state) json.write("priority", node.priority);
   }
   write_mark(json, node.mark);
-  json.open("notes", '[');
-  for (const std::string& note : node.notes) json.write_text(note);
-  json.close(']');
+  json.write_list("notes", node.notes);
   json.close('}');
-  return text;
 }
 
-std::string edge_to_text(const draw::Diagram& diagram, const Edge& edge) {
-  std::string text;
-  JsonWriter json(text);
-  json.open('{');
-  json.write_text("kind", name_of(edge.kind));
-  json.write_text("from", diagram.nodes[edge.from].id);
-  json.write_text("to", diagram.nodes[edge.to].id);
-  if (edge.kind == EdgeKind::performed_by) write_percent(json, "suitability", edge.degree);
-  if (edge.kind == EdgeKind::requirement) write_percent(json, "minimum_performance", edge.degree);
+void write_edge(JsonWriter& json, const draw::Diagram& diagram, const Edge& edge) {
+  json.on_new_line().open('{');
+  json.write("kind", name_of(edge.kind));
+  json.write("from", diagram.nodes[edge.from].id);
+  json.write("to", diagram.nodes[edge.to].id);
+  if (edge.kind == EdgeKind::performed_by) json.write_percent("suitability", edge.degree);
+  if (edge.kind == EdgeKind::requirement) json.write_percent("minimum_performance", edge.degree);
   write_mark(json, edge.mark);
   json.close('}');
-  return text;
 }
 
 }  // namespace
@@ -145,17 +113,17 @@ std::string graph_json(const draw::Diagram& diagram) {
   std::string text;
   JsonWriter json(text);
   json.open('{');
-  json.write_text("schema", "cbc.graph/1");
-  json.write_text("catalog", diagram.file);
-  json.write_text("view", name_of(diagram.view));
+  json.write("schema", "cbc.graph/1");
+  json.write("catalog", diagram.file);
+  json.write("view", name_of(diagram.view));
   if (diagram.moment) write_moment(json, *diagram.moment);
   json.open("nodes", '[');
   for (const Node& node : diagram.nodes) {
-    append_item(text, node_to_text(node, diagram.moment.has_value()));
+    write_node(json, node, diagram.moment.has_value());
   }
   json.close(']');
   json.open("edges", '[');
-  for (const Edge& edge : diagram.edges) append_item(text, edge_to_text(diagram, edge));
+  for (const Edge& edge : diagram.edges) write_edge(json, diagram, edge);
   json.close(']');
   json.close('}');
   text += '\n';
@@ -223,29 +191,29 @@ namespace {
 
 void write_value(JsonWriter& json, std::string_view name, const AttributeValue& value) {
   if (const bool* const truth = std::get_if<bool>(&value)) {
-    json.write_truth(name, *truth);
+    json.write(name, *truth);
   } else if (const Millionths* const degree = std::get_if<Millionths>(&value)) {
-    json.write_number(name, *degree / 10'000.0);
+    json.write(name, *degree / 10'000.0);
   } else if (const Microseconds* const time = std::get_if<Microseconds>(&value)) {
-    json.write_number(name, static_cast<double>(*time) / 1'000'000.0);
+    json.write(name, static_cast<double>(*time) / 1'000'000.0);
   } else if (const std::string* const text = std::get_if<std::string>(&value)) {
-    json.write_text(name, *text);
+    json.write(name, *text);
   } else {
-    json.write_null(name);
+    json.write(name, nullptr);
   }
 }
 
 void write_change(JsonWriter& json, const CatalogChange& change) {
   json.open('{');
-  json.write_text("kind", name_of(change.kind));
-  json.write_text("subject", name_of(change.subject));
-  if (!change.behavior.empty()) json.write_text("behavior", change.behavior);
-  if (!change.task.empty()) json.write_text("task", change.task);
-  if (!change.other_task.empty()) json.write_text("other_task", change.other_task);
+  json.write("kind", name_of(change.kind));
+  json.write("subject", name_of(change.subject));
+  if (!change.behavior.empty()) json.write("behavior", change.behavior);
+  if (!change.task.empty()) json.write("task", change.task);
+  if (!change.other_task.empty()) json.write("other_task", change.other_task);
   json.open("attributes", '[');
   for (const AttributeChange& attribute : change.attributes) {
     json.open('{');
-    json.write_text("name", attribute.name);
+    json.write("name", attribute.name);
     write_value(json, "before", attribute.before);
     write_value(json, "after", attribute.after);
     json.close('}');
@@ -260,13 +228,13 @@ std::string diff_json(const CatalogDiff& diff, std::string_view before, std::str
   std::string text;
   JsonWriter json(text);
   json.open('{');
-  json.write_text("schema", "cbc.diff/1");
-  json.write_text("old", before);
-  json.write_text("new", after);
+  json.write("schema", "cbc.diff/1");
+  json.write("old", before);
+  json.write("new", after);
   json.open("changes", '[');
   for (const CatalogChange& change : diff.changes) write_change(json, change);
   json.close(']');
-  json.write_integer("further_exclusions", diff.further_exclusions);
+  json.write("further_exclusions", diff.further_exclusions);
   json.close('}');
   return text += '\n';
 }

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/text.h"
 #include "cbc/version.h"
 #include "diagnostic/rules.h"
+#include "report/catalog_dump.h"
 #include "report/lint_report.h"
 #include "support/json.h"
 #include "support/wording.h"
@@ -88,59 +88,67 @@ std::string lint_github(const std::vector<LintedFile>& files) {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json to_json(const Note& note) {
-  return {{"file", note.file},
-          {"line", note.range.begin.line},
-          {"column", note.range.begin.column},
-          {"message", note.message}};
+void write_finding(JsonWriter& json, const Diagnostic& finding) {
+  json.on_new_line().open('{');
+  json.write("rule", finding.rule);
+  json.write("severity", name_of(finding.severity));
+  json.write("message", finding.message);
+  json.write("line", finding.range.begin.line);
+  json.write("column", finding.range.begin.column);
+  json.write("end_line", finding.range.end.line);
+  json.write("end_column", finding.range.end.column);
+  json.write_list("related", finding.notes, [&](const Note& note) {
+    json.open('{');
+    json.write("file", note.file);
+    json.write("line", note.range.begin.line);
+    json.write("column", note.range.begin.column);
+    json.write("message", note.message);
+    json.close('}');
+  });
+  json.close('}');
 }
 
-Json to_json(const Diagnostic& finding) {
-  Json related = Json::array();
-  for (const Note& note : finding.notes) related.push_back(to_json(note));
-  return {{"rule", finding.rule},
-          {"severity", name_of(finding.severity)},
-          {"message", finding.message},
-          {"line", finding.range.begin.line},
-          {"column", finding.range.begin.column},
-          {"end_line", finding.range.end.line},
-          {"end_column", finding.range.end.column},
-          {"related", std::move(related)}};
+void write_summary(JsonWriter& json, const Summary& summary) {
+  json.open("summary", '{');
+  json.write("tasks", summary.tasks);
+  json.write("behaviors", summary.behaviors);
+  write_constraints(json, summary.constraints);
+  json.write_list("groups", summary.groups, [&](const Summary::Group& group) {
+    json.open('{');
+    json.write_list("tasks", group.tasks);
+    json.write("constraints", group.constraints);
+    json.close('}');
+  });
+  json.write("search_space", summary.search_space);
+  json.close('}');
 }
 
-Json to_json(const Summary& summary) {
-  Json groups = Json::array();
-  for (const Summary::Group& group : summary.groups) {
-    groups.push_back({{"tasks", group.tasks}, {"constraints", group.constraints}});
+void write_file(JsonWriter& json, const LintedFile& file) {
+  json.on_new_line().open('{');
+  json.write("file", file.file);
+  json.write_list("diagnostics", file.findings,
+                  [&](const Diagnostic& finding) { write_finding(json, finding); });
+  if (file.summary) {
+    write_summary(json, *file.summary);
+  } else {
+    json.write("summary", nullptr);
   }
-  return {{"tasks", summary.tasks},
-          {"behaviors", summary.behaviors},
-          {"constraints",
-           {{"exclusive_pairs", summary.constraints.exclusive_pairs},
-            {"requirements", summary.constraints.requirements},
-            {"task_minimums", summary.constraints.task_minimums},
-            {"total", summary.constraints.total()}}},
-          {"groups", std::move(groups)},
-          {"search_space", summary.search_space}};
-}
-
-std::string file_to_text(const LintedFile& file) {
-  std::string text = "{\"file\":" + to_text(file.file) + ",\"diagnostics\":[";
-  for (const Diagnostic& finding : file.findings) append_item(text, to_text(to_json(finding)));
-  return text + "],\"summary\":" + (file.summary ? to_text(to_json(*file.summary)) : "null") + "}";
+  json.close('}');
 }
 
 }  // namespace
 
 std::string lint_json(const std::vector<LintedFile>& files) {
-  std::string text = R"({"schema":"cbc.lint/1","files":[)";
-  for (const LintedFile& file : files) append_item(text, file_to_text(file));
-  text += "],\n\"errors\":" + std::to_string(count(files, Severity::error));
-  text += ",\"warnings\":" + std::to_string(count(files, Severity::warning));
-  text += ",\"notes\":" + std::to_string(count(files, Severity::note));
-  return text + "}\n";
+  std::string text;
+  JsonWriter json(text);
+  json.open('{');
+  json.write("schema", "cbc.lint/1");
+  json.write_list("files", files, [&](const LintedFile& file) { write_file(json, file); });
+  json.on_new_line().write("errors", count(files, Severity::error));
+  json.write("warnings", count(files, Severity::warning));
+  json.write("notes", count(files, Severity::note));
+  json.close('}');
+  return text + "\n";
 }
 
 namespace {
@@ -162,7 +170,6 @@ std::string rule_markdown(const Rule& rule) {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr std::string_view schema =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
@@ -184,123 +191,176 @@ std::string to_camel_case(std::string_view name) {
   return result;
 }
 
-Json message(std::string_view text) { return Json::object({{"text", text}}); }
-
-Json rule_to_json(const Rule& rule) {
-  const std::string_view tag = rule.is_of_scripts ? "event-script" : "catalog";
-  return {{"id", rule.name},
-          {"name", to_camel_case(rule.name)},
-          {"shortDescription", message(rule.summary)},
-          {"fullDescription", message(rule.explanation)},
-          {"help", {{"text", rule_text(rule, plain_style())}, {"markdown", rule_markdown(rule)}}},
-          {"defaultConfiguration", Json::object({{"level", name_of(rule.severity)}})},
-          {"properties", Json::object({{"tags", Json::array({tag})}})}};
+void write_message(JsonWriter& json, std::string_view name, std::string_view text) {
+  json.open(name, '{');
+  json.write("text", text);
+  json.close('}');
 }
 
-/// The tool with its rules, one on a line.
-std::string tool() {
-  std::string rules = "[";
-  for (const Rule& rule : all_rules()) append_item(rules, to_text(rule_to_json(rule)));
-  return R"({"driver":{"name":"cbc","version":)" + to_text(version) + R"(,"semanticVersion":)" +
-         to_text(version) + R"(,"rules":)" + rules + "]}}";
+void write_rule(JsonWriter& json, const Rule& rule) {
+  json.on_new_line().open('{');
+  json.write("id", rule.name);
+  json.write("name", to_camel_case(rule.name));
+  write_message(json, "shortDescription", rule.summary);
+  write_message(json, "fullDescription", rule.explanation);
+  json.open("help", '{');
+  json.write("text", rule_text(rule, plain_style()));
+  json.write("markdown", rule_markdown(rule));
+  json.close('}');
+  json.open("defaultConfiguration", '{');
+  json.write("level", name_of(rule.severity));
+  json.close('}');
+  json.open("properties", '{');
+  json.open("tags", '[');
+  json.write(rule.is_of_scripts ? "event-script" : "catalog");
+  json.close(']');
+  json.close('}');
+  json.close('}');
 }
 
-Json to_region(const Range& range) {
-  return {{"startLine", range.begin.line},
-          {"startColumn", range.begin.column},
-          {"endLine", range.end.line},
-          {"endColumn", range.end.column}};
+void write_tool(JsonWriter& json) {
+  json.open("tool", '{');
+  json.open("driver", '{');
+  json.write("name", "cbc");
+  json.write("version", version);
+  json.write("semanticVersion", version);
+  json.write_list("rules", all_rules(), [&](const Rule& rule) { write_rule(json, rule); });
+  json.close('}');
+  json.close('}');
 }
 
-/// The parts of a run that depend on the files.
+/// Where a file lies, relative to the working directory if it is below it.
+struct FileUri {
+  std::string uri;
+  bool is_relative = false;
+  bool is_standard_input = false;
+};
+
+/// Writes the one run of a log.
 class Run {
  public:
-  Run(std::string_view working_directory, bool is_complete)
-      : directory_(fs::path(working_directory).lexically_normal()), is_complete_(is_complete) {}
+  Run(JsonWriter& json, std::string_view working_directory)
+      : json_(json), directory_(fs::path(working_directory).lexically_normal()) {}
 
-  void add(const LintedFile& file) {
-    const Json artifact = {{"location", locate(file.file)},
-                           {"roles", Json::array({"analysisTarget"})}};
-    const std::string text = to_text(artifact);
-    if (known_artifacts_.insert(text).second) append_item(artifacts_, text);
-    for (const Diagnostic& finding : file.findings) {
-      append_item(results_, to_text(to_result(finding)));
+  void write(const std::vector<LintedFile>& files, bool is_complete) {
+    json_.open('{');
+    write_tool(json_);
+    json_.open("invocations", '[');
+    json_.open('{');
+    json_.write("executionSuccessful", is_complete);
+    json_.close('}');
+    json_.close(']');
+    json_.write_list("artifacts", files,
+                     [&](const LintedFile& file) { write_artifact(file.file); });
+    json_.write("columnKind", "unicodeCodePoints");
+    json_.open("results", '[');
+    for (const LintedFile& file : files) {
+      for (const Diagnostic& finding : file.findings) write_result(finding);
     }
-  }
-
-  [[nodiscard]] std::string text() const {
-    const Json invocation = Json::object({{"executionSuccessful", is_complete_}});
-    return R"({"tool":)" + tool() + R"(,"invocations":[)" + to_text(invocation) +
-           R"(],"artifacts":)" + artifacts_ + R"(],"columnKind":"unicodeCodePoints","results":)" +
-           results_ + "]}";
+    json_.close(']');
+    json_.close('}');
   }
 
  private:
-  static std::string to_file_uri(const fs::path& path) {
-    return "file://" + percent_encode(path.native());
-  }
-
-  /// An artifactLocation.
-  [[nodiscard]] Json locate(const std::string& file) const {
-    if (file == standard_input) {
-      return {{"uri", percent_encode(file)}, {"description", message("standard input")}};
-    }
+  [[nodiscard]] FileUri locate(const std::string& file) const {
+    if (file == standard_input) return {percent_encode(file), false, true};
     const fs::path path = (directory_ / file).lexically_normal();
     const fs::path relative = path.lexically_relative(directory_);
     if (relative.empty() || *relative.begin() == "..") {
-      return Json::object({{"uri", to_file_uri(path)}});
+      return {"file://" + percent_encode(path.native())};
     }
-    return {{"uri", percent_encode(relative.native())}, {"uriBaseId", root}};
+    return {percent_encode(relative.native()), true};
   }
 
-  [[nodiscard]] Json to_physical_location(const std::string& file, const Range& range) const {
-    return {{"artifactLocation", locate(file)}, {"region", to_region(range)}};
+  void write_location(std::string_view name, const FileUri& place) {
+    json_.open(name, '{');
+    json_.write("uri", place.uri);
+    if (place.is_relative) json_.write("uriBaseId", root);
+    if (place.is_standard_input) write_message(json_, "description", "standard input");
+    json_.close('}');
   }
 
-  Json to_result(const Diagnostic& finding) {
-    const Json place = to_physical_location(finding.file, finding.range);
-    Json result = {
-        {"ruleId", finding.rule},
-        {"ruleIndex", find_rule(finding.rule) - all_rules().data()},
-        {"level", name_of(finding.severity)},
-        {"message", message(finding.message)},
-        {"locations", Json::array({Json::object({{"physicalLocation", place}})})},
-        {"partialFingerprints",
-         Json::object({{"cbcFinding/v1",
-                        fingerprint_of(finding, to_text(place["artifactLocation"]["uri"]))}})}};
+  void write_artifact(const std::string& file) {
+    const FileUri place = locate(file);
+    if (!known_artifacts_.insert(place.uri).second) return;
+    json_.on_new_line().open('{');
+    write_location("location", place);
+    json_.open("roles", '[');
+    json_.write("analysisTarget");
+    json_.close(']');
+    json_.close('}');
+  }
+
+  void write_physical_location(const std::string& file, const Range& range) {
+    json_.open("physicalLocation", '{');
+    write_location("artifactLocation", locate(file));
+    json_.open("region", '{');
+    json_.write("startLine", range.begin.line);
+    json_.write("startColumn", range.begin.column);
+    json_.write("endLine", range.end.line);
+    json_.write("endColumn", range.end.column);
+    json_.close('}');
+    json_.close('}');
+  }
+
+  void write_result(const Diagnostic& finding) {
+    json_.on_new_line().open('{');
+    json_.write("ruleId", finding.rule);
+    json_.write("ruleIndex", find_rule(finding.rule) - all_rules().data());
+    json_.write("level", name_of(finding.severity));
+    write_message(json_, "message", finding.message);
+    json_.open("locations", '[');
+    json_.open('{');
+    write_physical_location(finding.file, finding.range);
+    json_.close('}');
+    json_.close(']');
+    json_.open("partialFingerprints", '{');
+    json_.write("cbcFinding/v1", fingerprint_of(finding));
+    json_.close('}');
+    if (!finding.notes.empty()) write_related(finding.notes);
+    json_.close('}');
+  }
+
+  void write_related(const std::vector<Note>& notes) {
     std::size_t id = 0;
-    for (const Note& note : finding.notes) {
-      result["relatedLocations"].push_back(
-          {{"id", ++id},
-           {"physicalLocation", to_physical_location(note.file, note.range)},
-           {"message", message(note.message)}});
-    }
-    return result;
+    json_.write_list("relatedLocations", notes, [&](const Note& note) {
+      json_.open('{');
+      json_.write("id", ++id);
+      write_physical_location(note.file, note.range);
+      write_message(json_, "message", note.message);
+      json_.close('}');
+    });
   }
 
   /// Tells a finding from all others, wherever it moves to in its file.
-  std::string fingerprint_of(const Diagnostic& finding, const std::string& uri) {
+  std::string fingerprint_of(const Diagnostic& finding) {
+    std::string uri;
+    append_text(uri, locate(finding.file).uri);
     const std::string identity = fmt::format("{}\n{}\n{}", finding.rule, uri, finding.message);
     const std::size_t index = times_seen_[identity]++;
     return fmt::format("{:016x}", fingerprint(fmt::format("{}\n{}", identity, index)));
   }
 
+  JsonWriter& json_;
   const fs::path directory_;
-  const bool is_complete_;
   std::set<std::string> known_artifacts_;
   std::map<std::string, std::size_t> times_seen_;
-  std::string artifacts_ = "[";
-  std::string results_ = "[";
 };
 
 }  // namespace
 
 std::string lint_sarif(const std::vector<LintedFile>& files, std::string_view working_directory,
                        bool is_complete) {
-  Run run(working_directory, is_complete);
-  for (const LintedFile& file : files) run.add(file);
-  return R"({"$schema":)" + to_text(schema) + R"(,"version":"2.1.0","runs":[)" + run.text() +
-         "]}\n";
+  std::string text;
+  JsonWriter json(text);
+  json.open('{');
+  json.write("$schema", schema);
+  json.write("version", "2.1.0");
+  json.open("runs", '[');
+  Run(json, working_directory).write(files, is_complete);
+  json.close(']');
+  json.close('}');
+  return text + "\n";
 }
 
 }  // namespace cbc

@@ -458,9 +458,7 @@ void FailureStory::add(const EventRecord& record, const Step* step, const State&
   last_ = &record;
   last_step_ = step;
   note_stops(record, step, state);
-  const bool can_be_rejected =
-      record.verb == Verb::start || record.verb == Verb::stop || record.verb == Verb::finish;
-  if (record.origin != Origin::script || !can_be_rejected) return;
+  if (record.origin != Origin::script || !form_of(record.verb).is_decided) return;
   rejected_.clear();
   reasons_.clear();
   if (record.outcome != Outcome::rejected) return;
@@ -504,11 +502,10 @@ std::vector<std::string> FailureStory::tell(const Expectation& failed) const {
 }
 
 std::string FailureStory::describe(const EventRecord& record, const Step* step) const {
-  const bool has_outcome =
-      record.verb == Verb::start || record.verb == Verb::stop || record.verb == Verb::finish;
+  const std::string outcome = ": " + std::string(name_of(record.outcome));
   return fmt::format("event {} at {} s: {}{}", record.index, format_time(record.time),
                      describe_event(*catalog_, record, step),
-                     has_outcome ? fmt::format(": {}", name_of(record.outcome)) : "");
+                     form_of(record.verb).is_decided ? outcome : "");
 }
 
 }  // namespace cbc

@@ -12,12 +12,6 @@
 #include "support/json.h"
 
 namespace cbc {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-}  // namespace
-
 JsonReport::JsonReport(std::FILE* out, const EventAdditions& adds, bool is_part)
     : out_(out), adds_(adds) {
   if (!is_part) write(R"({"schema":"cbc.solve/1","runs":[)");
@@ -26,10 +20,15 @@ JsonReport::JsonReport(std::FILE* out, const EventAdditions& adds, bool is_part)
 void JsonReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
   catalog_ = &catalog;
   begin_item(is_first_run_, "\n");
-  write(R"({"catalog":)" + to_text(catalog.file) + R"(,"script":)" + to_text(script.file) +
-        R"(,"events":[)");
+  std::string text;
+  JsonWriter json(text);
+  json.open('{');
+  json.write("catalog", catalog.file);
+  json.write("script", script.file);
+  json.open("events", '[');
+  write(text);
   is_first_event_ = true;
-  failures_ = Json::array();
+  failures_.clear();
 }
 
 void JsonReport::on_event(const EventRecord& record, const Step* step, const State& state) {
@@ -40,17 +39,26 @@ void JsonReport::on_event(const EventRecord& record, const Step* step, const Sta
 }
 
 void JsonReport::on_failure(const Failure& failure) {
-  failures_.push_back(
-      {{"index", failure.index}, {"line", failure.range.begin.line}, {"message", failure.message}});
+  JsonWriter json(failures_);
+  json.open('{');
+  json.write("index", failure.index);
+  json.write("line", failure.range.begin.line);
+  json.write("message", failure.message);
+  json.close('}');
 }
 
 void JsonReport::end_run(const RunResult& result, const std::string& error) {
-  const Json expectations = {
-      {"passed", result.passed}, {"failed", result.failed}, {"failures", failures_}};
-  write(R"(],"expectations":)" + to_text(expectations));
-  if (result.totals) write(R"(,"totals":)" + to_text(stats_to_json(*result.totals)));
-  if (!error.empty()) write(R"(,"error":)" + to_text(error));
-  write("}");
+  std::string text = "]";
+  JsonWriter json(text);
+  json.open("expectations", '{');
+  json.write("passed", result.passed);
+  json.write("failed", result.failed);
+  json.write_json("failures", "[" + failures_ + "]");
+  json.close('}');
+  if (result.totals) write_totals(json, *result.totals);
+  if (!error.empty()) json.write("error", error);
+  json.close('}');
+  write(text);
   count(result);
 }
 
@@ -72,12 +80,14 @@ void JsonReport::add_part(std::string_view text, const RunResult& result) {
 }
 
 void JsonReport::end() {
-  write("]");
+  std::string text = "]";
+  JsonWriter json(text);
   if (totals_) {
-    write(R"(,"totals":)" + to_text(stats_to_json(*totals_)));
-    write(R"(,"process":)" + to_text(usage_to_json(process_usage())));
+    write_totals(json, *totals_);
+    write_process(json, process_usage());
   }
-  write("}\n");
+  json.close('}');
+  write(text + "\n");
 }
 
 void JsonReport::write(std::string_view text) { std::fwrite(text.data(), 1, text.size(), out_); }
@@ -106,9 +116,7 @@ std::vector<draw::RunState::RunningTask> running_tasks(const CompiledCatalog& ca
 /// With what came of it, where it can be rejected. Parameters are left out: they may be long.
 std::string describe(const CompiledCatalog& catalog, const EventRecord& record) {
   std::string text = describe_event(catalog, record, nullptr);
-  if (record.task != none || record.verb == Verb::finish) {
-    text += ": " + std::string(name_of(record.outcome));
-  }
+  if (form_of(record.verb).is_decided) text += ": " + std::string(name_of(record.outcome));
   return text;
 }
 
@@ -165,47 +173,35 @@ void StateRecorder::on_end(const State& state) {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr double one_percent = one_million / 100.0;
 
-Json behavior_to_json(const CompiledCatalog& catalog, BehaviorId behavior) {
-  Json performs = Json::array();
-  for (const ValueId value : catalog.performs[behavior]) {
-    performs.push_back({{"task", catalog.name_of_task(catalog.task_of(value))},
-                        {"suitability", catalog.values.items[value].suitability / one_percent}});
-  }
-  Json requires_tasks = Json::array();
-  for (const CompiledRequirement& requirement : catalog.requirements[behavior]) {
-    requires_tasks.push_back(catalog.name_of_task(requirement.task));
-  }
-  return {{"name", catalog.name_of_behavior(behavior)},
-          {"performs", performs},
-          {"requires", requires_tasks}};
-}
-
-/// Tasks and behaviors in catalog order; suitabilities in percent.
-Json catalog_to_json(const CompiledCatalog& catalog) {
-  Json tasks = Json::array();
-  for (const std::string_view name : catalog.task_names) tasks.push_back(name);
-  Json behaviors = Json::array();
-  for (const BehaviorId behavior : catalog.behavior_ids) {
-    behaviors.push_back(behavior_to_json(catalog, behavior));
-  }
-  Json exclusive = Json::array();
+/// What the picture needs of a catalog: tasks and behaviors in catalog order, suitabilities in
+/// percent.
+void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
+  const auto write_task = [&](TaskId task) { json.write(catalog.name_of_task(task)); };
+  json.open('{');
+  json.write_list("tasks", catalog.task_names);
+  json.write_list("behaviors", catalog.behavior_ids, [&](BehaviorId behavior) {
+    json.open('{');
+    json.write("name", catalog.name_of_behavior(behavior));
+    json.write_list("performs", catalog.performs[behavior], [&](ValueId value) {
+      json.open('{');
+      json.write("task", catalog.name_of_task(catalog.task_of(value)));
+      json.write("suitability", catalog.values.items[value].suitability / one_percent);
+      json.close('}');
+    });
+    json.write_list("requires", catalog.requirements[behavior],
+                    [&](const CompiledRequirement& required) { write_task(required.task); });
+    json.close('}');
+  });
+  json.open("exclusive", '[');
   for (std::size_t clique = 0; clique < catalog.cliques.size(); ++clique) {
-    Json& list = exclusive.emplace_back(Json::array());
-    for (const TaskId task : catalog.cliques[clique]) list.push_back(catalog.name_of_task(task));
+    json.open('[');
+    for (const TaskId task : catalog.cliques[clique]) write_task(task);
+    json.close(']');
   }
-  return {{"tasks", tasks}, {"behaviors", behaviors}, {"exclusive", exclusive}};
-}
-
-Json situation_to_json(const CompiledCatalog& catalog, const std::vector<Availability>& situation) {
-  Json json = Json::object();
-  for (const Availability& entry : situation) {
-    json[catalog.behavior_names[entry.behavior]] = entry.available;
-  }
-  return json;
+  json.close(']');
+  json.close('}');
 }
 
 /// JSON for a script element, which ends at the first "</script", wherever that stands, and is read
@@ -232,11 +228,19 @@ void put(std::string& page, std::string_view marker, std::string_view content) {
 void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
   auto place = std::find(catalogs_.begin(), catalogs_.end(), &catalog);
   if (place == catalogs_.end()) {
-    catalogs_json_.push_back(catalog_to_json(catalog));
+    JsonWriter json(catalogs_json_);
+    write_catalog(json, catalog);
     place = catalogs_.insert(place, &catalog);
   }
-  runs_.push_back({{"catalog", place - catalogs_.begin()},
-                   {"situation", situation_to_json(catalog, script.situation)}});
+  JsonWriter json(runs_json_);
+  json.open('{');
+  json.write("catalog", place - catalogs_.begin());
+  json.open("situation", '{');
+  for (const Availability& entry : script.situation) {
+    json.write(catalog.behavior_names[entry.behavior], entry.available);
+  }
+  json.close('}');
+  json.close('}');
   json_.begin_run(catalog, script);
 }
 
@@ -255,8 +259,8 @@ void HtmlReport::end_run(const RunResult& result, const std::string& error) {
 void HtmlReport::end() { json_.end(); }
 
 std::string HtmlReport::page() {
-  std::string data = R"({"catalogs":)" + to_text(catalogs_json_) + R"(,"runs":)" + to_text(runs_) +
-                     R"(,"report":)";
+  std::string data =
+      R"({"catalogs":)" + catalogs_json_ + R"(],"runs":)" + runs_json_ + R"(],"report":)";
   data += memory_.text();
   data += "}";
   std::string script;

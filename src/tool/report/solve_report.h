@@ -11,9 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-#include <nlohmann/json_fwd.hpp>
-
 #include "cbc/units.h"
 #include "compiled/compiled_catalog.h"
 #include "coordinator/record.h"
@@ -25,6 +22,7 @@
 #include "report/sentences.h"
 #include "script/runner.h"
 #include "script/script.h"
+#include "support/json.h"
 
 namespace cbc {
 
@@ -76,14 +74,14 @@ struct ProcessUsage {
 /// What one search took, in a line.
 [[nodiscard]] std::string stats_line(const SearchRecord& search);
 
-/// The same as the table, without the process: {"events", "solutions", "nodes", "propagations",
-/// "elapsed_us", "kinds"}. Each measure is {"sum", "mean", "min", "max"}, the last three null where
-/// there was no event; each of the kinds that there were has "verb", "origin", and the same
-/// measures.
-[[nodiscard]] nlohmann::ordered_json stats_to_json(const SearchTotals& totals);
+/// Writes the member "totals": the same as the table, without the process. It is {"events",
+/// "solutions", "nodes", "propagations", "elapsed_us", "kinds"}. Each measure is {"sum", "mean",
+/// "min", "max"}, the last three null where there was no event; each of the kinds that there were
+/// has "verb", "origin", and the same measures.
+void write_totals(JsonWriter& json, const SearchTotals& totals);
 
-/// {"peak_memory_bytes", "cpu_us"}
-[[nodiscard]] nlohmann::ordered_json usage_to_json(const ProcessUsage& usage);
+/// Writes the member "process": {"peak_memory_bytes", "cpu_us"}.
+void write_process(JsonWriter& json, const ProcessUsage& usage);
 
 /// Microseconds, exact to the nanosecond.
 [[nodiscard]] double to_microseconds(std::uint64_t nanoseconds);
@@ -248,7 +246,7 @@ class JsonReport final : public SolveReport {
   bool is_first_event_ = true;
   std::string event_;                   ///< kept for its memory
   std::optional<SearchTotals> totals_;  ///< if time was measured
-  nlohmann::ordered_json failures_;
+  std::string failures_;                ///< of the run, as JSON
 };
 
 /// Makes one page of all runs, with everything in it: a picture to look at, to step through, to
@@ -271,8 +269,8 @@ class HtmlReport final : public SolveReport {
   MemoryFile memory_;
   JsonReport json_;
   std::vector<const CompiledCatalog*> catalogs_;
-  nlohmann::ordered_json catalogs_json_ = nlohmann::ordered_json::array();
-  nlohmann::ordered_json runs_ = nlohmann::ordered_json::array();
+  std::string catalogs_json_ = "[";
+  std::string runs_json_ = "[";
 };
 
 /// Writes failed expectations, and runs that ended early, as workflow commands of GitHub Actions:

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/text.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
+#include "support/json.h"
 #include "support/wording.h"
 
 namespace cbc {
@@ -28,8 +28,6 @@ ProcessUsage process_usage() {
 }
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 double mean(const Spread& spread, std::uint64_t count) {
   return static_cast<double>(spread.sum) / static_cast<double>(count);
@@ -63,28 +61,32 @@ std::string rows(const std::string& name, const SearchEffort& effort) {
          columns_of_time(effort.nanoseconds, effort.events);
 }
 
-Json spread_to_json(const Spread& spread, std::uint64_t count) {
-  if (count == 0) return {{"sum", 0}, {"mean", nullptr}, {"min", nullptr}, {"max", nullptr}};
-  return {{"sum", spread.sum},
-          {"mean", mean(spread, count)},
-          {"min", spread.least},
-          {"max", spread.greatest}};
+/// `to_unit` makes a number of what the spread counts.
+template <typename ToUnit>
+void write_spread(JsonWriter& json, std::string_view name, const Spread& spread,
+                  std::uint64_t count, double mean_unit, ToUnit to_unit) {
+  json.open(name, '{');
+  if (count == 0) {
+    json.write("sum", 0);
+    for (const std::string_view key : {"mean", "min", "max"}) json.write(key, nullptr);
+  } else {
+    json.write("sum", to_unit(spread.sum));
+    json.write("mean", mean(spread, count) / mean_unit);
+    json.write("min", to_unit(spread.least));
+    json.write("max", to_unit(spread.greatest));
+  }
+  json.close('}');
 }
 
-Json time_to_json(const Spread& spread, std::uint64_t count) {
-  if (count == 0) return spread_to_json(spread, count);
-  return {{"sum", to_microseconds(spread.sum)},
-          {"mean", mean(spread, count) / 1000},
-          {"min", to_microseconds(spread.least)},
-          {"max", to_microseconds(spread.greatest)}};
-}
-
-void add_effort(Json& json, const SearchEffort& effort) {
-  json["events"] = effort.events;
-  json["solutions"] = spread_to_json(effort.solutions, effort.events);
-  json["nodes"] = spread_to_json(effort.nodes, effort.events);
-  json["propagations"] = spread_to_json(effort.propagations, effort.events);
-  json["elapsed_us"] = time_to_json(effort.nanoseconds, effort.events);
+void write_effort(JsonWriter& json, const SearchEffort& effort) {
+  const auto write = [&](std::string_view name, const Spread& spread) {
+    write_spread(json, name, spread, effort.events, 1, [](std::uint64_t count) { return count; });
+  };
+  json.write("events", effort.events);
+  write("solutions", effort.solutions);
+  write("nodes", effort.nodes);
+  write("propagations", effort.propagations);
+  write_spread(json, "elapsed_us", effort.nanoseconds, effort.events, 1000, to_microseconds);
 }
 
 }  // namespace
@@ -118,22 +120,27 @@ std::string stats_line(const SearchRecord& search) {
   return text;
 }
 
-Json stats_to_json(const SearchTotals& totals) {
-  Json json;
-  add_effort(json, totals.all());
-  Json& kinds = json["kinds"] = Json::array();
+void write_totals(JsonWriter& json, const SearchTotals& totals) {
+  json.open("totals", '{');
+  write_effort(json, totals.all());
+  json.open("kinds", '[');
   for (std::size_t kind = 0; kind < SearchTotals::kinds.size(); ++kind) {
     if (totals.of_kind(kind).events == 0) continue;
-    Json& entry = kinds.emplace_back(Json::object());
-    entry["verb"] = name_of(SearchTotals::kinds[kind].verb);
-    entry["origin"] = name_of(SearchTotals::kinds[kind].origin);
-    add_effort(entry, totals.of_kind(kind));
+    json.open('{');
+    json.write("verb", name_of(SearchTotals::kinds[kind].verb));
+    json.write("origin", name_of(SearchTotals::kinds[kind].origin));
+    write_effort(json, totals.of_kind(kind));
+    json.close('}');
   }
-  return json;
+  json.close(']');
+  json.close('}');
 }
 
-Json usage_to_json(const ProcessUsage& usage) {
-  return {{"peak_memory_bytes", usage.peak_memory}, {"cpu_us", usage.cpu_time}};
+void write_process(JsonWriter& json, const ProcessUsage& usage) {
+  json.open("process", '{');
+  json.write("peak_memory_bytes", usage.peak_memory);
+  json.write("cpu_us", usage.cpu_time);
+  json.close('}');
 }
 
 namespace {
@@ -204,15 +211,8 @@ void TextReport::on_event(const EventRecord& record, const Step* step, const Sta
 }
 
 std::string TextReport::describe_outcome(const EventRecord& record) const {
+  if (!form_of(record.verb).is_decided) return {};
   std::string_view color = style_.faint;
-  switch (record.verb) {
-    case Verb::start:
-    case Verb::stop:
-    case Verb::finish:
-      break;
-    default:
-      return {};  // there is nothing to accept or reject
-  }
   if (record.outcome == Outcome::accepted) color = style_.good;
   if (record.outcome == Outcome::rejected) color = style_.bad;
   const bool is_cut = record.search && record.search->result.status == SearchStatus::feasible;

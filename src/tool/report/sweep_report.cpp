@@ -4,19 +4,18 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/text.h"
 #include "support/json.h"
 #include "support/wording.h"
 #include "sweep/sweep.h"
+#include "yaml/json_value.h"
 
 namespace cbc {
 namespace {
@@ -197,259 +196,262 @@ std::string sweep_to_text(const SweepResult& result, const Style& style) {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 double to_share(Millionths share) { return share / double{one_million}; }
 
-Json options_to_json(const SweepSettings& settings) {
+void write_options(JsonWriter& json, const SweepSettings& settings) {
   const SweepSearch& search = settings.search;
-  return {{"events", settings.shape.events},
-          {"priorities", settings.shape.priorities},
-          {"failures", to_share(settings.shape.failures)},
-          {"faults", to_share(settings.shape.faults)},
-          {"max_solutions", search.max_solutions},
-          {"max_nodes", search.max_nodes},
-          {"tie_seed", search.tie_seed ? Json(*search.tie_seed) : Json(nullptr)},
-          {"max_clock_events", search.max_clock_events}};
+  json.on_new_line().open("options", '{');
+  json.write("events", settings.shape.events);
+  json.write("priorities", settings.shape.priorities);
+  json.write("failures", to_share(settings.shape.failures));
+  json.write("faults", to_share(settings.shape.faults));
+  json.write("max_solutions", search.max_solutions);
+  json.write("max_nodes", search.max_nodes);
+  json.write("tie_seed", search.tie_seed);
+  json.write("max_clock_events", search.max_clock_events);
+  json.close('}');
 }
 
-std::vector<Json> events_to_json(const SweepCounts& counts) {
-  std::vector<Json> items;
+void write_events(JsonWriter& json, const SweepCounts& counts) {
+  json.on_new_line().open("events", '[');
   for (std::size_t kind = 0; kind < sweep_kinds; ++kind) {
     const OutcomeCounts& of_kind = counts.events[kind];
-    items.push_back({{"kind", name_of(static_cast<SweepKind>(kind))},
-                     {"accepted", of_kind.accepted},
-                     {"escalated", of_kind.escalated},
-                     {"rejected", of_kind.rejected},
-                     {"unchanged", of_kind.unchanged}});
+    json.on_new_line().open('{');
+    json.write("kind", name_of(static_cast<SweepKind>(kind)));
+    json.write("accepted", of_kind.accepted);
+    json.write("escalated", of_kind.escalated);
+    json.write("rejected", of_kind.rejected);
+    json.write("unchanged", of_kind.unchanged);
+    json.close('}');
   }
-  return items;
+  json.close(']');
 }
 
-std::vector<Json> tasks_to_json(const SweepResult& result) {
-  std::vector<Json> items;
+void write_tasks(JsonWriter& json, const SweepResult& result) {
+  json.on_new_line().open("tasks", '[');
   for (std::size_t task = 0; task < result.task_names.size(); ++task) {
     const TaskCounts& counts = result.counts.tasks[task];
-    items.push_back({{"task", result.task_names[task]},
-                     {"started", counts.starts},
-                     {"rejected", counts.rejected},
-                     {"runs", counts.runs}});
+    json.on_new_line().open('{');
+    json.write("task", result.task_names[task]);
+    json.write("started", counts.starts);
+    json.write("rejected", counts.rejected);
+    json.write("runs", counts.runs);
+    json.close('}');
   }
-  return items;
+  json.close(']');
 }
 
-std::vector<Json> behaviors_to_json(const SweepResult& result) {
-  std::vector<Json> items;
+void write_behaviors(JsonWriter& json, const SweepResult& result) {
+  json.on_new_line().open("behaviors", '[');
   for (std::size_t behavior = 0; behavior < result.behavior_names.size(); ++behavior) {
     const BehaviorCounts& counts = result.counts.behaviors[behavior];
-    items.push_back({{"behavior", result.behavior_names[behavior]},
-                     {"activations", counts.activations},
-                     {"failures", counts.failures}});
+    json.on_new_line().open('{');
+    json.write("behavior", result.behavior_names[behavior]);
+    json.write("activations", counts.activations);
+    json.write("failures", counts.failures);
+    json.close('}');
   }
-  return items;
+  json.close(']');
 }
 
-std::vector<Json> reasons_to_json(const SweepResult& result) {
-  std::vector<Json> items;
+/// The names whose count is 0.
+template <typename Count>
+void write_unused(JsonWriter& json, std::string_view key, const std::vector<std::string>& names,
+                  Count count) {
+  json.on_new_line().open(key, '[');
+  for (std::size_t place = 0; place < names.size(); ++place) {
+    if (count(place) == 0) json.write(names[place]);
+  }
+  json.close(']');
+}
+
+void write_reasons(JsonWriter& json, const SweepResult& result) {
+  json.on_new_line().open("reasons", '[');
   for (const auto& [reason, count] : result.counts.reasons) {
-    Json& item = items.emplace_back(Json::object());
-    item["kind"] = name_of(reason.kind);
-    if (reason.behavior != none) item["behavior"] = result.behavior_names[reason.behavior];
+    json.on_new_line().open('{');
+    json.write("kind", name_of(reason.kind));
+    if (reason.behavior != none) json.write("behavior", result.behavior_names[reason.behavior]);
     if (reason.other_task != none) {
-      item["tasks"] = {result.task_names[reason.task], result.task_names[reason.other_task]};
+      json.open("tasks", '[');
+      json.write(result.task_names[reason.task]);
+      json.write(result.task_names[reason.other_task]);
+      json.close(']');
     } else if (reason.task != none) {
-      item["task"] = result.task_names[reason.task];
+      json.write("task", result.task_names[reason.task]);
     }
-    item["count"] = count;
+    json.write("count", count);
+    json.close('}');
   }
-  return items;
+  json.close(']');
 }
 
-Json slowest_to_json(const std::optional<SlowestEvent>& slowest, const char* unit) {
-  if (!slowest) return nullptr;
-  return {{"sequence", slowest->sequence},
-          {"event", slowest->event},
-          {"what", slowest->what},
-          {unit, slowest->cost},
-          {"script", slowest->script}};
+void write_slowest(JsonWriter& json, const std::optional<SlowestEvent>& slowest,
+                   std::string_view unit) {
+  if (!slowest) return json.write("slowest", nullptr);
+  json.open("slowest", '{');
+  json.write("sequence", slowest->sequence);
+  json.write("event", slowest->event);
+  json.write("what", slowest->what);
+  json.write(unit, slowest->cost);
+  json.write("script", slowest->script);
+  json.close('}');
 }
 
-Json histogram_to_json(const Histogram& histogram, const std::optional<SlowestEvent>& slowest) {
-  Json counts = Json::array();
-  for (const auto& [number, count] : histogram.counts()) counts.push_back({number, count});
-  return {{"p50", histogram.median()},
-          {"p99", histogram.percentile_99()},
-          {"max", slowest ? slowest->cost : 0},
-          {"histogram", std::move(counts)}};
+void write_histogram(JsonWriter& json, std::string_view name, const Histogram& histogram,
+                     const std::optional<SlowestEvent>& slowest) {
+  json.open(name, '{');
+  json.write("p50", histogram.median());
+  json.write("p99", histogram.percentile_99());
+  json.write("max", slowest ? slowest->cost : 0);
+  json.write_list("histogram", histogram.counts(), [&](const auto& entry) {
+    json.open('[');
+    json.write(entry.first);
+    json.write(entry.second);
+    json.close(']');
+  });
+  json.close('}');
 }
-
-/// Writes an object with one member on a line.
-class Members {
- public:
-  void add(const char* name, const Json& value) { add_text(name, to_text(value)); }
-  /// An array with one item on a line.
-  void add(const char* name, const std::vector<Json>& items) {
-    std::string array = "[";
-    for (const Json& item : items) append_item(array, to_text(item));
-    add_text(name, array + "]");
-  }
-  [[nodiscard]] std::string take() { return std::move(text_) + "}\n"; }
-
- private:
-  void add_text(const char* name, const std::string& value) {
-    text_ += text_.empty() ? "{" : ",\n";
-    text_ += to_text(name) + ":" + value;
-  }
-
-  std::string text_;
-};
 
 }  // namespace
 
 std::string sweep_to_json(const SweepResult& result) {
-  Json never_active = Json::array();
-  for (std::size_t place = 0; place < result.behavior_names.size(); ++place) {
-    if (result.counts.behaviors[place].activations == 0) {
-      never_active.push_back(result.behavior_names[place]);
-    }
-  }
-  Json never_ran = Json::array();
-  for (std::size_t place = 0; place < result.task_names.size(); ++place) {
-    if (result.counts.tasks[place].runs == 0) never_ran.push_back(result.task_names[place]);
-  }
+  const SweepCounts& counts = result.counts;
   const SweepShard& shard = result.settings.shard;
-  Members members;
-  members.add("schema", "cbc.sweep/1");
-  members.add("catalog", result.catalog);
-  members.add("digest", result.digest);
-  members.add("version", result.version);
-  members.add("sequences", result.settings.sequences);
-  members.add("seed", result.settings.seed);
-  members.add("options", options_to_json(result.settings));
-  members.add("shard", Json{{"index", shard.index}, {"count", shard.count}});
-  members.add("events", events_to_json(result.counts));
-  members.add("tasks", tasks_to_json(result));
-  members.add("behaviors", behaviors_to_json(result));
-  members.add("never_ran", never_ran);
-  members.add("never_active", never_active);
-  members.add("reasons", reasons_to_json(result));
-  members.add("nodes", histogram_to_json(result.nodes, result.slowest));
-  members.add("slowest", slowest_to_json(result.slowest, "nodes"));
+  std::string text;
+  JsonWriter json(text);
+  json.open('{');
+  json.write("schema", "cbc.sweep/1");
+  json.on_new_line().write("catalog", result.catalog);
+  json.on_new_line().write("digest", result.digest);
+  json.on_new_line().write("version", result.version);
+  json.on_new_line().write("sequences", result.settings.sequences);
+  json.on_new_line().write("seed", result.settings.seed);
+  write_options(json, result.settings);
+  json.on_new_line().open("shard", '{');
+  json.write("index", shard.index);
+  json.write("count", shard.count);
+  json.close('}');
+  write_events(json, counts);
+  write_tasks(json, result);
+  write_behaviors(json, result);
+  write_unused(json, "never_ran", result.task_names,
+               [&](std::size_t task) { return counts.tasks[task].runs; });
+  write_unused(json, "never_active", result.behavior_names,
+               [&](std::size_t behavior) { return counts.behaviors[behavior].activations; });
+  write_reasons(json, result);
+  json.on_new_line();
+  write_histogram(json, "nodes", result.nodes, result.slowest);
+  json.on_new_line();
+  write_slowest(json, result.slowest, "nodes");
   if (result.times) {
-    const SweepTimes& times = *result.times;
-    members.add("stats", Json{{"elapsed_us", times.elapsed},
-                              {"event_ns", histogram_to_json(times.events, times.slowest)},
-                              {"slowest", slowest_to_json(times.slowest, "ns")}});
+    json.on_new_line().open("stats", '{');
+    json.write("elapsed_us", result.times->elapsed);
+    write_histogram(json, "event_ns", result.times->events, result.times->slowest);
+    write_slowest(json, result.times->slowest, "ns");
+    json.close('}');
   }
-  return members.take();
+  json.close('}');
+  return text + "\n";
 }
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using yaml::JsonFault;
+using yaml::JsonValue;
 using Places = std::unordered_map<std::string, std::uint32_t>;
 
-constexpr std::uint64_t any_number = std::numeric_limits<std::uint64_t>::max();
-
-/// Reads members, and keeps the first thing that is wrong. After that whatever it returns means
-/// nothing, and loops end soon, as all is empty.
 class SweepReader {
  public:
-  [[nodiscard]] std::variant<SweepResult, std::string> read(const Json& root) {
-    read_all(root);
-    if (!fault_.empty()) return std::move(fault_);
+  /// Throws a JsonFault.
+  [[nodiscard]] SweepResult read(const JsonValue& root) {
+    if (root["schema"].text() != "cbc.sweep/1") throw JsonFault("its schema is not 'cbc.sweep/1'");
+    result_.catalog = root["catalog"].text();
+    result_.digest = root["digest"].text();
+    result_.version = root["version"].text();
+    read_settings(root);
+    read_events(root["events"].items());
+    read_tasks(root["tasks"].items());
+    read_behaviors(root["behaviors"].items());
+    for (const JsonValue& reason : root["reasons"].items()) read_reason(reason);
+    result_.slowest = read_slowest(root["slowest"], "nodes");
+    result_.nodes = read_histogram(root["nodes"]);
+    check_slowest(result_.slowest, result_.nodes);
+    if (const auto stats = root.find("stats")) read_times(*stats);
     return std::move(result_);
   }
 
  private:
-  void read_all(const Json& root) {
-    if (text(root, "schema") != "cbc.sweep/1") return fail("its schema is not 'cbc.sweep/1'");
-    result_.catalog = text(root, "catalog");
-    result_.digest = text(root, "digest");
-    result_.version = text(root, "version");
-    read_settings(root);
-    read_events(root);
-    read_tasks(root);
-    read_behaviors(root);
-    for (const Json& reason : list(root, "reasons")) read_reason(reason);
-    result_.slowest = read_slowest(root, "nodes");
-    result_.nodes = read_histogram(member(root, "nodes"));
-    check_slowest(result_.slowest, result_.nodes);
-    if (root.is_object() && root.contains("stats")) read_times(root["stats"]);
-  }
-
-  void read_settings(const Json& root) {
+  void read_settings(const JsonValue& root) {
     SweepSettings& settings = result_.settings;
-    settings.sequences = number(root, "sequences", 1, largest_count);
-    settings.seed = number(root, "seed", 0, any_number);
-    const Json& options = member(root, "options");
-    settings.shape.events =
-        static_cast<std::uint32_t>(number(options, "events", 1, std::uint32_t(-1)));
-    settings.shape.priorities = static_cast<std::int32_t>(
-        number(options, "priorities", 1, std::numeric_limits<std::int32_t>::max()));
-    settings.shape.failures = share(options, "failures");
-    settings.shape.faults = share(options, "faults");
-    settings.search.max_solutions = number(options, "max_solutions", 0, any_number);
-    settings.search.max_nodes = number(options, "max_nodes", 0, any_number);
-    if (!member(options, "tie_seed").is_null()) {
-      settings.search.tie_seed = number(options, "tie_seed", 0, any_number);
+    settings.sequences = root["sequences"].integer<std::uint64_t>(1, largest_count);
+    settings.seed = root["seed"].integer<std::uint64_t>();
+    const JsonValue options = root["options"];
+    settings.shape.events = options["events"].integer<std::uint32_t>(1);
+    settings.shape.priorities = options["priorities"].integer<std::int32_t>(1);
+    settings.shape.failures = share(options["failures"]);
+    settings.shape.faults = share(options["faults"]);
+    settings.search.max_solutions = options["max_solutions"].integer<std::uint64_t>();
+    settings.search.max_nodes = options["max_nodes"].integer<std::uint64_t>();
+    if (const JsonValue seed = options["tie_seed"]; !seed.is_null()) {
+      settings.search.tie_seed = seed.integer<std::uint64_t>();
     }
-    settings.search.max_clock_events = number(options, "max_clock_events", 1, any_number);
-    const Json& shard = member(root, "shard");
-    settings.shard.count = number(shard, "count", 1, most_shards);
-    settings.shard.index = number(shard, "index", 1, settings.shard.count);
+    settings.search.max_clock_events = options["max_clock_events"].integer<std::uint64_t>(1);
+    const JsonValue shard = root["shard"];
+    settings.shard.count = shard["count"].integer<std::uint64_t>(1, most_shards);
+    settings.shard.index = shard["index"].integer<std::uint64_t>(1, settings.shard.count);
   }
 
-  void read_events(const Json& root) {
-    const Json::array_t& events = list(root, "events");
-    if (events.size() != sweep_kinds) return fail("'events' has not one item for each kind");
+  void read_events(const std::vector<JsonValue>& events) {
+    if (events.size() != sweep_kinds) {
+      throw JsonFault("'events' does not have one item for each kind");
+    }
     for (std::size_t kind = 0; kind < sweep_kinds; ++kind) {
-      if (text(events[kind], "kind") != name_of(static_cast<SweepKind>(kind))) {
-        return fail("the kinds of 'events' are not those of this version");
+      if (events[kind]["kind"].text() != name_of(static_cast<SweepKind>(kind))) {
+        throw JsonFault("the kinds of 'events' are not those of this version");
       }
       OutcomeCounts& counts = result_.counts.events[kind];
-      counts.accepted = count(events[kind], "accepted");
-      counts.escalated = number(events[kind], "escalated", 0, counts.accepted);
-      counts.rejected = count(events[kind], "rejected");
-      counts.unchanged = count(events[kind], "unchanged");
+      counts.accepted = count(events[kind]["accepted"]);
+      counts.escalated = events[kind]["escalated"].integer<std::uint64_t>(0, counts.accepted);
+      counts.rejected = count(events[kind]["rejected"]);
+      counts.unchanged = count(events[kind]["unchanged"]);
     }
   }
 
-  void read_tasks(const Json& root) {
-    for (const Json& item : list(root, "tasks")) {
-      add_name(text(item, "task"), result_.task_names, places_of_tasks_);
+  void read_tasks(const std::vector<JsonValue>& tasks) {
+    for (const JsonValue& item : tasks) {
+      add_name(item["task"].text(), result_.task_names, places_of_tasks_);
       result_.counts.tasks.push_back(
-          {count(item, "started"), count(item, "rejected"), count(item, "runs")});
+          {count(item["started"]), count(item["rejected"]), count(item["runs"])});
     }
   }
 
-  void read_behaviors(const Json& root) {
-    for (const Json& item : list(root, "behaviors")) {
-      add_name(text(item, "behavior"), result_.behavior_names, places_of_behaviors_);
-      result_.counts.behaviors.push_back({count(item, "activations"), count(item, "failures")});
+  void read_behaviors(const std::vector<JsonValue>& behaviors) {
+    for (const JsonValue& item : behaviors) {
+      add_name(item["behavior"].text(), result_.behavior_names, places_of_behaviors_);
+      result_.counts.behaviors.push_back({count(item["activations"]), count(item["failures"])});
     }
   }
 
-  void read_reason(const Json& item) {
+  void read_reason(const JsonValue& item) {
     RejectionReason reason;
-    reason.kind = kind_of_reason(text(item, "kind"));
-    if (item.is_object() && item.contains("behavior")) {
-      reason.behavior = find_place(text(item, "behavior"), places_of_behaviors_);
+    reason.kind = kind_of_reason(item["kind"].text());
+    if (const auto behavior = item.find("behavior")) {
+      reason.behavior = find_place(*behavior, places_of_behaviors_);
     }
-    if (item.is_object() && item.contains("tasks")) {
-      const Json::array_t& pair = list(item, "tasks");
-      if (pair.size() != 2) return fail("'tasks' of a reason is no pair");
-      reason.task = find_place(to_name(pair[0]), places_of_tasks_);
-      reason.other_task = find_place(to_name(pair[1]), places_of_tasks_);
-    } else if (item.is_object() && item.contains("task")) {
-      reason.task = find_place(text(item, "task"), places_of_tasks_);
+    if (const auto tasks = item.find("tasks")) {
+      const std::vector<JsonValue> pair = tasks->items();
+      if (pair.size() != 2) throw JsonFault("'tasks' of a reason is not a pair");
+      reason.task = find_place(pair[0], places_of_tasks_);
+      reason.other_task = find_place(pair[1], places_of_tasks_);
+    } else if (const auto task = item.find("task")) {
+      reason.task = find_place(*task, places_of_tasks_);
     }
     check_members(reason);
-    result_.counts.reasons[reason] = number(item, "count", 1, largest_count);
+    result_.counts.reasons[reason] = item["count"].integer<std::uint64_t>(1, largest_count);
   }
 
-  /// Reports look at the members that a reason of its kind has.
-  void check_members(const RejectionReason& reason) {
+  /// Reports use the members that a reason of its kind has.
+  static void check_members(const RejectionReason& reason) {
     const bool has_task = reason.task != none;
     const bool has_behavior = reason.behavior != none;
     bool is_right = false;
@@ -458,6 +460,7 @@ class SweepReader {
       case Reason::Kind::no_behavior:
       case Reason::Kind::is_protected:
       case Reason::Kind::on_request:
+      case Reason::Kind::performance:
         is_right = has_task;
         break;
       case Reason::Kind::exclusive:
@@ -466,9 +469,6 @@ class SweepReader {
       case Reason::Kind::requires_task:
         is_right = has_task && has_behavior;
         break;
-      case Reason::Kind::performance:
-        is_right = has_task;
-        break;
       case Reason::Kind::unavailable:
       case Reason::Kind::faulty:
         is_right = has_behavior;
@@ -476,44 +476,40 @@ class SweepReader {
       case Reason::Kind::finished:
         break;  // of no rejected event
     }
-    if (!is_right) fail("a reason lacks a task or a behavior");
+    if (!is_right) throw JsonFault("a reason lacks a task or a behavior");
   }
 
-  void read_times(const Json& stats) {
+  void read_times(const JsonValue& stats) {
     SweepTimes& times = result_.times.emplace();
-    times.elapsed = count(stats, "elapsed_us");
-    times.slowest = read_slowest(stats, "ns");
-    times.events = read_histogram(member(stats, "event_ns"));
+    times.elapsed = count(stats["elapsed_us"]);
+    times.slowest = read_slowest(stats["slowest"], "ns");
+    times.events = read_histogram(stats["event_ns"]);
     check_slowest(times.slowest, times.events);
   }
 
-  [[nodiscard]] std::optional<SlowestEvent> read_slowest(const Json& parent, const char* unit) {
-    const Json& item = member(parent, "slowest");
+  [[nodiscard]] std::optional<SlowestEvent> read_slowest(const JsonValue& item,
+                                                         std::string_view unit) const {
     if (item.is_null()) return std::nullopt;
     SlowestEvent slowest;
-    slowest.sequence = number(item, "sequence", 1, result_.settings.sequences);
-    slowest.event = number(item, "event", 1, largest_count);
-    slowest.what = text(item, "what");
-    slowest.cost = count(item, unit);
-    slowest.script = text(item, "script");
+    slowest.sequence = item["sequence"].integer<std::uint64_t>(1, result_.settings.sequences);
+    slowest.event = item["event"].integer<std::uint64_t>(1, largest_count);
+    slowest.what = item["what"].text();
+    slowest.cost = count(item[unit]);
+    slowest.script = item["script"].text();
     return slowest;
   }
 
-  [[nodiscard]] Histogram read_histogram(const Json& item) {
+  [[nodiscard]] static Histogram read_histogram(const JsonValue& item) {
     Histogram histogram;
     std::uint64_t next = 0;
-    for (const Json& entry : list(item, "histogram")) {
-      if (!entry.is_array() || entry.size() != 2 || !entry[0].is_number_unsigned() ||
-          !entry[1].is_number_unsigned()) {
-        fail("an entry of 'histogram' is no pair of whole numbers");
-        break;
-      }
-      const auto value = entry[0].get<std::uint64_t>();
-      const auto times = entry[1].get<std::uint64_t>();
-      if (value < next || value > largest_count || Histogram::round_down(value) != value ||
-          times == 0 || times > largest_count - histogram.total()) {
-        fail("the numbers of 'histogram' are out of range or out of order");
-        break;
+    for (const JsonValue& entry : item["histogram"].items()) {
+      const std::vector<JsonValue> pair = entry.items();
+      if (pair.size() != 2) throw JsonFault("an entry of 'histogram' is not a pair");
+      const auto value = count(pair[0]);
+      const auto times = count(pair[1]);
+      if (value < next || Histogram::round_down(value) != value || times == 0 ||
+          times > largest_count - histogram.total()) {
+        throw JsonFault("the numbers of 'histogram' are out of range or out of order");
       }
       histogram.add_rounded(value, times);
       next = value + 1;
@@ -521,113 +517,63 @@ class SweepReader {
     return histogram;
   }
 
-  void check_slowest(const std::optional<SlowestEvent>& slowest, const Histogram& histogram) {
+  static void check_slowest(const std::optional<SlowestEvent>& slowest,
+                            const Histogram& histogram) {
     const bool fits = slowest ? histogram.total() > 0 &&
                                     Histogram::round_down(slowest->cost) == histogram.maximum()
                               : histogram.total() == 0;
-    if (!fits) fail("'slowest' does not fit the histogram");
+    if (!fits) throw JsonFault("'slowest' does not fit the histogram");
   }
 
-  // Members.
-
-  void fail(std::string fault) {
-    if (fault_.empty()) fault_ = std::move(fault);
+  [[nodiscard]] static std::uint64_t count(const JsonValue& value) {
+    return value.integer<std::uint64_t>(0, largest_count);
   }
 
-  [[nodiscard]] const Json& member(const Json& parent, const char* name) {
-    static const Json null;
-    if (parent.is_object()) {
-      const auto found = parent.find(name);
-      if (found != parent.end()) return *found;
-    }
-    fail(fmt::format("it lacks {}", quote(name)));
-    return null;
+  [[nodiscard]] static Millionths share(const JsonValue& value) {
+    return static_cast<Millionths>(std::lround(value.number(0, 1, "from 0 to 1") * one_million));
   }
 
-  [[nodiscard]] const Json::array_t& list(const Json& parent, const char* name) {
-    static const Json::array_t empty;
-    const Json& item = member(parent, name);
-    if (item.is_array() && fault_.empty()) return item.get_ref<const Json::array_t&>();
-    fail(fmt::format("{} is no list", quote(name)));
-    return empty;
-  }
-
-  [[nodiscard]] std::string text(const Json& parent, const char* name) {
-    const Json& item = member(parent, name);
-    if (item.is_string()) return item.get<std::string>();
-    fail(fmt::format("{} is no text", quote(name)));
-    return {};
-  }
-
-  [[nodiscard]] std::string to_name(const Json& item) {
-    if (item.is_string()) return item.get<std::string>();
-    fail("'tasks' of a reason has no names");
-    return {};
-  }
-
-  [[nodiscard]] std::uint64_t number(const Json& parent, const char* name, std::uint64_t least,
-                                     std::uint64_t most) {
-    const Json& item = member(parent, name);
-    if (item.is_number_unsigned()) {
-      const auto value = item.get<std::uint64_t>();
-      if (value >= least && value <= most) return value;
-    }
-    fail(fmt::format("{} is no whole number from {} to {}", quote(name), least, most));
-    return least;
-  }
-
-  [[nodiscard]] std::uint64_t count(const Json& parent, const char* name) {
-    return number(parent, name, 0, largest_count);
-  }
-
-  [[nodiscard]] Millionths share(const Json& parent, const char* name) {
-    const Json& item = member(parent, name);
-    if (item.is_number()) {
-      const auto value = item.get<double>();
-      if (value >= 0 && value <= 1)
-        return static_cast<Millionths>(std::lround(value * one_million));
-    }
-    fail(fmt::format("{} is no number from 0 to 1", quote(name)));
-    return 0;
-  }
-
-  void add_name(std::string name, std::vector<std::string>& names, Places& places) {
+  static void add_name(std::string name, std::vector<std::string>& names, Places& places) {
     if (!places.emplace(name, static_cast<std::uint32_t>(names.size())).second) {
-      fail(fmt::format("{} occurs twice", quote(name)));
+      throw JsonFault(quote(name) + " occurs twice");
     }
     names.push_back(std::move(name));
   }
 
-  [[nodiscard]] std::uint32_t find_place(const std::string& name, const Places& places) {
+  [[nodiscard]] static std::uint32_t find_place(const JsonValue& value, const Places& places) {
+    const std::string name = value.text();
     const auto found = places.find(name);
-    if (found != places.end()) return found->second;
-    fail(fmt::format("a reason names {}, which there is not", quote(name)));
-    return none;
+    if (found == places.end()) {
+      throw JsonFault("a reason names " + quote(name) + ", which does not exist");
+    }
+    return found->second;
   }
 
-  [[nodiscard]] Reason::Kind kind_of_reason(const std::string& name) {
+  [[nodiscard]] static Reason::Kind kind_of_reason(const std::string& name) {
     for (int kind = 0; kind <= static_cast<int>(Reason::Kind::faulty); ++kind) {
       if (name_of(static_cast<Reason::Kind>(kind)) == name) return static_cast<Reason::Kind>(kind);
     }
-    fail(fmt::format("there is no reason of kind {}", quote(name)));
-    return Reason::Kind::priority;
+    throw JsonFault("there is no reason of kind " + quote(name));
   }
 
   SweepResult result_;
   Places places_of_tasks_;
   Places places_of_behaviors_;
-  std::string fault_;
 };
 
 }  // namespace
 
 std::variant<SweepResult, std::string> sweep_from_json(std::string_view text) {
-  constexpr std::size_t deepest = 6;  // no sweep has more
-  if (nesting_of(text) > deepest) return "it is nested too deep";
-  const Json root = Json::parse(text, nullptr, false);
-  if (root.is_discarded())
+  yaml::JsonReader reader;
+  const yaml::Node* const root = reader.read(text);
+  if (root == nullptr) {
     return "it is no JSON, or cut off; expected what '--shard I/N --format json' writes";
-  return SweepReader().read(root);
+  }
+  try {
+    return SweepReader().read(JsonValue(*root));
+  } catch (const JsonFault& fault) {
+    return fault.what();
+  }
 }
 
 }  // namespace cbc

@@ -55,7 +55,8 @@ class EventLog {
   };
 
   /// The catalog must outlive this object.
-  explicit EventLog(const CompiledCatalog& catalog) : catalog_(catalog), names_(catalog) {}
+  explicit EventLog(const CompiledCatalog& catalog)
+      : catalog_(catalog), reader_(catalog, Severity::note) {}
 
   /// Each is empty if the line is not what it should be: see error().
   [[nodiscard]] std::optional<Header> read_header(std::string_view line);
@@ -65,14 +66,12 @@ class EventLog {
  private:
   [[nodiscard]] const yaml::Node* read_object(std::string_view line, std::uint32_t number,
                                               Reporter& reporter);
-  [[nodiscard]] std::vector<Availability> read_situation(const yaml::Node& node,
-                                                         Reporter& reporter);
   [[nodiscard]] Entry read_event(const yaml::Node& event, Reporter& reporter);
   [[nodiscard]] Step read_step(const yaml::Node& event, Reporter& reporter);
   [[nodiscard]] bool is_good(const Reporter& reporter, const Diagnostics& diagnostics);
 
   const CompiledCatalog& catalog_;
-  NameIndex names_;
+  StepReader reader_;
   yaml::JsonReader json_;
   std::string error_;
 };

@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <charconv>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -87,50 +85,34 @@ std::string canonical(const Node& node) {
 
 // JSON ---------------------------------------------------------------------------------------
 
-bool is_digit(char character) { return character >= '0' && character <= '9'; }
-
-/// Whether a text is a number of JSON. One that no double can hold is none here, as many readers of
-/// JSON refuse it.
-bool is_number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return false;
-  // These are no numbers to JSON: .5, 05, 5., inf
-  if (text.starts_with('-')) text.remove_prefix(1);
-  if (!is_digit(text.front())) return false;
-  if (text.size() > 1 && text.front() == '0' && is_digit(text[1])) return false;
-  const std::size_t point = text.find('.');
-  return point == std::string_view::npos || (point + 1 < text.size() && is_digit(text[point + 1]));
-}
-
-void append_json(std::string& json, const Node& node) {
+void write_json(JsonWriter& json, const Node& node) {
   switch (node.kind) {
     case Kind::null:
-      json += "null";
+      json.write(nullptr);
       break;
     case Kind::scalar:
-      // As it was written, so that no digit is lost.
-      if (node.plain && (node.text == "true" || node.text == "false" || is_number(node.text))) {
-        json += node.text;
+      if (!node.plain) {
+        json.write(node.text);
+      } else if (node.text == "true" || node.text == "false") {
+        json.write_json(node.text);
       } else {
-        append_text(json, node.text);
+        std::string text;
+        append_as_written(text, node.text);
+        json.write_json(text);
       }
       break;
     case Kind::sequence:
-      json += '[';
-      for (const Node* item : node.items) {
-        if (json.back() != '[') json += ',';
-        append_json(json, *item);
-      }
-      json += ']';
+      json.open('[');
+      for (const Node* item : node.items) write_json(json, *item);
+      json.close(']');
       break;
     case Kind::mapping:
-      json += '{';
+      json.open('{');
       for (const auto& [key, value] : node.entries) {
-        JsonWriter(json).key(key->text);
-        append_json(json, *value);
+        json.key(key->text);
+        write_json(json, *value);
       }
-      json += '}';
+      json.close('}');
       break;
   }
 }
@@ -143,7 +125,8 @@ std::optional<Parameters> read_parameters(const Node& node, Reporter& reporter) 
   }
   report_duplicates(node, reporter);
   Parameters parameters{canonical(node), {}};
-  append_json(parameters.json, node);
+  JsonWriter json(parameters.json);
+  write_json(json, node);
   return parameters;
 }
 

@@ -1,7 +1,9 @@
 #include "script/reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -9,6 +11,7 @@
 
 #include "base/text.h"
 #include "cbc/event.h"
+#include "coordinator/record.h"
 #include "diagnostic/diagnostic.h"
 #include "diagnostic/rules.h"
 #include "script/script.h"
@@ -21,9 +24,14 @@ using yaml::Key;
 using yaml::Shape;
 
 constexpr Key script_keys[] = {{"catalog"}, {"reactive_delay"}, {"situation"}, {"events"}};
-constexpr Key event_keys[] = {{"start"}, {"stop"},     {"finish"},     {"situation"},
-                              {"fault"}, {"repair"},   {"expect"},     {"at"},
-                              {"wait"},  {"priority"}, {"parameters"}, {"cause"}};
+constexpr auto event_keys = [] {
+  constexpr std::string_view others[] = {"expect", "at", "priority", "parameters", "cause"};
+  std::array<Key, verb_forms.size() + std::size(others)> keys{};
+  std::size_t count = 0;
+  for (const VerbForm& form : verb_forms) keys[count++].name = form.name;
+  for (const std::string_view key : others) keys[count++].name = key;
+  return keys;
+}();
 constexpr Key expectation_keys[] = {{"outcome"}, {"running"}, {"stopped"}, {"active"}};
 
 constexpr const Shape* in_event[] = {&expectation};
@@ -90,8 +98,15 @@ std::optional<std::uint32_t> NameIndex::find_behavior(const yaml::Node& node, st
 
 namespace {
 
+using yaml::Fields;
 using yaml::Kind;
 using yaml::Node;
+
+template <typename Enum>
+std::optional<Enum> read_word(const Node& node, std::string_view what, Reporter& reporter) {
+  const auto place = yaml::read_choice(node, what, words_of<Enum>(), reporter);
+  return place ? std::optional(static_cast<Enum>(*place)) : std::nullopt;
+}
 
 class ExpectationReader {
  public:
@@ -110,11 +125,7 @@ class ExpectationReader {
 
  private:
   void read_outcome(const Node& node) {
-    const auto choice = yaml::read_choice(
-        node, "outcome",
-        {name_of(Outcome::accepted), name_of(Outcome::rejected), name_of(Outcome::unchanged)},
-        reporter_);
-    if (choice) out_.outcome = static_cast<Outcome>(*choice);
+    out_.outcome = read_word<Outcome>(node, "outcome", reporter_);
   }
 
   void read_running(const Node& node) {
@@ -191,33 +202,46 @@ Expectation read_expectation(const Node& node, NameIndex& names, Reporter& repor
 
 namespace {
 
-using yaml::Fields;
-using yaml::Kind;
-using yaml::Node;
-
 constexpr std::string_view expect = "expect";
-constexpr std::string_view verbs[] = {"start", "stop",   "finish", "situation",
-                                      "fault", "repair", expect};
 
-// Keys that belong to some verbs only.
+/// A key that belongs to some verbs only.
 struct Detail {
   std::string_view key;
-  std::string_view verbs;  ///< for messages
-  bool (*belongs_to)(std::string_view verb);
+  bool VerbForm::*belongs;
 };
-constexpr Detail details[] = {
-    {"priority", "'start' and 'stop'",
-     [](std::string_view verb) { return verb == "start" || verb == "stop"; }},
-    {"parameters", "'start'", [](std::string_view verb) { return verb == "start"; }},
-    {"cause", "'finish'", [](std::string_view verb) { return verb == "finish"; }},
-};
+constexpr Detail details[] = {{"priority", &VerbForm::has_priority},
+                              {"parameters", &VerbForm::has_parameters},
+                              {"cause", &VerbForm::has_cause}};
+
+/// "'start' and 'stop'"
+std::string list_verbs(bool VerbForm::*belongs) {
+  std::string text;
+  for (const VerbForm& form : verb_forms) {
+    if (form.*belongs) text += (text.empty() ? "" : " and ") + quote(form.name);
+  }
+  return text;
+}
+
+/// The words that an event may have one of.
+const std::string& all_event_words() {
+  static const std::string words = [] {
+    std::string text;
+    for (const VerbForm& form : verb_forms) {
+      if (form.subject != VerbForm::SubjectKind::nothing) text += quote(form.name) + ", ";
+    }
+    return text + "'expect', 'at' and 'wait'";
+  }();
+  return words;
+}
 
 void report_misplaced(const Fields& fields, std::string_view verb, Reporter& reporter) {
+  const std::optional<Verb> known = find_word<Verb>(verb);
   for (const Detail& detail : details) {
-    if (fields.find(detail.key) == nullptr || detail.belongs_to(verb)) continue;
+    if (fields.find(detail.key) == nullptr) continue;
+    if (known && form_of(*known).*detail.belongs) continue;
     reporter.report_as(Severity::error, rule::unknown_key, fields.range_of(detail.key),
                        quote(detail.key) + " does not belong to " + quote(verb) + ", only to " +
-                           std::string(detail.verbs));
+                           list_verbs(detail.belongs));
   }
 }
 
@@ -225,13 +249,17 @@ void report_misplaced(const Fields& fields, std::string_view verb, Reporter& rep
 std::string_view find_verb(const Fields& fields, const Range& range, Reporter& reporter) {
   std::vector<std::string_view> found;
   std::string_view without_value;
-  for (const std::string_view verb : verbs) {
+  const auto look_for = [&](std::string_view verb) {
     if (fields.find(verb) != nullptr) {
       found.push_back(verb);
     } else if (fields.has(verb)) {
       without_value = verb;
     }
+  };
+  for (const VerbForm& form : verb_forms) {
+    if (form.subject != VerbForm::SubjectKind::nothing) look_for(form.name);
   }
+  look_for(expect);
   if (found.size() == 1) return found.front();
   if (found.size() > 1) {
     std::sort(found.begin(), found.end(), [&fields](std::string_view a, std::string_view b) {
@@ -246,11 +274,9 @@ std::string_view find_verb(const Fields& fields, const Range& range, Reporter& r
   } else if (fields.has_unknown()) {
     // Probably a misspelt verb; it is reported as such.
   } else if (fields.find("at") != nullptr || fields.find("wait") != nullptr) {
-    return "wait";
+    return name_of(Verb::wait);
   } else {
-    reporter.report(rule::missing_key, range,
-                    "an event needs one of 'start', 'stop', 'finish', 'situation', 'fault', "
-                    "'repair', 'expect', 'at' and 'wait'");
+    reporter.report(rule::missing_key, range, "an event needs one of " + all_event_words());
   }
   return {};
 }
@@ -272,7 +298,13 @@ Step StepReader::read(const Node& node, Reporter& reporter) {
     doubt_situation();
   } else {
     report_misplaced(fields, verb, reporter);
-    read_verb(verb, fields, step, reporter);
+    if (verb == expect) {
+      step.expect = read_expectation(*fields.find(expect), names_, reporter);
+    } else {
+      read_parts({*find_word<Verb>(verb), verb, fields.find(verb), fields.find("priority"),
+                  fields.find("parameters"), fields.find("cause")},
+                 step, reporter);
+    }
   }
   fields.report_unknown(Severity::error);
   return step;
@@ -323,47 +355,39 @@ void StepReader::read_time(const Fields& fields, Step& step, Reporter& reporter)
   step.time = clock_;
 }
 
-void StepReader::read_verb(std::string_view verb, const Fields& fields, Step& step,
-                           Reporter& reporter) {
-  if (verb == "wait") {
-    step.verb = Verb::wait;
-    return;
+void StepReader::read_parts(const EventParts& parts, Step& step, Reporter& reporter) {
+  step.verb = parts.verb;
+  const VerbForm& form = form_of(parts.verb);
+  if (parts.subject == nullptr) return;
+  std::optional<std::uint32_t> subject;
+  switch (form.subject) {
+    case VerbForm::SubjectKind::nothing:
+      return;
+    case VerbForm::SubjectKind::situation:
+      step.situation = read_situation(*parts.subject, reporter);
+      return;
+    case VerbForm::SubjectKind::task:
+      subject = names_.find_task(*parts.subject, parts.subject_key, reporter);
+      break;
+    case VerbForm::SubjectKind::behavior:
+      subject = names_.find_behavior(*parts.subject, parts.subject_key, reporter);
+      break;
   }
-  const Node& value = *fields.find(verb);
-  if (verb == expect) {
-    step.expect = read_expectation(value, names_, reporter);
-  } else if (verb == "situation") {
-    step.verb = Verb::situation;
-    step.situation = read_situation(value, reporter);
-  } else if (verb == "start" || verb == "stop") {
-    step.verb = verb == "start" ? Verb::start : Verb::stop;
-    const auto task = names_.find_task(value, verb, reporter);
-    step.subject = task.value_or(0);
-    if (const Node* priority = fields.find("priority")) {
-      step.priority =
-          yaml::read_integer(*priority, "priority", step.verb == Verb::start ? 1 : 0, reporter);
+  step.subject = subject.value_or(0);
+  if (form.has_priority && parts.priority != nullptr) {
+    step.priority = yaml::read_integer(*parts.priority, "priority", form.lowest_priority, reporter);
+  }
+  if (form.has_parameters && parts.parameters != nullptr) {
+    step.parameters = read_parameters(*parts.parameters, reporter);
+    if (subject && step.parameters) {
+      parameter_checks_.check(*subject, *parts.parameters, reporter);
     }
-    const Node* parameters = fields.find("parameters");
-    if (parameters != nullptr && step.verb == Verb::start) {
-      step.parameters = read_parameters(*parameters, reporter);
-      if (task && step.parameters) parameter_checks_.check(*task, *parameters, reporter);
-    }
-  } else {
-    step.verb = verb == "finish" ? Verb::finish : verb == "fault" ? Verb::fault : Verb::repair;
-    const auto behavior = names_.find_behavior(value, verb, reporter);
-    step.subject = behavior.value_or(0);
-    const Node* cause = fields.find("cause");
-    if (cause != nullptr && step.verb == Verb::finish) {
-      const auto choice = yaml::read_choice(
-          *cause, "cause",
-          {name_of(FinishCause::goal_achieved), name_of(FinishCause::time_out),
-           name_of(FinishCause::wrong_progress), name_of(FinishCause::situation_change),
-           name_of(FinishCause::process_failure), name_of(FinishCause::interrupted)},
-          reporter);
-      if (choice) step.cause = static_cast<FinishCause>(*choice);
-      if (behavior && choice && step.cause == FinishCause::situation_change) {
-        check_finish(*behavior, value.range, reporter);
-      }
+  }
+  if (form.has_cause && parts.cause != nullptr) {
+    const auto cause = read_word<FinishCause>(*parts.cause, "cause", reporter);
+    if (cause) step.cause = *cause;
+    if (subject && cause == FinishCause::situation_change) {
+      check_finish(*subject, parts.subject->range, reporter);
     }
   }
 }
@@ -399,10 +423,6 @@ std::vector<Availability> StepReader::read_situation(const Node& node, Reporter&
 }
 
 namespace {
-
-using yaml::Fields;
-using yaml::Kind;
-using yaml::Node;
 
 void read_steps(const Node& list, StepReader& reader, Script& script, Reporter& reporter) {
   for (const Node* item : list.items) script.steps.push_back(reader.read(*item, reporter));

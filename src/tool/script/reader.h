@@ -81,6 +81,16 @@ class ParameterChecks {
 /// and nulls where the text is plain and JSON would write it in just this way.
 [[nodiscard]] std::optional<Parameters> read_parameters(const yaml::Node& node, Reporter& reporter);
 
+/// The values that an event consists of, as an entry of a script or a line of a log has them.
+struct EventParts {
+  Verb verb = Verb::wait;
+  std::string_view subject_key;         ///< names the subject in messages
+  const yaml::Node* subject = nullptr;  ///< null: there is none, or that is an error already
+  const yaml::Node* priority = nullptr;
+  const yaml::Node* parameters = nullptr;
+  const yaml::Node* cause = nullptr;
+};
+
 /// Reads the entries of a script one after the other, and keeps its clock and its situation.
 class StepReader {
  public:
@@ -94,6 +104,10 @@ class StepReader {
   /// no errors.
   [[nodiscard]] Step read(const yaml::Node& node, Reporter& reporter);
 
+  /// Reads an event into a step, but for its time. Parts that do not belong to the verb are
+  /// ignored.
+  void read_parts(const EventParts& parts, Step& step, Reporter& reporter);
+
   /// A mapping of behaviors to booleans.
   [[nodiscard]] std::vector<Availability> read_situation(const yaml::Node& node,
                                                          Reporter& reporter);
@@ -106,7 +120,6 @@ class StepReader {
 
  private:
   void read_time(const yaml::Fields& fields, Step& step, Reporter& reporter);
-  void read_verb(std::string_view verb, const yaml::Fields& fields, Step& step, Reporter& reporter);
   void check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter);
 
   Microseconds clock_ = 0;

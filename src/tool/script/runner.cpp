@@ -148,10 +148,7 @@ bool Runner::take(const Step& step) {
 void Runner::on_event(const EventRecord& record) {
   index_ = record.index;
   const bool is_scripted = record.origin == Origin::script;
-  if (is_scripted &&
-      (record.verb == Verb::start || record.verb == Verb::stop || record.verb == Verb::finish)) {
-    outcome_ = record.outcome;
-  }
+  if (is_scripted && form_of(record.verb).is_decided) outcome_ = record.outcome;
   if (result_.totals) result_.totals->add(record);
   listener_.on_event(record, is_scripted ? step_ : nullptr, coordinator_.state());
 }

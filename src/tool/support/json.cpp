@@ -1,8 +1,10 @@
 #include "support/json.h"
 
-#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <system_error>
 
 #include <nlohmann/json.hpp>
 
@@ -37,20 +39,31 @@ bool is_plain(std::string_view text) {
   return is_plain(word);
 }
 
+bool is_digit(char character) { return character >= '0' && character <= '9'; }
+
+/// Whether a text is a number of JSON. One that no double can hold is none here, as many readers of
+/// JSON refuse it.
+bool is_number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return false;
+  // These are not numbers in JSON: .5, 05, 5., inf
+  if (text.starts_with('-')) text.remove_prefix(1);
+  if (!is_digit(text.front())) return false;
+  if (text.size() > 1 && text.front() == '0' && is_digit(text[1])) return false;
+  const std::size_t point = text.find('.');
+  return point == std::string_view::npos || (point + 1 < text.size() && is_digit(text[point + 1]));
+}
+
+std::string dump(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 }  // namespace
-
-std::string to_text(const nlohmann::ordered_json& json) {
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
-
-void append_item(std::string& array, const std::string& item) {
-  array += array.back() == '[' ? "\n" : ",\n";
-  array += item;
-}
 
 void append_text(std::string& json, std::string_view text) {
   if (!is_plain(text)) {
-    json += to_text(text);
+    json += dump(text);
     return;
   }
   json += '"';
@@ -66,7 +79,15 @@ void append_number(std::string& json, double number) {
     json += ".0";
     return;
   }
-  json += to_text(number);
+  json += dump(number);
+}
+
+void append_as_written(std::string& json, std::string_view text) {
+  if (is_number(text)) {
+    json += text;
+  } else {
+    append_text(json, text);
+  }
 }
 
 void append_seconds(std::string& json, Microseconds time) {
@@ -77,23 +98,15 @@ void append_seconds(std::string& json, Microseconds time) {
   json += fraction;
 }
 
-std::size_t nesting_of(std::string_view json) {
-  std::size_t open = 0;
-  std::size_t deepest = 0;
-  bool is_string = false;
-  for (std::size_t place = 0; place < json.size(); ++place) {
-    const char c = json[place];
-    if (c == '"') {
-      is_string = !is_string;
-    } else if (is_string) {
-      if (c == '\\') ++place;
-    } else if (c == '[' || c == '{') {
-      deepest = std::max(deepest, ++open);
-    } else if ((c == ']' || c == '}') && open > 0) {
-      --open;
-    }
+void JsonWriter::write_percent(std::string_view name, std::optional<Millionths> degree) {
+  constexpr Millionths percent = one_million / 100;
+  if (!degree) {
+    write(name, nullptr);
+  } else if (*degree % percent == 0) {
+    write(name, *degree / percent);
+  } else {
+    write(name, static_cast<double>(*degree) / percent);
   }
-  return deepest;
 }
 
 }  // namespace cbc

@@ -3,108 +3,158 @@
 #include <charconv>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
-
-#include <nlohmann/json_fwd.hpp>
+#include <type_traits>
 
 #include "cbc/units.h"
 
+// JSON as text: values appended to a string, and a writer that sets the commas between them.
+
 namespace cbc {
 
-/// JSON on one line. Names may hold bytes that no JSON text can; they are replaced.
-[[nodiscard]] std::string to_text(const nlohmann::ordered_json& json);
-
-/// Appends an item of an array that has one item on a line, begun by `[`.
-void append_item(std::string& array, const std::string& item);
-
-// These append what to_text gives for the value, without making a tree of it.
-
+/// Invalid UTF-8 is replaced by U+FFFD.
 void append_text(std::string& json, std::string_view text);
+
 void append_number(std::string& json, double number);
+
 template <std::integral Integer>
 void append_integer(std::string& json, Integer number) {
   char digits[24];
   json.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
 }
 
-/// Appends a time, which is not negative, in seconds: exact, as what reads it counts microseconds.
-/// The nearest double would not do: some of them become text with more digits.
+/// Appends what a person wrote: a number as it stands, so that no digit is lost, if it is one in
+/// JSON and a double can hold it; anything else as a text.
+void append_as_written(std::string& json, std::string_view text);
+
+/// Appends a time, which is not negative, in seconds. It is exact to the microsecond; a double
+/// would not be, as some of them need more digits.
 void append_seconds(std::string& json, Microseconds time);
 
-/// Writes JSON member by member, straight to the end of a text, on one line. Whoever calls it opens
-/// and closes brackets in pairs.
+/// Appends a boolean, a number, a text, nullptr, or an optional, which is null if it is empty.
+template <typename Value>
+void append_value(std::string& json, const Value& value) {
+  if constexpr (std::is_same_v<Value, bool>) {
+    json += value ? "true" : "false";
+  } else if constexpr (std::is_same_v<Value, std::nullptr_t>) {
+    json += "null";
+  } else if constexpr (std::integral<Value>) {
+    append_integer(json, value);
+  } else if constexpr (std::floating_point<Value>) {
+    append_number(json, value);
+  } else if constexpr (requires { value.has_value(); }) {
+    if (value.has_value()) {
+      append_value(json, *value);
+    } else {
+      json += "null";
+    }
+  } else {
+    append_text(json, value);
+  }
+}
+
+/// Writes JSON value by value to the end of a text, without a tree in memory. The caller opens and
+/// closes brackets in pairs, and gives names to the members of objects only.
 class JsonWriter {
  public:
-  /// The text must outlive this object.
-  explicit JsonWriter(std::string& text) : text_(text) {}
+  enum class Layout : std::uint8_t { line, indented };
 
-  /// Begins an object or an array, as an item of an array or the whole.
+  /// The text must outlive this object. `indented`: every item and member on its own line, one
+  /// blank deeper than its bracket.
+  explicit JsonWriter(std::string& text, Layout layout = Layout::line)
+      : text_(text), is_indented_(layout == Layout::indented) {}
+
+  /// Begins an object or an array.
   void open(char bracket) {
     separate();
     text_ += bracket;
+    ++depth_;
   }
-  /// Begins one, as a member of an object.
   void open(std::string_view name, char bracket) {
     key(name);
     text_ += bracket;
+    ++depth_;
   }
-  void close(char bracket) { text_ += bracket; }
+  void close(char bracket) {
+    --depth_;
+    if (is_indented_ && text_.back() != '{' && text_.back() != '[') break_line();
+    text_ += bracket;
+  }
 
-  // Members of an object.
+  /// Puts the next item or member on a line of its own.
+  JsonWriter& on_new_line() {
+    has_new_line_ = true;
+    return *this;
+  }
 
+  /// The name of a member; its value is written next.
   void key(std::string_view name) {
     separate();
     append_text(text_, name);
-    text_ += ':';
+    text_ += is_indented_ ? ": " : ":";
   }
-  /// `value` is JSON already.
-  void write_json(std::string_view name, std::string_view value) {
-    key(name);
-    text_ += value;
+
+  // An item of an array, the value of a key, or the whole; with a name, a member of an object.
+
+  template <typename Value>
+  void write(const Value& value) {
+    separate();
+    append_value(text_, value);
   }
-  void write_text(std::string_view name, std::string_view value) {
+  template <typename Value>
+  void write(std::string_view name, const Value& value) {
     key(name);
-    append_text(text_, value);
-  }
-  template <typename Integer>
-  void write_integer(std::string_view name, Integer value) {
-    key(name);
-    append_integer(text_, value);
-  }
-  void write_number(std::string_view name, double value) {
-    key(name);
-    append_number(text_, value);
+    append_value(text_, value);
   }
   void write_seconds(std::string_view name, Microseconds time) {
     key(name);
     append_seconds(text_, time);
   }
-  void write_truth(std::string_view name, bool value) {
-    key(name);
-    text_ += value ? "true" : "false";
-  }
-  void write_null(std::string_view name) {
-    key(name);
-    text_ += "null";
-  }
-
-  /// An item of an array.
-  void write_text(std::string_view value) {
+  /// In percent: a whole number where it is one.
+  void write_percent(std::string_view name, std::optional<Millionths> degree);
+  /// `json` is JSON already.
+  void write_json(std::string_view json) {
     separate();
-    append_text(text_, value);
+    text_ += json;
+  }
+  void write_json(std::string_view name, std::string_view json) {
+    key(name);
+    text_ += json;
+  }
+  /// An array. `write_item` writes one of `items`.
+  template <typename Items, typename WriteItem>
+  void write_list(std::string_view name, const Items& items, WriteItem write_item) {
+    open(name, '[');
+    for (const auto& item : items) write_item(item);
+    close(']');
+  }
+  /// An array of plain values.
+  template <typename Items>
+  void write_list(std::string_view name, const Items& items) {
+    write_list(name, items, [this](const auto& item) { write(item); });
   }
 
  private:
   void separate() {
-    if (!text_.empty() && text_.back() != '{' && text_.back() != '[') text_ += ',';
+    const char last = text_.empty() ? '[' : text_.back();
+    if (last == ':' || last == ' ') return;  // after a key
+    if (last != '{' && last != '[') text_ += ',';
+    if (is_indented_ && depth_ > 0) break_line();
+    if (has_new_line_) text_ += '\n';
+    has_new_line_ = false;
+  }
+  void break_line() {
+    text_ += '\n';
+    text_.append(depth_, ' ');
   }
 
   std::string& text_;
+  const bool is_indented_;
+  bool has_new_line_ = false;
+  std::size_t depth_ = 0;
 };
-
-/// How deep the arrays and objects of a JSON text are nested: 0 of a number, 1 of `[]`. Takes any
-/// text, and no memory: a reader of JSON takes a hundred bytes for each level.
-[[nodiscard]] std::size_t nesting_of(std::string_view json);
 
 }  // namespace cbc

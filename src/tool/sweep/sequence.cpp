@@ -9,13 +9,13 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/text.h"
 #include "catalog/allowed_values.h"
 #include "diagnostic/diagnostic.h"
 #include "script/reader.h"
 #include "script/runner.h"
+#include "support/json.h"
 #include "yaml/document.h"
 
 namespace cbc {
@@ -144,30 +144,30 @@ void SweepCounts::add(const SweepCounts& other) {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// A value that a parameter may have; null where none is known.
-Json draw_value(const Parameter& parameter, RandomSource& random) {
-  if (parameter.allowed_values.empty()) return nullptr;
+/// A value that a parameter may have, as JSON; empty where none is known.
+std::string draw_value(const Parameter& parameter, RandomSource& random) {
+  std::string json;
+  if (parameter.allowed_values.empty()) return json;
   if (parameter.allowed_is_list) {
     const auto size = static_cast<std::uint32_t>(parameter.allowed_values.size());
     const std::string& text = parameter.allowed_values[random.below(size)];
-    Json number = Json::parse(text, nullptr, false);
-    return number.is_number() ? number : Json(text);
+    append_as_written(json, text);
+    return json;
   }
   const std::string& type = parameter.allowed_values.front();
-  if (type == "string" || type == "text") return random.below(2) == 0 ? "a" : "b";
-  if (type == "integer" || type == "int" || type == "number" || type == "float") {
-    return random.below(10);
+  if (type == "string" || type == "text") {
+    append_text(json, random.below(2) == 0 ? "a" : "b");
+  } else if (type == "integer" || type == "int" || type == "number" || type == "float") {
+    append_integer(json, random.below(10));
+  } else if (type == "boolean" || type == "bool") {
+    append_value(json, random.below(2) == 0);
   }
-  if (type == "boolean" || type == "bool") return random.below(2) == 0;
-  return nullptr;
+  return json;
 }
 
-std::optional<Parameters> parameters_from(const Json& json) {
+std::optional<Parameters> parameters_from(const std::string& json) {
   Diagnostics diagnostics;
-  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  const auto document = yaml::parse(text, "", diagnostics);
+  const auto document = yaml::parse(json, "", diagnostics);
   if (document == nullptr) return std::nullopt;
   Reporter reporter("", diagnostics);
   return read_parameters(document->root(), reporter);
@@ -243,12 +243,26 @@ void EventGenerator::draw_start(Step& step) {
 }
 
 void EventGenerator::draw_parameters(Step& step) {
-  Json given = Json::object();
-  for (const Parameter& parameter : parameters_of(catalog_, step.subject)) {
-    Json value = draw_value(parameter, random_);
-    if (!value.is_null()) given[parameter.name] = std::move(value);
+  std::vector<std::pair<std::string_view, std::string>> given;
+  const std::vector<Parameter> declared = parameters_of(catalog_, step.subject);
+  for (const Parameter& parameter : declared) {
+    std::string value = draw_value(parameter, random_);
+    if (value.empty()) continue;
+    const auto known = std::find_if(given.begin(), given.end(),
+                                    [&](const auto& one) { return one.first == parameter.name; });
+    if (known == given.end()) {
+      given.emplace_back(parameter.name, std::move(value));
+    } else {
+      known->second = std::move(value);
+    }
   }
-  if (!given.empty()) step.parameters = parameters_from(given);
+  if (given.empty()) return;
+  std::string text;
+  JsonWriter json(text);
+  json.open('{');
+  for (const auto& [name, value] : given) json.write_json(name, value);
+  json.close('}');
+  step.parameters = parameters_from(text);
 }
 
 void EventGenerator::draw_stop(Step& step) {
@@ -393,36 +407,35 @@ class StepCounter final : public SequenceListener {
 // Scripts. Names are quoted as in JSON, so that no name is taken for something else.
 
 std::string in_quotes(std::string_view text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string json;
+  append_text(json, text);
+  return json;
 }
 
 std::string describe_step(const CompiledCatalog& catalog, const Step& step) {
-  const auto verb_of = [&](const Texts& names) {
-    return fmt::format("{}: {}", name_of(step.verb), in_quotes(names[step.subject]));
-  };
+  const VerbForm& form = form_of(step.verb);
   std::string text;
-  switch (step.verb) {
-    case Verb::start:
-    case Verb::stop:
-      text = verb_of(catalog.task_names);
-      if (step.priority) text += fmt::format(", priority: {}", *step.priority);
-      if (step.parameters) text += fmt::format(", parameters: {}", step.parameters->json);
-      return text;
-    case Verb::finish:
-      return verb_of(catalog.behavior_names) + fmt::format(", cause: {}", name_of(step.cause));
-    case Verb::fault:
-    case Verb::repair:
-      return verb_of(catalog.behavior_names);
-    case Verb::situation:
+  switch (form.subject) {
+    case VerbForm::SubjectKind::nothing:
+      return {};
+    case VerbForm::SubjectKind::situation:
       for (const Availability& entry : step.situation) {
         text += fmt::format("{}{}: {}", text.empty() ? "" : ", ",
                             in_quotes(catalog.behavior_names[entry.behavior]), entry.available);
       }
-      return "situation: {" + text + "}";
-    case Verb::wait:
+      return fmt::format("{}: {{{}}}", form.name, text);
+    case VerbForm::SubjectKind::task:
+      text = in_quotes(catalog.task_names[step.subject]);
+      break;
+    case VerbForm::SubjectKind::behavior:
+      text = in_quotes(catalog.behavior_names[step.subject]);
       break;
   }
-  return {};
+  text = fmt::format("{}: {}", form.name, text);
+  if (step.priority) text += fmt::format(", priority: {}", *step.priority);
+  if (step.parameters) text += fmt::format(", parameters: {}", step.parameters->json);
+  if (form.has_cause) text += fmt::format(", cause: {}", name_of(step.cause));
+  return text;
 }
 
 }  // namespace

@@ -277,7 +277,7 @@ void run_in_threads(Work& work, std::vector<Tally>& tallies,
 }
 
 std::string describe(const CompiledCatalog& catalog, const Candidate& candidate) {
-  const bool is_task = candidate.verb == Verb::start || candidate.verb == Verb::stop;
+  const bool is_task = form_of(candidate.verb).subject == VerbForm::SubjectKind::task;
   const Texts& names = is_task ? catalog.task_names : catalog.behavior_names;
   return fmt::format("{} {}", name_of(candidate.verb), printable(names[candidate.subject]));
 }

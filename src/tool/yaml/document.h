@@ -62,7 +62,9 @@ class JsonReader {
   /// The root of the tree, which is valid until the next call; nullptr if the text is no JSON, or
   /// deeper than YAML may be: then the YAML parser has the last word. All ranges lie in `line`;
   /// their columns count bytes.
-  [[nodiscard]] const Node* read(std::string_view text, std::uint32_t line);
+  [[nodiscard]] const Node* read(std::string_view text, std::uint32_t line = 1);
+  /// Whether the text has a key '<<', which merges mappings in YAML and is a name in JSON.
+  [[nodiscard]] bool has_merge_key() const { return has_merge_key_; }
 
  private:
   [[nodiscard]] const Node* read_value(std::size_t depth);
@@ -81,6 +83,7 @@ class JsonReader {
   std::string_view text_;
   std::size_t at_ = 0;
   std::uint32_t line_ = 1;
+  bool has_merge_key_ = false;
   std::deque<Node> nodes_;
   std::size_t used_ = 0;
 };

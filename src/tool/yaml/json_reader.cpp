@@ -36,6 +36,7 @@ const Node* JsonReader::read(std::string_view text, std::uint32_t line) {
   at_ = 0;
   line_ = line;
   used_ = 0;
+  has_merge_key_ = false;
   if (utf8::find_invalid(text)) return nullptr;
   const Node* const root = read_value(1);
   skip_space();
@@ -86,8 +87,7 @@ bool JsonReader::read_mapping(Node& node, std::size_t depth) {
     skip_space();
     Node& key = make_node(Kind::scalar);
     if (at_ == text_.size() || text_[at_] != '"' || !read_string(key.text)) return false;
-    // To YAML this one merges mappings.
-    if (key.text == "<<") return false;
+    if (key.text == "<<") has_merge_key_ = true;
     end_range(key);
     skip_space();
     if (!take(':')) return false;

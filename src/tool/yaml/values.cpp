@@ -192,7 +192,7 @@ std::optional<std::int32_t> read_integer(const Node& node, std::string_view what
 }
 
 std::optional<std::size_t> read_choice(const Node& node, std::string_view what,
-                                       std::initializer_list<std::string_view> choices,
+                                       std::span<const std::string_view> choices,
                                        Reporter& reporter) {
   std::string expected;
   std::size_t place = 0;
@@ -203,12 +203,11 @@ std::optional<std::size_t> read_choice(const Node& node, std::string_view what,
   }
   const std::optional<std::string_view> text = read_text(node, what, expected, reporter);
   if (!text) return std::nullopt;
-  const auto* const found = std::find(choices.begin(), choices.end(), *text);
+  const auto found = std::find(choices.begin(), choices.end(), *text);
   if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
 
   std::string message = must_be(what, expected) + ", found " + describe(node);
-  const std::vector<std::string_view> names(choices);
-  message += did_you_mean(nearest(*text, names));
+  message += did_you_mean(nearest(*text, choices));
   reporter.report(rule::invalid_value, node.range, std::move(message));
   return std::nullopt;
 }

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -137,8 +136,8 @@ void report_wrong_type(const Node& node, std::string_view what, std::string_view
                                                        std::int32_t lowest, Reporter& reporter);
 
 /// The index of a word among `choices`.
-[[nodiscard]] std::optional<std::size_t> read_choice(
-    const Node& node, std::string_view what, std::initializer_list<std::string_view> choices,
-    Reporter& reporter);
+[[nodiscard]] std::optional<std::size_t> read_choice(const Node& node, std::string_view what,
+                                                     std::span<const std::string_view> choices,
+                                                     Reporter& reporter);
 
 }  // namespace cbc::yaml
