@@ -2,94 +2,120 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstddef>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
+#include <map>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/text.h"
-#include "cli/commands.h"
+#include "cli/output.h"
 #include "support/wording.h"
 
 namespace cbc::cli {
 namespace {
 
-// A validator is what CLI11 lets one attach to an option. Its name says what it is.
-constexpr const char* choice_name = "choice";
-constexpr std::array<std::pair<ValueKind, const char*>, 9> kind_names = {
-    {{ValueKind::catalog, "a catalog"},
-     {ValueKind::script, "a script"},
-     {ValueKind::catalog_or_script, "a catalog or a script"},
-     {ValueKind::shard, "the result of a shard"},
-     {ValueKind::file, "a file"},
-     {ValueKind::rule, "a rule"},
-     {ValueKind::schema, "a schema"},
-     {ValueKind::task, "a task"},
-     {ValueKind::task_or_behavior, "a task or a behavior"}}};
-
-const CLI::Validator* find_validator(CLI::Option& option, const std::string& name) {
-  try {
-    return option.get_validator(name);
-  } catch (const CLI::OptionNotFound&) {
-    return nullptr;
-  }
-}
-
-}  // namespace
-
 std::string describe(ValueKind kind) {
-  const auto* const named = std::find_if(kind_names.begin(), kind_names.end(),
-                                         [&](const auto& known) { return known.first == kind; });
-  return named->second;
-}
-
-CLI::Validator stands_for(ValueKind kind) {
-  return {[](const std::string&) { return std::string(); }, "", describe(kind)};
-}
-
-std::optional<ValueKind> kind_of(CLI::Option& option) {
-  for (const auto& [kind, name] : kind_names) {
-    if (find_validator(option, name) != nullptr) return kind;
+  switch (kind) {
+    case ValueKind::text:
+      return "a value";
+    case ValueKind::catalog:
+      return "a catalog";
+    case ValueKind::script:
+      return "a script";
+    case ValueKind::catalog_or_script:
+      return "a catalog or a script";
+    case ValueKind::shard:
+      return "the result of a shard";
+    case ValueKind::file:
+      return "a file";
+    case ValueKind::task:
+      return "a task";
+    case ValueKind::task_or_behavior:
+      return "a task or a behavior";
   }
-  return std::nullopt;
+  return {};
 }
 
-CLI::Validator one_of(const std::vector<std::string>& choices) {
-  const auto check = [choices](const std::string& text) -> std::string {
-    if (std::find(choices.begin(), choices.end(), text) != choices.end()) return {};
-    const std::vector<std::string_view> names(choices.begin(), choices.end());
-    return fmt::format("expected {}, found {}{}", list_choices(choices), quote(text),
-                       did_you_mean(nearest(text, names)));
-  };
-  return {check, fmt::format("{}", fmt::join(choices, ",")), choice_name};
+Values values_of_kind(std::string placeholder, ValueKind kind) {
+  Values values;
+  values.placeholder = std::move(placeholder);
+  values.expected = describe(kind);
+  values.kind = kind;
+  return values;
 }
 
-std::vector<std::string> choices_of(CLI::Option& option) {
-  const CLI::Validator* const choice = find_validator(option, choice_name);
-  if (choice == nullptr) return {};
-  return CLI::detail::split(choice->get_description(), ',');
+/// An option with a value, in a sentence.
+std::string quote_if_split(const std::string& text) {
+  return text.find(' ') == std::string::npos ? text : quote(text);
 }
 
-std::string list_choices(const std::vector<std::string>& choices) {
-  std::string list = choices.front();
-  for (std::size_t i = 1; i < choices.size(); ++i) {
-    list += (i + 1 < choices.size() ? ", " : " or ") + choices[i];
+/// "text, json or gcc"
+std::string join_with_or(const std::vector<std::string>& words) {
+  std::string list = quote_if_split(words.front());
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    list += (i + 1 < words.size() ? ", " : " or ") + quote_if_split(words[i]);
   }
   return list;
 }
 
-bool takes_value(const CLI::Option& option) { return option.get_items_expected_min() > 0; }
+bool contains(const std::vector<std::string>& texts, std::string_view text) {
+  return std::find(texts.begin(), texts.end(), text) != texts.end();
+}
 
-CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
-  const auto check = [least, most](const std::string& text) -> std::string {
+std::string suggest(std::string_view name, const std::vector<std::string>& known) {
+  const std::vector<std::string_view> names(known.begin(), known.end());
+  return did_you_mean(nearest(name, names));
+}
+
+}  // namespace
+
+Values input(std::string placeholder, ValueKind kind) {
+  Values values = values_of_kind(std::move(placeholder), kind);
+  values.is_input = true;
+  return values;
+}
+
+Values output(std::string placeholder) {
+  Values values = values_of_kind(std::move(placeholder), ValueKind::file);
+  values.is_output = true;
+  values.check = [](const std::string& text) {
+    return std::string(text.empty() ? "expected the name of a file" : "");
+  };
+  return values;
+}
+
+Values further_output(std::string placeholder) {
+  Values values = output(std::move(placeholder));
+  values.check = [is_name = values.check](const std::string& text) {
+    return text == "-" ? "expected a file, as standard output has the report" : is_name(text);
+  };
+  return values;
+}
+
+Values name_of(std::string placeholder, ValueKind kind) {
+  return values_of_kind(std::move(placeholder), kind);
+}
+
+Values one_of(std::string placeholder, std::vector<std::string> choices) {
+  Values values;
+  values.placeholder = std::move(placeholder);
+  values.expected = "a value: " + join_with_or(choices);
+  values.check = [choices](const std::string& text) -> std::string {
+    if (contains(choices, text)) return {};
+    return fmt::format("expected {}, found {}{}", join_with_or(choices), quote(text),
+                       suggest(text, choices));
+  };
+  values.choices = std::move(choices);
+  return values;
+}
+
+Values whole_number(std::string placeholder, std::int64_t least, std::int64_t most) {
+  Values values;
+  values.placeholder = std::move(placeholder);
+  values.expected = "a number";
+  values.check = [least, most](const std::string& text) -> std::string {
     std::int64_t number = 0;
     const char* const end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, number);
@@ -100,22 +126,108 @@ CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
       return fmt::format("expected a whole number, found {}", quote(text));
     }
     if (error == std::errc() && most == std::numeric_limits<std::int64_t>::max()) {
-      return fmt::format("expected a whole number from {} on, found {}", least, quote(text));
+      return fmt::format("expected a whole number of at least {}, found {}", least, quote(text));
     }
     return fmt::format("expected a whole number from {} to {}, found {}", least, most, quote(text));
   };
-  return {check, ""};
+  return values;
 }
 
-CLI::Validator seconds(Microseconds least) {
-  const auto check = [least](const std::string& text) -> std::string {
+Values seconds(Microseconds least) {
+  Values values;
+  values.placeholder = "SECONDS";
+  values.expected = "a time in seconds";
+  values.check = [least](const std::string& text) -> std::string {
     const Decimal time = parse_seconds(text);
     if (time.error == DecimalError::no_error && time.value >= least) return {};
     return fmt::format("expected seconds, from {} to 1000000000, found {}",
                        format_decimal(least, 6), quote(text));
   };
-  return {check, ""};
+  return values;
 }
+
+Option& Option::required() {
+  is_required = true;
+  return *this;
+}
+
+Option& Option::separated_by(char character) {
+  separator = character;
+  return *this;
+}
+
+Option& Option::makes_arguments(ValueKind kind) {
+  values.kind = kind;
+  return *this;
+}
+
+Option& Option::not_with(std::vector<std::string> others, std::string reason) {
+  exclusions.push_back({std::move(others), std::move(reason)});
+  return *this;
+}
+
+Option& Option::only_with(std::vector<std::string> others) {
+  requirements.push_back(std::move(others));
+  return *this;
+}
+
+Option& Option::only_with_values(std::string other, std::vector<std::string> accepted) {
+  accepted_values.push_back({std::move(other), std::move(accepted)});
+  return *this;
+}
+
+Command::Command(std::string name, std::string description, HelpText text)
+    : name_(std::move(name)), description_(std::move(description)), text_(std::move(text)) {
+  flag("-h,--help", "Print this help and exit");
+}
+
+Option& Command::flag(const char* names, std::string help) {
+  Option& added = add(names, {}, std::move(help));
+  added.is_flag = true;
+  return added;
+}
+
+Option& Command::flag(const char* names, bool& target, std::string help) {
+  Option& added = flag(names, std::move(help));
+  added.store = [&target](const std::string&) { target = true; };
+  return added;
+}
+
+Option& Command::add(std::string_view names, Values values, std::string help) {
+  Option& added = options_.emplace_back();
+  for (std::size_t begin = 0; begin <= names.size();) {
+    added.names.emplace_back(names.substr(begin, names.find(',', begin) - begin));
+    begin += added.names.back().size() + 1;
+  }
+  added.values = std::move(values);
+  added.help = std::move(help);
+  added.group = group_;
+  return added;
+}
+
+const Option* Command::find(std::string_view name) const {
+  const auto found = std::find_if(options_.begin(), options_.end(), [&](const Option& option) {
+    return contains(option.names, name);
+  });
+  return found == options_.end() ? nullptr : &*found;
+}
+
+Program::Program(std::string description, std::string version, HelpText text)
+    : itself_({}, std::move(description), std::move(text)), version_(std::move(version)) {
+  itself_.flag("--version", "Print the version and exit");
+}
+
+Command& Program::add_command(std::string name, std::string description, HelpText text) {
+  return commands_.emplace_back(std::move(name), std::move(description), std::move(text));
+}
+
+const Command* Program::find(std::string_view name) const {
+  const auto found = std::find_if(commands_.begin(), commands_.end(),
+                                  [&](const Command& command) { return command.name() == name; });
+  return found == commands_.end() ? nullptr : &*found;
+}
+
+// --help ------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -160,229 +272,333 @@ std::string entry(const std::string& name, const std::string& text) {
   return line + wrap(text, column) + '\n';
 }
 
-class HelpFormat : public CLI::Formatter {
- public:
-  HelpFormat(std::vector<std::string> usages, std::string examples)
-      : usages_(std::move(usages)), examples_(std::move(examples)) {}
+std::string entry(const Option& option) {
+  const std::string& placeholder = option.values.placeholder;
+  return entry(fmt::format("{}{}{}", fmt::join(option.names, ","), placeholder.empty() ? "" : " ",
+                           placeholder),
+               option.help);
+}
 
-  std::string make_description(const CLI::App* app) const override {
-    return wrap(app->get_description(), 0) + "\n\n";
+/// The command as it is called: "cbc lint", or "cbc".
+std::string full_name(const Command& command) {
+  return command.name().empty() ? "cbc" : "cbc " + command.name();
+}
+
+std::string help_of(const Program& program, const Command& command) {
+  const HelpText& text = command.text();
+  std::string help = wrap(command.description(), 0) + "\n\n";
+  for (const std::string& usage : text.usages) {
+    help += fmt::format("{}{} {}\n", &usage == &text.usages.front() ? "Usage: " : "       ",
+                        full_name(command), usage);
   }
-
-  std::string make_usage(const CLI::App* /*app*/, std::string name) const override {
-    std::string text;
-    for (const std::string& usage : usages_) {
-      text += fmt::format("{}{} {}\n", text.empty() ? "Usage: " : "       ", name, usage);
-    }
-    return text + "\nExamples:\n" + examples_;
+  help += "\nExamples:\n" + text.examples;
+  std::string group;
+  const auto add = [&](const std::string& title, const std::string& line) {
+    if (title != group) help += fmt::format("\n{}:\n", title);
+    group = title;
+    help += line;
+  };
+  for (const Option& option : command.options()) {
+    if (option.is_argument) add("Positionals", entry(option));
   }
-
-  std::string make_help(const CLI::App* app, std::string name,
-                        CLI::AppFormatMode mode) const override {
-    // It writes two empty lines between groups.
-    return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, std::move(name), mode),
-                                         "\n\n\n", "\n\n");
+  for (const Option& option : command.options()) {
+    if (!option.is_argument) add(option.group, entry(option));
   }
-
-  std::string make_option(const CLI::Option* option, bool is_positional) const override {
-    return entry(make_option_name(option, is_positional) + make_option_opts(option),
-                 make_option_desc(option));
+  for (const Command& subcommand : program.commands()) {
+    if (&command != &program.itself()) break;
+    add("Subcommands", entry(subcommand.name(), subcommand.description()));
   }
+  return help + "\n" + wrap_lines(text.footer);
+}
 
-  std::string make_subcommand(const CLI::App* command) const override {
-    return entry(command->get_name(), command->get_description());
-  }
+// Parsing -----------------------------------------------------------------------------------------
 
-  std::string make_footer(const CLI::App* app) const override {
-    return wrap_lines(app->get_footer());
-  }
+// CLI11 takes the arguments apart, and accepts them all: whether they are right is looked at here,
+// where the messages are.
 
- private:
-  std::vector<std::string> usages_;
-  std::string examples_;
+using Given = std::map<const Option*, std::vector<std::string>>;
+
+/// A command line, taken apart.
+struct Parsed {
+  const Command* command = nullptr;          ///< null: none is given
+  Given given;                               ///< what was given has at least one value
+  std::vector<std::string> left_of_program;  ///< that nothing could take; with "--"
+  std::vector<std::string> left_of_command;
+  const Option* unfinished = nullptr;  ///< the line ends where its value should be
 };
 
-}  // namespace
-
-void set_help(CLI::App& command, HelpText text) {
-  command.formatter(std::make_shared<HelpFormat>(std::move(text.usages), std::move(text.examples)));
-  command.footer(std::move(text.footer));
+void declare(CLI::App& app, const Command& command,
+             std::map<const Option*, CLI::Option*>& declared) {
+  constexpr int any_number = 1 << 24;
+  app.set_help_flag();  // it has one like all others
+  app.allow_extras();
+  for (const Option& option : command.options()) {
+    const std::string names = fmt::format("{}", fmt::join(option.names, ","));
+    CLI::Option* const added = option.is_flag ? app.add_flag(names) : app.add_option(names);
+    if (!option.is_flag) {
+      added->expected(option.is_argument && option.is_repeatable ? any_number : 1);
+      added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    }
+    declared[&option] = added;
+  }
 }
 
-namespace {
-
-std::string suggestion(std::string_view name, const std::vector<std::string>& known) {
-  const std::vector<std::string_view> names(known.begin(), known.end());
-  return did_you_mean(nearest(name, names));
+std::vector<std::string> split(const std::vector<std::string>& lists, char separator) {
+  std::vector<std::string> items;
+  for (const std::string& list : lists) {
+    for (std::size_t begin = 0; begin <= list.size();) {
+      const std::size_t size = list.substr(begin).find(separator);
+      if (size > 0 && begin < list.size()) items.push_back(list.substr(begin, size));
+      begin = size == std::string::npos ? list.size() + 1 : begin + size + 1;
+    }
+  }
+  return items;
 }
 
-std::vector<std::string> command_names(CLI::App& program) {
+Parsed parse(const Program& program, const std::vector<std::string>& arguments) {
+  CLI::App app;
+  app.require_subcommand(0, 1);
+  std::map<const Option*, CLI::Option*> declared;
+  declare(app, program.itself(), declared);
+  for (const Command& command : program.commands()) {
+    declare(*app.add_subcommand(command.name()), command, declared);
+  }
+  Parsed parsed;
+  bool is_unfinished = false;
+  try {
+    // CLI11 wants them backwards.
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::ArgumentMismatch&) {
+    is_unfinished = true;  // as nothing else is expected in a certain number
+  }
+  parsed.left_of_program = app.remaining();
+  if (!app.get_subcommands().empty()) {
+    const CLI::App& used = *app.get_subcommands().front();
+    parsed.command = program.find(used.get_name());
+    parsed.left_of_command = used.remaining();
+  }
+  for (const auto& [option, as_declared] : declared) {
+    if (as_declared->count() == 0) continue;
+    const CLI::results_t& values = as_declared->results();
+    std::vector<std::string>& given = parsed.given[option];
+    given = option->separator == '\0' ? values : split(values, option->separator);
+    if (!option->is_argument || !option->values.is_input) continue;
+    for (std::string& path : given) {
+      // It came after "--"; messages name it in a way that needs none.
+      if (path.size() > 1 && path.front() == '-') path.insert(0, "./");
+    }
+  }
+  if (is_unfinished && parsed.command != nullptr) {
+    const std::string& last = arguments.back();
+    parsed.unfinished = parsed.command->find(last);
+    // Short options may stand together.
+    if (parsed.unfinished == nullptr)
+      parsed.unfinished = parsed.command->find(std::string{'-', last.back()});
+  }
+  return parsed;
+}
+
+// Complaints --------------------------------------------------------------------------------------
+
+/// About a first argument that is no command; empty if it is one, or an option.
+std::string find_unknown_command(const Program& program, const std::string& argument) {
+  if (argument.starts_with('-') || program.find(argument) != nullptr) return {};
   std::vector<std::string> names;
-  for (const CLI::App* command : commands_of(program)) {
-    names.push_back(command->get_name());
-  }
-  return names;
-}
-
-CLI::App& used_app(CLI::App& program) {
-  const std::vector<CLI::App*> used = program.get_subcommands();
-  return used.empty() ? program : *used.front();
-}
-
-std::string describe_unknown_option(CLI::App& app, const std::string& argument) {
-  const std::string name = argument.substr(0, argument.find('='));
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& known : option->get_lnames()) names.push_back("--" + known);
-  }
-  return fmt::format("unknown option {}{}", quote(name), suggestion(name, names));
-}
-
-/// Of arguments that nothing could take, the first that is meant as an option; null if none is.
-const std::string* find_option_of(const std::vector<std::string>& arguments) {
-  for (const std::string& argument : arguments) {
-    if (argument == "--") break;
-    if (argument.size() > 1 && argument.front() == '-') return &argument;
-  }
-  return nullptr;
-}
-
-bool is_before(const std::string& first, const std::string& second,
-               const std::vector<std::string>& arguments) {
-  return std::find(arguments.begin(), arguments.end(), first) <
-         std::find(arguments.begin(), arguments.end(), second);
-}
-
-/// The argument to complain of, of those that nothing could take; empty if there is none.
-std::string describe_left_over(CLI::App& program, CLI::App& used,
-                               const std::vector<std::string>& arguments) {
-  if (&used != &program) {
-    const std::vector<std::string> of_command = used.remaining();
-    if (const auto* const option = find_option_of(of_command)) {
-      return describe_unknown_option(used, *option);
-    }
-  }
-  const std::vector<std::string> of_program = program.remaining();
-  const auto* const option = find_option_of(of_program);
-  if (option != nullptr && &used == &program) return describe_unknown_option(program, *option);
-  if (option != nullptr && is_before(*option, used.get_name(), arguments)) {
-    const std::string name = option->substr(0, option->find('='));
-    if (used.get_option_no_throw(name) == nullptr) return describe_unknown_option(program, name);
-    return fmt::format("{} goes after the command {}", name, quote(used.get_name()));
-  }
-  for (const std::string& argument : program.remaining(true)) {
-    if (argument != "--") return fmt::format("unexpected argument {}", quote(argument));
-  }
-  return {};
-}
-
-/// What the value of an option has to be, as "a rule".
-std::string describe_value(CLI::Option& option) {
-  if (const std::vector<std::string> choices = choices_of(option); !choices.empty()) {
-    return "a value: " + list_choices(choices);
-  }
-  if (const std::optional<ValueKind> kind = kind_of(option)) return describe(*kind);
-  // The others are numbers. How --help shows the value tells which.
-  const std::string& text = option.get_option_text();
-  if (text == "SECONDS") return "a time in seconds";
-  if (text == "SHARE") return "a number from 0 to 1";
-  if (text == "I/N") return "a share, such as 1/8";
-  return "a number";
-}
-
-/// What is wrong with the values of one option; empty if it is not an option's fault.
-std::string describe_values_of(CLI::Option& option) {
-  const std::string name = option.get_name();
-  if (!takes_value(option)) return name + " takes no value";
-  if (option.count() == 0) return fmt::format("{} needs {}", name, describe_value(option));
-  if (option.get_items_expected_max() == 1) return name + " is given more than once";
-  return {};
-}
-
-/// The two options that a message of CLI11 joins with a verb; empty if it does not.
-std::optional<std::pair<std::string, std::string>> split_at(const std::string& message,
-                                                            std::string_view verb) {
-  const std::size_t place = message.find(verb);
-  if (place == std::string::npos) return std::nullopt;
-  return std::pair(message.substr(0, place), message.substr(place + verb.size()));
-}
-
-/// The option that a message of CLI11 is about; null if it is about none.
-CLI::Option* find_subject(CLI::App& app, const std::string& message) {
-  constexpr std::string_view conversion = "Could not convert: ";
-  const std::size_t first = message.starts_with(conversion) ? conversion.size() : 0;
-  const std::string name = message.substr(first, message.find_first_of(": ", first) - first);
-  CLI::Option* const option = app.get_option_no_throw(name);
-  if (option != nullptr) return option;
-  return app.get_option_no_throw("--" + name);  // it names flags without their dashes
-}
-
-}  // namespace
-
-std::string describe_usage_error(CLI::App& program, const CLI::ParseError& error,
-                                 const std::vector<std::string>& arguments) {
-  CLI::App& used = used_app(program);
-  if (std::string left_over = describe_left_over(program, used, arguments); !left_over.empty())
-    return left_over;
-  std::string message = error.what();
-  const std::string kind = error.get_name();
-  if (kind == "RequiredError") {
-    if (&used == &program) return "expected a command";
-    if (CLI::Option* const option = find_subject(used, message)) {
-      return "expected " + describe_value(*option);
-    }
-  }
-  if (kind == "RequiresError") {
-    if (const auto options = split_at(message, " requires ")) {
-      return fmt::format("{} goes with {} only", options->first, options->second);
-    }
-  }
-  if (kind == "ExcludesError") {
-    if (const auto options = split_at(message, " excludes ")) {
-      return fmt::format("{} and {} do not go together", options->first, options->second);
-    }
-  }
-  if (kind == "ArgumentMismatch" || kind == "ConversionError" || kind == "InvalidError") {
-    CLI::Option* const option = find_subject(used, message);
-    std::string values = option == nullptr ? std::string() : describe_values_of(*option);
-    if (!values.empty()) return values;
-  }
-  return message;
-}
-
-std::string find_unknown_command(CLI::App& program, const std::string& argument) {
-  if (argument.starts_with('-') || find_command(program, argument) != nullptr) return {};
-  std::string meant = suggestion(argument, command_names(program));
+  for (const Command& command : program.commands()) names.push_back(command.name());
   // These are commands of many other programs.
-  if (argument == "help" || argument == "version") meant = did_you_mean("--" + argument);
-  return fmt::format("unknown command {}{}", quote(argument), meant);
+  const bool is_option = argument == "help" || argument == "version";
+  return fmt::format("unknown command {}{}", quote(argument),
+                     is_option ? did_you_mean("--" + argument) : suggest(argument, names));
 }
 
-std::string find_bad_equals(CLI::App& program, const std::vector<std::string>& arguments) {
-  CLI::App* const command = arguments.empty() ? nullptr : find_command(program, arguments.front());
-  if (command == nullptr) return {};
+/// About an equals sign: behind a flag; behind a short option, whose value it would begin; or with
+/// no value behind it, where CLI11 would take the next argument. Empty if there is none.
+std::string find_bad_equals(const Command& command, const std::vector<std::string>& arguments) {
   for (std::size_t i = 1; i < arguments.size() && arguments[i] != "--"; ++i) {
     const std::string& argument = arguments[i];
     const std::string name = argument.substr(0, argument.find('='));
-    CLI::Option* const option =
-        name.starts_with('-') ? command->get_option_no_throw(name) : nullptr;
-    if (option == nullptr || !takes_value(*option)) continue;
+    const Option* const option = name.starts_with('-') ? command.find(name) : nullptr;
+    if (option == nullptr) continue;
     if (name == argument) {
-      ++i;  // its value, which may be anything
+      if (!option->is_flag) ++i;  // its value, which may be anything
+    } else if (option->is_flag) {
+      return fmt::format("{} takes no value", option->name());
     } else if (name.size() + 1 == argument.size()) {
-      return fmt::format("{} needs {}", name, describe_value(*option));
+      return fmt::format("{} needs {}", name, option->values.expected);
     } else if (!name.starts_with("--")) {
       const std::string value = argument.substr(name.size() + 1);
       return fmt::format("expected {} or {}, found {}", quote(fmt::format("{} {}", name, value)),
-                         quote(fmt::format("{}={}", option->get_name(), value)), quote(argument));
+                         quote(fmt::format("{}={}", option->name(), value)), quote(argument));
     }
   }
   return {};
 }
 
-std::string full_name(const CLI::App& program) {
-  const std::vector<CLI::App*> used = program.get_subcommands();
-  return used.empty() ? "cbc" : "cbc " + used.front()->get_name();
+std::string describe_unknown_option(const Command& command, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Option& option : command.options()) {
+    if (option.name().starts_with("--")) names.push_back(option.name());
+  }
+  return fmt::format("unknown option {}{}", quote(name), suggest(name, names));
+}
+
+/// The name of the first of these arguments that is meant as an option; empty if none is.
+std::string first_option(const std::vector<std::string>& arguments) {
+  for (const std::string& argument : arguments) {
+    if (argument == "--") break;
+    if (argument.size() > 1 && argument.front() == '-')
+      return argument.substr(0, argument.find('='));
+  }
+  return {};
+}
+
+/// About what nothing could take; empty if all was taken.
+std::string find_left_over(const Program& program, const Parsed& parsed,
+                           const std::vector<std::string>& arguments) {
+  const Command* const command = parsed.command;
+  const auto called = command == nullptr
+                          ? arguments.begin()
+                          : std::find(arguments.begin(), arguments.end(), command->name());
+  if (const std::string name = first_option(parsed.left_of_command); !name.empty()) {
+    return describe_unknown_option(*command, name);
+  }
+  if (command == nullptr) {
+    const std::string name = first_option(parsed.left_of_program);
+    if (!name.empty()) return describe_unknown_option(program.itself(), name);
+  } else if (const std::string name = first_option({arguments.begin(), called}); !name.empty()) {
+    if (command->find(name) == nullptr) return describe_unknown_option(*command, name);
+    return fmt::format("{} goes after the command {}", name, quote(command->name()));
+  }
+  for (const auto* const left : {&parsed.left_of_command, &parsed.left_of_program}) {
+    for (const std::string& argument : *left) {
+      if (argument != "--") return fmt::format("unexpected argument {}", quote(argument));
+    }
+  }
+  return {};
+}
+
+/// About files that are read or written; empty if all go together.
+std::string find_bad_file(const std::vector<std::string>& inputs,
+                          const std::vector<std::string>& outputs) {
+  if (std::count(inputs.begin(), inputs.end(), "-") > 1) {
+    return "standard input can be read only once, but is given several times";
+  }
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    const auto is_output = [&](const std::string& file) { return is_same_file(file, *output); };
+    if (std::any_of(inputs.begin(), inputs.end(), is_output)) {
+      return fmt::format(overwrites_input, quote(*output));
+    }
+    if (std::find(outputs.begin(), output, *output) != output ||
+        std::any_of(outputs.begin(), output, is_output)) {
+      return fmt::format("{} would be written twice", quote(*output));
+    }
+  }
+  return {};
+}
+
+/// About the values that were given; empty if all are right.
+std::string find_bad_value(const Command& command, const Given& given) {
+  std::vector<std::string> inputs;
+  std::vector<std::string> outputs;
+  for (const Option& option : command.options()) {
+    const auto found = given.find(&option);
+    if (found == given.end()) continue;
+    const std::vector<std::string>& values = found->second;
+    if (values.size() > 1 && !option.is_repeatable && !option.is_flag) {
+      return option.name() + " is given more than once";
+    }
+    for (const std::string& value : values) {
+      const std::string fault = option.values.check ? option.values.check(value) : std::string();
+      if (!fault.empty()) return fmt::format("{}: {}", option.name(), fault);
+      if (option.values.is_input) inputs.push_back(value);
+      if (option.values.is_output) outputs.push_back(value);
+    }
+  }
+  return find_bad_file(inputs, outputs);
+}
+
+/// Whether an option is given, as `others` of an Option name it.
+bool is_given(const Command& command, const Given& given, const std::string& other) {
+  const std::size_t blank = other.find(' ');
+  const auto found = given.find(command.find(other.substr(0, blank)));
+  return found != given.end() &&
+         (blank == std::string::npos || contains(found->second, other.substr(blank + 1)));
+}
+
+/// About an option that does not go with the others; empty if it does.
+std::string find_clash(const Option& option, const Command& command, const Given& given) {
+  const auto is_there = [&](const std::string& other) { return is_given(command, given, other); };
+  for (const auto& [others, reason] : option.exclusions) {
+    const auto other = std::find_if(others.begin(), others.end(), is_there);
+    if (other == others.end()) continue;
+    if (reason.empty())
+      return fmt::format("{} and {} do not go together", option.name(), quote_if_split(*other));
+    return fmt::format("{} does not go with {}: {}", option.name(), quote_if_split(*other), reason);
+  }
+  for (const std::vector<std::string>& others : option.requirements) {
+    if (std::any_of(others.begin(), others.end(), is_there)) continue;
+    return fmt::format("{} goes with {} only", option.name(), join_with_or(others));
+  }
+  for (const auto& [other, accepted] : option.accepted_values) {
+    const auto found = given.find(command.find(other));
+    if (found == given.end() || contains(accepted, found->second.front())) continue;
+    return fmt::format("{} goes with {} {} only, not {}", option.name(), other,
+                       join_with_or(accepted), found->second.front());
+  }
+  return {};
+}
+
+/// About what was given to a command, or is missing; empty if all is well.
+std::string find_misuse(const Command& command, const Given& given) {
+  if (std::string fault = find_bad_value(command, given); !fault.empty()) return fault;
+  for (const Option& option : command.options()) {
+    if (given.contains(&option)) {
+      if (std::string clash = find_clash(option, command, given); !clash.empty()) return clash;
+    } else if (option.is_required) {
+      return "expected " + option.values.expected;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+int Program::run(const std::vector<std::string>& arguments) const {
+  const Command* const first = arguments.empty() ? nullptr : find(arguments.front());
+  if (!arguments.empty()) {
+    std::string fault = first == nullptr ? find_unknown_command(*this, arguments.front())
+                                         : find_bad_equals(*first, arguments);
+    if (!fault.empty()) return usage_error(first == nullptr ? "" : first->name(), fault);
+  }
+  const Parsed parsed = parse(*this, arguments);
+  const Command& used = parsed.command == nullptr ? itself_ : *parsed.command;
+  const auto refuse = [&](const std::string& fault) { return usage_error(used.name(), fault); };
+  const bool wants_help =
+      is_given(itself_, parsed.given, "--help") || is_given(used, parsed.given, "--help");
+  if (wants_help && parsed.unfinished == nullptr) {
+    fmt::print("{}", help_of(*this, used));
+    return exit_ok;
+  }
+  if (is_given(itself_, parsed.given, "--version")) {
+    fmt::print("{}\n", version_);
+    return exit_ok;
+  }
+  if (const std::string fault = find_left_over(*this, parsed, arguments); !fault.empty())
+    return refuse(fault);
+  if (parsed.command == nullptr) return refuse("expected a command");
+  if (parsed.unfinished != nullptr) {
+    return refuse(
+        fmt::format("{} needs {}", parsed.unfinished->name(), parsed.unfinished->values.expected));
+  }
+  if (const std::string fault = find_misuse(used, parsed.given); !fault.empty()) {
+    return refuse(fault);
+  }
+  for (const auto& [option, values] : parsed.given) {
+    for (const std::string& value : values) {
+      if (option->store) option->store(value);
+    }
+  }
+  return used.run();
 }
 
 }  // namespace cbc::cli

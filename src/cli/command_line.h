@@ -1,102 +1,199 @@
 #pragma once
 
+#include <charconv>
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
-
-#include <CLI/CLI.hpp>
 
 #include "cbc/units.h"
 
-/// What the value of an option, or an argument, stands for: so that completion knows what to offer,
-/// and messages what was expected.
+/// Declares a command line: the commands of a program, their options and arguments, which values
+/// these accept, and what does not go together. Parsing, --help, the complaints about a wrong
+/// command line, and completion all follow from the declarations.
 namespace cbc::cli {
 
-enum class ValueKind {
-  catalog,            ///< a file with a catalog or a script, or a folder of them
+/// What completion offers for a value.
+enum class ValueKind : std::uint8_t {
+  text,               ///< its choices or names, if it has any
+  catalog,            ///< a file with a catalog, or a folder of them
   script,             ///< a file with a script
   catalog_or_script,  ///< either, or a folder of scripts
-  shard,   ///< a file with the result of a shard; of a flag: it makes the arguments such files
-  file,    ///< any file
-  rule,    ///< the name of a rule
-  schema,  ///< the name of a schema
-  task,    ///< the name of a task of the catalog
-  task_or_behavior,
+  shard,              ///< a file with the result of a shard
+  file,               ///< any file
+  task,               ///< the name of a task of the catalog on the line
+  task_or_behavior,   ///< the name of either
 };
 
-/// "a rule"
-[[nodiscard]] std::string describe(ValueKind kind);
+struct NameWithHelp {
+  std::string name;
+  std::string help;  ///< on one line; may be empty
+};
 
-/// Accepts everything; `kind_of` finds the kind again.
-[[nodiscard]] CLI::Validator stands_for(ValueKind kind);
+/// The values that an option or an argument accepts.
+struct Values {
+  std::string placeholder;  ///< in --help: "FILE"
+  std::string expected;     ///< "a file", for complaints
+  ValueKind kind = ValueKind::text;
+  bool is_input = false;             ///< names a file to read, "-" being standard input
+  bool is_output = false;            ///< names a file to write, "-" being standard output
+  std::vector<std::string> choices;  ///< if not empty, no other value is accepted
+  /// Names that completion offers; may be null.
+  std::function<std::vector<NameWithHelp>()> names;
+  /// Says what is wrong with a value, empty if nothing is. Null: all are right.
+  std::function<std::string(const std::string& value)> check;
+};
 
-/// Empty if the option has none.
-[[nodiscard]] std::optional<ValueKind> kind_of(CLI::Option& option);
+/// Of a file to read.
+[[nodiscard]] Values input(std::string placeholder, ValueKind kind);
+/// Of a file to write, "-" being standard output.
+[[nodiscard]] Values output(std::string placeholder);
+/// Of a file to write beside the report, which has standard output.
+[[nodiscard]] Values further_output(std::string placeholder);
+/// Of a task or behavior, or of a file that need not exist.
+[[nodiscard]] Values name_of(std::string placeholder, ValueKind kind);
+[[nodiscard]] Values one_of(std::string placeholder, std::vector<std::string> choices);
+[[nodiscard]] Values whole_number(std::string placeholder, std::int64_t least,
+                                  std::int64_t most = std::numeric_limits<std::int64_t>::max());
+/// Of a time of at least so many microseconds, written in seconds.
+[[nodiscard]] Values seconds(Microseconds least = 1);
 
-/// Accepts one of a few words; `choices_of` finds them again.
-[[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& choices);
+/// An option, a flag or an argument of a command. `others` below are names of options ("--script")
+/// or arguments ("CATALOG"), or an option with one of its values ("--format json").
+struct Option {
+  std::vector<std::string> names;  ///< with their dashes; of an argument its only name
+  std::string help;
+  std::string group;
+  Values values;  ///< of a flag empty, but for `kind`: what the flag makes of the arguments
+  bool is_flag = false;
+  bool is_argument = false;
+  bool is_repeatable = false;
+  bool is_required = false;
+  char separator = '\0';  ///< between the values of a list
+  std::function<void(const std::string& value)> store;
 
-/// Empty if the option has any value.
-[[nodiscard]] std::vector<std::string> choices_of(CLI::Option& option);
+  /// The longest one, which messages use.
+  [[nodiscard]] const std::string& name() const { return names.back(); }
 
-/// "text, json or gcc"
-[[nodiscard]] std::string list_choices(const std::vector<std::string>& choices);
+  Option& required();
+  /// Lets several values be given at once.
+  Option& separated_by(char character);
+  /// Makes a flag turn the arguments into files of this kind.
+  Option& makes_arguments(ValueKind kind);
+  /// Refuses it beside any of the others. The reason follows a colon; it may be empty.
+  Option& not_with(std::vector<std::string> others, std::string reason = {});
+  /// Refuses it unless one of the others is there, too.
+  Option& only_with(std::vector<std::string> others);
+  /// Refuses it beside other values of an option; the option may be missing.
+  Option& only_with_values(std::string other, std::vector<std::string> accepted);
 
-/// Whether the option needs a value, unlike a flag.
-[[nodiscard]] bool takes_value(const CLI::Option& option);
-
-/// Checks of option values that CLI11 lacks, with messages that say what was expected.
-
-/// Accepts a whole number from `least` to `most`.
-[[nodiscard]] CLI::Validator whole_number(
-    std::int64_t least, std::int64_t most = std::numeric_limits<std::int64_t>::max());
-
-/// Accepts a time in seconds, of so many microseconds at least.
-[[nodiscard]] CLI::Validator seconds(Microseconds least = 1);
-
-}  // namespace cbc::cli
-
-namespace CLI {
-class App;
-}
-
-namespace cbc::cli {
+  struct Exclusion {
+    std::vector<std::string> others;
+    std::string reason;
+  };
+  struct AcceptedValues {
+    std::string other;
+    std::vector<std::string> values;
+  };
+  std::vector<Exclusion> exclusions;
+  std::vector<std::vector<std::string>> requirements;
+  std::vector<AcceptedValues> accepted_values;
+};
 
 /// What --help shows of a command beside its options.
 struct HelpText {
   std::vector<std::string> usages;  ///< what follows the name of the command, a line each
   std::string examples;             ///< the most common ones: whole lines, indented
-  std::string
-      footer;  ///< paragraphs, which are wrapped; lines that begin with a blank are left alone
+  /// Paragraphs, which are wrapped; lines that begin with a blank are left alone.
+  std::string footer;
 };
 
-void set_help(CLI::App& command, HelpText text);
+/// Sets a target to a value that its check has accepted.
+inline void assign(std::string& target, const std::string& value) { target = value; }
+inline void assign(std::vector<std::string>& target, const std::string& value) {
+  target.push_back(value);
+}
+template <typename Number>
+requires std::is_integral_v<Number>
+void assign(Number& target, const std::string& value) {
+  std::from_chars(value.data(), value.data() + value.size(), target);
+}
+template <typename Value>
+void assign(std::optional<Value>& target, const std::string& value) {
+  assign(target.emplace(), value);
+}
 
-}  // namespace cbc::cli
+class Command {
+ public:
+  Command(std::string name, std::string description, HelpText text);
 
-namespace CLI {
-class App;
-class ParseError;
-}  // namespace CLI
+  /// The targets must live as long as `action`. A vector takes all values of a repeatable option.
+  template <typename Target>
+  Option& option(const char* names, Target& target, Values values, std::string help) {
+    Option& added = add(names, std::move(values), std::move(help));
+    added.is_repeatable = std::is_same_v<Target, std::vector<std::string>>;
+    added.store = [&target](const std::string& value) { assign(target, value); };
+    return added;
+  }
+  Option& flag(const char* names, bool& target, std::string help);
+  Option& flag(const char* names, std::string help);
+  template <typename Target>
+  Option& argument(const char* name, Target& target, Values values, std::string help) {
+    Option& added = option(name, target, std::move(values), std::move(help));
+    added.is_argument = true;
+    return added;
+  }
+  /// The heading in --help of the options declared next.
+  void group(std::string title) { group_ = std::move(title); }
+  /// What the command does. Returns the exit status.
+  void action(std::function<int()> run) { run_ = std::move(run); }
 
-/// What is wrong with a command line, in plain sentences.
-namespace cbc::cli {
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const std::string& description() const { return description_; }
+  [[nodiscard]] const HelpText& text() const { return text_; }
+  [[nodiscard]] const std::deque<Option>& options() const { return options_; }
+  /// Null if it has none of this name.
+  [[nodiscard]] const Option* find(std::string_view name) const;
+  [[nodiscard]] int run() const { return run_(); }
 
-/// The complaint about a command line, of these arguments, that CLI11 refused.
-[[nodiscard]] std::string describe_usage_error(CLI::App& program, const CLI::ParseError& error,
-                                               const std::vector<std::string>& arguments);
+ private:
+  Option& add(std::string_view names, Values values, std::string help);
 
-/// The complaint about a first argument that is no command; empty if it is one, or an option.
-[[nodiscard]] std::string find_unknown_command(CLI::App& program, const std::string& argument);
+  std::string name_;
+  std::string description_;
+  HelpText text_;
+  std::string group_ = "Options";
+  std::deque<Option> options_;  ///< a deque, as references to them are handed out
+  std::function<int()> run_;
+};
 
-/// The complaint about an equals sign: behind a short option, whose value it would begin, or with
-/// no value behind it, where the next argument would be taken; empty if there is none.
-[[nodiscard]] std::string find_bad_equals(CLI::App& program,
-                                          const std::vector<std::string>& arguments);
+class Program {
+ public:
+  /// `version`: what --version prints.
+  Program(std::string description, std::string version, HelpText text);
 
-/// The command that was called, as "cbc lint", or "cbc".
-[[nodiscard]] std::string full_name(const CLI::App& program);
+  Command& add_command(std::string name, std::string description, HelpText text);
+
+  /// Does what a command line says, or complains of it. Returns the exit status.
+  [[nodiscard]] int run(const std::vector<std::string>& arguments) const;
+
+  /// With the options that need no command.
+  [[nodiscard]] const Command& itself() const { return itself_; }
+  /// In the order of --help.
+  [[nodiscard]] const std::deque<Command>& commands() const { return commands_; }
+  /// Null if there is none of this name.
+  [[nodiscard]] const Command* find(std::string_view name) const;
+
+ private:
+  Command itself_;
+  std::deque<Command> commands_;
+  std::string version_;
+};
 
 }  // namespace cbc::cli

@@ -8,7 +8,6 @@
 #include <unistd.h>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/text.h"
@@ -53,24 +52,6 @@ struct CompileCommand {
   bool check = false;
   bool dump = false;
 };
-
-/// What is wrong with the combination of options; empty if nothing is.
-std::string find_misuse(const CompileCommand& command) {
-  if (command.dump && command.check) return "--dump and --check do not go together";
-  if (command.dump && command.output) {
-    return "--dump writes to standard output, so -o does not go with it";
-  }
-  if (!command.dump && !command.format.empty()) return "--format goes with --dump only";
-  if (command.dump) return {};
-  if (command.output == "") return "expected the name of a file after -o";
-  if (command.catalog == "-" && !command.output) {
-    return "a catalog from standard input gives the output no name; expected -o OUT";
-  }
-  if (command.check && command.output == "-") {
-    return "--check looks at a file, so '-o -' does not go with it";
-  }
-  return {};
-}
 
 std::string output_of(const CompileCommand& command) {
   if (command.output) return *command.output;
@@ -141,8 +122,7 @@ int compile_to_file(const CompileCommand& command) {
   if (!source) return exit_unusable;
   const std::string output = output_of(command);
   if (is_same_file(command.catalog, output)) {
-    return usage_error("compile",
-                       fmt::format("the output {} is the catalog itself", quote(output)));
+    return usage_error("compile", fmt::format(overwrites_input, quote(output)));
   }
   const std::optional<Compiled> compiled = compile_source(*source);
   return compiled ? write(output, compiled->content) : exit_unusable;
@@ -207,42 +187,46 @@ int dump(const CompileCommand& command) {
 }
 
 int run_compile(const CompileCommand& command) {
-  if (const std::string misuse = find_misuse(command); !misuse.empty())
-    return usage_error("compile", misuse);
   if (command.dump) return dump(command);
+  if (command.catalog == "-" && !command.output) {
+    return usage_error("compile",
+                       "a catalog from standard input gives the output no name; expected -o OUT");
+  }
   return command.check ? check(command) : compile_to_file(command);
 }
 
 }  // namespace
 
-void add_compile_command(CLI::App& program, int& status) {
+void add_compile_command(Program& program) {
   const auto options = std::make_shared<CompileCommand>();
-  CLI::App* const command = program.add_subcommand(
-      "compile", "Writes a catalog in the form that robots load in microseconds.");
-  set_help(*command,
-           {{"[OPTION...] CATALOG", "--check [OPTION...] CATALOG", "--dump [OPTION...] CATALOG"},
-            compile_examples,
-            compile_footer});
+  Command& command = program.add_command(
+      "compile", "Writes a catalog in the form that robots load in microseconds.",
+      {{"[OPTION...] CATALOG", "--check [OPTION...] CATALOG", "--dump [OPTION...] CATALOG"},
+       compile_examples,
+       compile_footer});
   command
-      ->add_option("CATALOG", options->catalog, "The catalog: a YAML file, or - for standard input")
-      ->option_text(" ")
-      ->check(stands_for(ValueKind::catalog))
-      ->required();
+      .argument("CATALOG", options->catalog, input("", ValueKind::catalog),
+                "The catalog: a YAML file, or - for standard input")
+      .required();
   command
-      ->add_option("-o,--output", options->output,
-                   "The file to write, or - for standard output (default: CATALOG with the suffix "
-                   ".cbc)")
-      ->option_text("OUT")
-      ->check(stands_for(ValueKind::file));
-  command->add_flag("--check", options->check,
-                    "Write nothing; say whether the file is what would be written now");
-  command->add_flag("--dump", options->dump,
-                    "Write nothing; list what the catalog, a compiled one or YAML, holds when it "
-                    "is compiled");
-  command->add_option("--format", options->format, "Of --dump: text (the default) or json")
-      ->option_text("FORMAT")
-      ->check(one_of({"text", "json"}));
-  command->callback([options, &status] { status = run_compile(*options); });
+      .option("-o,--output", options->output, output("OUT"),
+              "The file to write, or - for standard output (default: CATALOG with the suffix "
+              ".cbc)")
+      .not_with({"--dump"}, "it writes to standard output");
+  command
+      .flag("--check", options->check,
+            "Write nothing; say whether the file is what would be written now")
+      .not_with({"--output -"}, "it looks at a file");
+  command
+      .flag("--dump", options->dump,
+            "Write nothing; list what the catalog, a compiled one or YAML, holds when it "
+            "is compiled")
+      .not_with({"--check"});
+  command
+      .option("--format", options->format, one_of("FORMAT", {"text", "json"}),
+              "Of --dump: text (the default) or json")
+      .only_with({"--dump"});
+  command.action([options] { return run_compile(*options); });
 }
 
 }  // namespace cbc::cli

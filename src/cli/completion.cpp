@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
@@ -13,22 +14,21 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/text.h"
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/input.h"
-#include "diagnostic/rules.h"
 
 namespace cbc::cli {
+namespace {
 
 /// The words around the one that is being typed, understood as far as they can be.
 struct TypedLine {
-  CLI::App* command = nullptr;        ///< null: it comes next
+  const Command* command = nullptr;   ///< null: it comes next
   bool is_unknown = false;            ///< there is no such command
-  CLI::Option* pending = nullptr;     ///< what is being typed is its value
+  const Option* pending = nullptr;    ///< what is being typed is its value
   bool has_separator = false;         ///< "--" is before it: no options come any more
   std::size_t positionals = 0;        ///< of the command, before it
   std::vector<std::string> files;     ///< the positionals before and behind it
@@ -36,25 +36,18 @@ struct TypedLine {
   std::optional<ValueKind> argument;  ///< what a flag makes of the positionals
 };
 
-/// `words`: those after the name of the program; the last one is being typed. `behind`: those
-/// behind it.
-[[nodiscard]] TypedLine understand_line(CLI::App& program, const std::vector<std::string>& words,
-                                        const std::vector<std::string>& behind);
-
-namespace {
-
 bool is_option(const std::string& word) { return word.size() > 1 && word.front() == '-'; }
 
-void add_value(CLI::Option& option, const std::string& value, TypedLine& line) {
-  if (kind_of(option) == ValueKind::script) line.scripts.push_back(value);
+void add_value(const Option& option, const std::string& value, TypedLine& line) {
+  if (option.values.kind == ValueKind::script) line.scripts.push_back(value);
 }
 
 void add_option(const std::string& word, TypedLine& line) {
   const std::size_t equals = word.find('=');
-  CLI::Option* const option = line.command->get_option_no_throw(word.substr(0, equals));
+  const Option* const option = line.command->find(word.substr(0, equals));
   if (option == nullptr) return;
-  if (!takes_value(*option)) {
-    if (const auto kind = kind_of(*option)) line.argument = kind;
+  if (option->is_flag) {
+    if (option->values.kind != ValueKind::text) line.argument = option->values.kind;
   } else if (equals == std::string::npos) {
     line.pending = option;
   } else {
@@ -74,16 +67,16 @@ void add_word(const std::string& word, TypedLine& line) {
   }
 }
 
-}  // namespace
-
-TypedLine understand_line(CLI::App& program, const std::vector<std::string>& words,
+/// `words`: those after the name of the program; the last one is being typed. `behind`: those
+/// behind it.
+TypedLine understand_line(const Program& program, const std::vector<std::string>& words,
                           const std::vector<std::string>& behind) {
   TypedLine line;
   for (std::size_t i = 0; i + 1 < words.size(); ++i) {
     if (line.command != nullptr) {
       add_word(words[i], line);
     } else if (!is_option(words[i])) {
-      line.command = find_command(program, words[i]);
+      line.command = program.find(words[i]);
       line.is_unknown = line.command == nullptr;
       if (line.is_unknown) return line;
     }
@@ -98,25 +91,6 @@ TypedLine understand_line(CLI::App& program, const std::vector<std::string>& wor
   line.argument = whole.argument;
   return line;
 }
-
-/// Names that completion offers.
-
-struct CompletionName {
-  std::string name;
-  std::string help;
-};
-
-[[nodiscard]] std::vector<CompletionName> rule_names_with_help();
-
-[[nodiscard]] std::vector<CompletionName> schema_names_with_help();
-
-/// The tasks, on request also the behaviors, of the catalog in a file, or of the one that the
-/// script in it names: of a faulty catalog, as far as it is understood. Complaints go to standard
-/// error.
-[[nodiscard]] std::vector<CompletionName> names_of_file(const std::string& path,
-                                                        bool with_behaviors);
-
-namespace {
 
 /// What takes longer to read than somebody who presses a key waits.
 constexpr std::uintmax_t largest_completed = std::uintmax_t{2} << 20U;
@@ -148,31 +122,16 @@ std::optional<InputFile> read_catalog_of(InputFiles& files, const std::string& p
   return named ? read_if_readable(files, *named) : std::nullopt;
 }
 
-}  // namespace
-
-std::vector<CompletionName> rule_names_with_help() {
-  std::vector<CompletionName> names;
-  for (const Rule& rule : all_rules()) {
-    names.push_back({std::string(rule.name), std::string(rule.summary)});
-  }
-  return names;
-}
-
-std::vector<CompletionName> schema_names_with_help() {
-  std::vector<CompletionName> names;
-  for (const Schema& schema : all_schemas()) {
-    names.push_back({std::string(schema.name), title_of(schema)});
-  }
-  return names;
-}
-
-std::vector<CompletionName> names_of_file(const std::string& path, bool with_behaviors) {
+/// The tasks, on request also the behaviors, of the catalog in a file, or of the one that the
+/// script in it names: of a faulty catalog, as far as it is understood. Complaints go to standard
+/// error.
+std::vector<NameWithHelp> names_of_file(const std::string& path, bool with_behaviors) {
   InputFiles files;
   const std::optional<InputFile> catalog = read_catalog_of(files, expand_home(path));
   if (!catalog) return {};
   const std::unique_ptr<Drawable> drawable = to_drawable(files, *catalog);
   if (drawable == nullptr) return {};
-  std::vector<CompletionName> names;
+  std::vector<NameWithHelp> names;
   std::set<std::string> known;
   const auto add = [&](const auto& entries, const char* what) {
     for (const auto& entry : entries) {
@@ -185,7 +144,135 @@ std::vector<CompletionName> names_of_file(const std::string& path, bool with_beh
   return names;
 }
 
-namespace {
+/// What can stand where a word of a command line is being typed.
+struct Completion {
+  std::vector<NameWithHelp> candidates;    ///< without `prefix`
+  bool is_file = false;                    ///< the shell offers files
+  std::vector<std::string_view> suffixes;  ///< of the files, without dots; empty: all files
+  std::string prefix;                      ///< of the last word, before the value: "--format="
+};
+
+/// What an option or a command does, in a few words of its help.
+std::string first_words(std::string text) {
+  std::size_t end = text.size();
+  for (const char* const stop : {". ", "; ", ": ", " ("}) end = std::min(end, text.find(stop));
+  text.resize(end);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+void offer_commands(const Program& program, Completion& completion) {
+  for (const Command& command : program.commands()) {
+    completion.candidates.push_back({command.name(), first_words(command.description())});
+  }
+}
+
+void offer_options(const Command& command, Completion& completion) {
+  for (const Option& option : command.options()) {
+    if (option.is_argument) continue;
+    const std::vector<std::string>& choices = option.values.choices;
+    const std::string help =
+        choices.empty() ? first_words(option.help) : fmt::format("{}", fmt::join(choices, ", "));
+    for (auto name = option.names.rbegin(); name != option.names.rend(); ++name) {
+      completion.candidates.push_back({*name, help});
+    }
+  }
+}
+
+void offer_names(std::vector<NameWithHelp> names, Completion& completion) {
+  std::move(names.begin(), names.end(), std::back_inserter(completion.candidates));
+}
+
+void offer_files(std::vector<std::string_view> suffixes, Completion& completion) {
+  completion.is_file = true;
+  completion.suffixes = std::move(suffixes);
+}
+
+/// The names come out of a catalog on the line, or of one that a script there names.
+void offer_names_of(const TypedLine& line, bool with_behaviors, Completion& completion) {
+  const std::vector<std::string>& paths = line.files.empty() ? line.scripts : line.files;
+  if (!paths.empty()) offer_names(names_of_file(paths.front(), with_behaviors), completion);
+}
+
+void offer_kind(ValueKind kind, const TypedLine& line, Completion& completion) {
+  switch (kind) {
+    case ValueKind::text:
+      return;
+    case ValueKind::catalog:
+      return offer_files({"yaml", "yml", "cbc"}, completion);
+    case ValueKind::script:
+      return offer_files({"yaml", "yml", "json"}, completion);
+    case ValueKind::catalog_or_script:
+      return offer_files({"yaml", "yml", "json", "cbc"}, completion);
+    case ValueKind::shard:
+      return offer_files({"json"}, completion);
+    case ValueKind::file:
+      return offer_files({}, completion);
+    case ValueKind::task:
+      return offer_names_of(line, false, completion);
+    case ValueKind::task_or_behavior:
+      return offer_names_of(line, true, completion);
+  }
+}
+
+void offer_values(const Option& option, const TypedLine& line, const std::string& typed,
+                  Completion& completion) {
+  if (option.separator != '\0') {
+    completion.prefix += typed.substr(0, typed.rfind(option.separator) + 1);
+  }
+  for (const std::string& choice : option.values.choices) {
+    completion.candidates.push_back({choice, ""});
+  }
+  if (option.values.names) offer_names(option.values.names(), completion);
+  offer_kind(option.values.kind, line, completion);
+}
+
+/// The positional argument that comes next; null if all are there.
+const Option* next_argument(const Command& command, std::size_t given) {
+  for (const Option& option : command.options()) {
+    if (option.is_argument && (option.is_repeatable || given-- == 0)) return &option;
+  }
+  return nullptr;
+}
+
+/// Derived from the definition of the command line. `words`: those after the name of the program;
+/// the last one, which may be empty, is being typed. `behind`: the words behind that one. Where
+/// names out of a catalog can follow, the catalog is read.
+Completion complete(const Program& program, const std::vector<std::string>& words,
+                    const std::vector<std::string>& behind) {
+  Completion completion;
+  if (words.empty()) return completion;
+  const std::string& last = words.back();
+  const TypedLine line = understand_line(program, words, behind);
+  if (line.is_unknown) return completion;
+  const bool is_dash = last.starts_with('-') && !line.has_separator;
+  if (line.command == nullptr) {
+    is_dash ? offer_options(program.itself(), completion) : offer_commands(program, completion);
+    return completion;
+  }
+  if (line.pending != nullptr) {
+    offer_values(*line.pending, line, last, completion);
+    return completion;
+  }
+  const std::size_t equals = last.find('=');
+  if (is_dash && equals != std::string::npos) {
+    if (!last.starts_with("--")) return completion;  // short options take no '='
+    const Option* const option = line.command->find(last.substr(0, equals));
+    if (option == nullptr || option->is_flag) return completion;
+    completion.prefix = last.substr(0, equals + 1);
+    offer_values(*option, line, last.substr(equals + 1), completion);
+    return completion;
+  }
+  const Option* const positional = next_argument(*line.command, line.positionals);
+  if (is_dash || (positional == nullptr && last.empty() && !line.has_separator)) {
+    offer_options(*line.command, completion);
+  } else if (positional != nullptr && line.argument) {
+    offer_kind(*line.argument, line, completion);
+  } else if (positional != nullptr) {
+    offer_values(*positional, line, last, completion);
+  }
+  return completion;
+}
 
 /// What a shell makes of a word, that may not be finished, without expanding anything.
 std::string unquote(std::string_view word) {
@@ -297,7 +384,7 @@ std::size_t parse_place(std::string_view text) {
 
 }  // namespace
 
-void reply_to_shell(CLI::App& program, const std::vector<std::string>& arguments) {
+void reply_to_shell(const Program& program, const std::vector<std::string>& arguments) {
   constexpr std::size_t first_word = 3;
   if (arguments.size() <= first_word) return;
   const std::size_t place = parse_place(arguments[2]);
@@ -312,137 +399,6 @@ void reply_to_shell(CLI::App& program, const std::vector<std::string>& arguments
   words[place - 1] = typed.plain;
   const Completion completion = complete(program, {words.begin(), behind}, {behind, words.end()});
   completion.is_file ? print_files(completion, typed) : print_words(completion, typed, shell);
-}
-
-namespace {
-
-/// What an option or a command does, in a few words of its help.
-std::string first_words(std::string text) {
-  std::size_t end = text.size();
-  for (const char* const stop : {". ", "; ", ": ", " ("}) end = std::min(end, text.find(stop));
-  text.resize(end);
-  if (text.ends_with('.')) text.pop_back();
-  return text;
-}
-
-void offer_commands(CLI::App& program, Completion& completion) {
-  for (const CLI::App* command : commands_of(program)) {
-    completion.candidates.push_back({command->get_name(), first_words(command->get_description())});
-  }
-}
-
-void offer_options(CLI::App& app, Completion& completion) {
-  for (CLI::Option* option : app.get_options()) {
-    const std::vector<std::string> choices = choices_of(*option);
-    const std::string help = choices.empty() ? first_words(option->get_description())
-                                             : fmt::format("{}", fmt::join(choices, ", "));
-    for (const std::string& name : option->get_lnames()) {
-      completion.candidates.push_back({"--" + name, help});
-    }
-    for (const std::string& name : option->get_snames()) {
-      completion.candidates.push_back({"-" + name, help});
-    }
-  }
-}
-
-void offer_names(std::vector<CompletionName> names, Completion& completion) {
-  for (CompletionName& name : names) {
-    completion.candidates.push_back({std::move(name.name), std::move(name.help)});
-  }
-}
-
-void offer_files(std::vector<std::string_view> suffixes, Completion& completion) {
-  completion.is_file = true;
-  completion.suffixes = std::move(suffixes);
-}
-
-/// The names come out of a catalog on the line, or of one that a script there names.
-void offer_names_of(const TypedLine& line, bool with_behaviors, Completion& completion) {
-  const std::vector<std::string>& paths = line.files.empty() ? line.scripts : line.files;
-  if (!paths.empty()) offer_names(names_of_file(paths.front(), with_behaviors), completion);
-}
-
-void offer_kind(ValueKind kind, const TypedLine& line, Completion& completion) {
-  switch (kind) {
-    case ValueKind::catalog:
-      return offer_files({"yaml", "yml", "cbc"}, completion);
-    case ValueKind::script:
-      return offer_files({"yaml", "yml", "json"}, completion);
-    case ValueKind::catalog_or_script:
-      return offer_files({"yaml", "yml", "json", "cbc"}, completion);
-    case ValueKind::shard:
-      return offer_files({"json"}, completion);
-    case ValueKind::file:
-      return offer_files({}, completion);
-    case ValueKind::rule:
-      return offer_names(rule_names_with_help(), completion);
-    case ValueKind::schema:
-      return offer_names(schema_names_with_help(), completion);
-    case ValueKind::task:
-      return offer_names_of(line, false, completion);
-    case ValueKind::task_or_behavior:
-      return offer_names_of(line, true, completion);
-  }
-}
-
-void offer_values(CLI::Option& option, const TypedLine& line, const std::string& typed,
-                  Completion& completion) {
-  if (option.get_delimiter() != '\0') {
-    const std::size_t last = typed.rfind(option.get_delimiter());
-    if (last != std::string::npos) completion.prefix += typed.substr(0, last + 1);
-  }
-  for (const std::string& choice : choices_of(option))
-    completion.candidates.push_back({choice, ""});
-  if (const auto kind = kind_of(option)) offer_kind(*kind, line, completion);
-}
-
-/// The positional argument that comes next; null if all are there.
-CLI::Option* next_positional(CLI::App& command, std::size_t given) {
-  for (CLI::Option* option :
-       command.get_options([](const CLI::Option* one) { return one->get_positional(); })) {
-    const auto most = static_cast<std::size_t>(option->get_items_expected_max());
-    if (given < most) return option;
-    given -= most;
-  }
-  return nullptr;
-}
-
-}  // namespace
-
-Completion complete(CLI::App& program, const std::vector<std::string>& words,
-                    const std::vector<std::string>& behind) {
-  Completion completion;
-  if (words.empty()) return completion;
-  const std::string& last = words.back();
-  const TypedLine line = understand_line(program, words, behind);
-  if (line.is_unknown) return completion;
-  const bool is_dash = last.starts_with('-') && !line.has_separator;
-  if (line.command == nullptr) {
-    is_dash ? offer_options(program, completion) : offer_commands(program, completion);
-    return completion;
-  }
-  if (line.pending != nullptr) {
-    offer_values(*line.pending, line, last, completion);
-    return completion;
-  }
-  const std::size_t equals = last.find('=');
-  if (is_dash && equals != std::string::npos) {
-    if (!last.starts_with("--")) return completion;  // short options take no '='
-    CLI::Option* const option = line.command->get_option_no_throw(last.substr(0, equals));
-    if (option == nullptr || !takes_value(*option)) return completion;
-    completion.prefix = last.substr(0, equals + 1);
-    offer_values(*option, line, last.substr(equals + 1), completion);
-    return completion;
-  }
-  CLI::Option* const positional = next_positional(*line.command, line.positionals);
-  if (is_dash || (positional == nullptr && last.empty() && !line.has_separator)) {
-    offer_options(*line.command, completion);
-  } else if (positional != nullptr && line.argument) {
-    offer_kind(*line.argument, line, completion);
-  } else if (positional != nullptr) {
-    offer_values(*positional, line, last, completion);
-  }
-  return completion;
 }
 
 }  // namespace cbc::cli

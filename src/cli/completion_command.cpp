@@ -6,22 +6,14 @@
 #include <string>
 #include <string_view>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/command_line.h"
 #include "cli/commands.h"
+#include "cli/output.h"
 
-/// The scripts that make a shell ask the program how a command line can go on.
+// The scripts that make a shell ask the program how a command line can go on.
 namespace cbc::cli {
-
-/// The name whose command lines are to be completed by a program that was called as this path or
-/// name: its file name, or "cbc" if a shell could take that for anything but a word.
-[[nodiscard]] std::string name_to_complete(std::string_view called_as);
-
-/// The script for "bash", "zsh" or "fish" that completes the command lines of `program`.
-[[nodiscard]] std::string completion_script(std::string_view shell, std::string_view program);
-
 namespace {
 
 // What the program answers is data for all of them: no line of it is ever evaluated.
@@ -175,8 +167,8 @@ end
 complete -c PROGRAM -f -a '(__PROGRAM_complete)'
 )script";
 
-}  // namespace
-
+/// The name whose command lines are to be completed by a program that was called as this path or
+/// name: its file name, or "cbc" if a shell could take that for anything but a word.
 std::string name_to_complete(std::string_view called_as) {
   const std::string_view name = called_as.substr(called_as.rfind('/') + 1);
   const bool is_plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
@@ -185,6 +177,7 @@ std::string name_to_complete(std::string_view called_as) {
   return std::string(is_plain && !name.empty() ? name : "cbc");
 }
 
+/// The script for "bash", "zsh" or "fish" that completes the command lines of `program`.
 std::string completion_script(std::string_view shell, std::string_view program) {
   constexpr std::string_view placeholder = "PROGRAM";
   std::string script(shell == "bash" ? bash_script : shell == "zsh" ? zsh_script : fish_script);
@@ -194,8 +187,6 @@ std::string completion_script(std::string_view shell, std::string_view program) 
   }
   return script;
 }
-
-namespace {
 
 constexpr const char* completion_examples =
     "  source <(cbc completion bash)             try it in this bash\n"
@@ -224,18 +215,18 @@ constexpr const char* completion_footer =
 
 }  // namespace
 
-void add_completion_command(CLI::App& program, std::string_view called_as, int& status) {
+void add_completion_command(Program& program, std::string_view called_as) {
   const auto shell = std::make_shared<std::string>();
-  CLI::App* const command = program.add_subcommand(
-      "completion", "Prints a script that completes command lines of cbc in a shell.");
-  set_help(*command, {{"bash|zsh|fish"}, completion_examples, completion_footer});
-  command->add_option("SHELL", *shell, "The shell: bash, zsh or fish")
-      ->option_text(" ")
-      ->required()
-      ->check(one_of({"bash", "zsh", "fish"}));
-  command->callback([shell, name = name_to_complete(called_as), &status] {
+  Command& command = program.add_command(
+      "completion", "Prints a script that completes command lines of cbc in a shell.",
+      {{"bash|zsh|fish"}, completion_examples, completion_footer});
+  command
+      .argument("SHELL", *shell, one_of("", {"bash", "zsh", "fish"}),
+                "The shell: bash, zsh or fish")
+      .required();
+  command.action([shell, name = name_to_complete(called_as)] {
     fmt::print("{}", completion_script(*shell, name));
-    status = exit_ok;
+    return exit_ok;
   });
 }
 

@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/text.h"
@@ -34,11 +33,8 @@
 #include "support/system.h"
 #include "support/wording.h"
 
-namespace CLI {
-class App;
-}
-
 namespace cbc::cli {
+namespace {
 
 /// What `cbc graph` draws of a catalog, and how.
 struct DrawingOptions {
@@ -55,20 +51,6 @@ struct DrawingOptions {
 
   [[nodiscard]] bool operator==(const DrawingOptions&) const = default;
 };
-
-void add_drawing_options(CLI::App& command, DrawingOptions& options);
-
-/// What is wrong with the combination of options; empty if nothing is.
-[[nodiscard]] std::string find_misuse(const DrawingOptions& options);
-
-[[nodiscard]] draw::ViewOptions view_options(const DrawingOptions& options);
-
-/// The part of the catalog that is drawn. Empty if it has no such tasks or group, which is
-/// complained of.
-[[nodiscard]] std::optional<draw::Part> find_part(const draw::CatalogGraph& graph,
-                                                  const DrawingOptions& options);
-
-namespace {
 
 /// The name that an unknown one may stand for.
 std::string suggest(const draw::CatalogGraph& graph, const std::string& name) {
@@ -105,59 +87,36 @@ std::uint32_t group_count(const draw::CatalogGraph& graph) {
   return groups;
 }
 
-}  // namespace
-
-void add_drawing_options(CLI::App& command, DrawingOptions& options) {
+void add_drawing_options(Command& command, DrawingOptions& options) {
   constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
+  command.option("--view", options.view,
+                 one_of("VIEW", {"full", "tasks", "constraints", "behaviors"}),
+                 "What is drawn: full (default: tasks and behaviors), tasks (what each requires), "
+                 "constraints (between tasks, one color a group), behaviors (what each requires)");
+  command.option("--exclusivity", options.exclusivity, one_of("STYLE", {"pairs", "hubs", "none"}),
+                 "Draw lists of exclusive tasks as pairs, as hubs (a dot with a line to each "
+                 "task), or none (default: up to three tasks as pairs, more as hubs; in the views "
+                 "tasks and behaviors none)");
+  command.option("--cluster", options.cluster, one_of("KIND", {"packages", "groups", "none"}),
+                 "Draw frames around packages (of behaviors), groups (of tasks that constraints "
+                 "connect), or none (default: none; in the view of the constraints groups)");
   command
-      .add_option("--view", options.view,
-                  "What is drawn: full (default: tasks and behaviors), tasks (what each requires), "
-                  "constraints (between tasks, one color a group), behaviors (what each requires)")
-      ->option_text("VIEW")
-      ->check(one_of({"full", "tasks", "constraints", "behaviors"}));
+      .flag("--reduce", options.reduce,
+            "In the view of tasks, leave out requirements that follow from others")
+      .only_with({"--view tasks"});
   command
-      .add_option("--exclusivity", options.exclusivity,
-                  "Draw lists of exclusive tasks as pairs, as hubs (a dot with a line to each "
-                  "task), or none (default: up to three tasks as pairs, more as hubs; in the views "
-                  "tasks and behaviors none)")
-      ->option_text("STYLE")
-      ->check(one_of({"pairs", "hubs", "none"}));
+      .option("--task", options.tasks, name_of("NAME", ValueKind::task),
+              "Draw this task only, with what it requires and what requires it. Repeatable")
+      .not_with({"--group"});
+  command.flag("--up", options.up, "Of --task: only what requires it").only_with({"--task"});
+  command.flag("--down", options.down, "Of --task: only what it requires").only_with({"--task"});
   command
-      .add_option("--cluster", options.cluster,
-                  "Draw frames around packages (of behaviors), groups (of tasks that constraints "
-                  "connect), or none (default: none; in the view of the constraints groups)")
-      ->option_text("KIND")
-      ->check(one_of({"packages", "groups", "none"}));
-  command.add_flag("--reduce", options.reduce,
-                   "In the view of tasks, leave out requirements that follow from others");
-  command
-      .add_option("--task", options.tasks,
-                  "Draw this task only, with what it requires and what requires it. Repeatable")
-      ->option_text("NAME")
-      ->check(stands_for(ValueKind::task))
-      ->allow_extra_args(false);
-  command.add_flag("--up", options.up, "Of --task: only what requires it");
-  command.add_flag("--down", options.down, "Of --task: only what it requires");
-  command.add_option("--depth", options.depth, "Of --task: at most N tasks away")
-      ->option_text("N")
-      ->check(whole_number(0, most));
-  command
-      .add_option("--group", options.group,
-                  "Draw this group only; 'cbc compile --dump' numbers them")
-      ->option_text("N")
-      ->check(whole_number(0, most));
-  command.add_flag("--legend", options.legend, "Add a key to the kinds of shapes and lines");
-}
-
-std::string find_misuse(const DrawingOptions& options) {
-  if (!options.tasks.empty() && options.group) return "--task and --group do not go together";
-  if (options.tasks.empty()) {
-    if (options.up) return "--up goes with --task only";
-    if (options.down) return "--down goes with --task only";
-    if (options.depth) return "--depth goes with --task only";
-  }
-  if (options.reduce && options.view != "tasks") return "--reduce goes with --view tasks only";
-  return {};
+      .option("--depth", options.depth, whole_number("N", 0, most),
+              "Of --task: at most N tasks away")
+      .only_with({"--task"});
+  command.option("--group", options.group, whole_number("N", 0, most),
+                 "Draw this group only; 'cbc compile --dump' numbers them");
+  command.flag("--legend", options.legend, "Add a key to the kinds of shapes and lines");
 }
 
 draw::ViewOptions view_options(const DrawingOptions& options) {
@@ -175,6 +134,8 @@ draw::ViewOptions view_options(const DrawingOptions& options) {
   return result;
 }
 
+/// The part of the catalog that is drawn. Empty if it has no such tasks or group, which is
+/// complained of.
 std::optional<draw::Part> find_part(const draw::CatalogGraph& graph,
                                     const DrawingOptions& options) {
   if (options.group) {
@@ -195,13 +156,6 @@ std::optional<draw::Part> find_part(const draw::CatalogGraph& graph,
                      {is_both || options.up, is_both || options.down, options.depth});
 }
 
-/// Has Graphviz's program `dot` draw a graph: format is svg, png or pdf. Empty if that fails, which
-/// is complained of.
-[[nodiscard]] std::optional<std::string> run_graphviz(const std::string& dot,
-                                                      const std::string& format);
-
-namespace {
-
 std::string first_line(const std::string& text) {
   const std::string line = text.substr(0, text.find('\n'));
   return line.empty() ? "it does not say why" : line;
@@ -217,10 +171,10 @@ void remove_date(std::string& pdf) {
   pdf.replace(place + begin.size(), date.size(), date);
 }
 
-}  // namespace
-
-std::optional<std::string> run_graphviz(const std::string& dot, const std::string& format) {
-  Filtered picture = run_filter({"dot", "-T" + format}, dot);
+/// Has Graphviz's program `dot` draw a graph: format is svg, png or pdf. Empty if that fails, which
+/// is complained of.
+std::optional<std::string> run_graphviz(const std::string& dot, std::string_view format) {
+  Filtered picture = run_filter({"dot", fmt::format("-T{}", format)}, dot);
   if (!picture.is_found) {
     complain(fmt::format("{} needs Graphviz (Debian: apt install graphviz): cannot run 'dot': {}",
                          format, picture.error_output));
@@ -235,32 +189,12 @@ std::optional<std::string> run_graphviz(const std::string& dot, const std::strin
   return std::move(picture.output);
 }
 
-}  // namespace cbc::cli
-
-namespace CLI {
-class App;
-}
-
-namespace cbc::cli {
-
 /// Which state of a mission `cbc graph` draws.
 struct StateOptions {
   std::optional<std::string> script;  ///< empty: no state, but the catalog
   std::optional<std::uint64_t> after;
   std::string at;
 };
-
-void add_state_options(CLI::App& command, StateOptions& options);
-
-/// What is wrong with the combination of options; empty if nothing is.
-[[nodiscard]] std::string find_misuse(const StateOptions& options);
-
-/// Runs the script on the catalog, or on the one that it names if `catalog` is empty. Null if there
-/// is no such state: why is printed, and `status` is set.
-[[nodiscard]] std::unique_ptr<Drawable> read_state(const std::string& catalog,
-                                                   const StateOptions& options, int& status);
-
-namespace {
 
 /// The one script, with its catalog.
 std::optional<Mission> load_mission(const std::string& catalog, const std::string& script) {
@@ -308,35 +242,25 @@ std::string find_miss(const Script& script, const WantedState& wanted, std::uint
   return {};
 }
 
-}  // namespace
-
-void add_state_options(CLI::App& command, StateOptions& options) {
+void add_state_options(Command& command, StateOptions& options) {
   command
-      .add_option("--script", options.script,
-                  "Run this event script, and mark what runs at its end: running tasks and active "
-                  "behaviors, and what the last event changed. It may name the catalog (catalog: "
-                  "FILE)")
-      ->option_text("SCRIPT")
-      ->check(stands_for(ValueKind::script));
+      .option("--script", options.script, input("SCRIPT", ValueKind::script),
+              "Run this event script, and mark what runs at its end: running tasks and active "
+              "behaviors, and what the last event changed. It may name the catalog (catalog: "
+              "FILE)")
+      .not_with({"--diff"});
   command
-      .add_option("--after", options.after,
-                  "Of --script: mark what runs after the Nth event that 'cbc solve' lists (0: "
-                  "before the first)")
-      ->option_text("N")
-      ->check(whole_number(0));
-  command.add_option("--at", options.at, "Of --script: mark what runs after this time")
-      ->option_text("SECONDS")
-      ->check(seconds(0));
+      .option("--after", options.after, whole_number("N", 0),
+              "Of --script: mark what runs after the Nth event that 'cbc solve' lists (0: "
+              "before the first)")
+      .only_with({"--script"})
+      .not_with({"--at"});
+  command.option("--at", options.at, seconds(0), "Of --script: mark what runs after this time")
+      .only_with({"--script"});
 }
 
-std::string find_misuse(const StateOptions& options) {
-  if (options.after && !options.at.empty()) return "--after and --at do not go together";
-  if (options.script) return {};
-  if (options.after) return "--after goes with --script only";
-  if (!options.at.empty()) return "--at goes with --script only";
-  return {};
-}
-
+/// Runs the script on the catalog, or on the one that it names if `catalog` is empty. Null if there
+/// is no such state: why is printed, and `status` is set.
 std::unique_ptr<Drawable> read_state(const std::string& catalog, const StateOptions& options,
                                      int& status) {
   status = exit_unusable;
@@ -375,9 +299,6 @@ struct ComparedCatalogs {
 
 /// Reads and compares two catalogs, compiled ones or YAML. Null if one of them cannot be used,
 /// which is said.
-[[nodiscard]] std::unique_ptr<const ComparedCatalogs> read_and_compare(const std::string& before,
-                                                                       const std::string& after);
-
 std::unique_ptr<const ComparedCatalogs> read_and_compare(const std::string& before,
                                                          const std::string& after) {
   auto compared = std::make_unique<ComparedCatalogs>();
@@ -391,8 +312,6 @@ std::unique_ptr<const ComparedCatalogs> read_and_compare(const std::string& befo
   compared->graph = draw::to_graph(*compared->before, *compared->after, compared->diff);
   return compared;
 }
-
-namespace {
 
 constexpr const char* graph_examples =
     "  cbc graph robot.yaml -o robot.svg         or .png, .pdf, .mmd, .json, .dot\n"
@@ -434,37 +353,56 @@ struct GraphCommand {
   StateOptions state;
 };
 
-/// The format that the suffix of the output names; empty if there is none of this name.
+/// A format of pictures.
+struct GraphFormat {
+  std::string_view name;
+  std::array<std::string_view, 2> suffixes;    ///< of files in it; the second one may be empty
+  std::string (*write)(const draw::Diagram&);  ///< of one by Graphviz: the input of `dot`
+  bool is_by_graphviz = false;                 ///< `dot -T<name>` makes it
+  bool is_binary = false;
+};
+
+/// The first one is the default.
+constexpr std::array<GraphFormat, 6> graph_formats = {{
+    {"dot", {".dot", ".gv"}, graph_dot},
+    {"mermaid", {".mmd", ".mermaid"}, graph_mermaid},
+    {"json", {".json"}, graph_json},
+    {"svg", {".svg"}, graph_dot, true},
+    {"png", {".png"}, graph_dot, true, true},
+    {"pdf", {".pdf"}, graph_dot, true, true},
+}};
+
+/// The one of differences that is no picture, beside "json".
+constexpr std::string_view text_format = "text";
+
+const GraphFormat* find_format(std::string_view name) {
+  const auto* const found = std::find_if(graph_formats.begin(), graph_formats.end(),
+                                         [&](const GraphFormat& one) { return one.name == name; });
+  return found == graph_formats.end() ? nullptr : found;
+}
+
+/// The name of the format, which may be given by the suffix of the output; empty if the suffix
+/// names none.
 std::string format_of(const GraphCommand& command) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 9> formats = {
-      {{".dot", "dot"},
-       {".gv", "dot"},
-       {".mmd", "mermaid"},
-       {".mermaid", "mermaid"},
-       {".json", "json"},
-       {".svg", "svg"},
-       {".png", "png"},
-       {".pdf", "pdf"},
-       {".txt", "text"}}};
   if (!command.format.empty()) return command.format;
   std::string suffix = std::filesystem::path(command.output.value_or("")).extension();
   std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
-  if (suffix.empty()) return "dot";
-  for (const auto& [known, format] : formats) {
-    if (suffix == known) return std::string(format);
+  if (suffix.empty()) return std::string(graph_formats.front().name);
+  if (suffix == ".txt") return std::string(text_format);
+  for (const GraphFormat& format : graph_formats) {
+    if (suffix == format.suffixes[0] || suffix == format.suffixes[1]) {
+      return std::string(format.name);
+    }
   }
   return {};
 }
 
-bool is_binary(std::string_view format) { return format == "png" || format == "pdf"; }
-
-/// What is wrong with the combination of options; empty if nothing is.
+/// What is wrong with the format, or the number of catalogs; empty if nothing is.
 std::string find_misuse(const GraphCommand& command) {
   const std::string format = format_of(command);
   const std::size_t catalogs = command.catalogs.size();
-  if (command.output == "") return "expected the name of a file after -o";
   if (format.empty()) {
     return fmt::format(
         "the suffix of {} names no format; expected one like .dot or .svg, or --format",
@@ -477,10 +415,8 @@ std::string find_misuse(const GraphCommand& command) {
     return fmt::format("expected one catalog, found {}; two can be compared with --diff", catalogs);
   }
   if (catalogs == 0 && !command.state.script) return "expected a catalog";
-  if (command.is_diff && command.state.script) return "--diff and --script do not go together";
-  if (std::count(command.catalogs.begin(), command.catalogs.end(), "-") > 1) return stdin_only_once;
-  if (!command.is_diff && format == "text") return "the format text goes with --diff only";
-  if (format == "text" || (command.is_diff && format == "json")) {
+  if (!command.is_diff && format == text_format) return "the format text goes with --diff only";
+  if (format == text_format || (command.is_diff && format == "json")) {
     if (command.drawing != DrawingOptions()) {
       return fmt::format("what is drawn, and how, does not go with --diff in the format {}",
                          format);
@@ -488,44 +424,18 @@ std::string find_misuse(const GraphCommand& command) {
   } else if (command.drawing.legend && format == "json") {
     return "--legend is for pictures; it does not go with json";
   }
-  if (std::string misuse = find_misuse(command.state); !misuse.empty()) return misuse;
-  return find_misuse(command.drawing);
-}
-
-/// The diagram in the format. Empty if it could not be made, which is complained of.
-std::optional<std::string> write(const draw::Diagram& diagram, const std::string& format) {
-  if (format == "json") return graph_json(diagram);
-  if (format == "mermaid") return graph_mermaid(diagram);
-  std::string dot = graph_dot(diagram);
-  if (format == "dot") return dot;
-  return run_graphviz(dot, format);
+  return {};
 }
 
 std::string output_of(const GraphCommand& command) { return command.output.value_or("-"); }
 
-bool is_output(const std::string& input, const GraphCommand& command) {
-  return is_same_file(input, output_of(command));
-}
-
-int refuse_output(const GraphCommand& command, std::string_view input) {
-  return usage_error("graph",
-                     fmt::format("the output {} is the {} itself", quote(*command.output), input));
-}
-
 /// Whether the output can be written where it shall be. If not, this is complained of.
 bool can_write(const GraphCommand& command) {
-  const std::string format = format_of(command);
-  if (output_of(command) == "-") {
-    if (!is_binary(format) || isatty(STDOUT_FILENO) == 0) return true;
-    complain(fmt::format("{} is not written to a terminal; expected -o OUT or a pipe", format));
-    return false;
-  }
-  const bool is_catalog =
-      std::any_of(command.catalogs.begin(), command.catalogs.end(),
-                  [&](const std::string& catalog) { return is_output(catalog, command); });
-  const bool is_script = command.state.script && is_output(*command.state.script, command);
-  if (!is_catalog && !is_script) return true;
-  refuse_output(command, is_catalog ? "catalog" : "script");
+  const GraphFormat* const format = find_format(format_of(command));
+  if (format == nullptr || !format->is_binary || output_of(command) != "-" ||
+      isatty(STDOUT_FILENO) == 0)
+    return true;
+  complain(fmt::format("{} is not written to a terminal; expected -o OUT or a pipe", format->name));
   return false;
 }
 
@@ -536,14 +446,15 @@ int draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& mom
   draw::Diagram diagram = make_diagram(graph, *part, view_options(command.drawing));
   diagram.moment = moment;
   if (command.drawing.legend) add_legend(diagram);
-  const std::string format = format_of(command);
-  if (format == "mermaid" && diagram.edges.size() > most_mermaid_edges) {
+  const GraphFormat& format = *find_format(format_of(command));
+  if (format.name == "mermaid" && diagram.edges.size() > most_mermaid_edges) {
     complain(
         fmt::format("the picture has {} lines; Mermaid draws {} if it is not told otherwise "
                     "(maxEdges); --task and --group draw less",
                     diagram.edges.size(), most_mermaid_edges));
   }
-  const std::optional<std::string> content = write(diagram, format);
+  std::optional<std::string> content = format.write(diagram);
+  if (format.is_by_graphviz) content = run_graphviz(*content, format.name);
   return content ? write_output(output_of(command), *content) : exit_unusable;
 }
 
@@ -553,8 +464,8 @@ int draw_catalog(const GraphCommand& command) {
   const std::unique_ptr<Drawable> drawable =
       command.state.script ? read_state(catalog, command.state, status) : read_drawable(catalog);
   if (drawable == nullptr) return status;
-  if (drawable->named_catalog && is_output(*drawable->named_catalog, command)) {
-    return refuse_output(command, "catalog");
+  if (drawable->named_catalog && is_same_file(*drawable->named_catalog, output_of(command))) {
+    return usage_error("graph", fmt::format(overwrites_input, quote(*command.output)));
   }
   return draw(drawable->graph, drawable->moment, command);
 }
@@ -562,7 +473,7 @@ int draw_catalog(const GraphCommand& command) {
 int show_diff(const ComparedCatalogs& compared, const GraphCommand& command) {
   const CatalogDiff& diff = compared.diff;
   const std::string format = format_of(command);
-  if (format == "text") {
+  if (format == text_format) {
     const Style style = output_of(command) == "-" ? style_for(stdout) : plain_style();
     return write_output(output_of(command), diff_text(diff, style));
   }
@@ -593,35 +504,28 @@ int run_graph(const GraphCommand& command) {
 
 }  // namespace
 
-void add_graph_command(CLI::App& program, int& status) {
+void add_graph_command(Program& program) {
+  std::vector<std::string> formats;
+  for (const GraphFormat& format : graph_formats) formats.emplace_back(format.name);
+  formats.emplace_back(text_format);
   const auto options = std::make_shared<GraphCommand>();
-  CLI::App* const command =
-      program.add_subcommand("graph", "Draws the tasks and behaviors of a catalog.");
-  set_help(*command,
-           {{"[OPTION...] [CATALOG]", "--diff [OPTION...] OLD NEW"}, graph_examples, graph_footer});
-  command
-      ->add_option("CATALOG", options->catalogs,
+  Command& command = program.add_command(
+      "graph", "Draws the tasks and behaviors of a catalog.",
+      {{"[OPTION...] [CATALOG]", "--diff [OPTION...] OLD NEW"}, graph_examples, graph_footer});
+  command.argument("CATALOG", options->catalogs, input("", ValueKind::catalog),
                    "The catalog: YAML or a compiled one, or - for standard input; with --diff two "
-                   "of them, the older one first")
-      ->option_text(" ")
-      ->check(stands_for(ValueKind::catalog));
-  command->add_flag("--diff", options->is_diff,
-                    "Show what two catalogs do not have in common, whatever their order and "
-                    "layout; exit status 1 if there is anything");
-  command
-      ->add_option("-o,--output", options->output,
-                   "The file to write, or - for standard output (default)")
-      ->option_text("OUT")
-      ->check(stands_for(ValueKind::file));
-  command
-      ->add_option("--format", options->format,
-                   "dot, mermaid, json, svg, png or pdf, with --diff also text (default: by the "
-                   "suffix of OUT; without one dot)")
-      ->option_text("FORMAT")
-      ->check(one_of({"dot", "mermaid", "json", "svg", "png", "pdf", "text"}));
-  add_drawing_options(*command, options->drawing);
-  add_state_options(*command, options->state);
-  command->callback([options, &status] { status = run_graph(*options); });
+                   "of them, the older one first");
+  command.flag("--diff", options->is_diff,
+               "Show what two catalogs do not have in common, whatever their order and "
+               "layout; exit status 1 if there is anything");
+  command.option("-o,--output", options->output, output("OUT"),
+                 "The file to write, or - for standard output (default)");
+  command.option("--format", options->format, one_of("FORMAT", formats),
+                 "dot, mermaid, json, svg, png or pdf, with --diff also text (default: by the "
+                 "suffix of OUT; without one dot)");
+  add_drawing_options(command, options->drawing);
+  add_state_options(command, options->state);
+  command.action([options] { return run_graph(*options); });
 }
 
 }  // namespace cbc::cli

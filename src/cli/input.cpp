@@ -18,7 +18,6 @@
 
 #include "base/text.h"
 #include "catalog/reader.h"
-#include "cli/commands.h"
 #include "cli/output.h"
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
@@ -187,17 +186,6 @@ bool is_folder(const std::string& path) {
   return path != "-" && fs::is_directory(path, ignored);
 }
 
-void complain(const std::string& message) {
-  const std::string line = "cbc: " + message + "\n";
-  // Where it cannot be written, the exit status still tells; no stream ends for it.
-  static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
-}
-
-int usage_error(std::string_view command, const std::string& message) {
-  complain(fmt::format("{}\nSee 'cbc {} --help'.", message, command));
-  return exit_unusable;
-}
-
 std::optional<InputFile> InputFiles::read(const std::string& path) {
   std::optional<CatalogInput> input = read_catalog_input(path);
   if (!input) return std::nullopt;
@@ -206,7 +194,9 @@ std::optional<InputFile> InputFiles::read(const std::string& path) {
   const auto entry = texts_.insert_or_assign(name, std::move(input->content)).first;
   Diagnostics diagnostics;
   auto document = yaml::parse(entry->second, name, diagnostics);
-  for (Diagnostic& finding : diagnostics.release()) findings_.push_back(std::move(finding));
+  if (keeps_findings_) {
+    for (Diagnostic& finding : diagnostics.release()) findings_.push_back(std::move(finding));
+  }
   if (document == nullptr) return std::nullopt;
   return InputFile{path, std::move(document), {}};
 }
@@ -222,6 +212,7 @@ std::optional<InputFile> InputFiles::read_catalog(const std::string& path) {
 
 bool InputFiles::take_findings(const std::string& path, const yaml::Document& document,
                                Diagnostics diagnostics) {
+  if (!keeps_findings_) return diagnostics.count(Severity::error) == 0;
   const std::optional<SeveritySettings> settings = settings_.find(path);
   if (!settings) return false;
   // Not all rules are looked at here, so that none of the comments can be called unused.

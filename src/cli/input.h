@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "catalog/catalog.h"
@@ -42,10 +45,6 @@ inline constexpr std::size_t largest_file = std::size_t{256} << 20;
 /// Contents of a file, or of standard input for "-". Prints why not to standard error.
 [[nodiscard]] std::optional<std::string> read_input(const std::string& path);
 
-/// The complaint about a command line that gives "-" more than once.
-inline constexpr const char* stdin_only_once =
-    "standard input can be read only once, but is given several times";
-
 /// Name of an input in messages and reports.
 [[nodiscard]] std::string display_name(const std::string& path);
 
@@ -57,12 +56,6 @@ inline constexpr const char* stdin_only_once =
                                                    bool& has_failed);
 
 [[nodiscard]] bool is_folder(const std::string& path);
-
-/// Prints a complaint to standard error.
-void complain(const std::string& message);
-
-/// The same about the command line of a command, whose help it points to. Returns the exit status.
-int usage_error(std::string_view command, const std::string& message);
 
 /// A file that was read: a text, or a compiled catalog. Its content tells which, not its name.
 struct CatalogInput {
@@ -101,7 +94,10 @@ struct InputFile {
 /// Reads the files of a command line, and collects what is found in them.
 class InputFiles {
  public:
-  InputFiles() = default;
+  /// Whether what is found matters: if not, it is dropped, and no settings are looked for.
+  enum class Findings : std::uint8_t { kept, dropped };
+  explicit InputFiles(Findings findings = Findings::kept)
+      : keeps_findings_(findings == Findings::kept) {}
   InputFiles(const InputFiles&) = delete;
   InputFiles& operator=(const InputFiles&) = delete;
 
@@ -128,12 +124,13 @@ class InputFiles {
   [[nodiscard]] const std::vector<Diagnostic>& findings() const { return findings_; }
 
  private:
+  const bool keeps_findings_;
   std::map<std::string, std::string> texts_;  ///< by name in messages
   std::vector<Diagnostic> findings_;
   SettingsFinder settings_;
 };
 
-/// Loads catalogs, compiled ones or YAML.
+/// Loads catalogs, compiled ones or YAML, and keeps them.
 class CatalogLoader {
  public:
   /// `files` must outlive this object.
@@ -143,6 +140,13 @@ class CatalogLoader {
   [[nodiscard]] std::shared_ptr<const CompiledCatalog> load(const InputFile& file);
   /// The same for a path, which is read the first time only.
   [[nodiscard]] std::shared_ptr<const CompiledCatalog> load(const std::string& path);
+
+  /// Keeps a catalog that was read in another way; null: it cannot be used.
+  void keep(const std::string& path, std::shared_ptr<const CompiledCatalog> catalog) {
+    known_.insert_or_assign(path, std::move(catalog));
+  }
+  /// Whether the path was read.
+  [[nodiscard]] bool knows(const std::string& path) const { return known_.contains(path); }
 
   /// A catalog in YAML, fit to be compiled; empty if there are errors.
   [[nodiscard]] std::optional<Catalog> understand(const std::string& path,

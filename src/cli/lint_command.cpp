@@ -1,9 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/text.h"
@@ -69,13 +68,12 @@ class Linter {
   [[nodiscard]] bool has_mended() const { return has_mended_; }
 
  private:
-  using CatalogPointer = std::shared_ptr<const CompiledCatalog>;
   struct Linted {
     LintedFile file;
     Catalog catalog;
     std::size_t errors = 0;  ///< whatever the settings say
     bool is_script = false;
-    CatalogPointer compiled;  ///< if scripts can be checked against it
+    std::shared_ptr<const CompiledCatalog> compiled;  ///< if scripts can be checked against it
   };
 
   [[nodiscard]] Linted lint_text(const std::string& name, std::string text,
@@ -83,8 +81,8 @@ class Linter {
   void fix(const std::string& path, Linted& linted, const SeveritySettings& settings);
   [[nodiscard]] static bool write_fixed(const std::string& path, const std::string& before,
                                         const std::string& after);
-  [[nodiscard]] CatalogPointer catalog_of(const yaml::Document& script, const std::string& given);
-  [[nodiscard]] CatalogPointer catalog_at(const std::string& path);
+  [[nodiscard]] std::shared_ptr<const CompiledCatalog> catalog_of(const yaml::Document& script,
+                                                                  const std::string& given);
   void lint_script_text(const std::string& path, std::string text, const std::string& catalog);
   void lint_catalog_text(const std::string& path, std::string text);
   void take_compiled(const CatalogInput& input);
@@ -93,7 +91,8 @@ class Linter {
 
   const Options options_;
   std::vector<LintedFile> files_;
-  std::map<std::string, CatalogPointer> catalogs_;  ///< by path
+  InputFiles unlinted_{InputFiles::Findings::dropped};
+  CatalogLoader catalogs_{unlinted_};  ///< of scripts: those that were linted, and others
   SettingsFinder settings_;
   std::string diff_;
   bool has_failed_ = false;
@@ -116,7 +115,7 @@ void Linter::lint_catalog(const std::string& path) {
   std::optional<CatalogInput> input = read_catalog_input(path);
   if (!input) {
     has_failed_ = true;
-    catalogs_.insert_or_assign(path, nullptr);
+    catalogs_.keep(path, nullptr);
   } else if (input->is_compiled) {
     take_compiled(*input);
   } else {
@@ -144,12 +143,13 @@ void Linter::take_compiled(const CatalogInput& input) {
   } else {
     file = load(input);
   }
-  CatalogPointer& catalog = catalogs_[input.path];
   if (!file) {
+    catalogs_.keep(input.path, nullptr);
     has_failed_ = true;
     return;
   }
-  catalog = std::make_shared<const CompiledCatalog>(std::move(file->catalog));
+  const auto catalog = std::make_shared<const CompiledCatalog>(std::move(file->catalog));
+  catalogs_.keep(input.path, catalog);
   if (options_.is_to_summarize) {
     files_.push_back({name_of(input.path), {}, {}, summarize(*catalog), false});
   }
@@ -168,7 +168,7 @@ void Linter::lint_catalog_text(const std::string& path, std::string text) {
     return;
   }
   if (options_.is_to_fix) fix(path, linted, *settings);
-  catalogs_.insert_or_assign(path, linted.compiled);
+  catalogs_.keep(path, linted.compiled);
   add(std::move(linted.file), *settings);
 }
 
@@ -272,7 +272,7 @@ void Linter::lint_script_text(const std::string& path, std::string text,
     return;
   }
   if (document != nullptr) {
-    const CatalogPointer compiled = catalog_of(*document, catalog);
+    const auto compiled = catalog_of(*document, catalog);
     if (compiled == nullptr) return;
     const auto script = read_script(*document, *compiled, Severity::error, diagnostics);
     // Findings that may be allowed do not keep a script from being understood.
@@ -289,7 +289,8 @@ void Linter::lint_script_text(const std::string& path, std::string text,
 
 /// The catalog that a script runs on; nullptr if there is none that is good, which is complained
 /// of.
-Linter::CatalogPointer Linter::catalog_of(const yaml::Document& script, const std::string& given) {
+std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& script,
+                                                          const std::string& given) {
   const std::string catalog =
       given.empty() ? path_of_catalog(script.file(), script).value_or("") : given;
   if (catalog.empty()) {
@@ -300,8 +301,8 @@ Linter::CatalogPointer Linter::catalog_of(const yaml::Document& script, const st
     has_failed_ = true;
     return nullptr;
   }
-  const bool is_linted = catalogs_.contains(catalog);
-  CatalogPointer compiled = catalog_at(catalog);
+  const bool is_linted = catalogs_.knows(catalog);
+  std::shared_ptr<const CompiledCatalog> compiled = catalogs_.load(catalog);
   if (compiled == nullptr) {
     complain(
         fmt::format("script {} is not checked, as its catalog {} cannot be used; "
@@ -311,28 +312,6 @@ Linter::CatalogPointer Linter::catalog_of(const yaml::Document& script, const st
     if (!is_linted) has_failed_ = true;
   }
   return compiled;
-}
-
-/// The catalog of a script: one that was linted, or else it is read.
-Linter::CatalogPointer Linter::catalog_at(const std::string& path) {
-  const auto [entry, is_new] = catalogs_.try_emplace(path, nullptr);
-  if (!is_new) return entry->second;
-  const std::optional<CatalogInput> input = read_catalog_input(path);
-  if (!input) return nullptr;
-  if (input->is_compiled) {
-    if (std::optional<CompiledFile> file = load(*input)) {
-      entry->second = std::make_shared<const CompiledCatalog>(std::move(file->catalog));
-    }
-    return entry->second;
-  }
-  Diagnostics diagnostics;  // of a file that nobody asked about
-  const auto document = yaml::parse(input->content, path, diagnostics);
-  if (document == nullptr) return nullptr;
-  const CatalogReading reading = understand_catalog(*document, diagnostics);
-  if (reading.is_complete && reading.is_acyclic) {
-    entry->second = std::make_shared<const CompiledCatalog>(compile(reading.catalog));
-  }
-  return entry->second;
 }
 
 void Linter::add(LintedFile file, const SeveritySettings& settings) {
@@ -397,37 +376,22 @@ int explain_rule(const std::string& name) {
   return exit_ok;
 }
 
-/// What is wrong with the combination of options; empty if nothing is.
+/// What is wrong with the files that were given; empty if nothing is.
 std::string find_misuse(const LintCommand& command) {
-  if (command.list_rules || !command.explain.empty()) {
-    const bool is_alone =
-        command.paths.empty() && command.scripts.empty() && command.format == "text";
-    return is_alone ? "" : "--explain and --list-rules print a text about rules, and lint nothing";
-  }
-  if (command.paths.empty() && command.scripts.empty()) {
-    return "no catalog given to lint";
-  }
+  if (command.paths.empty() && command.scripts.empty()) return "no catalog given to lint";
   if (!command.scripts.empty() &&
       (command.paths.size() > 1 || (command.paths.size() == 1 && is_folder(command.paths[0])))) {
     return "--script checks against one catalog, but several are given";
   }
-  const auto stdin_count = std::count(command.paths.begin(), command.paths.end(), "-") +
-                           std::count(command.scripts.begin(), command.scripts.end(), "-");
-  if (stdin_count > 1) return stdin_only_once;
-  if (!command.stdin_filename.empty() && stdin_count == 0) {
+  const auto is_stdin_in = [](const std::vector<std::string>& paths) {
+    return std::find(paths.begin(), paths.end(), "-") != paths.end();
+  };
+  const bool has_stdin = is_stdin_in(command.paths) || is_stdin_in(command.scripts);
+  if (!command.stdin_filename.empty() && !has_stdin) {
     return "--stdin-filename is of use with '-' only";
   }
-  if (command.fix && !command.diff && stdin_count > 0) {
+  if (command.fix && !command.diff && has_stdin) {
     return "standard input cannot be fixed in place; --diff shows what would change";
-  }
-  if (command.diff && command.summary) {
-    return "--diff writes a diff, so --summary does not go with it";
-  }
-  if (command.summary && command.format != "text" && command.format != "json") {
-    return fmt::format("--summary goes with --format text or json, not {}", command.format);
-  }
-  if (command.diff && command.format != "text") {
-    return "--diff writes a diff, so --format does not go with it";
   }
   return {};
 }
@@ -496,28 +460,47 @@ bool lint_all(const LintCommand& command, Linter& linter) {
   return !has_failed;
 }
 
+/// What reports about files depend on beside the files.
+struct LintRun {
+  std::string working_directory;  ///< absolute
+  bool is_complete = true;        ///< all files could be read
+  Style style = plain_style();    ///< of a text for people
+};
+
+/// A format of reports.
+struct LintFormat {
+  std::string_view name;
+  std::string (*write)(const std::vector<LintedFile>& files, const LintRun& run);
+};
+
+/// The first one is the default.
+constexpr std::array<LintFormat, 5> lint_formats = {{
+    {"text", [](const auto& files, const LintRun& run) { return lint_text(files, run.style); }},
+    {"json", [](const auto& files, const LintRun& /*run*/) { return lint_json(files); }},
+    {"sarif",
+     [](const auto& files, const LintRun& run) {
+       return lint_sarif(files, run.working_directory, run.is_complete);
+     }},
+    {"github", [](const auto& files, const LintRun& /*run*/) { return lint_github(files); }},
+    {"gcc", [](const auto& files, const LintRun& /*run*/) { return lint_gcc(files); }},
+}};
+
 void print_report(const LintCommand& command, const Linter& linter, bool is_complete) {
-  const std::vector<LintedFile>& files = linter.files();
   if (command.diff) {
     fmt::print("{}", linter.diff());
     if (linter.has_found()) complain("there is more that only a person can mend: see 'cbc lint'");
-  } else if (command.format == "json") {
-    fmt::print("{}", lint_json(files));
-  } else if (command.format == "sarif") {
-    fmt::print("{}", lint_sarif(files, std::filesystem::current_path().string(), is_complete));
-  } else if (command.format == "github") {
-    fmt::print("{}", lint_github(files));
-  } else if (command.format == "gcc") {
-    fmt::print("{}", lint_gcc(files));
-  } else {
-    const Style style = style_for(stdout);
-    if (command.summary) {
-      for (const LintedFile& file : files) {
-        if (!file.is_script) fmt::print("{}", lint_summary(file, style));
-      }
-    }
-    fmt::print("{}", lint_text(files, style));
+    return;
   }
+  const LintRun run{std::filesystem::current_path().string(), is_complete, style_for(stdout)};
+  if (command.summary && command.format == "text") {
+    for (const LintedFile& file : linter.files()) {
+      if (!file.is_script) fmt::print("{}", lint_summary(file, run.style));
+    }
+  }
+  const auto* const format =
+      std::find_if(lint_formats.begin(), lint_formats.end(),
+                   [&](const LintFormat& known) { return known.name == command.format; });
+  fmt::print("{}", format->write(linter.files(), run));
 }
 
 bool has_faults(const std::vector<LintedFile>& files) {
@@ -527,13 +510,14 @@ bool has_faults(const std::vector<LintedFile>& files) {
 }
 
 int lint(const LintCommand& command) {
-  if (const std::string misuse = find_misuse(command); !misuse.empty())
-    return usage_error("lint", misuse);
   if (command.list_rules) {
     fmt::print("{}", rule_list(style_for(stdout)));
     return exit_ok;
   }
   if (!command.explain.empty()) return explain_rule(command.explain);
+  if (const std::string misuse = find_misuse(command); !misuse.empty()) {
+    return usage_error("lint", misuse);
+  }
 
   Linter::Options options;
   options.lint.max_nodes = command.max_nodes;
@@ -559,65 +543,66 @@ int lint(const LintCommand& command) {
 
 }  // namespace
 
-void add_lint_command(CLI::App& program, int& status) {
+void add_lint_command(Program& program) {
+  std::vector<std::string> formats;
+  for (const LintFormat& format : lint_formats) formats.emplace_back(format.name);
   const auto options = std::make_shared<LintCommand>();
-  CLI::App* const command = program.add_subcommand(
-      "lint", "Finds every mistake in catalogs, with its place and its reason.");
-  set_help(*command, {{"[OPTION...] [CATALOG...]", "--fix|--diff [OPTION...] CATALOG...",
-                       "--explain RULE", "--list-rules"},
-                      lint_examples,
-                      lint_footer});
-  command
-      ->add_option("CATALOG", options->paths,
+  Command& command =
+      program.add_command("lint", "Finds every mistake in catalogs, with its place and its reason.",
+                          {{"[OPTION...] [CATALOG...]", "--fix|--diff [OPTION...] CATALOG...",
+                            "--explain RULE", "--list-rules"},
+                           lint_examples,
+                           lint_footer});
+  command.argument("CATALOG", options->paths, input("...", ValueKind::catalog),
                    "Catalogs: files, folders (all *.yaml and *.yml in them that look like "
                    "catalogs), or - for standard input; event scripts, too, if they name their "
-                   "catalogs")
-      ->option_text("...")
-      ->check(stands_for(ValueKind::catalog));
+                   "catalogs");
+  command.option("--script", options->scripts, input("FILE", ValueKind::script),
+                 "Check an event script, too, against the one catalog that is given (may be "
+                 "repeated)");
+  command.option("--format", options->format, one_of("FORMAT", formats),
+                 "text (the default), json, sarif, github, or gcc");
   command
-      ->add_option("--script", options->scripts,
-                   "Check an event script, too, against the one catalog that is given (may be "
-                   "repeated)")
-      ->option_text("FILE")
-      ->check(stands_for(ValueKind::script))
-      ->allow_extra_args(false);
-  command
-      ->add_option("--format", options->format, "text (the default), json, sarif, github, or gcc")
-      ->option_text("FORMAT")
-      ->check(one_of({"text", "json", "sarif", "github", "gcc"}));
-  command->add_flag("--summary", options->summary,
-                    "Show the catalogs in numbers: tasks, behaviors, constraints, groups, search "
-                    "space; compiled ones, too");
-  command->add_flag("--fix", options->fix,
-                    "Mend in place what can be mended without changing what a catalog means");
-  command->add_flag("--diff", options->diff, "Show what --fix would change, as a diff");
-  const auto add_rules = [command](const char* name, std::vector<std::string>& rules,
-                                   const char* text) {
-    command->add_option(name, rules, text)
-        ->option_text("RULE,...")
-        ->check(stands_for(ValueKind::rule))
-        ->delimiter(',')
-        ->allow_extra_args(false);
+      .flag("--summary", options->summary,
+            "Show the catalogs in numbers: tasks, behaviors, constraints, groups, search "
+            "space; compiled ones, too")
+      .only_with_values("--format", {"text", "json"});
+  command.flag("--fix", options->fix,
+               "Mend in place what can be mended without changing what a catalog means");
+  command.flag("--diff", options->diff, "Show what --fix would change, as a diff")
+      .not_with({"--summary"})
+      .only_with_values("--format", {"text"});
+  Values rule;
+  rule.placeholder = "RULE";
+  rule.expected = "a rule";
+  rule.names = [] {
+    std::vector<NameWithHelp> names;
+    for (const Rule& known : all_rules()) {
+      names.push_back({std::string(known.name), std::string(known.summary)});
+    }
+    return names;
   };
-  add_rules("--error", options->severities.error, "Report findings of a rule as errors");
-  add_rules("--warn", options->severities.warn, "Report findings of a rule as warnings");
-  add_rules("--allow", options->severities.allow, "Do not report findings of a rule");
-  command->add_flag("--strict", options->severities.strict, "Let warnings fail, too");
-  command
-      ->add_option("--stdin-filename", options->stdin_filename,
-                   "Name of standard input in messages and for .cbc.yaml")
-      ->option_text("NAME")
-      ->check(stands_for(ValueKind::file));
-  command
-      ->add_option("--max-nodes", options->max_nodes,
-                   "Decisions that the proof of one finding may take (default: 100000)")
-      ->option_text("N")
-      ->check(whole_number(1));
-  command->add_option("--explain", options->explain, "Explain a rule")
-      ->option_text("RULE")
-      ->check(stands_for(ValueKind::rule));
-  command->add_flag("--list-rules", options->list_rules, "List all rules");
-  command->callback([options, &status] { status = lint(*options); });
+  Values rules = rule;
+  rules.placeholder = "RULE,...";
+  command.option("--error", options->severities.error, rules, "Report findings of a rule as errors")
+      .separated_by(',');
+  command.option("--warn", options->severities.warn, rules, "Report findings of a rule as warnings")
+      .separated_by(',');
+  command.option("--allow", options->severities.allow, rules, "Do not report findings of a rule")
+      .separated_by(',');
+  command.flag("--strict", options->severities.strict, "Let warnings fail, too");
+  command.option("--stdin-filename", options->stdin_filename, name_of("NAME", ValueKind::file),
+                 "Name of standard input in messages and for .cbc.yaml");
+  command.option("--max-nodes", options->max_nodes, whole_number("N", 1),
+                 "Decisions that the proof of one finding may take (default: 100000)");
+  const std::string only_explains = "it prints a text about rules, and lints nothing";
+  command.option("--explain", options->explain, rule, "Explain a rule")
+      .not_with({"CATALOG", "--script"}, only_explains)
+      .only_with_values("--format", {"text"});
+  command.flag("--list-rules", options->list_rules, "List all rules")
+      .not_with({"CATALOG", "--script"}, only_explains)
+      .only_with_values("--format", {"text"});
+  command.action([options] { return lint(*options); });
 }
 
 }  // namespace cbc::cli

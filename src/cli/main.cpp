@@ -2,38 +2,17 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <iostream>
 #include <new>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <unistd.h>
-#include <utility>
 #include <vector>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "cbc/version.h"
 #include "cli/command_line.h"
 #include "cli/commands.h"
-#include "cli/input.h"
 #include "cli/output.h"
-
-namespace cbc::cli {
-
-std::vector<CLI::App*> commands_of(CLI::App& program) {
-  return program.get_subcommands([](const CLI::App*) { return true; });
-}
-
-CLI::App* find_command(CLI::App& program, const std::string& name) {
-  for (CLI::App* command : commands_of(program)) {
-    if (command->get_name() == name) return command;
-  }
-  return nullptr;
-}
-
-}  // namespace cbc::cli
 
 namespace {
 
@@ -53,72 +32,26 @@ constexpr const char* program_footer =
     "\n"
     "Read more: 'cbc COMMAND --help', man cbc, man cbc-catalog (how to write a catalog)";
 
-/// The arguments of a command without "--", behind which CLI11 gives what follows to the program,
-/// if the command has a file already: all of it are files, so a path that does not look like an
-/// option does.
-std::vector<std::string> without_separator(std::vector<std::string> arguments) {
-  const auto separator = std::find(arguments.begin(), arguments.end(), "--");
-  if (separator == arguments.end()) return arguments;
-  for (auto file = separator + 1; file != arguments.end(); ++file) {
-    if (file->size() > 1 && file->front() == '-') file->insert(0, "./");
-  }
-  arguments.erase(separator);
-  return arguments;
-}
-
 int run(int argc, char** argv) {
   using namespace cbc::cli;
-  CLI::App program(description, "cbc");
-  program.option_defaults()->disable_flag_override();  // else --strict=0 would be a way to say no
-  program.set_help_flag("-h,--help", "Print this help and exit");
-  program.set_version_flag("--version", "cbc " + std::string(cbc::version),
-                           "Print the version and exit");
-  program.require_subcommand(1);
-  int status = exit_ok;
-  add_lint_command(program, status);
-  add_compile_command(program, status);
-  add_solve_command(program, status);
-  add_graph_command(program, status);
-  add_schema_command(program, status);
-  add_completion_command(program, argc > 0 ? argv[0] : "", status);
-  set_help(program, {{"COMMAND [OPTION...] FILE...", "--version", "COMMAND --help"},
-                     program_examples,
-                     program_footer});  // commands would inherit it
+  Program program(description, "cbc " + std::string(cbc::version),
+                  {{"COMMAND [OPTION...] FILE...", "--version", "COMMAND --help"},
+                   program_examples,
+                   program_footer});
+  add_lint_command(program);
+  add_compile_command(program);
+  add_solve_command(program);
+  add_graph_command(program);
+  add_schema_command(program);
+  add_completion_command(program, argc > 0 ? argv[0] : "");
 
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
-  program.failure_message([&](const CLI::App*, const CLI::Error& error) {
-    const auto* const parse_error = dynamic_cast<const CLI::ParseError*>(&error);
-    return fmt::format("cbc: {}\nSee '{} --help'.\n",
-                       parse_error == nullptr
-                           ? error.what()
-                           : describe_usage_error(program, *parse_error, arguments),
-                       full_name(program));
-  });
-
   if (!arguments.empty() && arguments.front() == complete_argument) {
     reply_to_shell(program, {arguments.begin() + 1, arguments.end()});
     return exit_ok;
   }
-  if (!arguments.empty()) {
-    if (const std::string unknown = find_unknown_command(program, arguments.front());
-        !unknown.empty()) {
-      complain(unknown + "\nSee 'cbc --help'.");
-      return exit_unusable;
-    }
-    if (const std::string misuse = find_bad_equals(program, arguments); !misuse.empty()) {
-      return usage_error(arguments.front(), misuse);
-    }
-  }
-  try {
-    std::vector<std::string> left = without_separator(arguments);
-    std::reverse(left.begin(), left.end());  // so CLI11 wants them
-    program.parse(std::move(left));
-  } catch (const CLI::ParseError& error) {
-    std::cout
-        << std::unitbuf;  // help is written here, and must have arrived before the check below
-    status = program.exit(error) == 0 ? exit_ok : exit_unusable;
-  }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout) {
+  const int status = program.run(arguments);
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     std::fprintf(stderr, "cbc: cannot write the output\n");
     return exit_unusable;
   }

@@ -19,11 +19,20 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
-#include "cli/commands.h"
-#include "cli/input.h"
 #include "support/system.h"
 
 namespace cbc::cli {
+
+void complain(const std::string& message) {
+  const std::string line = "cbc: " + message + "\n";
+  // Where it cannot be written, the exit status still tells; no stream ends for it.
+  static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
+}
+
+int usage_error(std::string_view command, const std::string& message) {
+  complain(fmt::format("{}\nSee 'cbc{}{} --help'.", message, command.empty() ? "" : " ", command));
+  return exit_unusable;
+}
 
 bool is_terminal(std::FILE* stream) {
   const char* const terminal = std::getenv("TERM");

@@ -12,6 +12,21 @@
 
 namespace cbc::cli {
 
+/// What the program exits with (the same for every command).
+enum ExitStatus : int {
+  exit_ok = 0,
+  exit_no = 1,        ///< the answer is "no": an expectation failed, a file is stale
+  exit_unusable = 2,  ///< usage, unreadable or invalid input, output that could not be written
+  exit_internal = 3   ///< an answer that the checker refuses
+};
+
+/// Prints a complaint to standard error.
+void complain(const std::string& message);
+
+/// The same about the command line of a command, whose help it points to; without a name, of the
+/// program. Returns the exit status.
+int usage_error(std::string_view command, const std::string& message);
+
 /// Whether a stream is a terminal that can do more than print.
 [[nodiscard]] bool is_terminal(std::FILE* stream);
 
@@ -81,7 +96,10 @@ void hold_standard_descriptors();
 
 /// Whether an input ("-": standard input) is the file that an output ("-": standard output, which
 /// is none) would replace.
+/// See overwrites_input for the complaint.
 [[nodiscard]] bool is_same_file(const std::string& input, const std::string& output);
+
+inline constexpr const char* overwrites_input = "the output {} is an input, too";
 
 /// How runs end, whatever their events come from.
 

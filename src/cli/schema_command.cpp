@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -34,7 +33,7 @@ void add_referenced(const Json& part, const std::string& own_id, Json& definitio
     const auto reference = part["$ref"].get<std::string>();
     const std::string id = reference.substr(0, reference.find('#'));
     if (!id.empty() && id != own_id && !definitions.contains(id)) {
-      for (const Schema& schema : all_schemas()) {
+      for (const Schema& schema : schema_files) {
         const Json other = Json::parse(schema.text);
         if (id_of(other) != id) continue;
         definitions[id] = other;
@@ -47,14 +46,12 @@ void add_referenced(const Json& part, const std::string& own_id, Json& definitio
   }
 }
 
-}  // namespace
-
-std::span<const Schema> all_schemas() { return schema_files; }
-
+/// In one line, what the schema describes.
 std::string title_of(const Schema& schema) {
   return Json::parse(schema.text).at("title").get<std::string>();
 }
 
+/// The text of a schema that needs no other file: those that it refers to are part of it.
 std::string standalone(const Schema& schema) {
   Json root = Json::parse(schema.text);
   Json definitions = Json::object();
@@ -63,8 +60,6 @@ std::string standalone(const Schema& schema) {
   root["$defs"].update(definitions);
   return root.dump(2) + "\n";
 }
-
-namespace {
 
 constexpr const char* schema_examples =
     "  cbc schema                        all names, and what they describe\n"
@@ -83,9 +78,9 @@ constexpr const char* schema_footer =
 
 int list_schemas() {
   std::size_t width = 0;
-  for (const Schema& schema : all_schemas()) width = std::max(width, schema.name.size());
+  for (const Schema& schema : schema_files) width = std::max(width, schema.name.size());
   const Style style = style_for(stdout);
-  for (const Schema& schema : all_schemas()) {
+  for (const Schema& schema : schema_files) {
     fmt::print("{}{:<{}}{}  {}\n", style.strong, schema.name, width, style.reset, title_of(schema));
   }
   return exit_ok;
@@ -93,7 +88,7 @@ int list_schemas() {
 
 int print_schema(const std::string& name) {
   std::vector<std::string_view> names;
-  for (const Schema& schema : all_schemas()) {
+  for (const Schema& schema : schema_files) {
     if (schema.name == name) {
       fmt::print("{}", standalone(schema));
       return exit_ok;
@@ -107,15 +102,22 @@ int print_schema(const std::string& name) {
 
 }  // namespace
 
-void add_schema_command(CLI::App& program, int& status) {
+void add_schema_command(Program& program) {
   const auto name = std::make_shared<std::optional<std::string>>();
-  CLI::App* const command = program.add_subcommand(
-      "schema", "Prints the JSON Schema of a file that cbc reads or writes.");
-  set_help(*command, {{"[NAME]"}, schema_examples, schema_footer});
-  command->add_option("NAME", *name, "The schema to print; without it, all are listed")
-      ->option_text(" ")
-      ->check(stands_for(ValueKind::schema));
-  command->callback([name, &status] { status = *name ? print_schema(**name) : list_schemas(); });
+  Command& command =
+      program.add_command("schema", "Prints the JSON Schema of a file that cbc reads or writes.",
+                          {{"[NAME]"}, schema_examples, schema_footer});
+  Values names;
+  names.expected = "a schema";
+  names.names = [] {
+    std::vector<NameWithHelp> all;
+    for (const Schema& schema : schema_files) {
+      all.push_back({std::string(schema.name), title_of(schema)});
+    }
+    return all;
+  };
+  command.argument("NAME", *name, names, "The schema to print; without it, all are listed");
+  command.action([name] { return *name ? print_schema(**name) : list_schemas(); });
 }
 
 }  // namespace cbc::cli

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/command_line.h"
 #include "cli/input.h"
 #include "compiled/compiled_catalog.h"
 #include "coordinator/coordinator.h"
@@ -18,10 +19,6 @@
 #include "script/script.h"
 #include "sweep/sequence.h"
 #include "yaml/document.h"
-
-namespace CLI {
-class App;
-}
 
 namespace cbc::cli {
 
@@ -41,41 +38,14 @@ struct SweepOptions {
   [[nodiscard]] bool is_wanted() const { return sequences.has_value() || merge; }
 };
 
-void add_sweep_options(CLI::App& command, SweepOptions& options);
-
-/// All of the settings that these options say; the search is set by others.
-[[nodiscard]] SweepSettings settings_of(const SweepOptions& options);
-
-}  // namespace cbc::cli
-
-namespace CLI {
-class App;
-}
-
-namespace cbc::cli {
-
 /// What to explain, as the command line has it.
 struct ExplainOptions {
   std::vector<std::string> why;  ///< names of tasks and behaviors
   std::uint32_t alternatives = 0;
 };
 
-void add_explain_options(CLI::App& command, ExplainOptions& options);
-
-/// The same for one catalog, that knows the names.
-[[nodiscard]] ExplanationOptions explanation_for(const CompiledCatalog& catalog,
-                                                 const ExplainOptions& options);
-
 /// Whether the catalog has all names; says on standard error which it has not.
 [[nodiscard]] bool knows_names(const CompiledCatalog& catalog, const ExplainOptions& options);
-
-}  // namespace cbc::cli
-
-namespace CLI {
-class App;
-}
-
-namespace cbc::cli {
 
 /// The options of `cbc solve` for events in a pipe, and for missions that go on.
 struct StreamOptions {
@@ -83,8 +53,6 @@ struct StreamOptions {
   std::optional<std::string> state_out;
   std::optional<std::string> replay;
 };
-
-void add_stream_options(CLI::App& command, StreamOptions& options);
 
 /// The options of `cbc solve`, as the command line has them.
 struct SolveOptions {
@@ -112,6 +80,11 @@ struct SolveOptions {
 
 /// How many threads may work at once; at least 1.
 [[nodiscard]] std::size_t thread_count(const SolveOptions& options);
+
+void add_sweep_options(Command& command, SweepOptions& options);
+
+/// Runs a sweep on the catalog of the path, or merges the shards there. Returns the exit status.
+[[nodiscard]] int run_sweep(const SolveOptions& options);
 
 /// A script and the catalog it runs on.
 struct Mission {

@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
-#include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/ordered_work.h"
 #include "cli/output.h"
@@ -24,11 +23,6 @@
 namespace cbc::cli {
 std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::string>& paths) {
   std::size_t first_script = 0;
-  const auto from_stdin = std::count(paths.begin(), paths.end(), "-");
-  if (from_stdin > 1) {
-    complain(stdin_only_once);
-    return std::nullopt;
-  }
   if (!is_folder(paths.front())) {
     const std::optional<InputFile> first = files_.read(paths.front());
     if (first && first->document != nullptr && is_script(*first->document)) {

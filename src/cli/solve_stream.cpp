@@ -18,7 +18,6 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
-#include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/solve.h"
@@ -179,12 +178,6 @@ void LineOutput::write(std::string_view line) {
 
 bool can_use_files(const SolveOptions& options) {
   const StreamOptions& stream = options.stream;
-  const auto from_stdin = std::count(options.paths.begin(), options.paths.end(), "-") +
-                          (stream.state_in == "-" ? 1 : 0) + (stream.replay == "-" ? 1 : 0);
-  if (from_stdin > 1) {
-    complain(stdin_only_once);
-    return false;
-  }
   if (!stream.state_out) return true;
   const auto obstacle = find_obstacle(*stream.state_out);
   if (obstacle) complain(fmt::format("cannot write {}: {}", quote(*stream.state_out), *obstacle));

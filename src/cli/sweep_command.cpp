@@ -5,12 +5,10 @@
 #include <utility>
 #include <variant>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/text.h"
 #include "cli/command_line.h"
-#include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/solve.h"
@@ -27,13 +25,16 @@ Decimal parse_probability(const std::string& text) {
   return parse_decimal(text, 6, 0, one_million);
 }
 
-CLI::Validator probability() {
-  const auto check = [](const std::string& text) -> std::string {
+Values probability() {
+  Values values;
+  values.placeholder = "SHARE";
+  values.expected = "a number from 0 to 1";
+  values.check = [](const std::string& text) -> std::string {
     if (parse_probability(text).error == DecimalError::no_error) return {};
     return fmt::format("expected a number from 0 to 1, with at most 6 decimals, found {}",
                        quote(text));
   };
-  return {check, ""};
+  return values;
 }
 
 /// "2/8"; empty if it is none.
@@ -50,62 +51,61 @@ std::optional<SweepShard> parse_shard(const std::string& text) {
   return shard;
 }
 
-CLI::Validator shard_of_sweep() {
-  const auto check = [](const std::string& text) -> std::string {
+Values shard_of_sweep() {
+  Values values;
+  values.placeholder = "I/N";
+  values.expected = "a share, such as 1/8";
+  values.check = [](const std::string& text) -> std::string {
     if (parse_shard(text)) return {};
     return fmt::format("expected I/N, such as 3/8, with I from 1 to N and N at most {}, found {}",
                        most_shards, quote(text));
   };
-  return {check, ""};
+  return values;
 }
 
 }  // namespace
 
-void add_sweep_options(CLI::App& command, SweepOptions& options) {
-  CLI::Option* const sweep =
-      command
-          .add_option("--sweep", options.sequences,
-                      "Run N random event sequences on the catalog instead of scripts, and report "
-                      "what happened in them")
-          ->option_text("N")
-          ->check(whole_number(1, most_sequences));
-  const auto add = [&](const char* name, auto& value, const char* text, const char* help) {
-    return command.add_option(name, value, help)->option_text(text)->needs(sweep);
+void add_sweep_options(Command& command, SweepOptions& options) {
+  const std::vector<std::string> formats = {"text", "json"};
+  command
+      .option("--sweep", options.sequences, whole_number("N", 1, most_sequences),
+              "Run N random event sequences on the catalog instead of scripts, and report "
+              "what happened in them")
+      .not_with({"--merge"})
+      .only_with_values("--format", formats);
+  const auto add = [&](const char* name, auto& target, Values values, const char* help) {
+    command.option(name, target, std::move(values), help).only_with({"--sweep"});
   };
-  add("--seed", options.seed, "S", "Draw other sequences (default: 1)")->check(whole_number(0));
-  add("--events", options.events, "E", "Events in each sequence (default: 100)")
-      ->check(whole_number(1, most_events));
-  add("--priorities", options.priorities, "P", "Requests have priorities from 1 to P (default: 3)")
-      ->check(whole_number(1, 1'000'000));
-  add("--failures", options.failures, "SHARE",
-      "Of the finished behaviors, from 0 to 1, how many have failed (default: 0.3)")
-      ->check(probability());
-  add("--faults", options.faults, "SHARE",
+  add("--seed", options.seed, whole_number("S", 0), "Draw other sequences (default: 1)");
+  add("--events", options.events, whole_number("E", 1, most_events),
+      "Events in each sequence (default: 100)");
+  add("--priorities", options.priorities, whole_number("P", 1, 1'000'000),
+      "Requests have priorities from 1 to P (default: 3)");
+  add("--failures", options.failures, probability(),
+      "Of the finished behaviors, from 0 to 1, how many have failed (default: 0.3)");
+  add("--faults", options.faults, probability(),
       "Of the events, from 0 to 1, how many are faults, repairs and changes of the situation "
-      "(default: 0.1)")
-      ->check(probability());
-  add("--shard", options.shard, "I/N", "Run the I-th of N shares of the sweep only")
-      ->check(shard_of_sweep());
-  CLI::Option* const merge = command
-                                 .add_flag("--merge", options.merge,
-                                           "Merge the files: the results of all shards, as JSON, "
-                                           "become that of one run")
-                                 ->option_text(" ")
-                                 ->check(stands_for(ValueKind::shard));
+      "(default: 0.1)");
+  add("--shard", options.shard, shard_of_sweep(), "Run the I-th of N shares of the sweep only");
   command
-      .add_option("--slowest", options.slowest,
-                  "Write the event with the most nodes to FILE, as a script that ends with it")
-      ->option_text("FILE")
-      ->check(stands_for(ValueKind::file));
+      .flag("--merge", options.merge,
+            "Merge the files: the results of all shards, as JSON, become that of one run")
+      .makes_arguments(ValueKind::shard)
+      .only_with_values("--format", formats);
   command
-      .add_option("--slowest-by-time", options.slowest_by_time,
-                  "The same for the event that took longest")
-      ->option_text("FILE")
-      ->check(stands_for(ValueKind::file));
-  sweep->excludes(merge);
+      .option("--slowest", options.slowest, further_output("FILE"),
+              "Write the event with the most nodes to FILE, as a script that ends with it")
+      .only_with({"--sweep", "--merge"});
+  command
+      .option("--slowest-by-time", options.slowest_by_time, further_output("FILE"),
+              "The same for the event that took longest")
+      .only_with({"--sweep", "--merge"});
 }
 
-SweepSettings settings_of(const SweepOptions& options) {
+namespace {
+
+SweepSettings settings_of(const SolveOptions& solve) {
+  const SweepOptions& options = solve.sweep;
   SweepSettings settings;
   settings.sequences = options.sequences.value_or(1);
   settings.seed = options.seed;
@@ -114,21 +114,13 @@ SweepSettings settings_of(const SweepOptions& options) {
   settings.shape.failures = static_cast<Millionths>(parse_probability(options.failures).value);
   settings.shape.faults = static_cast<Millionths>(parse_probability(options.faults).value);
   settings.shard = parse_shard(options.shard).value_or(SweepShard{});
+  settings.search = {solve.max_solutions, solve.max_nodes, solve.tie_seed, solve.max_clock_events};
   return settings;
 }
-
-namespace {
 
 /// The result of a catalog of 300,000 behaviors is as large. Larger ones are refused, as a text of
 /// JSON takes many times its size in memory.
 constexpr std::size_t largest_shard = std::size_t{64} << 20U;
-
-SweepSettings to_settings(const SolveOptions& options) {
-  SweepSettings settings = settings_of(options.sweep);
-  settings.search = {options.max_solutions, options.max_nodes, options.tie_seed,
-                     options.max_clock_events};
-  return settings;
-}
 
 std::shared_ptr<const CompiledCatalog> load_swept(const std::vector<std::string>& paths) {
   if (paths.size() != 1) {
@@ -221,7 +213,7 @@ int run_sweep(const SolveOptions& options) {
   if (options.sweep.merge) return merge(options);
   const std::shared_ptr<const CompiledCatalog> catalog = load_swept(options.paths);
   if (catalog == nullptr) return exit_unusable;
-  const SweepSettings settings = to_settings(options);
+  const SweepSettings settings = settings_of(options);
   const SequenceRange range = sequences_of(settings);
   Progress progress("sweeping", 1);
   progress.begin(std::string(catalog->file));
