@@ -49,9 +49,9 @@ void write_conflict(JsonWriter& json, const CompiledCatalog& catalog, const Even
 }
 
 std::optional<std::string_view> name_of_value(const CompiledCatalog& catalog, TaskId task,
-                                              std::uint32_t place) {
-  if (place == none) return std::nullopt;
-  return catalog.name_of_behavior(catalog.values[task][place].behavior);
+                                              std::uint32_t value_index) {
+  if (value_index == none) return std::nullopt;
+  return catalog.name_of_behavior(catalog.values[task][value_index].behavior);
 }
 
 /// The running tasks of the group, in catalog order, and the objectives.

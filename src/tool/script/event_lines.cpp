@@ -264,7 +264,7 @@ void write_running(JsonWriter& json, const CompiledCatalog& catalog,
   json.open('{');
   json.write("task", catalog.name_of_task(entry.task));
   json.write("behavior",
-             catalog.name_of_behavior(catalog.values[entry.task][entry.place].behavior));
+             catalog.name_of_behavior(catalog.values[entry.task][entry.value_index].behavior));
   json.write("since_us", entry.since);
   json.write("waits_for_timeout", entry.waits_for_timeout);
   if (entry.request) {
