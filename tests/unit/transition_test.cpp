@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "unit/compiled_fixture.h"
 #include "unit/stage.h"
 
 namespace cbc {
@@ -202,6 +203,29 @@ behaviors:
   EXPECT_EQ(stage.start("A", 2), "accepted");
   EXPECT_EQ(stage.changes(), "+c required, +a1 requested 2 failed, -c undone, +a2 requested 2");
   EXPECT_EQ(stage.objectives(), "1/1 idle 1/2 changes 1");
+}
+
+// It takes several failures in one event to get here.
+TEST(Transition, ARestartOnlyActivatesABehaviorThatIsInactiveByThen) {
+  const CompiledCatalog catalog = test::compile_text(chain);
+  State state(catalog);
+  EventRecord record;
+  Transition transition(catalog, state, record);
+  Trigger trigger;
+  trigger.task = test::task_id(catalog, "Z");
+  trigger.priority = 2;
+  const BehaviorId z = test::behavior_id(catalog, "z");
+  state.set_value(trigger.task, 0, 0);
+  const std::vector<BehaviorId> before{z};
+  transition.load(trigger, before);
+  const Assignment solution = test::answer_of(catalog, "Z=z");
+  EXPECT_EQ(transition.apply(solution, z, 5), std::nullopt);
+  ASSERT_EQ(record.changes.size(), 1U);
+  EXPECT_EQ(record.changes[0].cause, ChangeCause::restarted) << "restarted wins over undone";
+  EXPECT_EQ(transition.apply(solution, z, 5), std::nullopt);
+  ASSERT_EQ(record.changes.size(), 3U);
+  EXPECT_FALSE(record.changes[1].is_activation);
+  EXPECT_TRUE(record.changes[2].is_activation);
 }
 
 }  // namespace
