@@ -114,16 +114,15 @@ bool satisfies_constraints(const CatalogFacts& facts, const Assignment& values,
          performances_suffice(facts, values, tasks);
 }
 
-// The values of a domain in the order of rule 5.
+// The values of a domain by rank in the canonical order.
 std::vector<std::size_t> ranked_domain(const CatalogFacts& facts, const Problem& problem,
                                        std::size_t task, std::vector<std::size_t> domain) {
   const std::size_t before = problem.before[task];
   const auto suitability = [&](std::size_t behavior) { return facts.suitability(behavior, task); };
   const bool may_stop = std::find(domain.begin(), domain.end(), none) != domain.end();
   domain.erase(std::remove(domain.begin(), domain.end(), none), domain.end());
-  std::sort(domain.begin(), domain.end(), [&](std::size_t a, std::size_t b) {
-    return suitability(a) != suitability(b) ? suitability(a) > suitability(b) : a < b;
-  });
+  std::stable_sort(domain.begin(), domain.end(),
+                   [&](std::size_t a, std::size_t b) { return suitability(a) > suitability(b); });
   if (before == none) {
     if (may_stop) {
       domain.insert(domain.begin(), none);
@@ -183,7 +182,7 @@ const char* to_string(Criterion criterion) {
     case Criterion::changes:
       return "f4, changes";
     case Criterion::ranks:
-      return "rule 5, ranks";
+      return "canonical order";
     case Criterion::nothing:
       return "nothing";
   }
@@ -387,9 +386,6 @@ Integer search_space(const Problem& problem) {
   return space;
 }
 
-namespace {
-
-// All solutions, in no order that means anything.
 std::vector<Solution> enumerate(const CatalogFacts& facts, const Problem& problem) {
   const std::vector<std::size_t>& tasks = facts.groups[problem.group];
   std::vector<std::vector<std::size_t>> ranked;
@@ -400,7 +396,7 @@ std::vector<Solution> enumerate(const CatalogFacts& facts, const Problem& proble
     }
   }
 
-  // Count through all assignments, as an odometer does; ranks are its digits.
+  // Count through all assignments, as an odometer does; ranks are its digits, the last one first.
   std::vector<Solution> solutions;
   std::vector<std::size_t> ranks(tasks.size(), 0);
   Assignment values = problem.before;
@@ -413,7 +409,7 @@ std::vector<Solution> enumerate(const CatalogFacts& facts, const Problem& proble
       solutions.push_back(evaluate(facts, problem, values, ranks));
     }
     more = false;
-    for (std::size_t i = 0; i < tasks.size() && !more; ++i) {
+    for (std::size_t i = tasks.size(); i-- > 0 && !more;) {
       ++ranks[i];
       more = ranks[i] < ranked[i].size();
       if (!more) {
@@ -424,16 +420,15 @@ std::vector<Solution> enumerate(const CatalogFacts& facts, const Problem& proble
   return solutions;
 }
 
-}  // namespace
-
 Criterion first_difference(const Solution& a, const Solution& b) {
   return compare(a, b).decided_by;
 }
 
+bool is_better(const Solution& a, const Solution& b) { return compare(a, b).first_is_better; }
+
 std::vector<Solution> solve_all(const CatalogFacts& facts, const Problem& problem) {
   std::vector<Solution> solutions = enumerate(facts, problem);
-  std::sort(solutions.begin(), solutions.end(),
-            [](const auto& a, const auto& b) { return compare(a, b).first_is_better; });
+  std::sort(solutions.begin(), solutions.end(), is_better);
   return solutions;
 }
 
@@ -443,9 +438,7 @@ std::optional<Solution> solve(const CatalogFacts& facts, const Problem& problem,
   if (solutions.empty()) {
     return std::nullopt;
   }
-  const Solution best =
-      *std::min_element(solutions.begin(), solutions.end(),
-                        [](const auto& a, const auto& b) { return compare(a, b).first_is_better; });
+  const Solution best = *std::min_element(solutions.begin(), solutions.end(), is_better);
   if (statistics != nullptr) {
     count_criteria(best, solutions, *statistics);
     count_boundaries(facts, problem, best.values, *statistics);

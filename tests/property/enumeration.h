@@ -56,8 +56,10 @@ struct ActiveRequest {
 
 struct Problem {
   std::size_t group = 0;
-  std::vector<std::vector<std::size_t>> domains;  // of the tasks of the group; may include none
-  std::vector<ActiveRequest> requests;            // of the group; see sort_requests
+  // Of the tasks of the group; may include none. Ranks of equally suitable behaviors follow its
+  // order.
+  std::vector<std::vector<std::size_t>> domains;
+  std::vector<ActiveRequest> requests;  // of the group; see sort_requests
   Assignment before;             // values before the event, a finished behavior still included
   std::set<std::size_t> active;  // behaviors active just before the event, a finished one not
 };
@@ -69,7 +71,7 @@ struct Solution {
   Integer suitability;              // f2, times 10^(6 * tasks of the group)
   std::size_t running_unasked = 0;  // f3: running tasks that are not start_on_request
   std::size_t changes = 0;          // f4
-  std::vector<std::size_t> ranks;   // rule 5: of the value of each task of the group
+  std::vector<std::size_t> ranks;   // canonical order: of the value of each task of the group
 };
 
 // What tells two solutions apart, in order.
@@ -77,11 +79,15 @@ enum class Criterion { satisfied, request_order, suitability, idle, changes, ran
 
 // The first criterion in which the two differ.
 Criterion first_difference(const Solution& a, const Solution& b);
+bool is_better(const Solution& a, const Solution& b);
 
 // From the highest priority to the lowest, within one from the most recent to the oldest.
 void sort_requests(std::vector<ActiveRequest>& requests);
 
 Integer search_space(const Problem& problem);
+
+// All solutions, depth first: tasks in catalog order, values by rank.
+std::vector<Solution> enumerate(const CatalogFacts& facts, const Problem& problem);
 
 // All solutions, the best first.
 std::vector<Solution> solve_all(const CatalogFacts& facts, const Problem& problem);

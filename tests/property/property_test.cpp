@@ -154,7 +154,7 @@ const LowerBound event_lower_bounds[] = {
     {"decided by: f2, suitability", 2000},
     {"decided by: f3, idle tasks", 800},
     {"decided by: f4, changes", 800},
-    {"decided by: rule 5, ranks", 600},
+    {"decided by: canonical order", 600},
     {"performance: exactly its minimum", 800},
     {"performance: exactly its minimum, a true product", 50},
     {"rejected and taken back", 200},

@@ -27,11 +27,11 @@ struct Low {
   Millionths minimum = 0;
 };
 
-/// A question, and its answer by trying everything. Groups have up to 6 tasks, so that products are
-/// exact.
-class Question {
+/// A random search for conflicts, and its answer by trying everything. Groups have up to 6 tasks,
+/// so that products are exact.
+class RandomSearch {
  public:
-  Question(const CompiledCatalog& catalog, test::Random& random)
+  RandomSearch(const CompiledCatalog& catalog, test::Random& random)
       : catalog_(catalog), group_(test::largest_group(catalog)), random_(random) {
     for (TaskId task = first(); task < end(); ++task) {
       tasks_.push_back(task);
@@ -214,16 +214,17 @@ TEST(ConflictSearch, AnswersAsASearchThroughAllAssignments) {
   std::size_t narrowed = 0;
   for (int round = 0; round < test::rounds(20'000); ++round) {
     const CompiledCatalog catalog = compile(test::random_catalog(random, shape_for(random)));
-    Question question(catalog, random);
-    const bool expected = question.has_solution(question.reasons);
-    ASSERT_EQ(question.solve(question.reasons), expected ? Feasibility::yes : Feasibility::no)
+    RandomSearch random_search(catalog, random);
+    const bool expected = random_search.has_solution(random_search.reasons);
+    ASSERT_EQ(random_search.solve(random_search.reasons),
+              expected ? Feasibility::yes : Feasibility::no)
         << round;
     ++answers[expected ? 1 : 0];
     if (expected) continue;
-    const std::vector<Reason> used = question.used;
-    ASSERT_FALSE(question.has_solution(used)) << round << ": not all that matters is noted";
-    ASSERT_EQ(question.solve(used), Feasibility::no);
-    if (used.size() * 2 < question.reasons.size()) ++narrowed;
+    const std::vector<Reason> used = random_search.used;
+    ASSERT_FALSE(random_search.has_solution(used)) << round << ": not all that matters is noted";
+    ASSERT_EQ(random_search.solve(used), Feasibility::no);
+    if (used.size() * 2 < random_search.reasons.size()) ++narrowed;
   }
   EXPECT_GT(answers[0], test::rounds(500U));
   EXPECT_GT(answers[1], test::rounds(500U));

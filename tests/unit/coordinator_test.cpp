@@ -8,7 +8,8 @@
 #include "unit/compiled_fixture.h"
 #include "unit/stage.h"
 
-// One test for each rule of sections 3, 5 and 6 of the semantics that is easy to get wrong.
+// One test for each rule of docs/semantics.md, "Events", "Application" and "Reactive tasks", that
+// is easy to get wrong.
 
 namespace cbc {
 namespace {
@@ -270,6 +271,28 @@ TEST(Finish, OfWhatIsNotActiveChangesNothing) {
   EXPECT_EQ(stage.searches(), "none");
   stage.start("A");
   EXPECT_EQ(stage.finish("a2", FinishCause::process_failure), "unchanged");
+}
+
+TEST(Finish, WithSuccessLeavesTheBehaviorToOtherTasks) {
+  Stage stage(R"(
+behaviors:
+- {behavior: x, tasks: [{task: A}, {task: B}]}
+- {behavior: b, task: B, suitability: 50}
+)");
+  stage.start("A");
+  stage.set({{"x", false}});
+  stage.start("B");
+  EXPECT_EQ(stage.running(), "A=x B=b");
+  stage.set({{"x", true}});
+  EXPECT_EQ(stage.finish("x"), "accepted");
+  EXPECT_EQ(stage.running(), "B=x");
+}
+
+TEST(Stop, EndsTheRequestInTheObjectives) {
+  Stage stage(rivals);
+  stage.start("A");
+  EXPECT_EQ(stage.stop("A"), "accepted");
+  EXPECT_EQ(stage.objectives(), "0/0 idle 0/1 changes 1");
 }
 
 TEST(Finish, WithSuccessEndsTheRequest) {

@@ -50,7 +50,7 @@ TEST(LoadedCatalog, FindsWhatItNames) {
   EXPECT_EQ(catalog.find_task({}), std::nullopt);
 }
 
-TEST(LoadedCatalog, HasNoNameForAPlaceThatIsNotThere) {
+TEST(LoadedCatalog, HasNoNameForAnIndexThatIsNotThere) {
   const LoadedCatalog catalog = test::load_text(text);
   EXPECT_EQ(catalog.task_name(3), "");
   EXPECT_EQ(catalog.task_name(UINT32_MAX), "");

@@ -9,51 +9,6 @@
 namespace cbc {
 namespace {
 
-TEST(Timers, AreEmptyAtFirst) {
-  const Timers timers(3);
-  EXPECT_TRUE(timers.empty());
-  EXPECT_FALSE(timers.has(0));
-  EXPECT_TRUE(timers.entries().empty());
-}
-
-TEST(Timers, TheEarliestComesFirstOfEqualOnesTheLowestItem) {
-  Timers timers(5);
-  timers.set(4, 10);
-  timers.set(3, 20);
-  timers.set(1, 10);
-  timers.set(2, 10);
-  EXPECT_EQ(timers.first(), 1U);
-  EXPECT_EQ(timers.first_due(), 10);
-  timers.remove(1);
-  EXPECT_EQ(timers.first(), 2U);
-  timers.remove(2);
-  timers.remove(4);
-  EXPECT_EQ(timers.first(), 3U);
-  EXPECT_EQ(timers.first_due(), 20);
-}
-
-TEST(Timers, SettingAnItemAgainMovesIt) {
-  Timers timers(2);
-  timers.set(0, 10);
-  timers.set(1, 20);
-  timers.set(0, 30);
-  EXPECT_EQ(timers.first(), 1U);
-  EXPECT_EQ(timers.due(0), 30);
-  timers.set(0, 5);
-  EXPECT_EQ(timers.first(), 0U);
-  EXPECT_EQ(timers.entries().size(), 2U);
-}
-
-TEST(Timers, RemovingWhatIsNotThereDoesNothing) {
-  Timers timers(2);
-  timers.set(0, 1);
-  timers.remove(1);
-  EXPECT_EQ(timers.entries().size(), 1U);
-  timers.remove(0);
-  timers.remove(0);
-  EXPECT_TRUE(timers.empty());
-}
-
 TEST(Timers, AgreeWithAnOrderedSet) {
   oracle::Random random(1);
   constexpr std::uint32_t items = 40;

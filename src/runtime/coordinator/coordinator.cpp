@@ -57,7 +57,7 @@ Snapshot Coordinator::snapshot() const {
     Snapshot::RunningTask& entry = snapshot.running.emplace_back();
     entry = {
         task, state_.value_index(task), state_.taken_at(task), {}, state_.timeouts().has(index)};
-    if (state_.has_request(task)) entry.request = state_.request(task);
+    if (const Request* const request = state_.find_request(task)) entry.request = *request;
   }
   for (const BehaviorId behavior : catalog_.behavior_ids) {
     if (state_.is_active(behavior)) {
@@ -219,7 +219,7 @@ Coordinator::Status Coordinator::start(TaskId task, std::int32_t priority,
                                        bool is_reactive) {
   record_.task = task;
   record_.priority = priority;
-  const Request* const request = state_.has_request(task) ? &state_.request(task) : nullptr;
+  const Request* const request = state_.find_request(task);
   if (request != nullptr && request->priority > priority) {
     return reject_by_priority(task, request->priority);
   }
@@ -239,7 +239,7 @@ Coordinator::Status Coordinator::start(TaskId task, std::int32_t priority,
 
 Coordinator::Status Coordinator::stop(TaskId task, std::optional<std::int32_t> priority) {
   record_.task = task;
-  const Request* const request = state_.has_request(task) ? &state_.request(task) : nullptr;
+  const Request* const request = state_.find_request(task);
   record_.priority = priority.value_or(request != nullptr ? request->priority : 0);
   if (!state_.is_running(task)) {
     state_.dequeue(task);
@@ -283,9 +283,7 @@ void Coordinator::change_situation(std::span<const Availability> situation) {
     const BehaviorId behavior = catalog_.behavior_ids[entry.behavior];
     const bool becomes_available = entry.available && !state_.is_available(behavior);
     state_.set_available(behavior, entry.available);
-    if (becomes_available) {
-      enqueue_group(catalog_.group_of(behavior));
-    }
+    if (becomes_available) enqueue_group(catalog_.group_of(behavior));
   }
 }
 
@@ -399,9 +397,8 @@ BehaviorId Coordinator::behavior_to_restart(const Trigger& trigger) const {
   if (trigger.kind != Trigger::Kind::start || !state_.is_running(trigger.task)) return none;
   const std::uint32_t index = solution_[trigger.task - catalog_.group_tasks[trigger.group]];
   if (index != state_.value_index(trigger.task)) return none;
-  const std::string_view present = state_.has_request(trigger.task)
-                                       ? std::string_view(state_.request(trigger.task).parameters)
-                                       : std::string_view();
+  const Request* const request = state_.find_request(trigger.task);
+  const std::string_view present = request != nullptr ? request->parameters : std::string_view();
   return trigger.parameters == present ? none : state_.behavior(trigger.task);
 }
 
@@ -458,7 +455,6 @@ Coordinator::Status Coordinator::reject(const Trigger& trigger) {
 /// Gives the tasks of the group the values of the solution.
 void Coordinator::assign(const Trigger& trigger) {
   started_.clear();
-  stopped_.clear();
   stopped_by_others_.clear();
   const TaskId first = catalog_.group_tasks[trigger.group];
   for (TaskId task = first; task < first + solution_.size(); ++task) {
@@ -470,7 +466,6 @@ void Coordinator::assign(const Trigger& trigger) {
       started_.push_back(task);
       continue;
     }
-    stopped_.push_back(task);
     record_.stopped_tasks.push_back(
         {task, has_finished ? trigger.cause : FinishCause::interrupted});
     if (!has_finished && task != trigger.task) stopped_by_others_.push_back(task);
@@ -489,10 +484,8 @@ void Coordinator::update_timeouts(std::uint32_t group) {
 // The queue of reactive tasks (docs/semantics.md, "Reactive tasks").
 
 void Coordinator::update_queue() {
-  for (const TaskId task : stopped_) enqueue_rivals(task);
-  for (const TaskId task : stopped_by_others_) {
-    enqueue_if_reactive(task);
-  }
+  for (const StoppedTask& stopped : record_.stopped_tasks) enqueue_rivals(stopped.task);
+  for (const TaskId task : stopped_by_others_) enqueue_if_reactive(task);
   for (const TaskId task : started_) dequeue_with_rivals(task);
 }
 

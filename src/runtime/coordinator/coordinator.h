@@ -135,7 +135,6 @@ class Coordinator {
   std::optional<Explainer> explainer_;
   Assignment solution_;
   std::vector<TaskId> started_;
-  std::vector<TaskId> stopped_;
   std::vector<TaskId> stopped_by_others_;  ///< those that did not finish and were not asked to stop
   std::vector<BehaviorId> lost_;           ///< of a failed rollback; the last one finishes next
   Microseconds now_ = 0;

@@ -261,11 +261,7 @@ void Explainer::explain_task(const Circumstances& circumstances, TaskId task,
                              Explanation& explanation) {
   const TaskId first = catalog_.group_tasks[catalog_.tasks[task].group];
   const std::uint32_t index = explanation.chosen.assignment[task - first];
-  Demand otherwise;
-  otherwise.kind = index == none ? Demand::Kind::run : Demand::Kind::has_not;
-  otherwise.task = task;
-  otherwise.value_index = index;
-  const Demands demands{otherwise};
+  const Demands otherwise{{index == none ? Demand::Kind::run : Demand::Kind::has_not, task, index}};
   Why why;
   why.task = task;
   why.chosen = index == none ? none : catalog_.values[task][index].behavior;
@@ -274,7 +270,7 @@ void Explainer::explain_task(const Circumstances& circumstances, TaskId task,
     reason.kind = Reason::Kind::no_behavior;
     reason.task = task;
   } else {
-    why.why_not = why_not(circumstances, explanation.chosen, std::span(&demands, 1));
+    why.why_not = why_not(circumstances, explanation.chosen, std::span(&otherwise, 1));
   }
   explanation.why.push_back(std::move(why));
 }

@@ -61,6 +61,18 @@ void Timers::sift_down(std::uint32_t position) {
   put(position, entry);
 }
 
+namespace {
+
+/// How long the task may run with the behavior; 0: without limit.
+Microseconds timeout_of(const CompiledCatalog& catalog, TaskId task, BehaviorId behavior) {
+  const CompiledTask& compiled = catalog.tasks[task];
+  if (compiled.keep_running) return 0;
+  const Microseconds own = catalog.behaviors[behavior].timeout;
+  return own > 0 ? own : compiled.timeout;
+}
+
+}  // namespace
+
 State::State(const CompiledCatalog& catalog)
     : catalog_(catalog),
       assignment_(catalog.tasks.size(), none),
@@ -146,21 +158,15 @@ void State::set_active(BehaviorId behavior, Microseconds now) {
 }
 
 void State::update_timeout(TaskId task, Microseconds now) {
-  const CompiledTask& compiled = catalog_.tasks[task];
-  Microseconds timeout = 0;
-  if (is_running(task) && !compiled.keep_running) {
-    const Microseconds own = catalog_.behaviors[behavior(task)].timeout;
-    timeout = own > 0 ? own : compiled.timeout;
-  }
+  const std::uint32_t item = catalog_.tasks[task].catalog_index;
+  const Microseconds timeout = is_running(task) ? timeout_of(catalog_, task, behavior(task)) : 0;
   if (timeout == 0) {
-    timeouts_.remove(compiled.catalog_index);
+    timeouts_.remove(item);
     return;
   }
   const Microseconds due = std::max(activated_at_[behavior(task)], taken_at_[task]) + timeout;
   // A timeout that is due by now and has no timer was handled.
-  if (due > now || timeouts_.has(compiled.catalog_index)) {
-    timeouts_.set(compiled.catalog_index, due);
-  }
+  if (due > now || timeouts_.has(item)) timeouts_.set(item, due);
 }
 
 void State::enqueue(TaskId task, Microseconds due) {
@@ -205,6 +211,9 @@ class SnapshotCheck {
   void refuse(std::string problem) {
     if (problem_.empty()) problem_ = std::move(problem);
   }
+  [[nodiscard]] BehaviorId behavior_of(const Snapshot::RunningTask& entry) const {
+    return catalog_.values[entry.task][entry.value_index].behavior;
+  }
   [[nodiscard]] bool is_past(Microseconds time) const { return time >= 0 && time <= snapshot_.now; }
   [[nodiscard]] static std::string seconds(Microseconds time) {
     return format_decimal(time, 6) + " s";
@@ -232,7 +241,7 @@ class SnapshotCheck {
 
   void check_task(const Snapshot::RunningTask& entry) {
     const std::string name = quote(catalog_.name_of_task(entry.task));
-    const BehaviorId behavior = catalog_.values[entry.task][entry.value_index].behavior;
+    const BehaviorId behavior = behavior_of(entry);
     if (assignment_[entry.task] != none) refuse(concat("task ", name, " runs twice"));
     assignment_[entry.task] = entry.value_index;
     if (!is_past(entry.since)) {
@@ -257,10 +266,8 @@ class SnapshotCheck {
   }
 
   void check_timeout(const std::string& name, const Snapshot::RunningTask& entry) {
-    const CompiledTask& task = catalog_.tasks[entry.task];
-    const BehaviorId behavior = catalog_.values[entry.task][entry.value_index].behavior;
-    const Microseconds own = catalog_.behaviors[behavior].timeout;
-    const Microseconds timeout = task.keep_running != 0 ? 0 : own > 0 ? own : task.timeout;
+    const BehaviorId behavior = behavior_of(entry);
+    const Microseconds timeout = timeout_of(catalog_, entry.task, behavior);
     const Microseconds due =
         timeout == 0 ? never : std::max(entry.since, activated_at_[behavior]) + timeout;
     if (entry.waits_for_timeout ? due < snapshot_.now : due > snapshot_.now) {
@@ -272,7 +279,7 @@ class SnapshotCheck {
   void check_active() {
     std::vector<std::uint8_t> is_used(catalog_.behaviors.size(), 0);
     for (const Snapshot::RunningTask& entry : snapshot_.running) {
-      is_used[catalog_.values[entry.task][entry.value_index].behavior] = 1;
+      is_used[behavior_of(entry)] = 1;
     }
     for (const auto& [behavior, time] : snapshot_.active) {
       if (is_used[behavior] != 0) continue;

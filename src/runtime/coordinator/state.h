@@ -79,6 +79,10 @@ class State {
 
   [[nodiscard]] bool has_request(TaskId task) const { return has_request_[task] != 0; }
   [[nodiscard]] const Request& request(TaskId task) const { return requests_[task]; }
+  /// The request of a task, or null.
+  [[nodiscard]] const Request* find_request(TaskId task) const {
+    return has_request(task) ? &requests_[task] : nullptr;
+  }
   [[nodiscard]] std::uint32_t request_count() const { return request_count_; }
   /// The task must be running.
   void set_request(TaskId task, std::int32_t priority, std::uint64_t event,

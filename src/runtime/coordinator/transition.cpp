@@ -191,8 +191,8 @@ void Transition::explain_deactivation(Change& change, const Assignment& solution
 }
 
 std::optional<std::int32_t> Transition::priority_before(TaskId task) const {
-  if (!state_.has_request(task)) return std::nullopt;
-  return state_.request(task).priority;
+  const Request* const request = state_.find_request(task);
+  return request != nullptr ? std::optional(request->priority) : std::nullopt;
 }
 
 /// Of a task that runs in the solution.

@@ -138,19 +138,17 @@ void ConfigurationSearch::split(Subproblem subproblem, std::size_t most,
     const std::uint32_t index = subproblem.best.assignment[task];
     Subproblem other;
     other.problem = subproblem.problem;
-    Demand demand;
-    demand.task = first + task;
-    demand.value_index = index;
-    demand.kind = index == none ? Demand::Kind::run : Demand::Kind::has_not;
-    apply_demand(catalog_, demand, other.problem);
+    const bool runs = index != none;
+    apply_demand(catalog_, {runs ? Demand::Kind::has_not : Demand::Kind::run, first + task, index},
+                 other.problem);
     std::optional<Configuration> found = solve(other.problem);
     if (is_cut_) return;
     if (found) {
       other.best = std::move(*found);
       insert(std::move(other), most, open);
     }
-    demand.kind = index == none ? Demand::Kind::stop : Demand::Kind::has;
-    apply_demand(catalog_, demand, subproblem.problem);
+    apply_demand(catalog_, {runs ? Demand::Kind::has : Demand::Kind::stop, first + task, index},
+                 subproblem.problem);
   }
 }
 

@@ -23,8 +23,9 @@ namespace cbc {
 /// R. T. Wong, "A dual ascent approach for Steiner tree problems on a directed graph", Mathematical
 /// Programming 28 (1984), does so with the cuts of a graph; the disjunctive landmarks of LM-cut
 /// (M. Helmert and C. Domshlak, "Landmarks, critical paths and abstractions: what's the difference
-/// anyway?", ICAPS 2009) are such cuts in a plan. Here one choice needs several others at once, and
-/// cuts are found by a search from the needed task down, not by a cost partitioning heuristic.
+/// anyway?", ICAPS 2009) are such cuts in planning. Here a choice may require several others at
+/// once, and a cut is found by a search from the needed task down, without the h^max values of
+/// LM-cut.
 class CostBound {
  public:
   /// Costs in lexicographic order: -log of f2, then the number of idle tasks that run (f3).

@@ -14,12 +14,11 @@ namespace cbc {
 /// over the *needed* tasks: those that run in every solution of the present subtree ("not running"
 /// has left their domain). The most suitable value of each bounds its share of the objective.
 ///
-/// All other tasks can be left at "not running": running a task that nothing needs improves neither
-/// f2 nor f3, and makes f3 or a later objective worse. So a subtree is solved when each needed task
-/// has one value.
+/// All other tasks can be left at "not running": to run a task that nothing needs never improves
+/// f2, and makes f3 worse. So a subtree is solved when each needed task has one value.
 class Domains {
  public:
-  /// Sums over the needed tasks, each taken with the most suitable behavior it still has.
+  /// Sums over the needed tasks, each with the most suitable behavior in its domain.
   struct Sums {
     std::int64_t cost = 0;      ///< log_cost of the suitabilities, zeros left out
     std::uint32_t factors = 0;  ///< suitabilities other than 1 and 0

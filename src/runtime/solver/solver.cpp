@@ -118,8 +118,8 @@ CostBound::Cost Solver::pruning_threshold(const Incumbent& best) const {
   return {best.sums.cost + log_cost_error * factors, INT64_MAX};
 }
 
-/// Takes the solution of the present component. False if it is one too many, or
-/// if any solution will do.
+/// Takes the solution of the present component. False if it is one too many, or if
+/// any solution will do.
 bool Solver::accept() {
   if (options_.max_solutions > 0 && result_.solutions == options_.max_solutions) return false;
   if (components_.depth() == 0) ++result_.solutions;
@@ -172,7 +172,7 @@ bool Solver::enter_component(const Decision& decision) {
   return true;
 }
 
-/// The present component is solved: fixes its best values, and goes on with what is around it.
+/// The present component is solved: fixes its best values, and continues with what is around it.
 /// False if it has no solution that could improve an incumbent.
 bool Solver::leave_component() {
   const ComponentSearch& component = current();
