@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "lint/checks.h"
 #include "lint/lint.h"
 #include "unit/findings.h"
 #include "yaml/document.h"

@@ -405,10 +405,10 @@ const Rule still_available = {
     .summary = "A behavior ends because of the situation, but stays available.",
     .explanation =
         "A finish with cause situation_change says that the behavior stopped because the situation "
-        "no longer allows it. But only an event 'situation' makes the behavior unavailable. As "
-        "long as it is available, the coordinator may choose it again at this very event, and "
-        "usually does, since it was the best choice just before. On a robot, the behavior would "
-        "already have reported that its situation does not hold.",
+        "no longer allows it. That alone does not make the behavior unavailable; an event "
+        "'situation' does. As long as it is available, the coordinator may choose it again at this "
+        "very event, and usually does, since it was the best choice just before. On a robot, the "
+        "behavior would already have reported that its situation does not hold.",
     .example = R"(events:
 - start: ROTATE
 - finish: GPS
