@@ -64,7 +64,7 @@ struct Source {
   Digest digest;
 };
 
-/// Prints the findings. Empty if there are errors.
+/// Also prints the findings. Empty if there are errors.
 std::optional<Source> understand(InputFiles& files, const InputFile& file) {
   std::optional<Catalog> catalog = CatalogLoader(files).understand(file.path, *file.document);
   files.print_findings();
@@ -87,13 +87,14 @@ std::optional<Source> read_source(const std::string& path) {
   return understand(files, *file);
 }
 
-/// A compiled file, and the catalog as those who read it find it.
+/// A compiled file, and the catalog that its readers find in it.
 struct Compiled {
   std::string content;
   CompiledFile file;
 };
 
-/// Says so if there can be none. What nobody would accept is not handed out.
+/// Empty, after a message, if the file would be too large. The file is read back, so that no file
+/// is written that readers would refuse.
 std::optional<Compiled> compile_source(const Source& source) {
   std::string content = write_compiled(compile(source.catalog), source.digest);
   if (content.empty()) {
@@ -133,7 +134,7 @@ int say_stale(const std::string& output, const std::string& reason) {
   return exit_no;
 }
 
-/// Compares a file with what would be written in its place now.
+/// Compares a file with the one that would be written now.
 int check(const CompileCommand& command) {
   std::optional<Source> source = read_source(command.catalog);
   if (!source) return exit_unusable;
@@ -155,7 +156,7 @@ int check(const CompileCommand& command) {
     return say_stale(output, fmt::format("it was written by cbc {}, and this is cbc {}",
                                          printable(existing.file->written_by), version));
   }
-  // The same catalog may have been named by another path.
+  // The catalog may have been compiled under another path.
   source->catalog.file = existing.file->catalog.file;
   const std::optional<Compiled> compiled = compile_source(*source);
   if (!compiled) return exit_unusable;
@@ -163,7 +164,7 @@ int check(const CompileCommand& command) {
   return say_stale(output, "it is not what would be written now");
 }
 
-/// The compiled form of a catalog, of which there may be no file.
+/// The compiled form of a catalog, even if there is no file of it.
 std::optional<CompiledFile> read_for_dump(const std::string& path) {
   InputFiles files;
   const std::optional<InputFile> file = files.read_catalog(path);
@@ -224,7 +225,7 @@ void add_compile_command(Program& program) {
       .not_with({"--check"});
   command
       .option("--format", options->format, one_of("FORMAT", {"text", "json"}),
-              "Of --dump: text (the default) or json")
+              "With --dump: text (the default) or json")
       .only_with({"--dump"});
   command.action([options] { return run_compile(*options); });
 }

@@ -24,16 +24,16 @@
 namespace cbc::cli {
 namespace {
 
-/// The words around the one that is being typed, understood as far as they can be.
+/// The words around the one that is being typed, as far as they can be understood.
 struct TypedLine {
-  const Command* command = nullptr;   ///< null: it comes next
+  const Command* command = nullptr;   ///< null: it is being typed
   bool is_unknown = false;            ///< there is no such command
   const Option* pending = nullptr;    ///< what is being typed is its value
-  bool has_separator = false;         ///< "--" is before it: no options come any more
-  std::size_t positionals = 0;        ///< of the command, before it
-  std::vector<std::string> files;     ///< the positionals before and behind it
-  std::vector<std::string> scripts;   ///< that options before and behind it name
-  std::optional<ValueKind> argument;  ///< what a flag makes of the positionals
+  bool has_separator = false;         ///< "--" is before it: no options follow
+  std::size_t positionals = 0;        ///< the number of arguments before it
+  std::vector<std::string> files;     ///< the arguments before and after it
+  std::vector<std::string> scripts;   ///< that options before and after it name
+  std::optional<ValueKind> argument;  ///< what a flag makes of the arguments
 };
 
 bool is_option(const std::string& word) { return word.size() > 1 && word.front() == '-'; }
@@ -67,8 +67,7 @@ void add_word(const std::string& word, TypedLine& line) {
   }
 }
 
-/// `words`: those after the name of the program; the last one is being typed. `behind`: those
-/// behind it.
+/// `words` follow the name of the program; the last one is being typed. `behind` follow that one.
 TypedLine understand_line(const Program& program, const std::vector<std::string>& words,
                           const std::vector<std::string>& behind) {
   TypedLine line;
@@ -92,7 +91,7 @@ TypedLine understand_line(const Program& program, const std::vector<std::string>
   return line;
 }
 
-/// What takes longer to read than somebody who presses a key waits.
+/// Larger files would take longer to read than somebody who presses a key waits.
 constexpr std::uintmax_t largest_completed = std::uintmax_t{2} << 20U;
 constexpr std::uintmax_t largest_compiled = std::uintmax_t{64} << 20U;
 
@@ -101,7 +100,7 @@ std::string expand_home(const std::string& path) {
   return home != nullptr && path.starts_with("~/") ? home + path.substr(1) : path;
 }
 
-/// Nothing else is read: a pipe would never end, nor would a file of the kernel, which has no size.
+/// Only regular files with a size are read: pipes and files of the kernel might never end.
 bool is_readable_file(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
@@ -122,9 +121,9 @@ std::optional<InputFile> read_catalog_of(InputFiles& files, const std::string& p
   return named ? read_if_readable(files, *named) : std::nullopt;
 }
 
-/// The tasks, on request also the behaviors, of the catalog in a file, or of the one that the
-/// script in it names: of a faulty catalog, as far as it is understood. Complaints go to standard
-/// error.
+/// The tasks, and on request the behaviors, of the catalog in a file, or of the catalog that the
+/// script in it names. A catalog with errors is used as far as it is understood. Messages go to
+/// standard error.
 std::vector<NameWithHelp> names_of_file(const std::string& path, bool with_behaviors) {
   InputFiles files;
   const std::optional<InputFile> catalog = read_catalog_of(files, expand_home(path));
@@ -144,7 +143,7 @@ std::vector<NameWithHelp> names_of_file(const std::string& path, bool with_behav
   return names;
 }
 
-/// What can stand where a word of a command line is being typed.
+/// The words that fit where a word of a command line is being typed.
 struct Completion {
   std::vector<NameWithHelp> candidates;    ///< without `prefix`
   bool is_file = false;                    ///< the shell offers files
@@ -152,7 +151,7 @@ struct Completion {
   std::string prefix;                      ///< of the last word, before the value: "--format="
 };
 
-/// What an option or a command does, in a few words of its help.
+/// The first few words of the help of an option or a command.
 std::string first_words(std::string text) {
   std::size_t end = text.size();
   for (const char* const stop : {". ", "; ", ": ", " ("}) end = std::min(end, text.find(stop));
@@ -188,7 +187,7 @@ void offer_files(std::vector<std::string_view> suffixes, Completion& completion)
   completion.suffixes = std::move(suffixes);
 }
 
-/// The names come out of a catalog on the line, or of one that a script there names.
+/// Offers names of the catalog on the line, or of the one that a script on the line names.
 void offer_names_of(const TypedLine& line, bool with_behaviors, Completion& completion) {
   const std::vector<std::string>& paths = line.files.empty() ? line.scripts : line.files;
   if (!paths.empty()) offer_names(names_of_file(paths.front(), with_behaviors), completion);
@@ -227,7 +226,7 @@ void offer_values(const Option& option, const TypedLine& line, const std::string
   offer_kind(option.values.kind, line, completion);
 }
 
-/// The positional argument that comes next; null if all are there.
+/// The argument that comes next; null if all are given.
 const Option* next_argument(const Command& command, std::size_t given) {
   for (const Option& option : command.options()) {
     if (option.is_argument && (option.is_repeatable || given-- == 0)) return &option;
@@ -235,9 +234,9 @@ const Option* next_argument(const Command& command, std::size_t given) {
   return nullptr;
 }
 
-/// Derived from the definition of the command line. `words`: those after the name of the program;
-/// the last one, which may be empty, is being typed. `behind`: the words behind that one. Where
-/// names out of a catalog can follow, the catalog is read.
+/// Follows from the declarations of the command line. `words` follow the name of the program; the
+/// last one, which may be empty, is being typed. `behind` follow that one. Where names of a catalog
+/// fit, the catalog is read.
 Completion complete(const Program& program, const std::vector<std::string>& words,
                     const std::vector<std::string>& behind) {
   Completion completion;
@@ -274,7 +273,7 @@ Completion complete(const Program& program, const std::vector<std::string>& word
   return completion;
 }
 
-/// What a shell makes of a word, that may not be finished, without expanding anything.
+/// Removes the quotes of a word, which may be unfinished, as a shell does; expands nothing.
 std::string unquote(std::string_view word) {
   std::string plain;
   char quote_mark = '\0';
@@ -304,15 +303,15 @@ bool is_harmless(char character) {
          static_cast<unsigned char>(character) >= 0x80;
 }
 
-/// A text as bash has to find it behind an opening quote, or behind none. Empty if it cannot be
-/// there.
+/// A text as it has to stand in bash after an opening quote, or without one. Empty if it cannot be
+/// quoted in this way.
 std::optional<std::string> quote_for_bash(std::string_view text, char quote_mark) {
   std::string quoted;
   for (const char character : text) {
     if (quote_mark == '\'') {
       quoted += character == '\'' ? R"('\'')" : std::string(1, character);
     } else if (quote_mark == '"') {
-      if (character == '!') return std::nullopt;  // the history is expanded here, too
+      if (character == '!') return std::nullopt;  // bash would expand the history
       if (std::string_view("$`\"\\").find(character) != std::string_view::npos) quoted += '\\';
       quoted += character;
     } else {
@@ -325,9 +324,9 @@ std::optional<std::string> quote_for_bash(std::string_view text, char quote_mark
 
 /// A word that is being typed.
 struct TypedWord {
-  std::string plain;       ///< all of it, without quotes
-  std::string kept;        ///< what the shell does not replace, without quotes
-  char quote_mark = '\0';  ///< that opens what it does replace
+  std::string plain;       ///< the whole word without quotes
+  std::string kept;        ///< the part that the shell does not replace, without quotes
+  char quote_mark = '\0';  ///< that opens the part that it replaces
 };
 
 TypedWord typed_word(const std::string& word, const std::string& kept) {
@@ -343,8 +342,8 @@ char to_lower(char character) {
                                               : character;
 }
 
-/// Whether a candidate has all letters of what is typed, in this order and in any case. fish takes
-/// it then, if it is the only one; it would find nearly all letters in the help, too.
+/// Whether a candidate has all typed letters, in this order and in any case. Such a candidate is
+/// accepted by fish if it is the only one; fish itself would look for the letters in the help, too.
 bool has_letters_of(std::string_view candidate, std::string_view typed) {
   for (const char character : candidate) {
     if (!typed.empty() && to_lower(character) == to_lower(typed.front())) typed.remove_prefix(1);
@@ -375,7 +374,7 @@ void print_files(const Completion& completion, const TypedWord& typed) {
   fmt::print("\n{}\n{}\n", printable(typed.plain.substr(skipped)), printable(kept));
 }
 
-/// 0 if it is no number.
+/// 0 if the text is not a number.
 std::size_t parse_place(std::string_view text) {
   std::size_t place = 0;
   std::from_chars(text.data(), text.data() + text.size(), place);

@@ -12,11 +12,11 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 
-// The scripts that make a shell ask the program how a command line can go on.
+// The scripts with which a shell asks the program for completions.
 namespace cbc::cli {
 namespace {
 
-// What the program answers is data for all of them: no line of it is ever evaluated.
+// All of them treat the answers of the program as data: no line is ever evaluated.
 // PROGRAM stands for the name of the program.
 
 constexpr std::string_view bash_script =
@@ -167,8 +167,8 @@ end
 complete -c PROGRAM -f -a '(__PROGRAM_complete)'
 )script";
 
-/// The name whose command lines are to be completed by a program that was called as this path or
-/// name: its file name, or "cbc" if a shell could take that for anything but a word.
+/// The name whose command lines are completed, for a program that was called as this path or name:
+/// its file name, or "cbc" if that has characters that are special to a shell.
 std::string name_to_complete(std::string_view called_as) {
   const std::string_view name = called_as.substr(called_as.rfind('/') + 1);
   const bool is_plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {

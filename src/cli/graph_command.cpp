@@ -52,7 +52,7 @@ struct DrawingOptions {
   [[nodiscard]] bool operator==(const DrawingOptions&) const = default;
 };
 
-/// The name that an unknown one may stand for.
+/// A hint at the name that may have been meant.
 std::string suggest(const draw::CatalogGraph& graph, const std::string& name) {
   const auto has_name = [&](const auto& one) { return one.name == name; };
   if (std::any_of(graph.behaviors.begin(), graph.behaviors.end(), has_name)) {
@@ -102,21 +102,21 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
                  "connect), or none (default: none; in the view of the constraints groups)");
   command
       .flag("--reduce", options.reduce,
-            "In the view of tasks, leave out requirements that follow from others")
+            "With --view tasks: leave out requirements that follow from others")
       .only_with({"--view tasks"});
   command
       .option("--task", options.tasks, name_of("NAME", ValueKind::task),
-              "Draw this task only, with what it requires and what requires it. Repeatable")
+              "Draw only this task, with what it requires and what requires it. Repeatable")
       .not_with({"--group"});
-  command.flag("--up", options.up, "Of --task: only what requires it").only_with({"--task"});
-  command.flag("--down", options.down, "Of --task: only what it requires").only_with({"--task"});
+  command.flag("--up", options.up, "With --task: only what requires it").only_with({"--task"});
+  command.flag("--down", options.down, "With --task: only what it requires").only_with({"--task"});
   command
       .option("--depth", options.depth, whole_number("N", 0, most),
-              "Of --task: at most N tasks away")
+              "With --task: at most N tasks away")
       .only_with({"--task"});
   command.option("--group", options.group, whole_number("N", 0, most),
-                 "Draw this group only; 'cbc compile --dump' numbers them");
-  command.flag("--legend", options.legend, "Add a key to the kinds of shapes and lines");
+                 "Draw only this group, as numbered by 'cbc compile --dump'");
+  command.flag("--legend", options.legend, "Add a legend of the shapes and lines");
 }
 
 draw::ViewOptions view_options(const DrawingOptions& options) {
@@ -134,8 +134,7 @@ draw::ViewOptions view_options(const DrawingOptions& options) {
   return result;
 }
 
-/// The part of the catalog that is drawn. Empty if it has no such tasks or group, which is
-/// complained of.
+/// The part of the catalog to draw. Empty, after a message, if it has no such tasks or group.
 std::optional<draw::Part> find_part(const draw::CatalogGraph& graph,
                                     const DrawingOptions& options) {
   if (options.group) {
@@ -161,8 +160,8 @@ std::string first_line(const std::string& text) {
   return line.empty() ? "it does not say why" : line;
 }
 
-/// Takes the time of the run out of a PDF file, so that the same catalog gives the same bytes. The
-/// length stays, because the file has a table of the places in it.
+/// Replaces the creation date of a PDF file, so that the same catalog gives the same bytes. The
+/// length stays the same, because the file has a table of byte offsets.
 void remove_date(std::string& pdf) {
   constexpr std::string_view begin = "/CreationDate (D:";
   constexpr std::string_view date = "19700101000000";
@@ -171,8 +170,7 @@ void remove_date(std::string& pdf) {
   pdf.replace(place + begin.size(), date.size(), date);
 }
 
-/// Has Graphviz's program `dot` draw a graph: format is svg, png or pdf. Empty if that fails, which
-/// is complained of.
+/// Runs `dot`, a program of Graphviz, on a graph. Empty, after a message, if that fails.
 std::optional<std::string> run_graphviz(const std::string& dot, std::string_view format) {
   Filtered picture = run_filter({"dot", fmt::format("-T{}", format)}, dot);
   if (!picture.is_found) {
@@ -189,14 +187,14 @@ std::optional<std::string> run_graphviz(const std::string& dot, std::string_view
   return std::move(picture.output);
 }
 
-/// Which state of a mission `cbc graph` draws.
+/// The state of a mission that `cbc graph` draws.
 struct StateOptions {
-  std::optional<std::string> script;  ///< empty: no state, but the catalog
+  std::optional<std::string> script;  ///< empty: the catalog is drawn without a state
   std::optional<std::uint64_t> after;
   std::string at;
 };
 
-/// The one script, with its catalog.
+/// A script with its catalog.
 std::optional<Mission> load_mission(const std::string& catalog, const std::string& script) {
   std::vector<std::string> paths;
   if (!catalog.empty()) paths.push_back(catalog);
@@ -229,7 +227,7 @@ WantedState wanted_state(const StateOptions& options) {
   return wanted;
 }
 
-/// Why a run that came to its end has no such state, or empty.
+/// Why a complete run has no such state; empty if it has.
 std::string find_miss(const Script& script, const WantedState& wanted, std::uint64_t events) {
   if (wanted.index && *wanted.index > events) {
     return fmt::format("--after: script {} makes {} {} in all", quote(script.file), events,
@@ -251,16 +249,16 @@ void add_state_options(Command& command, StateOptions& options) {
       .not_with({"--diff"});
   command
       .option("--after", options.after, whole_number("N", 0),
-              "Of --script: mark what runs after the Nth event that 'cbc solve' lists (0: "
-              "before the first)")
+              "With --script: mark what runs after the Nth event that 'cbc solve' lists (0: before "
+              "the first)")
       .only_with({"--script"})
       .not_with({"--at"});
-  command.option("--at", options.at, seconds(0), "Of --script: mark what runs after this time")
+  command.option("--at", options.at, seconds(0), "With --script: mark what runs after this time")
       .only_with({"--script"});
 }
 
 /// Runs the script on the catalog, or on the one that it names if `catalog` is empty. Null if there
-/// is no such state: why is printed, and `status` is set.
+/// is no such state: the reason is printed, and `status` is set.
 std::unique_ptr<Drawable> read_state(const std::string& catalog, const StateOptions& options,
                                      int& status) {
   status = exit_unusable;
@@ -289,7 +287,7 @@ std::unique_ptr<Drawable> read_state(const std::string& catalog, const StateOpti
   return state;
 }
 
-/// Two catalogs, what they do not have in common, and both as one, fit to be drawn.
+/// Two catalogs, their differences, and a graph of both.
 struct ComparedCatalogs {
   std::shared_ptr<const CompiledCatalog> before;
   std::shared_ptr<const CompiledCatalog> after;
@@ -297,8 +295,8 @@ struct ComparedCatalogs {
   draw::CatalogGraph graph;
 };
 
-/// Reads and compares two catalogs, compiled ones or YAML. Null if one of them cannot be used,
-/// which is said.
+/// Reads and compares two catalogs, compiled or YAML. Null, after a message, if one of them cannot
+/// be used.
 std::unique_ptr<const ComparedCatalogs> read_and_compare(const std::string& before,
                                                          const std::string& after) {
   auto compared = std::make_unique<ComparedCatalogs>();
@@ -356,8 +354,8 @@ struct GraphCommand {
 /// A format of pictures.
 struct GraphFormat {
   std::string_view name;
-  std::array<std::string_view, 2> suffixes;    ///< of files in it; the second one may be empty
-  std::string (*write)(const draw::Diagram&);  ///< of one by Graphviz: the input of `dot`
+  std::array<std::string_view, 2> suffixes;    ///< of its files; the second one may be empty
+  std::string (*write)(const draw::Diagram&);  ///< for Graphviz: writes the input of `dot`
   bool is_by_graphviz = false;                 ///< `dot -T<name>` makes it
   bool is_binary = false;
 };
@@ -372,7 +370,7 @@ constexpr std::array<GraphFormat, 6> graph_formats = {{
     {"pdf", {".pdf"}, graph_dot, true, true},
 }};
 
-/// The one of differences that is no picture, beside "json".
+/// The format of differences for people.
 constexpr std::string_view text_format = "text";
 
 const GraphFormat* find_format(std::string_view name) {
@@ -381,8 +379,7 @@ const GraphFormat* find_format(std::string_view name) {
   return found == graph_formats.end() ? nullptr : found;
 }
 
-/// The name of the format, which may be given by the suffix of the output; empty if the suffix
-/// names none.
+/// The name of the format, which the suffix of the output may tell; empty if it tells none.
 std::string format_of(const GraphCommand& command) {
   if (!command.format.empty()) return command.format;
   std::string suffix = std::filesystem::path(command.output.value_or("")).extension();
@@ -399,7 +396,7 @@ std::string format_of(const GraphCommand& command) {
   return {};
 }
 
-/// What is wrong with the format, or the number of catalogs; empty if nothing is.
+/// Says what is wrong with the format or the number of catalogs; empty if nothing is.
 std::string find_misuse(const GraphCommand& command) {
   const std::string format = format_of(command);
   const std::size_t catalogs = command.catalogs.size();
@@ -429,7 +426,7 @@ std::string find_misuse(const GraphCommand& command) {
 
 std::string output_of(const GraphCommand& command) { return command.output.value_or("-"); }
 
-/// Whether the output can be written where it shall be. If not, this is complained of.
+/// Whether the output can be written to its place. If not, prints why.
 bool can_write(const GraphCommand& command) {
   const GraphFormat* const format = find_format(format_of(command));
   if (format == nullptr || !format->is_binary || output_of(command) != "-" ||
@@ -516,8 +513,8 @@ void add_graph_command(Program& program) {
                    "The catalog: YAML or a compiled one, or - for standard input; with --diff two "
                    "of them, the older one first");
   command.flag("--diff", options->is_diff,
-               "Show what two catalogs do not have in common, whatever their order and "
-               "layout; exit status 1 if there is anything");
+               "Show the differences between two catalogs, regardless of order and layout; the "
+               "exit status is 1 if there are any");
   command.option("-o,--output", options->output, output("OUT"),
                  "The file to write, or - for standard output (default)");
   command.option("--format", options->format, one_of("FORMAT", formats),

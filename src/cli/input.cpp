@@ -62,7 +62,7 @@ bool is_script(const yaml::Document& document) {
       "start", "stop", "finish", "situation", "fault", "repair", "expect", "at", "wait"};
   const yaml::Node& root = document.root();
   if (root.kind != yaml::Kind::sequence) return !is_catalog(document) && has_any(root, keys);
-  // A list of anything else is more likely a catalog that lacks a key.
+  // Another list is more likely a catalog that lacks a key.
   return root.items.empty() ||
          std::any_of(root.items.begin(), root.items.end(),
                      [&event_keys](const yaml::Node* item) { return has_any(*item, event_keys); });
@@ -215,7 +215,7 @@ bool InputFiles::take_findings(const std::string& path, const yaml::Document& do
   if (!keeps_findings_) return diagnostics.count(Severity::error) == 0;
   const std::optional<SeveritySettings> settings = settings_.find(path);
   if (!settings) return false;
-  // Not all rules are looked at here, so that none of the comments can be called unused.
+  // Not all rules are checked here, so comments may look unused that are not.
   const CommentedFile file{document.file(), text_of(document), &document, false};
   bool has_errors = false;
   for (Diagnostic& finding : control_findings(diagnostics.release(), file, *settings)) {
@@ -268,7 +268,7 @@ std::shared_ptr<const CompiledCatalog> load_catalog(const std::string& path) {
 
 namespace {
 
-/// Whether there is a compiled catalog in a regular file: nothing else can be read twice.
+/// Whether a regular file has a compiled catalog. Other files cannot be read twice.
 bool can_be_mapped(const std::string& path) {
   std::error_code ignored;
   if (path == "-" || !std::filesystem::is_regular_file(path, ignored)) return false;
@@ -344,7 +344,7 @@ std::unique_ptr<Drawable> from_text(InputFiles& files, const InputFile& file) {
   if (files.take_findings(file.path, *file.document, std::move(diagnostics))) {
     return from_compiled(compile(reading.catalog));
   }
-  // Without an error it is the settings that could not be read.
+  // If there is no error, the settings could not be read.
   if (!has_errors(files.findings())) return nullptr;
   auto drawable = std::make_unique<Drawable>();
   drawable->reading = std::move(reading);

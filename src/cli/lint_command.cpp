@@ -34,24 +34,24 @@
 
 namespace cbc::cli {
 
-/// Lints the files of a command line, with the settings that hold for each. What cannot be read is
-/// complained of on standard error.
+/// Lints the files of a command line, with the settings that apply to each. Messages about
+/// unreadable files go to standard error.
 class Linter {
  public:
   struct Options {
     LintOptions lint;
-    SeveritySettings settings;   ///< of the command line: stronger than those of files
+    SeveritySettings settings;   ///< of the command line; they override those of files
     std::string stdin_filename;  ///< for "-"
     bool is_to_fix = false;
-    bool is_to_show_fixes = false;  ///< as a diff, instead of writing them
-    bool is_to_summarize = false;   ///< compiled catalogs, too
-    bool has_scripts = false;       ///< for which a compiled catalog will do
+    bool is_to_show_fixes = false;  ///< as a diff, instead of writing the files
+    bool is_to_summarize = false;   ///< also compiled catalogs
+    bool has_scripts = false;       ///< which may use a compiled catalog
   };
   explicit Linter(Options options);
 
   /// A catalog, or an event script that names its catalog.
   void lint_catalog(const std::string& path);
-  /// A file of a folder, in which there may be others than catalogs. Whether it is a catalog.
+  /// Lints a file of a folder if it is a catalog. Returns whether it is one.
   bool lint_if_catalog(const std::string& path);
   /// `catalog`: path of the catalog that it runs on; if empty, the one that the script names.
   void lint_script(const std::string& path, const std::string& catalog);
@@ -59,12 +59,12 @@ class Linter {
   [[nodiscard]] const std::vector<LintedFile>& files() const { return files_; }
   /// Whether a file could not be read, or not be written.
   [[nodiscard]] bool has_failed() const { return has_failed_; }
-  /// Whether a fault of cbc showed.
+  /// Whether there was an internal error.
   [[nodiscard]] bool has_internal_error() const { return has_internal_error_; }
-  /// Whether there is an error, or a warning in a file for which it counts as one.
+  /// Whether there is an error, or a warning in a file with strict settings.
   [[nodiscard]] bool has_found() const { return has_found_; }
   [[nodiscard]] const std::string& diff() const { return diff_; }
-  /// Whether a file was mended in place.
+  /// Whether a file was fixed in place.
   [[nodiscard]] bool has_mended() const { return has_mended_; }
 
  private:
@@ -73,7 +73,8 @@ class Linter {
     Catalog catalog;
     std::size_t errors = 0;  ///< whatever the settings say
     bool is_script = false;
-    std::shared_ptr<const CompiledCatalog> compiled;  ///< if scripts can be checked against it
+    std::shared_ptr<const CompiledCatalog>
+        compiled;  ///< null if scripts cannot be checked against it
   };
 
   [[nodiscard]] Linted lint_text(const std::string& name, std::string text,
@@ -92,7 +93,7 @@ class Linter {
   const Options options_;
   std::vector<LintedFile> files_;
   InputFiles unlinted_{InputFiles::Findings::dropped};
-  CatalogLoader catalogs_{unlinted_};  ///< of scripts: those that were linted, and others
+  CatalogLoader catalogs_{unlinted_};  ///< those that were linted, and others that scripts use
   SettingsFinder settings_;
   std::string diff_;
   bool has_failed_ = false;
@@ -134,7 +135,7 @@ bool Linter::lint_if_catalog(const std::string& path) {
   return true;
 }
 
-/// A compiled catalog has no text to find mistakes in.
+/// A compiled catalog has no text to lint.
 void Linter::take_compiled(const CatalogInput& input) {
   std::optional<CompiledFile> file;
   if (options_.is_to_fix || !(options_.is_to_summarize || options_.has_scripts)) {
@@ -197,14 +198,13 @@ Linter::Linted Linter::lint_text(const std::string& name, std::string text,
   return linted;
 }
 
-/// Mends what can be mended. If the result cannot be written, all stays as it was.
+/// Applies all fixes. If the result cannot be written, nothing changes.
 void Linter::fix(const std::string& path, Linted& linted, const SeveritySettings& settings) {
   Linted fixed;
   fixed.file = linted.file;
   fixed.catalog = linted.catalog;
   std::size_t mended = 0;
-  // What is mended may uncover more; each round makes the text say less twice, so it comes to an
-  // end.
+  // A fix may uncover more findings. Each round removes redundancy from the text, so the loop ends.
   for (;;) {
     FixedText text = apply_fixes(fixed.file.text, fixed.file.findings);
     if (text.mended.empty()) break;
@@ -275,7 +275,7 @@ void Linter::lint_script_text(const std::string& path, std::string text,
     const auto compiled = catalog_of(*document, catalog);
     if (compiled == nullptr) return;
     const auto script = read_script(*document, *compiled, Severity::error, diagnostics);
-    // Findings that may be allowed do not keep a script from being understood.
+    // Findings that may be allowed do not make a script incomplete.
     commented.is_complete =
         script || std::none_of(diagnostics.all().begin(), diagnostics.all().end(), is_fixed);
   }
@@ -287,8 +287,7 @@ void Linter::lint_script_text(const std::string& path, std::string text,
   add(std::move(file), *settings);
 }
 
-/// The catalog that a script runs on; nullptr if there is none that is good, which is complained
-/// of.
+/// The catalog that a script runs on. Null, after a message, if none can be used.
 std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& script,
                                                           const std::string& given) {
   const std::string catalog =
@@ -308,7 +307,7 @@ std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& 
         fmt::format("script {} is not checked, as its catalog {} cannot be used; "
                     "'cbc lint' says why",
                     quote(script.file()), quote(catalog)));
-    // The errors of a catalog that was linted are findings.
+    // If it was linted, its errors are findings.
     if (!is_linted) has_failed_ = true;
   }
   return compiled;
@@ -376,7 +375,7 @@ int explain_rule(const std::string& name) {
   return exit_ok;
 }
 
-/// What is wrong with the files that were given; empty if nothing is.
+/// Says what is wrong with the choice of files; empty if nothing is.
 std::string find_misuse(const LintCommand& command) {
   if (command.paths.empty() && command.scripts.empty()) return "no catalog given to lint";
   if (!command.scripts.empty() &&
@@ -399,11 +398,11 @@ std::string find_misuse(const LintCommand& command) {
 /// A file to lint.
 struct Target {
   std::string path;
-  bool is_named = false;  ///< by itself: it is linted whatever it is
-  std::string folder;     ///< that was given, if the file is in it
+  bool is_named = false;  ///< on the command line, so it is linted whatever it is
+  std::string folder;     ///< on the command line that contains the file, or empty
 };
 
-/// The files of all paths, each once. A folder that cannot be read is complained of.
+/// The files of all paths, each once. Prints which folders cannot be read.
 std::vector<Target> find_targets(const std::vector<std::string>& paths, bool& has_failed) {
   std::vector<Target> targets;
   std::unordered_map<std::string, std::size_t> places;
@@ -432,7 +431,7 @@ bool lint_target(const Target& target, Linter& linter) {
   return linter.files().size() > before && !linter.files().back().is_script;
 }
 
-/// Lints all that is given. Whether there was anything to lint everywhere.
+/// Lints everything. Returns whether each path had something to lint.
 bool lint_all(const LintCommand& command, Linter& linter) {
   bool has_failed = false;
   const std::vector<Target> targets = find_targets(command.paths, has_failed);
@@ -460,11 +459,11 @@ bool lint_all(const LintCommand& command, Linter& linter) {
   return !has_failed;
 }
 
-/// What reports about files depend on beside the files.
+/// What a report depends on besides the files.
 struct LintRun {
   std::string working_directory;  ///< absolute
-  bool is_complete = true;        ///< all files could be read
-  Style style = plain_style();    ///< of a text for people
+  bool is_complete = true;        ///< whether all files could be read
+  Style style = plain_style();    ///< of text for people
 };
 
 /// A format of reports.
@@ -558,17 +557,16 @@ void add_lint_command(Program& program) {
                    "catalogs), or - for standard input; event scripts, too, if they name their "
                    "catalogs");
   command.option("--script", options->scripts, input("FILE", ValueKind::script),
-                 "Check an event script, too, against the one catalog that is given (may be "
-                 "repeated)");
+                 "Also check an event script, against the one catalog that is given. Repeatable");
   command.option("--format", options->format, one_of("FORMAT", formats),
                  "text (the default), json, sarif, github, or gcc");
   command
       .flag("--summary", options->summary,
-            "Show the catalogs in numbers: tasks, behaviors, constraints, groups, search "
-            "space; compiled ones, too")
+            "Show numbers of each catalog: tasks, behaviors, constraints, groups, search space; "
+            "also of compiled ones")
       .only_with_values("--format", {"text", "json"});
   command.flag("--fix", options->fix,
-               "Mend in place what can be mended without changing what a catalog means");
+               "Fix in place what can be fixed without changing the meaning of a catalog");
   command.flag("--diff", options->diff, "Show what --fix would change, as a diff")
       .not_with({"--summary"})
       .only_with_values("--format", {"text"});

@@ -58,8 +58,8 @@ int run(int argc, char** argv) {
   return status;
 }
 
-/// Compiled catalogs are read where they lie in the file: this is how the system tells that it was
-/// cut off meanwhile.
+/// Handles SIGBUS. Compiled catalogs are mapped into memory, and the system sends this signal if
+/// the file is truncated meanwhile.
 void end_without_file(int /*signal*/) {
   constexpr std::string_view message = "cbc: a compiled catalog was cut off while it was in use\n";
   const auto ignored = write(STDERR_FILENO, message.data(), message.size());
@@ -70,14 +70,14 @@ void end_without_file(int /*signal*/) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A file that may not grow any more is an output that cannot be written, not the end.
+  // Reaching a limit of the file size is an error of writing; it does not end the program.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGBUS, end_without_file);
   cbc::cli::hold_standard_descriptors();
   try {
     return run(argc, argv);
   } catch (const std::system_error& error) {
-    // Of all that is called, only the printing throws it.
+    // Only printing throws it.
     std::fprintf(stderr, "cbc: cannot write the output: %s\n", error.code().message().c_str());
     return cbc::cli::exit_unusable;
   } catch (const std::bad_alloc&) {

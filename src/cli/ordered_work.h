@@ -14,13 +14,13 @@
 
 namespace cbc::cli {
 
-/// Makes items on several threads, and hands them out in their order. As no thread is far ahead of
-/// what was handed out, there are never more than a few items for each thread.
+/// Makes items on several threads and hands them out in order. No thread runs far ahead of the
+/// items handed out, so there are never more than a few items per thread.
 template <typename Item>
 class OrderedWork {
  public:
-  /// Makes items 0 to count - 1 with `make`, which is called on `threads` threads at once, or on
-  /// fewer if the system has no more.
+  /// Makes items 0 to count - 1 with `make`, which is called on up to `threads` threads at once:
+  /// fewer if the system cannot start more.
   OrderedWork(std::size_t count, std::size_t threads, std::function<Item(std::size_t)> make)
       : make_(std::move(make)), count_(count), slots_(threads * items_per_thread) {
     threads_.reserve(threads);
@@ -30,7 +30,7 @@ class OrderedWork {
       if (threads_.empty()) throw;
     }
   }
-  /// Items that are being made are waited for, others are not made any more.
+  /// Waits for the items that are being made; no others are begun.
   ~OrderedWork() {
     {
       const std::lock_guard lock(mutex_);
@@ -42,13 +42,13 @@ class OrderedWork {
   OrderedWork(const OrderedWork&) = delete;
   OrderedWork& operator=(const OrderedWork&) = delete;
 
-  /// Whether the next item is there within the time.
+  /// Whether the next item is ready within the time.
   [[nodiscard]] bool wait_for(std::chrono::milliseconds time) {
     std::unique_lock lock(mutex_);
     return has_item_.wait_for(lock, time, [this] { return next_slot().is_ready; });
   }
 
-  /// The next item; waits for it. What its making has thrown is thrown.
+  /// Waits for the next item. If making it threw an exception, throws that.
   [[nodiscard]] Item take() {
     Slot slot;
     {

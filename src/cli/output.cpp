@@ -25,7 +25,7 @@ namespace cbc::cli {
 
 void complain(const std::string& message) {
   const std::string line = "cbc: " + message + "\n";
-  // Where it cannot be written, the exit status still tells; no stream ends for it.
+  // If it cannot be written, the exit status still tells; a stream goes on.
   static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
 }
 
@@ -54,7 +54,7 @@ Style style_for(std::FILE* stream) { return wants_color(stream) ? color_style() 
 
 namespace {
 
-/// A longer line would go on below, and stay.
+/// A longer line would wrap, and its first part could not be removed.
 std::string_view first_characters(std::string_view line, std::size_t count) {
   std::size_t end = 0;
   while (end < line.size() && count-- > 0) end += utf8::decode(line, end).bytes;
@@ -78,11 +78,11 @@ void Progress::begin(const std::string& name) {
 }
 
 void Progress::show(const std::string& detail) {
-  constexpr std::chrono::milliseconds between_updates(100);  // more often is no use to anybody
+  constexpr std::chrono::milliseconds between_updates(100);  // nobody can read faster
   const auto now = std::chrono::steady_clock::now();
   if (!is_wanted_ || now - start_ < std::chrono::seconds(1)) return;
   if (is_shown_ && now - shown_ < between_updates) return;
-  // The line is written over: return, text, erase to the end.
+  // Overwrites the line: carriage return, text, erase to the end.
   const std::string line =
       fmt::format("{} {} of {}: {}{}", what_, begun_, total_, printable(name_), detail);
   fmt::print(stderr, "\r{}\x1b[K", first_characters(line, columns_of(stderr) - 1));
@@ -101,7 +101,7 @@ namespace {
 
 constexpr std::array stop_signals = {SIGINT, SIGTERM, SIGHUP};
 
-// What a signal handler may touch.
+// Signal handlers may access only such variables.
 volatile std::sig_atomic_t stop = 0;
 volatile std::sig_atomic_t asked_at = 0;  ///< in seconds
 std::array<int, 2> ends{-1, -1};
@@ -134,19 +134,19 @@ StopSignals::StopSignals() {
   stop = 0;
   struct sigaction action = {};
   action.sa_handler = ask_to_stop;
-  action.sa_flags = SA_RESTART;  // writing goes on where it was
+  action.sa_flags = SA_RESTART;  // resumes interrupted writes
   sigemptyset(&action.sa_mask);
   for (const int signal : stop_signals) sigaddset(&action.sa_mask, signal);
   for (const int signal : stop_signals) {
     struct sigaction before = {};
     ::sigaction(signal, &action, &before);
-    // nohup sees to it that the end of a connection ends nothing.
+    // Under nohup the end of a connection must not stop the program.
     if (signal == SIGHUP && before.sa_handler == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   }
 }
 
 StopSignals::~StopSignals() {
-  // All is done and saved; what comes now must not make it look broken off.
+  // All is saved; a signal now must not make the run look interrupted.
   for (const int signal : stop_signals) std::signal(signal, SIG_IGN);
   ::close(ends[0]);
   ::close(ends[1]);
@@ -157,10 +157,10 @@ bool StopSignals::have_come() const { return stop != 0; }
 int StopSignals::descriptor() const { return ends[0]; }
 
 void hold_standard_descriptors() {
-  // In order, as a file that is opened takes the lowest free descriptor.
+  // In this order, as an opened file takes the lowest free descriptor.
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(descriptor, F_GETFD) >= 0) continue;
-    // Open for the direction that is not used. What nobody wants to be told is no error, though.
+    // Opened for the direction that is not used, so that using it fails. Messages may be dropped.
     const int mode = descriptor == STDOUT_FILENO ? O_RDONLY : O_WRONLY;
     if (::open("/dev/null", mode) < 0) return;
   }
@@ -168,7 +168,7 @@ void hold_standard_descriptors() {
 
 int write_output(const std::string& path, std::string_view content) {
   if (path == "-") {
-    std::fwrite(content.data(), 1, content.size(), stdout);  // errors show when it is closed
+    std::fwrite(content.data(), 1, content.size(), stdout);  // errors show when it is flushed
     return exit_ok;
   }
   if (const auto error = write_atomically(path, content)) {

@@ -26,8 +26,8 @@ using Json = nlohmann::ordered_json;
 
 std::string id_of(const Json& schema) { return schema.at("$id").get<std::string>(); }
 
-/// Adds the schemas that a part of a schema refers to to `definitions`, by their ids, as well as
-/// those that they refer to in turn.
+/// Adds all schemas to `definitions`, by their ids, that a part of a schema refers to, directly or
+/// through others.
 void add_referenced(const Json& part, const std::string& own_id, Json& definitions) {
   if (part.is_object() && part.contains("$ref")) {
     const auto reference = part["$ref"].get<std::string>();
@@ -46,12 +46,12 @@ void add_referenced(const Json& part, const std::string& own_id, Json& definitio
   }
 }
 
-/// In one line, what the schema describes.
+/// A line that says what the schema describes.
 std::string title_of(const Schema& schema) {
   return Json::parse(schema.text).at("title").get<std::string>();
 }
 
-/// The text of a schema that needs no other file: those that it refers to are part of it.
+/// The text of a schema, including the schemas that it refers to.
 std::string standalone(const Schema& schema) {
   Json root = Json::parse(schema.text);
   Json definitions = Json::object();

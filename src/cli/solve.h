@@ -38,23 +38,23 @@ struct SweepOptions {
   [[nodiscard]] bool is_wanted() const { return sequences.has_value() || merge; }
 };
 
-/// What to explain, as the command line has it.
+/// What to explain, as given on the command line.
 struct ExplainOptions {
   std::vector<std::string> why;  ///< names of tasks and behaviors
   std::uint32_t alternatives = 0;
 };
 
-/// Whether the catalog has all names; says on standard error which it has not.
+/// Whether the catalog has all names. Prints the first one that it lacks to standard error.
 [[nodiscard]] bool knows_names(const CompiledCatalog& catalog, const ExplainOptions& options);
 
-/// The options of `cbc solve` for events in a pipe, and for missions that go on.
+/// The options of `cbc solve` for streams of events, and for missions that continue.
 struct StreamOptions {
   std::optional<std::string> state_in;
   std::optional<std::string> state_out;
   std::optional<std::string> replay;
 };
 
-/// The options of `cbc solve`, as the command line has them.
+/// The options of `cbc solve`.
 struct SolveOptions {
   std::vector<std::string> paths;
   std::string format = "text";
@@ -71,14 +71,14 @@ struct SolveOptions {
   SweepOptions sweep;
 };
 
-/// What they say to the coordinator of a run on this catalog, whose names they know.
+/// The options of the coordinator for a run on this catalog, which must know all names.
 [[nodiscard]] CoordinatorOptions coordinator_options(const SolveOptions& options,
                                                      const CompiledCatalog& catalog);
 
-/// What events have in JSON beside what they always have.
+/// The optional members of events in JSON.
 [[nodiscard]] EventAdditions event_additions(const SolveOptions& options);
 
-/// How many threads may work at once; at least 1.
+/// The number of threads that may work at once; at least 1.
 [[nodiscard]] std::size_t thread_count(const SolveOptions& options);
 
 void add_sweep_options(Command& command, SweepOptions& options);
@@ -93,15 +93,15 @@ struct Mission {
   Script script;
 };
 
-/// Finds out what the files of a command line are, reads all of them, and checks every script
-/// against its catalog before anything runs. Findings and problems go to standard error.
+/// Reads the files of a command line, and checks every script against its catalog before anything
+/// runs. Findings and other problems go to standard error.
 class MissionLoader {
  public:
   /// `paths`: a catalog (which may be missing if the scripts name theirs), then scripts; "-" is a
   /// script from standard input, a folder stands for the scripts in it. Empty if anything is wrong.
   [[nodiscard]] std::optional<std::vector<Mission>> load(const std::vector<std::string>& paths);
 
-  /// What was found in the files.
+  /// The findings about the files.
   [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }
 
  private:
@@ -120,31 +120,29 @@ class MissionLoader {
   bool has_failed_ = false;
 };
 
-/// Runs scripts to their ends, and reports them in one of the formats for whole runs. Returns the
-/// exit status.
+/// Runs scripts, and reports them in one of the formats for whole runs. Returns the exit status.
 [[nodiscard]] int solve_missions(const SolveOptions& options);
 
-/// Runs a mission, and tells the report of it from its begin to its end. May be called on several
-/// threads at once, with a report for each.
+/// Runs a mission, and reports it from begin to end. May be called on several threads at once, with
+/// a report for each.
 using RunMission = std::function<RunResult(const Mission& mission, SolveReport& report)>;
 
-/// Is told of each run that is in the report.
+/// Called after each run that was reported.
 using AfterRun = std::function<void(const Mission& mission, const RunResult& result)>;
 
-/// Runs all missions, up to `jobs` at once if the report allows for it. The report, and
-/// `after_run`, are told of them in their order, and what comes of it does not depend on `jobs`. On
-/// a terminal a line tells how far it is, if it takes long.
+/// Runs all missions, up to `jobs` at once if the report supports it. The report and `after_run`
+/// see the missions in order, so the result does not depend on `jobs`. A terminal shows the
+/// progress.
 void run_all(const std::vector<Mission>& missions, std::size_t jobs, SolveReport& report,
              const RunMission& run, const AfterRun& after_run);
-
-/// `cbc solve` as a part of a pipe: `--format jsonl`, with states saved and restored.
 
 /// Runs one script, or events from standard input, and writes each event as a line. The paths are
 /// a catalog and a script, "-" for a stream; or a script that names its catalog. Returns the exit
 /// status.
 [[nodiscard]] int solve_stream(const SolveOptions& options);
 
-/// Runs the events of a recorded stream again, and compares. The path is that of the catalog.
+/// Runs the events of a recorded stream again, and compares the outputs. The path is that of the
+/// catalog.
 [[nodiscard]] int replay_stream(const SolveOptions& options);
 
 }  // namespace cbc::cli

@@ -20,7 +20,7 @@
 namespace cbc::cli {
 namespace {
 
-/// What to explain on a catalog that knows the names.
+/// The explanations that are wanted for a catalog, which must know all names.
 ExplanationOptions explanation_for(const CompiledCatalog& catalog, const ExplainOptions& options) {
   ExplanationOptions result;
   result.alternatives = options.alternatives;
@@ -32,7 +32,7 @@ ExplanationOptions explanation_for(const CompiledCatalog& catalog, const Explain
   return result;
 }
 
-/// The name that an unknown one may stand for.
+/// A hint at the name that may have been meant.
 std::string suggest(const CompiledCatalog& catalog, const std::string& name) {
   std::vector<std::string_view> names;
   for (const std::string_view task : catalog.task_names) names.push_back(task);
@@ -53,7 +53,7 @@ CoordinatorOptions coordinator_options(const SolveOptions& options,
   result.tie_seed = options.tie_seed;
   result.max_clock_events = options.max_clock_events;
   result.explain = explanation_for(catalog, options.explain);
-  // The others are for programs, which ask for it.
+  // Formats for programs have it on request only.
   result.explain.displaced =
       options.format == "text" || options.format == "junit" || options.format == "github";
   result.measure_time = options.stats;
@@ -65,7 +65,7 @@ EventAdditions event_additions(const SolveOptions& options) {
 }
 
 std::size_t thread_count(const SolveOptions& options) {
-  constexpr std::uint64_t most_threads = 256;  // more would only take memory
+  constexpr std::uint64_t most_threads = 256;  // more would only cost memory
   if (options.jobs) return std::min(*options.jobs, most_threads);
   return std::max(1U, std::thread::hardware_concurrency());
 }
@@ -113,7 +113,7 @@ constexpr const char* solve_footer =
     "\n"
     "Read more: man cbc-solve, man cbc-events (how to write a script)";
 
-/// What is missing on the command line; empty if nothing is.
+/// Says what is missing on the command line; empty if nothing is.
 std::string find_missing(const SolveOptions& options) {
   if (!options.paths.empty()) return {};
   if (options.sweep.merge) return "expected the files of the shards to merge";
@@ -154,7 +154,7 @@ void add_solve_command(Program& program) {
                  "mapping in braces)");
   command
       .option("--html", options->html, further_output("FILE"),
-              "Write a page with a timeline of all runs to FILE, too: to step through in a "
+              "Also write an HTML page with a timeline of all runs to FILE, to step through in a "
               "browser, or to print")
       .not_with({"--sweep", "--merge", "--replay", "--format jsonl"}, "it draws whole scripts");
   command.option("-j,--jobs", options->jobs, whole_number("N", 1),
@@ -162,16 +162,16 @@ void add_solve_command(Program& program) {
                  "processors); the output is the same for any N");
   command
       .flag("--stats", options->stats,
-            "Show what each search took, and mean, least and greatest of all, with the "
-            "memory and the time of the process; of a sweep, report times, too")
+            "Show the cost of each search, the mean, minimum and maximum, and the memory and time "
+            "of the process; with a sweep, also report times")
       .not_with({"--replay"}, "times cannot be repeated")
       .not_with({"--format junit", "--format github"}, "it has no place for times");
 
   command.group("Reasons");
   for (Option* const option :
        {&command.option("--why", options->explain.why, name_of("NAME", ValueKind::task_or_behavior),
-                        "Say of each accepted event why this task or behavior is as it is: where "
-                        "the best alternative loses. Repeatable"),
+                        "Explain for each accepted event why this task or behavior is as it is: "
+                        "where the best alternative loses. Repeatable"),
         &command.option(
             "--alternatives", options->explain.alternatives,
             whole_number("K", 1, most_alternatives),
@@ -190,17 +190,17 @@ void add_solve_command(Program& program) {
       .not_with({"--merge"}, of_shards);
   command
       .option("--time-limit", options->time_limit, seconds(),
-              "Stop each search after this time, take the best so far")
+              "Stop each search after this time and take the best answer so far")
       .not_with({"--sweep", "--merge"},
                 "the result must not depend on the machine; use --max-nodes");
   command
       .option("--max-nodes", options->max_nodes, whole_number("N", 1),
-              "Stop each search after N decisions, take the best so far")
+              "Stop each search after N decisions and take the best answer so far")
       .not_with({"--merge"}, of_shards);
   command
       .option("--tie-seed", options->tie_seed, whole_number("N", 0),
-              "Order behaviors of equal suitability at random, by the seed N, instead of as "
-              "in the catalog")
+              "Order behaviors of equal suitability at random, with the seed N, instead of as in "
+              "the catalog")
       .not_with({"--merge"}, of_shards);
   command
       .option("--max-clock-events", options->max_clock_events, whole_number("N", 1),
@@ -212,17 +212,17 @@ void add_solve_command(Program& program) {
   command
       .option("--state-out", options->stream.state_out, further_output("FILE"),
               "Save the state at the end of a stream (jsonl) to FILE; what is due at its last "
-              "instant is left to what goes on")
+              "instant is left to the continuation")
       .only_with({"--format jsonl", "--replay"});
   command
       .option("--state-in", options->stream.state_in, input("FILE", ValueKind::file),
-              "Go on from a saved state of the same catalog, with its clock, its situation and "
-              "its reactive delay")
+              "Continue from a saved state of the same catalog, with its clock, situation and "
+              "reactive delay")
       .only_with({"--format jsonl", "--replay"});
   command
       .option("--replay", options->stream.replay, input("LOG", ValueKind::file),
-              "Run the scripted events of LOG, which --format jsonl wrote, again, and compare, "
-              "byte for byte; with the same options")
+              "Run the scripted events of LOG, which --format jsonl wrote, again with the same "
+              "options, and compare byte for byte")
       .not_with({"--sweep", "--merge"})
       .only_with_values("--format", {"jsonl", "text"});
 

@@ -82,14 +82,14 @@ void add_sweep_options(Command& command, SweepOptions& options) {
   add("--priorities", options.priorities, whole_number("P", 1, 1'000'000),
       "Requests have priorities from 1 to P (default: 3)");
   add("--failures", options.failures, probability(),
-      "Of the finished behaviors, from 0 to 1, how many have failed (default: 0.3)");
+      "Share of finished behaviors that have failed, from 0 to 1 (default: 0.3)");
   add("--faults", options.faults, probability(),
-      "Of the events, from 0 to 1, how many are faults, repairs and changes of the situation "
-      "(default: 0.1)");
-  add("--shard", options.shard, shard_of_sweep(), "Run the I-th of N shares of the sweep only");
+      "Share of events that are faults, repairs or changes of the situation, from 0 to 1 (default: "
+      "0.1)");
+  add("--shard", options.shard, shard_of_sweep(), "Run only the I-th of N shares of the sweep");
   command
       .flag("--merge", options.merge,
-            "Merge the files: the results of all shards, as JSON, become that of one run")
+            "Merge the results of all shards, as JSON, into that of one run")
       .makes_arguments(ValueKind::shard)
       .only_with_values("--format", formats);
   command
@@ -118,8 +118,8 @@ SweepSettings settings_of(const SolveOptions& solve) {
   return settings;
 }
 
-/// The result of a catalog of 300,000 behaviors is as large. Larger ones are refused, as a text of
-/// JSON takes many times its size in memory.
+/// Enough for a catalog of 300,000 behaviors. Larger results are refused, because parsed JSON takes
+/// many times the memory of its text.
 constexpr std::size_t largest_shard = std::size_t{64} << 20U;
 
 std::shared_ptr<const CompiledCatalog> load_swept(const std::vector<std::string>& paths) {
