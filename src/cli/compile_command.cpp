@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "base/mapped_file.h"
 #include "base/text.h"
 #include "cbc/version.h"
 #include "cli/command_line.h"

@@ -9,7 +9,7 @@
 
 namespace cbc {
 
-/// Number of constraints, as the paper counts them.
+/// Number of constraints, counted as in the paper.
 struct ConstraintCount {
   std::uint64_t exclusive_pairs = 0;  ///< distinct unordered pairs of different tasks
   std::uint64_t requirements = 0;     ///< distinct (behavior, task)
