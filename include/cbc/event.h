@@ -23,7 +23,7 @@ enum class FinishCause : std::uint8_t {
   interrupted
 };
 
-/// Where an event comes from: a script (or a program), the clock, or a failed taking back.
+/// Where an event comes from: a script (or a program), the clock, or a failed rollback.
 enum class Origin : std::uint8_t { script, timeout, reactive, fault };
 
 enum class Outcome : std::uint8_t { accepted, rejected, unchanged };
@@ -37,17 +37,17 @@ enum class ChangeCause : std::uint8_t {
   displaced,  ///< its task had a request
   released,   ///< its task had none
   restarted,  ///< to take over changed parameters
-  undone      ///< takes back an earlier change of the same event
+  undone      ///< rolls back an earlier change of the same event
 };
 
-/// The names of the enumerators, as scripts and reports have them; of enumerators only.
+/// The names of the enumerators, as scripts and reports write them. The argument must be one.
 [[nodiscard]] std::string_view name_of(Verb verb);
 [[nodiscard]] std::string_view name_of(FinishCause cause);
 [[nodiscard]] std::string_view name_of(Origin origin);
 [[nodiscard]] std::string_view name_of(Outcome outcome);
 [[nodiscard]] std::string_view name_of(ChangeCause cause);
 
-/// Whether behavior can be activated in the present situation: the answer of `check_situation`.
+/// Whether a behavior can be activated in the present situation: the answer of `check_situation`.
 struct Availability {
   std::uint32_t behavior = 0;
   bool available = true;

@@ -15,16 +15,16 @@ namespace cbc {
 
 /// How a coordinator works. Values out of range count as the nearest one in it.
 struct LiveOptions {
-  /// From when a reactive task could start until it does; 1 to longest_time.
+  /// Time from the moment a reactive task can start until it does; 1 to longest_time.
   Microseconds reactive_delay = 80'000;
-  // Limits of one search, of which an event may take several. Without limits every answer is proven
-  // best. What a limit stops takes the best answer so far; if there is none yet, the event is
-  // rejected. Answers repeat under max_nodes, but not under time_limit.
+  // Limits of one search; an event may need several. Without limits every answer is proven best. A
+  // search that a limit stops takes its best answer so far; if there is none yet, the event is
+  // rejected. Answers are reproducible under max_nodes, but not under time_limit.
   std::uint64_t max_nodes = 0;  ///< decisions; 0: no limit
   Microseconds time_limit = 0;  ///< 0 to longest_time; 0: no limit
 };
 
-/// What became of a call. But for ok, too_many_events and internal_error, it changed nothing.
+/// The result of a call. A call changed nothing unless it is ok, too_many_events or internal_error.
 enum class [[nodiscard]] LiveStatus : std::uint8_t{
     ok,
     invalid_time,        ///< before now(), or after longest_time
@@ -35,10 +35,10 @@ enum class [[nodiscard]] LiveStatus : std::uint8_t{
     invalid_situation,   ///< a length without entries
     unknown_task,        ///< the catalog has no such place
     unknown_behavior,    ///< the same; also of an entry of a situation
-    /// So much fell due that the clock has not come to the instant asked for, and the event was not
-    /// handled: take care of events(), and repeat the call.
+    /// So much fell due that the clock did not reach the requested time, and the event was not
+    /// handled: carry out events(), and repeat the call.
     too_many_events,
-    /// An answer did not pass its check, which is a mistake in this library; see internal_error().
+    /// An answer did not pass its check, which is a bug of this library; see internal_error().
     /// Every further call returns the same.
     internal_error};
 
@@ -52,7 +52,7 @@ struct BehaviorChange {
   std::span<const std::uint32_t> tasks;  ///< that it performs from now on, or performed
   ChangeCause cause = ChangeCause::requested;
   std::optional<std::int32_t> priority;  ///< the highest of the requests of these tasks, if any
-  /// False: an activation of a behavior that has a fault, which is not to be carried out.
+  /// False for an activation of a behavior that has a fault; do not carry it out.
   bool success = true;
 };
 
@@ -89,19 +89,19 @@ struct HandledEvent {
 /// one that timed out, too: it is the subject of the event, whose origin is timeout, and is to be
 /// stopped first. (If a search limit lets a finish be rejected, its behavior goes on.)
 ///
-/// An activation counts as done as soon as it is decided. If it fails in the world, report a fault
+/// An activation counts as done as soon as it is decided. If it fails on the robot, report a fault
 /// of the behavior, so that it is not tried again, and then its finish with process_failure.
 ///
-/// Time is counted on a clock of the program, in microseconds since it made the coordinator. It
-/// never goes back, and stands still between calls.
+/// Time is that of a clock of the program, in microseconds since it made the coordinator. It never
+/// goes back, and stands still between calls.
 ///
 /// Different coordinators are independent, and may be in different threads; one of them takes one
-/// call at a time, const ones included. Nothing is thrown, but for std::bad_alloc where memory is
-/// at an end; the coordinator must not be used after that. Buffers grow to what the greatest event
-/// needs; then events allocate nothing.
+/// call at a time, const ones included. Nothing is thrown but std::bad_alloc, when memory runs out;
+/// the coordinator must not be used after that. Buffers grow to what the largest event needs; from
+/// then on, events do not allocate.
 class LiveCoordinator {
  public:
-  /// A call after which this many events have been reported leaves the others for the next one.
+  /// A call that has reported this many events leaves the others for the next one.
   static constexpr std::size_t most_events = 10'000;
 
   /// Keeps the catalog in memory.
@@ -117,16 +117,16 @@ class LiveCoordinator {
   /// Moves the clock to `time`, through all that falls due until then, `time` included.
   LiveStatus advance_to(Microseconds time);
 
-  /// What the last call of the two brought about, in order. Valid until the next one.
+  /// What the last call of handle() or advance_to() did, in order. Valid until the next call.
   [[nodiscard]] std::span<const HandledEvent> events() const;
 
   [[nodiscard]] Microseconds now() const;
-  /// When the clock brings about something next, if nothing happens before; it may turn out to be
-  /// nothing. None: nothing is due ever.
+  /// When a timeout or a reactive start is due next, if nothing happens before; it may turn out to
+  /// be a no-op. None: nothing is due.
   [[nodiscard]] std::optional<Microseconds> next_due() const;
   /// The behavior that performs a task; none if the task does not run, or there is no such place.
   [[nodiscard]] std::optional<std::uint32_t> behavior_of(std::uint32_t task) const;
-  /// What to tell the authors of this library; empty if there is nothing.
+  /// What a bug report to the authors of this library should quote; empty if there is nothing.
   [[nodiscard]] std::string_view internal_error() const;
 
  private:

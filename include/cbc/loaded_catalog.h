@@ -13,13 +13,13 @@ struct CatalogLoading;
 
 /// A compiled catalog, as `cbc compile` writes it.
 ///
-/// Its tasks and behaviors are told apart by their place in the catalog: they are numbered from 0
-/// in the order in which the source names them first.
+/// Its tasks and behaviors are identified by their place in the catalog: they are numbered from 0
+/// in the order in which the source first names them.
 ///
 /// A loaded catalog never changes, so any number of threads may use it, and any number of
 /// coordinators. Copies are cheap and share it; it stays in memory as long as one of them, or a
-/// coordinator on it, is there. All functions take any argument, and none throws, but for
-/// std::bad_alloc where memory is at an end.
+/// coordinator on it, is there. All functions accept any argument, and none throws, but for
+/// std::bad_alloc when memory runs out.
 class LoadedCatalog {
  public:
   /// Maps a file into memory and verifies it, once and as a whole. The file may be replaced while
