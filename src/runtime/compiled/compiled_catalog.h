@@ -13,7 +13,7 @@
 #include "cbc/units.h"
 
 /// A catalog as the solver, the coordinator and all reports use it: flat arrays of numbers, which
-/// stand in compiled files as they are in memory. What the numbers mean is in docs/semantics.md.
+/// stand in compiled files as they are in memory. Their meaning: docs/semantics.md, "Catalog".
 namespace cbc {
 
 /// -ln(degree / 10^6) in units of 2^-40, for degree in [1, 10^6]; 0 for degree 0, which callers
@@ -21,8 +21,8 @@ namespace cbc {
 ///
 /// It is built from the rounded logarithms of the prime factors, so equal products of degrees have
 /// equal sums of costs, to the bit; sums of different products that are further apart than
-/// log_cost_error for each factor other than 1 are in the right order. Closer
-/// sums are compared by exact products.
+/// log_cost_error for each factor other than 1 are in the right order. Closer sums are compared by
+/// exact products; see docs/semantics.md, "Performance".
 [[nodiscard]] std::int64_t log_cost(Millionths degree);
 
 /// Bound on the error of one log_cost: at most 19 + 12 prime factors, each half a unit off.
@@ -159,7 +159,7 @@ struct CatalogArrays {
   List<std::uint32_t> tasks_by_name;
   List<std::uint32_t> behaviors_by_name;
 
-  // By group, in the order of their first task.
+  // By group (docs/semantics.md, "Groups"), in the order of their first task.
   List<std::uint32_t> group_tasks;      ///< first TaskId of each group, and the end
   List<std::uint32_t> group_behaviors;  ///< first BehaviorId of each group, and the end
   /// The tasks, each after those that its behaviors require: by group, level and TaskId.

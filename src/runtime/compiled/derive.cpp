@@ -9,7 +9,6 @@
 #include "base/text.h"
 
 namespace cbc {
-
 namespace {
 
 /// Lets views refer to the arrays of a catalog that is being made.

@@ -4,10 +4,11 @@
 #include "compiled/compiled_catalog.h"
 #include "compiled/derive.h"
 
+/// From the catalog that people write to the one that the solver uses.
 namespace cbc {
 
-/// Works out all that does not depend on the situation. `catalog` is one that read_catalog accepted
-/// (acyclic).
+/// Works out everything that does not depend on the situation. `catalog` is one that read_catalog
+/// accepted, so its requirements are not cyclic.
 [[nodiscard]] CompiledCatalog compile(const Catalog& catalog);
 
 }  // namespace cbc
