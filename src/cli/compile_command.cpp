@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "base/mapped_file.h"
 #include "base/text.h"
 #include "cbc/version.h"
 #include "cli/command_line.h"

@@ -64,16 +64,16 @@ std::string color(const std::string& text) {
   return text == "white" ? "#ffffff" : lower(text);
 }
 
-/// "task:HOVER | HOVER1. activated | #000000 | #ffffff", of each node and edge; the caption.
+/// "task:HOVER | HOVER1. activated | #000000 | #ffffff", of each node, edge and cluster; the caption.
 Lines lines_of_dot(const std::string& dot) {
   Lines lines;
   std::istringstream text(dot);
   for (std::string line; std::getline(text, line);) {
     const std::string label = replace_all(find(line, R"re([ \[]label="([^"]*)")re"), "\\n", "");
     if (line.starts_with("  labelloc")) lines.push_back(label);
-    if (!line.starts_with("  \"")) continue;
+    if (!line.starts_with("  \"") && !line.starts_with("  subgraph")) continue;
     const std::string to = find(line, R"re(^  "[^"]*" -> "([^"]*)")re");
-    lines.push_back(fmt::format("{}{} | {} | {} | {}", find(line, R"re(^  "([^"]*)")re"),
+    lines.push_back(fmt::format("{}{} | {} | {} | {}", find(line, R"re(^  (?:subgraph )?"([^"]*)")re"),
                                 to.empty() ? "" : "->" + to, label,
                                 lower(find(line, R"re([ \[]color="([^"]*)")re")),
                                 lower(find(line, R"re(fillcolor="([^"]*)")re"))));

@@ -3,27 +3,14 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <set>
 #include <type_traits>
 
 #include "catalog/allowed_values.h"
+#include "compiled/compiled_file.h"
 
 namespace cbc::test {
 namespace {
-
-template <typename T>
-std::vector<T> copy(std::span<const T> items) {
-  return {items.begin(), items.end()};
-}
-
-template <typename T>
-GrowingRows<T> copy(const Rows<T>& rows) {
-  return {copy(rows.begin), copy(rows.items)};
-}
-
-template <typename T>
-Rows<T> view(const GrowingRows<T>& rows) {
-  return {rows.begin, rows.items};
-}
 
 class NumberList {
  public:
@@ -82,11 +69,6 @@ bool is_same(std::span<const T> a, std::span<const T> b) {
          (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
-template <typename T>
-bool is_same(const Rows<T>& a, const Rows<T>& b) {
-  return is_same(a.begin, b.begin) && is_same(a.items, b.items);
-}
-
 bool is_same(const Texts& a, const Texts& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t place = 0; place < a.size(); ++place) {
@@ -118,74 +100,25 @@ bool has_same_parameters(const CompiledCatalog& a, const CompiledCatalog& b) {
 
 }  // namespace
 
-EditableCatalog::EditableCatalog(const CompiledCatalog& catalog)
-    : file_begin(static_cast<std::size_t>(catalog.file.data() - catalog.texts.rows().items.data())),
-      file_size(catalog.file.size()) {
-  arrays.task_count = catalog.task_names.size();
-  arrays.behavior_count = catalog.behavior_names.size();
-  arrays.texts = copy(catalog.texts.rows());
-  arrays.task_ids = copy(catalog.task_ids);
-  arrays.behavior_ids = copy(catalog.behavior_ids);
-  arrays.behavior_packages = copy(catalog.behavior_packages);
-  arrays.parameters = copy(catalog.parameters);
-  arrays.allowed_values = copy(catalog.allowed_values);
-  arrays.tasks_by_name = copy(catalog.tasks_by_name);
-  arrays.behaviors_by_name = copy(catalog.behaviors_by_name);
-  arrays.group_tasks = copy(catalog.group_tasks);
-  arrays.group_behaviors = copy(catalog.group_behaviors);
-  arrays.topological_order = copy(catalog.topological_order);
-  arrays.tasks = copy(catalog.tasks);
-  arrays.values = copy(catalog.values);
-  arrays.value_tasks = copy(catalog.value_tasks);
-  arrays.words = copy(catalog.words);
-  arrays.arcs = copy(catalog.arcs);
-  arrays.incoming = copy(catalog.incoming);
-  arrays.task_cliques = copy(catalog.task_cliques);
-  arrays.behaviors = copy(catalog.behaviors);
-  arrays.requirements = copy(catalog.requirements);
-  arrays.requirement_lines = copy(catalog.requirement_lines);
-  arrays.performs = copy(catalog.performs);
-  arrays.cliques = copy(catalog.cliques);
-  arrays.clique_lines = copy(catalog.clique_lines);
-  arrays.masks = copy(catalog.masks);
+EditableCatalog::EditableCatalog(const CompiledCatalog& catalog) {
+  std::apply(
+      [&](auto&... to) {
+        std::apply([&](const auto&... from) { (to.assign(from.begin(), from.end()), ...); },
+                   arrays_of(catalog));
+      },
+      arrays_of(arrays));
 }
 
 CompiledCatalog EditableCatalog::catalog() const {
-  const auto copied = std::make_shared<const CatalogArrays>(arrays);
+  const auto copied = std::make_shared<const GrowingCatalog>(arrays);
   CompiledCatalog catalog;
   catalog.storage = copied;
-  catalog.texts = Texts(view(copied->texts));
-  if (file_begin + file_size <= copied->texts.items.size()) {
-    catalog.file = {copied->texts.items.data() + file_begin, file_size};
-  }
-  if (copied->task_count + copied->behavior_count < copied->texts.begin.size()) {
-    catalog.task_names = catalog.texts.part(0, copied->task_count);
-    catalog.behavior_names = catalog.texts.part(copied->task_count, copied->behavior_count);
-  }
-  catalog.task_ids = copied->task_ids;
-  catalog.behavior_ids = copied->behavior_ids;
-  catalog.behavior_packages = copied->behavior_packages;
-  catalog.parameters = view(copied->parameters);
-  catalog.allowed_values = copied->allowed_values;
-  catalog.tasks_by_name = copied->tasks_by_name;
-  catalog.behaviors_by_name = copied->behaviors_by_name;
-  catalog.group_tasks = copied->group_tasks;
-  catalog.group_behaviors = copied->group_behaviors;
-  catalog.topological_order = copied->topological_order;
-  catalog.tasks = copied->tasks;
-  catalog.values = view(copied->values);
-  catalog.value_tasks = copied->value_tasks;
-  catalog.words = copied->words;
-  catalog.arcs = view(copied->arcs);
-  catalog.incoming = view(copied->incoming);
-  catalog.task_cliques = view(copied->task_cliques);
-  catalog.behaviors = copied->behaviors;
-  catalog.requirements = view(copied->requirements);
-  catalog.requirement_lines = copied->requirement_lines;
-  catalog.performs = view(copied->performs);
-  catalog.cliques = view(copied->cliques);
-  catalog.clique_lines = copied->clique_lines;
-  catalog.masks = copied->masks;
+  std::apply(
+      [&](auto&... to) {
+        std::apply([&](const auto&... from) { ((to = from), ...); }, arrays_of(*copied));
+      },
+      arrays_of(catalog));
+  if (!find_fault(catalog)) catalog.set_names();
   return catalog;
 }
 
@@ -251,28 +184,20 @@ std::string difference(const CompiledCatalog& a, const CompiledCatalog& b) {
   if (a.file != b.file) return "file";
   if (!is_same(a.task_names, b.task_names)) return "task_names";
   if (!is_same(a.behavior_names, b.behavior_names)) return "behavior_names";
-  if (!is_same(a.task_ids, b.task_ids)) return "task_ids";
-  if (!is_same(a.behavior_ids, b.behavior_ids)) return "behavior_ids";
-  if (!is_same(a.tasks_by_name, b.tasks_by_name)) return "tasks_by_name";
-  if (!is_same(a.behaviors_by_name, b.behaviors_by_name)) return "behaviors_by_name";
-  if (!is_same(a.group_tasks, b.group_tasks)) return "group_tasks";
-  if (!is_same(a.group_behaviors, b.group_behaviors)) return "group_behaviors";
-  if (!is_same(a.topological_order, b.topological_order)) return "topological_order";
-  if (!is_same(a.tasks, b.tasks)) return "tasks";
-  if (!is_same(a.values, b.values)) return "values";
-  if (!is_same(a.value_tasks, b.value_tasks)) return "value_tasks";
-  if (!is_same(a.words, b.words)) return "words";
-  if (!is_same(a.arcs, b.arcs)) return "arcs";
-  if (!is_same(a.incoming, b.incoming)) return "incoming";
-  if (!is_same(a.task_cliques, b.task_cliques)) return "task_cliques";
-  if (!is_same(a.behaviors, b.behaviors)) return "behaviors";
-  if (!is_same(a.requirements, b.requirements)) return "requirements";
-  if (!is_same(a.requirement_lines, b.requirement_lines)) return "requirement_lines";
-  if (!is_same(a.performs, b.performs)) return "performs";
-  if (!is_same(a.cliques, b.cliques)) return "cliques";
-  if (!is_same(a.clique_lines, b.clique_lines)) return "clique_lines";
-  if (!is_same(a.masks, b.masks)) return "masks";
-  if (!is_same(a.parameters.begin, b.parameters.begin)) return "parameters.begin";
+  const std::set<std::string_view> with_texts{"texts", "texts_begin", "behavior_packages",
+                                              "parameters", "allowed_values"};
+  std::string_view different;
+  auto name = first_array_name;
+  const auto compare = [&](const auto& of_a, const auto& of_b) {
+    if (!with_texts.contains(*name) && !is_same(of_a, of_b)) different = *name;
+    ++name;
+  };
+  std::apply(
+      [&](const auto&... of_a) {
+        std::apply([&](const auto&... of_b) { (compare(of_a, of_b), ...); }, arrays_of(b));
+      },
+      arrays_of(a));
+  if (!different.empty()) return std::string(different);
   if (!has_same_packages(a, b)) return "behavior_packages";
   if (!has_same_parameters(a, b)) return "parameters";
   return {};

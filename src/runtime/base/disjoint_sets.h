@@ -18,9 +18,9 @@ class DisjointSets {
 
   /// Unites the sets of two members.
   void join(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t first = find_root(a);
-    const std::uint32_t second = find_root(b);
-    parent_[std::max(first, second)] = std::min(first, second);
+    const std::uint32_t root_a = find_root(a);
+    const std::uint32_t root_b = find_root(b);
+    parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
   }
 
   /// By member: the number of its set. Sets count from 0 by their smallest member.

@@ -160,7 +160,7 @@ constexpr Decimal failure(DecimalError error) { return {0, error}; }
 
 bool is_digit(char character) { return character >= '0' && character <= '9'; }
 
-// Far beyond any exponent that matters, far below overflow: the digits of a text are fewer.
+// Far beyond any exponent that matters, and far from overflow, as texts have fewer digits.
 constexpr std::int64_t exponent_limit = 1'000'000'000'000;
 
 class Scanner {
@@ -252,7 +252,7 @@ Decimal parse_decimal(std::string_view text, int decimals, std::int64_t lowest,
     }
   }
   if (number->negative) value = -value;
-  // A range comes first: "100.00001 is over 100" is the more useful of the two.
+  // The range is checked first: "100.00001 is over 100" is the more useful message.
   const bool beyond =
       !whole && !number->digits.empty() &&
       ((!number->negative && value >= highest) || (number->negative && value <= lowest));

@@ -11,13 +11,13 @@
 #include "cbc/units.h"
 
 /// UTF-8. "Character" means code point; every byte that is not part of a valid sequence counts as
-/// one character, so that places in a damaged text are defined too.
+/// one character, so that positions in invalid text are defined, too.
 namespace cbc::utf8 {
 
 /// Stands for a byte that is not part of a valid sequence.
 inline constexpr char32_t replacement = 0xFFFD;
 
-/// May stand before a text, and is no part of it.
+/// May precede a text, and is not part of it.
 inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
 
@@ -42,7 +42,7 @@ struct Decoded {
 
 namespace cbc {
 
-/// Texts and integers in one text, one behind the other.
+/// Concatenates texts and integers.
 template <typename... Parts>
 [[nodiscard]] std::string concat(const Parts&... parts) {
   std::string text;
@@ -57,8 +57,8 @@ template <typename... Parts>
   return text;
 }
 
-/// Whether a character would do something else on a terminal than print: control characters, and
-/// those that break lines or turn the direction of what follows.
+/// Whether a terminal would not just print a character: control characters, and those that break
+/// lines or change the direction of the text.
 [[nodiscard]] bool is_control(char32_t character);
 
 /// A piece of input as it is shown in a message: in single quotes, on one line, without control
@@ -68,7 +68,7 @@ template <typename... Parts>
 /// The same without quotes and without a limit, for tables.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// Why a text is no value of the kind that was asked for.
+/// Why a text is not a number of the requested kind.
 enum class DecimalError : std::uint8_t { no_error, not_a_number, out_of_range, too_precise };
 
 /// A number that was read from text, in units of 10^-decimals.

@@ -5,8 +5,8 @@
 namespace cbc {
 namespace {
 
-// Logarithms are found in whole numbers: those of a mathematical library may differ in their last
-// bit from machine to machine, and compiled catalogs must not.
+// Logarithms are computed with integers: those of a math library may differ in the last bit from
+// machine to machine, and compiled catalogs must not.
 
 __extension__ using Wide = unsigned __int128;  // -Wpedantic knows no such type
 

@@ -1,49 +1,35 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 
 #include "cbc/units.h"
 
+/// A catalog as the solver, the coordinator and all reports use it: flat arrays of numbers, which
+/// stand in compiled files as they are in memory. Their meaning: docs/semantics.md, "Catalog".
 namespace cbc {
 
-/// -ln(degree / 10^6) in units of 2^-40, for degree in [1, 10^6]; 0 for degree 0 (which callers
-/// treat apart).
+/// -ln(degree / 10^6) in units of 2^-40, for degree in [1, 10^6]; 0 for degree 0, which callers
+/// handle separately.
 ///
 /// It is built from the rounded logarithms of the prime factors, so equal products of degrees have
 /// equal sums of costs, to the bit; sums of different products that are further apart than
-/// log_cost_error for each factor other than 1 are in the right order. What is closer is decided
-/// by exact products.
+/// log_cost_error for each factor other than 1 are in the right order. Closer sums are compared by
+/// exact products; see docs/semantics.md, "Performance".
 [[nodiscard]] std::int64_t log_cost(Millionths degree);
 
 /// Bound on the error of one log_cost: at most 19 + 12 prime factors, each half a unit off.
 inline constexpr std::int64_t log_cost_error = 16;
 
-/// log_cost with a small memory: catalogs have few different degrees.
-class KnownCosts {
- public:
-  std::int64_t of(Millionths degree) {
-    Entry& entry = entries_[(degree * 2654435769U) >> 24U];
-    if (entry.degree != degree) entry = {degree, log_cost(degree)};
-    return entry.cost;
-  }
-
- private:
-  struct Entry {
-    Millionths degree = 0;  ///< what is not known yet says what is true of 0
-    std::int64_t cost = 0;
-  };
-  std::array<Entry, 256> entries_{};
-};
-
-/// Place of a task, a behavior in a compiled catalog: group by group, and within a group in catalog
-/// order, so that all that one event touches lies side by side.
+/// Number of a task or a behavior in a compiled catalog: group by group, and within a group in
+/// catalog order, so that everything that one event touches lies side by side.
 using TaskId = std::uint32_t;
 using BehaviorId = std::uint32_t;
 /// Place of a (task, behavior) pair in CompiledCatalog::values.
@@ -53,30 +39,32 @@ using TextId = std::uint32_t;
 
 inline constexpr std::uint32_t none = UINT32_MAX;
 
-/// Rows of different lengths in one array: row i is items[begin[i]] up to items[begin[i + 1]].
+/// Rows of different lengths in one array: row i is items[begin[i]] up to items[begin[i + 1]]. Rows
+/// of characters are texts.
 template <typename T>
 struct Rows {
+  using Row = std::conditional_t<std::is_same_v<T, char>, std::string_view, std::span<const T>>;
+
   std::span<const std::uint32_t> begin;
   std::span<const T> items;
 
   [[nodiscard]] std::size_t size() const { return begin.size() - 1; }
-  [[nodiscard]] std::span<const T> operator[](std::size_t row) const {
-    return {items.data() + begin[row], items.data() + begin[row + 1]};
+  [[nodiscard]] Row operator[](std::size_t row) const {
+    return Row(items.data() + begin[row], begin[row + 1] - begin[row]);
   }
 };
 
-/// Texts in one array of characters.
+/// Some texts that lie side by side among others.
 class Texts {
  public:
   Texts() = default;
-  explicit Texts(const Rows<char>& rows) : rows_(rows) {}
+  Texts(const Rows<char>& rows, std::size_t first, std::size_t count)
+      : rows_(rows), first_(first), count_(count) {}
 
-  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] std::string_view operator[](std::size_t place) const {
-    const std::span<const char> row = rows_[place];
-    return {row.data(), row.size()};
+    return rows_[first_ + place];
   }
-  [[nodiscard]] const Rows<char>& rows() const { return rows_; }
 
   class Iterator {
    public:
@@ -94,13 +82,11 @@ class Texts {
   };
   [[nodiscard]] Iterator begin() const { return {*this, 0}; }
   [[nodiscard]] Iterator end() const { return {*this, size()}; }
-  /// `count` of them from `first` on.
-  [[nodiscard]] Texts part(std::size_t first, std::size_t count) const {
-    return Texts({rows_.begin.subspan(first, count + 1), rows_.items});
-  }
 
  private:
   Rows<char> rows_;
+  std::size_t first_ = 0;
+  std::size_t count_ = 0;
 };
 
 // The structs below stand in compiled files as they are here; flags are 0 or 1.
@@ -154,53 +140,87 @@ struct CompiledParameter {
   std::uint32_t allowed_count = 0;
 };
 
-/// Everything about a catalog that does not depend on the situation, in flat arrays that the
-/// solver uses in place. They lie in memory that copies of this object share.
-struct CompiledCatalog {
-  std::shared_ptr<const void> storage;
-
+/// The arrays of a catalog: views of arrays in CompiledCatalog, vectors in GrowingCatalog. Most of
+/// them follow from the others; see compiled/derive.h.
+template <template <typename> class List, template <typename> class ListOfRows>
+struct CatalogArrays {
   /// The names of the tasks in catalog order, those of the behaviors, the source as it was named,
   /// and then others.
-  Texts texts;
-  std::string_view file;  ///< the source
+  ListOfRows<char> texts;
 
   // In catalog order.
-  Texts task_names;
-  Texts behavior_names;
-  std::span<const TaskId> task_ids;
-  std::span<const BehaviorId> behavior_ids;
-  std::span<const TextId> behavior_packages;
-  Rows<CompiledParameter> parameters;  ///< by task: those that it declares
-  std::span<const TextId> allowed_values;
+  List<TaskId> task_ids;
+  List<BehaviorId> behavior_ids;
+  List<TextId> behavior_packages;
+  ListOfRows<CompiledParameter> parameters;  ///< by task: those that it declares
+  List<TextId> allowed_values;
 
   // Places in the catalog, sorted by name (as bytes).
-  std::span<const std::uint32_t> tasks_by_name;
-  std::span<const std::uint32_t> behaviors_by_name;
+  List<std::uint32_t> tasks_by_name;
+  List<std::uint32_t> behaviors_by_name;
 
-  // By group, in the order of their first task.
-  std::span<const std::uint32_t> group_tasks;      ///< first TaskId of each group, and the end
-  std::span<const std::uint32_t> group_behaviors;  ///< first BehaviorId of each group, and the end
+  // By group (docs/semantics.md, "Groups"), in the order of their first task.
+  List<std::uint32_t> group_tasks;      ///< first TaskId of each group, and the end
+  List<std::uint32_t> group_behaviors;  ///< first BehaviorId of each group, and the end
   /// The tasks, each after those that its behaviors require: by group, level and TaskId.
-  std::span<const TaskId> topological_order;
+  List<TaskId> topological_order;
 
   // By task.
-  std::span<const CompiledTask> tasks;
-  Rows<Value> values;
-  std::span<const TaskId> value_tasks;   ///< by value
-  std::span<const std::uint32_t> words;  ///< first domain word of each task, and the end
-  Rows<Arc> arcs;                        ///< to what its behaviors require
-  Rows<std::uint32_t> incoming;          ///< places in arcs.items of the arcs that end here
-  Rows<std::uint32_t> task_cliques;
+  List<CompiledTask> tasks;
+  ListOfRows<Value> values;
+  List<TaskId> value_tasks;            ///< by value
+  List<std::uint32_t> words;           ///< first domain word of each task, and the end
+  ListOfRows<Arc> arcs;                ///< to what its behaviors require
+  ListOfRows<std::uint32_t> incoming;  ///< places in arcs.items of the arcs that end here
+  ListOfRows<std::uint32_t> task_cliques;
 
   // By behavior.
-  std::span<const CompiledBehavior> behaviors;
-  Rows<CompiledRequirement> requirements;  ///< distinct tasks, the strongest minimum of each
-  std::span<const std::uint32_t> requirement_lines;  ///< by place in requirements.items
-  Rows<ValueId> performs;                            ///< its values
+  List<CompiledBehavior> behaviors;
+  ListOfRows<CompiledRequirement> requirements;  ///< distinct tasks, the strongest minimum of each
+  List<std::uint32_t> requirement_lines;         ///< by place in requirements.items
+  ListOfRows<ValueId> performs;                  ///< its values
 
-  Rows<TaskId> cliques;                         ///< distinct tasks of which at most one runs
-  std::span<const std::uint32_t> clique_lines;  ///< by clique: of its (first) list
-  std::span<const std::uint64_t> masks;
+  ListOfRows<TaskId> cliques;        ///< distinct tasks of which at most one runs
+  List<std::uint32_t> clique_lines;  ///< by clique: of its (first) list
+  List<std::uint64_t> masks;
+};
+
+/// References to all arrays, in the order of compiled files: of rows the items, and then the
+/// begins.
+template <typename Catalog>
+[[nodiscard]] auto arrays_of(Catalog& catalog) {
+  return std::tie(catalog.texts.items, catalog.texts.begin, catalog.task_ids, catalog.behavior_ids,
+                  catalog.behavior_packages, catalog.parameters.items, catalog.parameters.begin,
+                  catalog.allowed_values, catalog.tasks_by_name, catalog.behaviors_by_name,
+                  catalog.group_tasks, catalog.group_behaviors, catalog.topological_order,
+                  catalog.tasks, catalog.values.items, catalog.values.begin, catalog.value_tasks,
+                  catalog.words, catalog.arcs.items, catalog.arcs.begin, catalog.incoming.items,
+                  catalog.incoming.begin, catalog.task_cliques.items, catalog.task_cliques.begin,
+                  catalog.behaviors, catalog.requirements.items, catalog.requirements.begin,
+                  catalog.requirement_lines, catalog.performs.items, catalog.performs.begin,
+                  catalog.cliques.items, catalog.cliques.begin, catalog.clique_lines,
+                  catalog.masks);
+}
+
+template <typename T>
+using View = std::span<const T>;
+
+/// Everything about a catalog that does not depend on the situation, in flat arrays that the
+/// solver uses in place. They lie in memory that copies of this object share.
+struct CompiledCatalog : CatalogArrays<View, Rows> {
+  std::shared_ptr<const void> storage;
+
+  // Some of the texts.
+  std::string_view file;  ///< the source
+  Texts task_names;       ///< in catalog order
+  Texts behavior_names;
+
+  /// Finds the names and the source among the texts; done when all arrays are there.
+  void set_names() {
+    task_names = Texts(texts, 0, tasks.size());
+    behavior_names = Texts(texts, tasks.size(), behaviors.size());
+    file = texts[tasks.size() + behaviors.size()];
+  }
 
   [[nodiscard]] std::size_t group_count() const { return group_tasks.size() - 1; }
   [[nodiscard]] std::string_view name_of_task(TaskId task) const {

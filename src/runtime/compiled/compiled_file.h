@@ -3,55 +3,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unistd.h>
 
 #include "compiled/compiled_catalog.h"
 
+/// Compiled catalogs as files: reading with verification, writing, and digests.
 namespace cbc {
 
-/// An open file, which is closed when it is no longer needed; or none.
-class Descriptor {
- public:
-  Descriptor() = default;
-  /// Takes over the file; a negative number is none.
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { close(); }
-
-  void set(int number) {
-    close();
-    number_ = number;
-  }
-  void close() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-  }
-  [[nodiscard]] int number() const { return number_; }
-
- private:
-  int number_ = -1;
-};
-
-/// The content of a file in memory, or why there is none ("No such file or directory").
-struct MappedFile {
-  std::shared_ptr<const void> memory;  ///< keeps the content; null after an error
-  std::string_view content;            ///< begins at a multiple of 16
-  std::string error;
-};
-
-/// Maps a regular file of at most `largest` bytes into memory, read-only.
-[[nodiscard]] MappedFile map_file(const std::string& path, std::size_t largest);
-
-/// Memory with a copy of a content.
-[[nodiscard]] MappedFile copy_to_memory(std::string_view content);
-
-/// XXH3 of 128 bits, in its canonical (big-endian) form. Tells that a content is damaged or has
-/// changed; it is no protection against somebody who means harm.
+/// XXH3 of 128 bits, in its canonical (big-endian) form. It tells whether a content is damaged or
+/// has changed, but does not protect against forgery.
 struct Digest {
   std::array<std::uint8_t, 16> bytes{};
 
@@ -96,23 +58,21 @@ inline constexpr std::size_t largest_compiled_file = std::size_t{1} << 30;
 /// The same for a content in memory.
 [[nodiscard]] CompiledFileResult read_compiled(std::string_view content);
 
-/// The bytes of compiled catalogs: see catalog.fbs, which flatc turns into code.
-
 /// The newest format, which is the one that is written.
 inline constexpr std::uint32_t newest_format = 1;
 
-/// A file whose arrays lie in `bytes`, which begin at a multiple of 16. They are readable and
-/// aligned, and the digest fits, but what is in them is not verified yet.
+/// A file whose arrays lie in `bytes`, which begin at a multiple of 16. The arrays are readable and
+/// aligned, and the digest is right, but they are not verified, and the catalog has no names yet.
 [[nodiscard]] CompiledFileResult decode(std::string_view bytes);
 
-/// Tells whether two catalogs give the same answers in the same words: the digest of all that was
-/// compiled. It is the same for a catalog in YAML and compiled; the path that it was named by does
-/// not count, nor does the version of cbc, nor what of the source is not compiled (comments).
+/// The digest of all that was compiled: catalogs with the same one give the same answers in the
+/// same words. It does not depend on whether a catalog comes from YAML or from a compiled file, on
+/// its path, on the version of cbc, or on parts of the source that are not compiled, such as
+/// comments.
 [[nodiscard]] Digest identity_of(const CompiledCatalog& catalog);
 
-/// What is wrong with the arrays of a compiled catalog that came from outside, or nothing: then
-/// everything that compile() ensures holds. All spans lie in readable memory and are aligned;
-/// nothing else is taken for granted. Takes time linear in the size of the arrays.
+/// What is wrong with the arrays of a decoded catalog, or nothing: then everything that compile()
+/// ensures holds. Takes time and memory linear in the size of the arrays.
 [[nodiscard]] std::optional<std::string> find_fault(const CompiledCatalog& catalog);
 
 }  // namespace cbc

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -7,6 +6,7 @@
 #include <string>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include <flatbuffers/flatbuffers.h>
 
@@ -21,7 +21,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "compiled catalogs are used in place, and their numbers are little-endian");
 
-// Each struct of the solver and its like in the schema. The tests compare them field by field.
+// The struct of the schema for each struct of the solver. The tests compare them field by field.
 template <typename T>
 struct Stored {
   using Type = T;
@@ -106,47 +106,16 @@ class Encoder {
   }
 
   void write_catalog(const Digest& source) {
-    const CompiledCatalog& from = catalog_;
+    const auto version_text = builder_.CreateString(std::string(version));
     const flat::Digest digest = to_flat(source);
-    // In braces, so that the arrays are written in this order whatever the compiler.
-    const std::tuple fields{builder_.CreateString(std::string(version)),
-                            &digest,
-                            vector(from.texts.rows().items),
-                            vector(from.texts.rows().begin),
-                            vector(from.task_ids),
-                            vector(from.behavior_ids),
-                            vector(from.behavior_packages),
-                            vector(from.parameters.items),
-                            vector(from.parameters.begin),
-                            vector(from.allowed_values),
-                            vector(from.tasks_by_name),
-                            vector(from.behaviors_by_name),
-                            vector(from.group_tasks),
-                            vector(from.group_behaviors),
-                            vector(from.topological_order),
-                            vector(from.tasks),
-                            vector(from.values.items),
-                            vector(from.values.begin),
-                            vector(from.value_tasks),
-                            vector(from.words),
-                            vector(from.arcs.items),
-                            vector(from.arcs.begin),
-                            vector(from.incoming.items),
-                            vector(from.incoming.begin),
-                            vector(from.task_cliques.items),
-                            vector(from.task_cliques.begin),
-                            vector(from.behaviors),
-                            vector(from.requirements.items),
-                            vector(from.requirements.begin),
-                            vector(from.requirement_lines),
-                            vector(from.performs.items),
-                            vector(from.performs.begin),
-                            vector(from.cliques.items),
-                            vector(from.cliques.begin),
-                            vector(from.clique_lines),
-                            vector(from.masks)};
+    // Braces fix the order in which the arrays are written.
+    const auto arrays = std::apply(
+        [this](const auto&... array) { return std::tuple{vector(array)...}; }, arrays_of(catalog_));
     builder_.Finish(std::apply(
-        [&](const auto&... field) { return flat::CreateCatalog(builder_, field...); }, fields));
+        [&](const auto&... array) {
+          return flat::CreateCatalog(builder_, version_text, &digest, array...);
+        },
+        arrays));
   }
 
   const CompiledCatalog& catalog_;
@@ -197,59 +166,27 @@ class Decoder {
     const flat::Catalog& catalog = *flatbuffers::GetRoot<flat::Catalog>(content.data());
     file.written_by = catalog.written_by()->str();
     file.source = from_flat(*catalog.source_digest());
-    return read(catalog, file.catalog) ? nullptr : damaged;
+    const auto arrays = arrays_of(file.catalog);
+    constexpr std::size_t count = std::tuple_size_v<decltype(arrays)>;
+    return take_all(catalog, arrays, std::make_index_sequence<count>()) ? nullptr : damaged;
   }
 
-  [[nodiscard]] static bool read(const flat::Catalog& from, CompiledCatalog& to) {
-    Rows<char> texts;
-    if (!(take(from.texts(), texts.items) && take(from.texts_begin(), texts.begin) &&
-          take(from.task_ids(), to.task_ids) && take(from.behavior_ids(), to.behavior_ids) &&
-          take(from.behavior_packages(), to.behavior_packages) &&
-          take(from.parameters(), to.parameters.items) &&
-          take(from.parameters_begin(), to.parameters.begin) &&
-          take(from.allowed_values(), to.allowed_values) &&
-          take(from.tasks_by_name(), to.tasks_by_name) &&
-          take(from.behaviors_by_name(), to.behaviors_by_name) &&
-          take(from.group_tasks(), to.group_tasks) &&
-          take(from.group_behaviors(), to.group_behaviors) &&
-          take(from.topological_order(), to.topological_order) && take(from.tasks(), to.tasks) &&
-          take(from.values(), to.values.items) && take(from.values_begin(), to.values.begin) &&
-          take(from.value_tasks(), to.value_tasks) && take(from.words(), to.words) &&
-          take(from.arcs(), to.arcs.items) && take(from.arcs_begin(), to.arcs.begin) &&
-          take(from.incoming(), to.incoming.items) &&
-          take(from.incoming_begin(), to.incoming.begin) &&
-          take(from.task_cliques(), to.task_cliques.items) &&
-          take(from.task_cliques_begin(), to.task_cliques.begin) &&
-          take(from.behaviors(), to.behaviors) &&
-          take(from.requirements(), to.requirements.items) &&
-          take(from.requirements_begin(), to.requirements.begin) &&
-          take(from.requirement_lines(), to.requirement_lines) &&
-          take(from.performs(), to.performs.items) &&
-          take(from.performs_begin(), to.performs.begin) &&
-          take(from.cliques(), to.cliques.items) && take(from.cliques_begin(), to.cliques.begin) &&
-          take(from.clique_lines(), to.clique_lines) && take(from.masks(), to.masks))) {
-      return false;
-    }
-    const std::size_t names = to.tasks.size() + to.behaviors.size();
-    if (!is_readable(texts) || texts.size() <= names) return false;
-    to.texts = Texts(texts);
-    to.task_names = to.texts.part(0, to.tasks.size());
-    to.behavior_names = to.texts.part(to.tasks.size(), to.behaviors.size());
-    to.file = to.texts[names];
-    return true;
+  /// The fields of the table are `written_by`, `source_digest`, and the arrays.
+  template <typename Arrays, std::size_t... place>
+  [[nodiscard]] static bool take_all(const flat::Catalog& from, const Arrays& to,
+                                     std::index_sequence<place...> /*places*/) {
+    static_assert(flat::Catalog::Traits::fields_number == 2 + sizeof...(place));
+    return (take(from.get_field<2 + place>(), std::get<place>(to)) && ...);
   }
 
-  /// Whether every text lies within the characters.
-  [[nodiscard]] static bool is_readable(const Rows<char>& texts) {
-    return !texts.begin.empty() && std::is_sorted(texts.begin.begin(), texts.begin.end()) &&
-           texts.begin.back() <= texts.items.size();
-  }
-
-  /// False if the items do not lie where they can be used: the verifier of FlatBuffers looks after
-  /// bounds only, and after presence where a field is `required`, as all are up to format 1.
+  /// False if the items are misaligned, which the verifier of FlatBuffers does not check. It checks
+  /// bounds, and that `required` fields are there, as all are in format 1.
   template <typename T, typename Items>
   [[nodiscard]] static bool take(const flatbuffers::Vector<Items>* items, std::span<const T>& to) {
+    using Type = typename Stored<T>::Type;
     static_assert(is_stored_as_it_is<T>);
+    static_assert(
+        std::is_same_v<Items, std::conditional_t<std::is_scalar_v<Type>, Type, const Type*>>);
     if (items->size() == 0) return true;
     if (!is_aligned(items->Data(), alignof(T))) return false;
     to = {reinterpret_cast<const T*>(items->Data()), items->size()};

@@ -1,84 +1,15 @@
 #include "compile/compile.h"
 
 #include <algorithm>
-#include <memory>
 #include <numeric>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
-#include "compiled/compiled_catalog.h"
-#include "support/graph.h"
+#include "base/disjoint_sets.h"
 
 namespace cbc {
 namespace {
-
-template <typename T>
-Rows<T> view(const GrowingRows<T>& rows) {
-  return {rows.begin, rows.items};
-}
-
-}  // namespace
-
-CompiledCatalog to_catalog(CatalogArrays made) {
-  const auto arrays = std::make_shared<const CatalogArrays>(std::move(made));
-  CompiledCatalog catalog;
-  catalog.storage = arrays;
-  catalog.texts = Texts(view(arrays->texts));
-  catalog.file = catalog.texts[arrays->task_count + arrays->behavior_count];
-  catalog.task_names = catalog.texts.part(0, arrays->task_count);
-  catalog.behavior_names = catalog.texts.part(arrays->task_count, arrays->behavior_count);
-  catalog.task_ids = arrays->task_ids;
-  catalog.behavior_ids = arrays->behavior_ids;
-  catalog.behavior_packages = arrays->behavior_packages;
-  catalog.parameters = view(arrays->parameters);
-  catalog.allowed_values = arrays->allowed_values;
-  catalog.tasks_by_name = arrays->tasks_by_name;
-  catalog.behaviors_by_name = arrays->behaviors_by_name;
-  catalog.group_tasks = arrays->group_tasks;
-  catalog.group_behaviors = arrays->group_behaviors;
-  catalog.topological_order = arrays->topological_order;
-  catalog.tasks = arrays->tasks;
-  catalog.values = view(arrays->values);
-  catalog.value_tasks = arrays->value_tasks;
-  catalog.words = arrays->words;
-  catalog.arcs = view(arrays->arcs);
-  catalog.incoming = view(arrays->incoming);
-  catalog.task_cliques = view(arrays->task_cliques);
-  catalog.behaviors = arrays->behaviors;
-  catalog.requirements = view(arrays->requirements);
-  catalog.requirement_lines = arrays->requirement_lines;
-  catalog.performs = view(arrays->performs);
-  catalog.cliques = view(arrays->cliques);
-  catalog.clique_lines = arrays->clique_lines;
-  catalog.masks = arrays->masks;
-  return catalog;
-}
-
-namespace {
-
-/// A stable order of `count` items by `key`, and where each key begins.
-struct Grouping {
-  std::vector<std::uint32_t> order;
-  std::vector<std::uint32_t> begin;
-};
-
-Grouping group_by(const std::vector<std::uint32_t>& key, std::size_t keys) {
-  Grouping grouping;
-  grouping.begin.assign(keys + 1, 0);
-  for (const std::uint32_t k : key) ++grouping.begin[k + 1];
-  std::partial_sum(grouping.begin.begin(), grouping.begin.end(), grouping.begin.begin());
-  grouping.order.resize(key.size());
-  std::vector<std::uint32_t> next = grouping.begin;
-  for (std::uint32_t item = 0; item < key.size(); ++item) grouping.order[next[key[item]]++] = item;
-  return grouping;
-}
-
-std::vector<std::uint32_t> inverse(const std::vector<std::uint32_t>& order) {
-  std::vector<std::uint32_t> position(order.size());
-  for (std::uint32_t place = 0; place < order.size(); ++place) position[order[place]] = place;
-  return position;
-}
 
 class Compiler {
  public:
@@ -90,23 +21,16 @@ class Compiler {
     add_tasks();
     add_behaviors();
     add_values();
-    add_arcs();
     add_cliques();
-    add_levels();
-    add_topological_order();
+    derive_rest(out_);
     return to_catalog(std::move(out_));
   }
 
  private:
   [[nodiscard]] std::size_t task_count() const { return catalog_.tasks.size(); }
   [[nodiscard]] std::size_t behavior_count() const { return catalog_.behaviors.size(); }
-  [[nodiscard]] const Behavior& behavior(BehaviorId id) const {
-    return catalog_.behaviors[out_.behaviors[id].catalog_index];
-  }
 
   void add_names() {
-    out_.task_count = task_count();
-    out_.behavior_count = behavior_count();
     for (const Task& task : catalog_.tasks) out_.texts.add_row(task.name);
     for (const Behavior& one : catalog_.behaviors) out_.texts.add_row(one.name);
     out_.tasks_by_name = sort_by_name(catalog_.tasks);
@@ -150,42 +74,24 @@ class Compiler {
   }
 
   void add_groups() {
-    Edges edges;
+    DisjointSets connected(task_count());
+    std::vector<TaskIndex> first_tasks;
     for (const Behavior& one : catalog_.behaviors) {
-      const TaskIndex first = one.performs.front().task;
-      for (const Performance& performance : one.performs)
-        edges.emplace_back(first, performance.task);
-      for (const Requirement& requirement : one.requirements)
-        edges.emplace_back(first, requirement.task);
+      const TaskIndex first = first_tasks.emplace_back(one.performs.front().task);
+      for (const Performance& performance : one.performs) connected.join(first, performance.task);
+      for (const Requirement& required : one.requirements) connected.join(first, required.task);
     }
     for (const ExclusivityList& list : catalog_.exclusivity) {
-      for (const TaskIndex task : list.tasks) edges.emplace_back(list.tasks.front(), task);
+      for (const TaskIndex task : list.tasks) connected.join(list.tasks.front(), task);
     }
-    group_of_task_ = connected_components(task_count(), edges);
-    const std::size_t groups =
-        task_count() == 0 ? 0 : *std::max_element(group_of_task_.begin(), group_of_task_.end()) + 1;
-
-    Grouping by_group = group_by(group_of_task_, groups);
-    out_.group_tasks = std::move(by_group.begin);
-    task_order_ = std::move(by_group.order);
-    out_.task_ids = inverse(task_order_);
-
-    std::vector<std::uint32_t> group_of_behavior;
-    for (const Behavior& one : catalog_.behaviors) {
-      group_of_behavior.push_back(group_of_task_[one.performs.front().task]);
-    }
-    by_group = group_by(group_of_behavior, groups);
-    out_.group_behaviors = std::move(by_group.begin);
-    behavior_order_ = std::move(by_group.order);
-    out_.behavior_ids = inverse(behavior_order_);
+    derive_groups(out_, connected, first_tasks);
   }
 
   void add_tasks() {
-    for (const TaskIndex index : task_order_) {
+    out_.tasks.resize(task_count());
+    for (TaskIndex index = 0; index < task_count(); ++index) {
       const Task& from = catalog_.tasks[index];
-      CompiledTask task;
-      task.catalog_index = index;
-      task.group = group_of_task_[index];
+      CompiledTask& task = out_.tasks[out_.task_ids[index]];
       task.minimum_performance = from.minimum_performance;
       task.minimum_cost = costs_.of(from.minimum_performance);
       task.minimum_line = from.minimum_performance_range.begin.line;
@@ -193,20 +99,19 @@ class Compiler {
       task.start_on_request = from.start_on_request ? 1 : 0;
       task.reactive_start = from.reactive_start ? 1 : 0;
       task.keep_running = from.execution_goal == ExecutionGoal::keep_running ? 1 : 0;
-      task.has_performance_rules = from.minimum_performance > 0 ? 1 : 0;
-      out_.tasks.push_back(task);
     }
   }
 
   void add_behaviors() {
-    for (const BehaviorIndex index : behavior_order_) {
+    out_.behaviors.resize(behavior_count());
+    by_id_.resize(behavior_count());
+    for (BehaviorIndex index = 0; index < behavior_count(); ++index) {
       const Behavior& from = catalog_.behaviors[index];
-      CompiledBehavior to;
-      to.catalog_index = index;
-      to.timeout = from.timeout.value_or(0);
-      out_.behaviors.push_back(to);
-      add_requirements(from);
+      const BehaviorId id = out_.behavior_ids[index];
+      out_.behaviors[id].timeout = from.timeout.value_or(0);
+      by_id_[id] = &from;
     }
+    for (const Behavior* from : by_id_) add_requirements(*from);
   }
 
   /// Sorted by task; of requirements of the same task the strongest is enough.
@@ -240,67 +145,23 @@ class Compiler {
     out_.requirements.close_row();
   }
 
+  /// In rank order.
   void add_values() {
-    std::vector<Value> values;  // by behavior
-    std::vector<TaskId> tasks;  // of each of them
+    std::vector<std::vector<Value>> rows(task_count());
     for (BehaviorId id = 0; id < behavior_count(); ++id) {
-      for (const Performance& performance : behavior(id).performs) {
-        Value value;
+      for (const Performance& performance : by_id_[id]->performs) {
+        Value& value = rows[out_.task_ids[performance.task]].emplace_back();
         value.behavior = id;
         value.suitability = performance.suitability;
         value.cost = costs_.of(performance.suitability);
-        values.push_back(value);
-        tasks.push_back(out_.task_ids[performance.task]);
       }
     }
-    const Grouping by_task = group_by(tasks, task_count());
-    out_.values.begin = by_task.begin;
-    for (const std::uint32_t place : by_task.order) {
-      out_.values.items.push_back(values[place]);
-      out_.value_tasks.push_back(tasks[place]);
+    for (std::vector<Value>& row : rows) {
+      std::stable_sort(row.begin(), row.end(), [](const Value& a, const Value& b) {
+        return a.suitability > b.suitability;
+      });
+      out_.values.add_row(row);
     }
-    out_.words.push_back(0);
-    for (TaskId task = 0; task < task_count(); ++task) {
-      const std::uint32_t first = by_task.begin[task];
-      const std::uint32_t end = by_task.begin[task + 1];
-      std::sort(out_.values.items.begin() + first, out_.values.items.begin() + end,
-                [](const Value& a, const Value& b) {
-                  return a.suitability != b.suitability ? a.suitability > b.suitability
-                                                        : a.behavior < b.behavior;
-                });
-      out_.words.push_back(out_.words.back() + (end - first + 63) / 64);
-    }
-    std::vector<BehaviorId> behaviors;
-    for (const Value& value : out_.values.items) behaviors.push_back(value.behavior);
-    Grouping by_behavior = group_by(behaviors, behavior_count());
-    out_.performs = {std::move(by_behavior.begin), std::move(by_behavior.order)};
-  }
-
-  void add_arcs() {
-    std::vector<std::uint32_t> arc_to(task_count(), none);
-    for (TaskId task = 0; task < task_count(); ++task) {
-      const std::uint32_t words = out_.words[task + 1] - out_.words[task];
-      const auto values = out_.values[task];
-      const auto first = static_cast<std::uint32_t>(out_.arcs.items.size());
-      for (std::size_t place = 0; place < values.size(); ++place) {
-        for (const CompiledRequirement& requirement : out_.requirements[values[place].behavior]) {
-          std::uint32_t& number = arc_to[requirement.task];
-          if (number == none || number < first) {
-            number = static_cast<std::uint32_t>(out_.arcs.items.size());
-            const auto mask = static_cast<std::uint32_t>(out_.masks.size());
-            out_.arcs.items.push_back(Arc{task, requirement.task, mask});
-            out_.masks.resize(out_.masks.size() + words, 0);
-          }
-          out_.masks[out_.arcs.items[number].mask + place / 64] |= std::uint64_t{1} << (place % 64);
-          if (requirement.minimum_performance > 0) out_.tasks[task].has_performance_rules = 1;
-        }
-      }
-      out_.arcs.close_row();
-    }
-    std::vector<TaskId> targets;
-    for (const Arc& arc : out_.arcs.items) targets.push_back(arc.target);
-    Grouping by_target = group_by(targets, task_count());
-    out_.incoming = {std::move(by_target.begin), std::move(by_target.order)};
   }
 
   void add_cliques() {
@@ -323,54 +184,18 @@ class Compiler {
                               [](const auto& a, const auto& b) { return a.tasks == b.tasks; }),
                   cliques.end());
 
-    std::vector<std::uint32_t> clique_of;  // by place in the cliques
     for (const Clique& clique : cliques) {
-      clique_of.insert(clique_of.end(), clique.tasks.size(),
-                       static_cast<std::uint32_t>(out_.cliques.size()));
       out_.cliques.add_row(clique.tasks);
       out_.clique_lines.push_back(clique.line);
     }
-    Grouping by_task = group_by(out_.cliques.items, task_count());
-    out_.task_cliques.begin = std::move(by_task.begin);
-    for (const std::uint32_t place : by_task.order) {
-      out_.task_cliques.items.push_back(clique_of[place]);
-    }
-  }
-
-  void add_levels() {
-    Edges edges;
-    for (const Arc& arc : out_.arcs.items) edges.emplace_back(arc.source, arc.target);
-    for (const TaskId task : reverse_topological_order(task_count(), edges)) {
-      for (const Value& value : out_.values[task]) {
-        std::uint32_t& level = out_.behaviors[value.behavior].level;
-        for (const CompiledRequirement& requirement : out_.requirements[value.behavior]) {
-          level = std::max(level, out_.tasks[requirement.task].level + 1);
-        }
-        out_.tasks[task].level = std::max(out_.tasks[task].level, level);
-      }
-    }
-  }
-
-  void add_topological_order() {
-    out_.topological_order.resize(task_count());
-    std::iota(out_.topological_order.begin(), out_.topological_order.end(), TaskId{0});
-    std::stable_sort(out_.topological_order.begin(), out_.topological_order.end(),
-                     [&](TaskId a, TaskId b) {
-                       const CompiledTask& first = out_.tasks[a];
-                       const CompiledTask& second = out_.tasks[b];
-                       return first.group != second.group ? first.group < second.group
-                                                          : first.level < second.level;
-                     });
   }
 
   const Catalog& catalog_;
-  CatalogArrays out_;
-  std::unordered_map<std::string_view, TextId> text_ids_;  ///< but for names
+  GrowingCatalog out_;
+  std::unordered_map<std::string_view, TextId> text_ids_;  ///< except names
   KnownCosts costs_;
   std::vector<const Requirement*> requirement_row_;  ///< of a behavior; kept for its memory
-  std::vector<std::uint32_t> group_of_task_;         ///< by TaskIndex
-  std::vector<TaskIndex> task_order_;                ///< by TaskId
-  std::vector<BehaviorIndex> behavior_order_;        ///< by BehaviorId
+  std::vector<const Behavior*> by_id_;
 };
 
 }  // namespace

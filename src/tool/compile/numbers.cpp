@@ -60,8 +60,7 @@ class PairCounter {
   std::vector<TaskId> tasks_;  ///< of a group, those in the same cliques side by side
 };
 
-}  // namespace
-
+/// The constraints of each group.
 std::vector<ConstraintCount> count_constraints(const CompiledCatalog& catalog) {
   std::vector<ConstraintCount> counts(catalog.group_count());
   PairCounter pairs(catalog);
@@ -78,6 +77,8 @@ std::vector<ConstraintCount> count_constraints(const CompiledCatalog& catalog) {
   }
   return counts;
 }
+
+}  // namespace
 
 std::string search_space(const std::vector<std::uint32_t>& domain_sizes) {
   // Most products fit in a machine word.
@@ -148,9 +149,7 @@ Summary summarize(const CompiledCatalog& catalog) {
   const std::vector<ConstraintCount> counts = count_constraints(catalog);
   for (std::size_t index = 0; index < catalog.group_count(); ++index) {
     const ConstraintCount& constraints = counts[index];
-    summary.constraints.exclusive_pairs += constraints.exclusive_pairs;
-    summary.constraints.requirements += constraints.requirements;
-    summary.constraints.task_minimums += constraints.task_minimums;
+    add(summary.constraints, constraints);
     Summary::Group& group = summary.groups.emplace_back();
     group.constraints = constraints.total();
     for (TaskId task = catalog.group_tasks[index]; task < catalog.group_tasks[index + 1]; ++task) {

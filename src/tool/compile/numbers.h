@@ -7,9 +7,10 @@
 
 #include "compiled/compiled_catalog.h"
 
+/// How large a catalog is, for reports: tasks, behaviors, groups, constraints, search space.
 namespace cbc {
 
-/// Number of constraints, as the paper counts them.
+/// Number of constraints, counted as in the paper.
 struct ConstraintCount {
   std::uint64_t exclusive_pairs = 0;  ///< distinct unordered pairs of different tasks
   std::uint64_t requirements = 0;     ///< distinct (behavior, task)
@@ -19,9 +20,6 @@ struct ConstraintCount {
     return exclusive_pairs + requirements + task_minimums;
   }
 };
-
-/// Counts the constraints of each group.
-[[nodiscard]] std::vector<ConstraintCount> count_constraints(const CompiledCatalog& catalog);
 
 /// The product of domain sizes, in decimal digits.
 [[nodiscard]] std::string search_space(const std::vector<std::uint32_t>& domain_sizes);

@@ -17,7 +17,7 @@
 #include <unistd.h>
 #include <utility>
 
-#include "compiled/compiled_file.h"
+#include "base/mapped_file.h"
 
 namespace cbc {
 namespace {

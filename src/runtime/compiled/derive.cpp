@@ -1,0 +1,252 @@
+#include "compiled/derive.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "base/text.h"
+
+namespace cbc {
+namespace {
+
+/// Lets views refer to the arrays of a catalog that is being made.
+void set_views(CatalogArrays<View, Rows>& views, const GrowingCatalog& made) {
+  std::apply(
+      [&](auto&... to) {
+        std::apply([&](const auto&... from) { ((to = from), ...); }, arrays_of(made));
+      },
+      arrays_of(views));
+}
+
+}  // namespace
+
+CompiledCatalog to_catalog(GrowingCatalog made) {
+  const auto arrays = std::make_shared<const GrowingCatalog>(std::move(made));
+  CompiledCatalog catalog;
+  catalog.storage = arrays;
+  set_views(catalog, *arrays);
+  catalog.set_names();
+  return catalog;
+}
+
+namespace {
+
+constexpr auto itself = [](std::uint32_t number) { return number; };
+
+/// The places of the items with each key, ascending. Keys are less than `keys`.
+template <typename Items, typename Key>
+GrowingRows<std::uint32_t> group_by(const Items& items, std::size_t keys, const Key& key) {
+  GrowingRows<std::uint32_t> rows;
+  // One entry more than is needed: begin[k + 1] is where the next item with key k goes, and so in
+  // the end where the first with key k + 1 is.
+  rows.begin.assign(keys + 2, 0);
+  for (const auto& item : items) ++rows.begin[key(item) + 2];
+  std::partial_sum(rows.begin.begin(), rows.begin.end(), rows.begin.begin());
+  rows.begin.pop_back();
+  rows.items.resize(items.size());
+  std::uint32_t place = 0;
+  for (const auto& item : items) rows.items[rows.begin[key(item) + 1]++] = place++;
+  return rows;
+}
+
+std::vector<std::uint32_t> inverse(const std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> place_of(order.size());
+  for (std::uint32_t place = 0; place < order.size(); ++place) place_of[order[place]] = place;
+  return place_of;
+}
+
+}  // namespace
+
+void derive_groups(GrowingCatalog& catalog, const DisjointSets& connected,
+                   std::span<const std::uint32_t> tasks_of_behaviors) {
+  const std::vector<std::uint32_t> group_of_task = connected.numbers();
+  const std::size_t groups =
+      group_of_task.empty() ? 0 : *std::max_element(group_of_task.begin(), group_of_task.end()) + 1;
+  GrowingRows<std::uint32_t> by_group = group_by(group_of_task, groups, itself);
+  catalog.task_ids = inverse(by_group.items);
+  catalog.group_tasks = std::move(by_group.begin);
+
+  by_group =
+      group_by(tasks_of_behaviors, groups, [&](std::uint32_t task) { return group_of_task[task]; });
+  catalog.behavior_ids = inverse(by_group.items);
+  catalog.group_behaviors = std::move(by_group.begin);
+}
+
+namespace {
+
+/// Derives arrays of a catalog, in an order in which each has what it needs.
+class Derivation {
+ public:
+  Derivation(const CatalogArrays<View, Rows>& given, GrowingCatalog& out)
+      : given_(given),
+        out_(out),
+        task_count_(given.tasks.size()),
+        behavior_count_(given.behaviors.size()) {}
+
+  std::optional<std::string> run(std::size_t most_masks) {
+    add_places();
+    add_value_tasks();
+    out_.performs = group_by(given_.values.items, behavior_count_,
+                             [](const Value& value) { return value.behavior; });
+    if (!add_arcs(most_masks)) {
+      return concat("more than ", most_masks, " masks are needed");
+    }
+    out_.incoming =
+        group_by(out_.arcs.items, task_count_, [](const Arc& arc) { return arc.target; });
+    if (!add_task_levels()) return "the requirements are cyclic";
+    add_behavior_levels();
+    add_performance_rules();
+    add_topological_order();
+    add_task_cliques();
+    return std::nullopt;
+  }
+
+ private:
+  void add_places() {
+    for (std::uint32_t index = 0; index < task_count_; ++index) {
+      out_.tasks[out_.task_ids[index]].catalog_index = index;
+    }
+    for (std::uint32_t index = 0; index < behavior_count_; ++index) {
+      out_.behaviors[out_.behavior_ids[index]].catalog_index = index;
+    }
+    for (std::uint32_t group = 0; group + 1 < out_.group_tasks.size(); ++group) {
+      for (TaskId id = out_.group_tasks[group]; id < out_.group_tasks[group + 1]; ++id) {
+        out_.tasks[id].group = group;
+      }
+    }
+  }
+
+  void add_value_tasks() {
+    out_.value_tasks.resize(given_.values.items.size());
+    out_.words.assign(1, 0);
+    out_.words.reserve(task_count_ + 1);
+    for (TaskId task = 0; task < task_count_; ++task) {
+      const std::uint32_t first = given_.values.begin[task];
+      const std::uint32_t end = given_.values.begin[task + 1];
+      std::fill(out_.value_tasks.begin() + first, out_.value_tasks.begin() + end, task);
+      out_.words.push_back(out_.words.back() + (end - first + 63) / 64);
+    }
+  }
+
+  /// Each requirement of each value sets a bit of a mask of its own, so that the work is at most
+  /// that of reading the bits of `most` masks.
+  [[nodiscard]] bool add_arcs(std::size_t most) {
+    std::vector<std::uint32_t> arc_to(task_count_, none);
+    out_.arcs.begin.reserve(task_count_ + 1);
+    for (TaskId task = 0; task < task_count_; ++task) {
+      const std::uint32_t words = out_.words[task + 1] - out_.words[task];
+      const auto values = given_.values[task];
+      const auto first = static_cast<std::uint32_t>(out_.arcs.items.size());
+      for (std::size_t place = 0; place < values.size(); ++place) {
+        for (const CompiledRequirement& requirement : given_.requirements[values[place].behavior]) {
+          std::uint32_t& number = arc_to[requirement.task];
+          if (number == none || number < first) {
+            number = static_cast<std::uint32_t>(out_.arcs.items.size());
+            const std::size_t mask = out_.masks.size();
+            if (mask + words > most) return false;
+            out_.arcs.items.push_back({task, requirement.task, static_cast<std::uint32_t>(mask)});
+            out_.masks.resize(mask + words, 0);
+          }
+          out_.masks[out_.arcs.items[number].mask + place / 64] |= std::uint64_t{1} << (place % 64);
+        }
+      }
+      out_.arcs.close_row();
+    }
+    return true;
+  }
+
+  /// The highest level of the behaviors of a task is that of the longest path of arcs from it.
+  /// Tasks are taken after those that they have arcs to, which fails if arcs are cyclic.
+  [[nodiscard]] bool add_task_levels() {
+    std::vector<std::uint32_t> missing(task_count_);  ///< targets that were not taken, by task
+    std::vector<TaskId> taken;
+    taken.reserve(task_count_);
+    for (TaskId task = 0; task < task_count_; ++task) {
+      out_.tasks[task].level = 0;
+      missing[task] = static_cast<std::uint32_t>(out_.arcs[task].size());
+      if (missing[task] == 0) taken.push_back(task);
+    }
+    for (std::size_t next = 0; next < taken.size(); ++next) {
+      const TaskId task = taken[next];
+      for (const std::uint32_t arc : out_.incoming[task]) {
+        const TaskId source = out_.arcs.items[arc].source;
+        out_.tasks[source].level = std::max(out_.tasks[source].level, out_.tasks[task].level + 1);
+        if (--missing[source] == 0) taken.push_back(source);
+      }
+    }
+    return taken.size() == task_count_;
+  }
+
+  void add_behavior_levels() {
+    for (BehaviorId id = 0; id < behavior_count_; ++id) {
+      std::uint32_t& level = out_.behaviors[id].level;
+      level = 0;
+      for (const CompiledRequirement& requirement : given_.requirements[id]) {
+        level = std::max(level, out_.tasks[requirement.task].level + 1);
+      }
+    }
+  }
+
+  void add_performance_rules() {
+    for (CompiledTask& task : out_.tasks) {
+      task.has_performance_rules = task.minimum_performance > 0 ? 1 : 0;
+    }
+    for (BehaviorId id = 0; id < behavior_count_; ++id) {
+      const auto requirements = given_.requirements[id];
+      if (std::none_of(requirements.begin(), requirements.end(),
+                       [](const auto& one) { return one.minimum_performance > 0; })) {
+        continue;
+      }
+      for (const ValueId value : out_.performs[id]) {
+        out_.tasks[out_.value_tasks[value]].has_performance_rules = 1;
+      }
+    }
+  }
+
+  /// Sorted by level first, and then, which keeps that order, by group.
+  void add_topological_order() {
+    const std::vector<TaskId> by_level =
+        group_by(out_.tasks, task_count_, [](const CompiledTask& task) {
+          return task.level;
+        }).items;
+    out_.topological_order = group_by(by_level, out_.group_tasks.size() - 1, [&](TaskId task) {
+                               return out_.tasks[task].group;
+                             }).items;
+    for (TaskId& task : out_.topological_order) task = by_level[task];
+  }
+
+  void add_task_cliques() {
+    std::vector<std::uint32_t> clique_of;  // by place in the cliques
+    clique_of.reserve(given_.cliques.items.size());
+    for (std::uint32_t clique = 0; clique < given_.cliques.size(); ++clique) {
+      clique_of.insert(clique_of.end(), given_.cliques[clique].size(), clique);
+    }
+    out_.task_cliques = group_by(given_.cliques.items, task_count_, itself);
+    for (std::uint32_t& item : out_.task_cliques.items) item = clique_of[item];
+  }
+
+  const CatalogArrays<View, Rows>& given_;
+  GrowingCatalog& out_;
+  std::size_t task_count_;
+  std::size_t behavior_count_;
+};
+
+}  // namespace
+
+std::optional<std::string> derive_rest(const CatalogArrays<View, Rows>& given,
+                                       GrowingCatalog& out) {
+  const std::size_t most_masks = given.masks.size();
+  out.masks.reserve(most_masks);
+  out.arcs.items.reserve(given.arcs.items.size());
+  return Derivation(given, out).run(most_masks);
+}
+
+void derive_rest(GrowingCatalog& catalog) {
+  CatalogArrays<View, Rows> given;
+  set_views(given, catalog);
+  Derivation(given, catalog).run(UINT32_MAX);
+}
+
+}  // namespace cbc
