@@ -25,7 +25,6 @@
 #include "diagnostic/diagnostic.h"
 #include "diagnostic/rules.h"
 #include "lint/controls.h"
-#include "lint/fixes.h"
 #include "lint/lint.h"
 #include "report/lint_report.h"
 #include "script/reader.h"

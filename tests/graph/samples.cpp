@@ -15,7 +15,6 @@
 #include "diff/catalog_diff.h"
 #include "draw/catalog_graph.h"
 #include "draw/diagram.h"
-#include "draw/marks.h"
 #include "graph/hostile_catalog.h"
 #include "report/graph_report.h"
 #include "report/solve_report.h"

@@ -16,7 +16,6 @@
 #include "compile/compile.h"
 #include "diff/catalog_diff.h"
 #include "draw/catalog_graph.h"
-#include "draw/marks.h"
 #include "environment.h"
 #include "generator.h"
 #include "random.h"

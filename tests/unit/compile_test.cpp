@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "catalog/allowed_values.h"
-#include "compile/numbers.h"
 #include "compiled/compiled_catalog.h"
 #include "support/read_file.h"
 #include "unit/compiled_fixture.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "compile/numbers.h"
+#include "compile/compile.h"
 #include "report/sentences.h"
 #include "unit/compiled_fixture.h"
 

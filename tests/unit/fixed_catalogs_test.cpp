@@ -13,7 +13,6 @@
 
 #include "catalog/catalog.h"
 #include "diagnostic/rules.h"
-#include "lint/fixes.h"
 #include "lint/lint.h"
 #include "support/catalog_files.h"
 #include "support/read_file.h"

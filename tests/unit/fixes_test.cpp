@@ -1,4 +1,4 @@
-#include "lint/fixes.h"
+#include "lint/lint.h"
 
 #include <algorithm>
 #include <string>
@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "diagnostic/rules.h"
-#include "lint/lint.h"
 #include "unit/findings.h"
 
 namespace cbc {

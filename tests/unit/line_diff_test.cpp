@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lint/fixes.h"
+#include "lint/lint.h"
 #include "support/scratch_folder.h"
 
 namespace cbc {

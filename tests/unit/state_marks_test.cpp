@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "draw/diagram.h"
-#include "draw/marks.h"
+#include "draw/catalog_graph.h"
 #include "report/solve_report.h"
 #include "script/reader.h"
 #include "script/runner.h"

@@ -1,9 +1,9 @@
-#include "compile/numbers.h"
-
 #include <algorithm>
 #include <numeric>
 
 #include <boost/multiprecision/cpp_int.hpp>
+
+#include "compile/compile.h"
 
 namespace cbc {
 namespace {

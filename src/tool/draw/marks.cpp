@@ -1,5 +1,3 @@
-#include "draw/marks.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include "diff/catalog_diff.h"
+#include "draw/catalog_graph.h"
 
 namespace cbc::draw {
 namespace {

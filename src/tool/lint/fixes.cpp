@@ -1,5 +1,3 @@
-#include "lint/fixes.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -12,6 +10,7 @@
 
 #include "base/text.h"
 #include "diagnostic/diagnostic.h"
+#include "lint/lint.h"
 #include "yaml/document.h"
 #include "yaml/source.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lint/fixes.h"
+#include "lint/lint.h"
 
 namespace cbc {
 namespace {

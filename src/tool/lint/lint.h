@@ -3,16 +3,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "catalog/reader.h"
-#include "compile/numbers.h"
+#include "compile/compile.h"
 #include "compiled/compiled_catalog.h"
 #include "diagnostic/diagnostic.h"
 #include "yaml/document.h"
 
-/// Checks catalogs by all rules.
+/// Checks catalogs by all rules, mends texts by the edits of findings, and shows what that changes.
 namespace cbc {
 
 struct LintOptions {
@@ -42,5 +44,28 @@ struct LintedFile {
 /// Number of findings of a severity in a file, in all files.
 [[nodiscard]] std::size_t count(const LintedFile& file, Severity severity);
 [[nodiscard]] std::size_t count(const std::vector<LintedFile>& files, Severity severity);
+
+/// A text with the edits of some findings applied.
+struct FixedText {
+  std::string text;
+  /// Indices of the findings that are mended, ascending. The others have no edits, or edits that
+  /// are not safe to apply or conflict with others.
+  std::vector<std::size_t> mended;
+};
+
+/// Applies the edits of findings about a text: for each finding all of them, or none. Nothing else
+/// is changed: comments, order, layout, line breaks, a byte order mark, and whether the last line
+/// has a line break stay as they are. Findings in a removed entry are mended with it. Removals
+/// come first; of edits that overlap otherwise those of the first finding count.
+///
+/// Mended text may have new findings with edits: repeat until nothing is mended. This ends, since
+/// the text loses entries or older names each time.
+[[nodiscard]] FixedText apply_fixes(std::string_view text, std::span<const Diagnostic> findings);
+
+/// The difference of two texts in the unified format, with three lines of context, for `patch -p1`
+/// and `git apply`; empty if there is none. `file` is the name in its head. The work is
+/// bounded: where much has changed in one place the difference may not be the shortest.
+[[nodiscard]] std::string unified_diff(std::string_view before, std::string_view after,
+                                       std::string_view file);
 
 }  // namespace cbc

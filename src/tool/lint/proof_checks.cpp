@@ -124,10 +124,9 @@ class DeadCheck {
         proof_.solve(goals, constraints) != Feasibility::no) {
       return {};
     }
-    const std::vector<Reason> reason =
-        minimal_conflict_set(constraints, [&](std::span<const Reason> some) {
-          return proof_.solve(goals, some) != Feasibility::no;
-        });
+    const std::vector<Reason> reason = minimal_conflict_set(
+        constraints,
+        [&](std::span<const Reason> some) { return proof_.solve(goals, some) != Feasibility::no; });
     return proof_.notes_of(reason);
   }
 

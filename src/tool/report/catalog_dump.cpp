@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "catalog/allowed_values.h"
 #include "cbc/units.h"
-#include "compile/numbers.h"
+#include "compile/compile.h"
 #include "report/sentences.h"
 #include "support/json.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "compile/numbers.h"
+#include "compile/compile.h"
 #include "compiled/compiled_file.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"

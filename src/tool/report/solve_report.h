@@ -17,7 +17,7 @@
 #include "coordinator/state.h"
 #include "diagnostic/diagnostic.h"
 #include "draw/diagram.h"
-#include "draw/marks.h"
+#include "draw/catalog_graph.h"
 #include "report/event_json.h"
 #include "report/sentences.h"
 #include "script/runner.h"
