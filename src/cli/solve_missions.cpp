@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -62,8 +63,8 @@ void MissionLoader::add_path(const std::string& path) {
   }
 }
 
-/// The scripts of a folder; other files may lie among them, but none that is meant as a script is
-/// left out for a slip of the pen.
+/// Adds the scripts of a folder. It may contain other files, but a script is not skipped because of
+/// a mistake in it.
 void MissionLoader::add_folder(const std::string& path) {
   for (const std::string& name : list_folder(path, {".yaml", ".yml", ".json"}, has_failed_)) {
     const std::optional<InputFile> file = files_.read(name);
@@ -116,7 +117,7 @@ namespace {
 
 constexpr const char* doing = "solving";
 
-/// Passes everything on, and shows how far a run is.
+/// Forwards everything, and shows the progress of a run.
 class ProgressReport final : public SolveReport {
  public:
   ProgressReport(SolveReport& report, Progress& progress) : report_(report), progress_(progress) {}
@@ -152,7 +153,7 @@ void run_in_turn(const std::vector<Mission>& missions, SolveReport& report, cons
                  const AfterRun& after_run) {
   Progress progress(doing, missions.size());
   ProgressReport with_progress(report, progress);
-  // On the same terminal the results themselves tell how far it is.
+  // On the same terminal, the results themselves show the progress.
   const bool is_in_the_way = is_terminal(stdout);
   for (const Mission& mission : missions) {
     const RunResult result = is_in_the_way ? run(mission, report) : run(mission, with_progress);
@@ -161,7 +162,7 @@ void run_in_turn(const std::vector<Mission>& missions, SolveReport& report, cons
   }
 }
 
-/// A run, and what the report has of it.
+/// The result of a run, and its part of the report.
 struct Part {
   std::unique_ptr<MemoryFile> text;
   RunResult result;
@@ -203,7 +204,7 @@ void run_all(const std::vector<Mission>& missions, std::size_t jobs, SolveReport
 
 namespace {
 
-/// Says on standard error why a run ended early.
+/// Reports on standard error why a run ended early.
 void complain_of_run(const Mission& mission, const RunResult& result, const std::string& reason) {
   fmt::print(stderr, "cbc: {}: {}\n", quote(mission.script.file), reason);
   if (result.status == Coordinator::Status::refused_answer) {
@@ -233,7 +234,7 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
   return status;
 }
 
-/// Runs with a picture beside the report.
+/// Runs missions with an HTML page in addition to the report.
 int draw_missions(const std::vector<Mission>& missions, const SolveOptions& options,
                   SolveReport& report) {
   HtmlReport picture;
@@ -242,33 +243,22 @@ int draw_missions(const std::vector<Mission>& missions, const SolveOptions& opti
   return std::max(status, write_output(*options.html, picture.page()));
 }
 
-std::unique_ptr<SolveReport> make_report(const SolveOptions& options) {
-  if (options.format == "json") {
-    return std::make_unique<JsonReport>(stdout, event_additions(options));
-  }
-  if (options.format == "junit") return std::make_unique<JunitReport>(stdout);
-  if (options.format == "github") return std::make_unique<GithubReport>(stdout);
-  return std::make_unique<TextReport>(wants_color(stdout) ? color_style() : plain_style(), stdout);
+const SolveFormat& format_of(const SolveOptions& options) {
+  const std::span<const SolveFormat> formats = solve_formats();
+  return *std::find_if(formats.begin(), formats.end(), [&options](const SolveFormat& format) {
+    return format.name == options.format;
+  });
 }
 
-/// CI collects what it is given: a report that is missing could be taken for one without failures.
-void report_unreadable(const SolveOptions& options, const MissionLoader& loader) {
-  if (options.format == "github") GithubReport(stdout).add_unreadable(loader.findings());
-  if (options.format != "junit") return;
-  JunitReport report(stdout);
-  report.add_unreadable(loader.findings());
-  report.end();
-}
-
-/// Whether all catalogs have the names that are asked for.
+/// Whether all catalogs have the names in the options.
 bool know_names(const std::vector<Mission>& missions, const ExplainOptions& options) {
   return std::all_of(missions.begin(), missions.end(), [&](const Mission& mission) {
     return knows_names(*mission.catalog, options);
   });
 }
 
-/// What the command line does not name itself, but reads: catalogs that scripts name, scripts of
-/// folders.
+/// Whether a path is an input that the command line does not name itself: a catalog that a script
+/// names, or a script of a folder.
 bool is_read(const std::string& path, const std::vector<Mission>& missions) {
   return std::any_of(missions.begin(), missions.end(), [&](const Mission& mission) {
     return is_same_file(mission.script.file, path) ||
@@ -279,10 +269,12 @@ bool is_read(const std::string& path, const std::vector<Mission>& missions) {
 }  // namespace
 
 int solve_missions(const SolveOptions& options) {
+  const SolveFormat& format = format_of(options);
   MissionLoader loader;
   const std::optional<std::vector<Mission>> missions = loader.load(options.paths);
   if (!missions) {
-    report_unreadable(options, loader);
+    // CI systems could take a missing report for one without failures.
+    if (format.report_unreadable) format.report_unreadable(stdout, loader.findings());
     return exit_unusable;
   }
   if (!know_names(*missions, options.explain)) return exit_unusable;
@@ -291,7 +283,9 @@ int solve_missions(const SolveOptions& options) {
                          quote(*options.html)));
     return exit_unusable;
   }
-  const std::unique_ptr<SolveReport> report = make_report(options);
+  const Style style = wants_color(stdout) ? color_style() : plain_style();
+  const std::unique_ptr<SolveReport> report =
+      format.make({stdout, style, event_additions(options)});
   return options.html ? draw_missions(*missions, options, *report)
                       : run_missions(*missions, options, *report);
 }

@@ -31,19 +31,20 @@
 #include "yaml/document.h"
 
 namespace cbc::cli {
+namespace {
 
-/// Reads a file, a pipe or a terminal line by line, as the lines come.
+/// Reads a file, a pipe or a terminal line by line, as soon as a line is complete.
 class LineInput {
  public:
   enum class Status : std::uint8_t {
     line,      ///< see line() and number()
-    too_long,  ///< a line longer than allowed was passed over; see number()
+    too_long,  ///< a line was skipped because it is too long; see number()
     end,
     stopped,  ///< a signal has come
     failed    ///< see error()
   };
 
-  /// `descriptor` is not closed. `stop`: a descriptor that can be read from when it is time to
+  /// `descriptor` is not closed. `stop`: a descriptor that becomes readable when it is time to
   /// stop, or -1.
   LineInput(int descriptor, int stop, std::size_t longest_line)
       : descriptor_(descriptor), stop_(stop), longest_line_(longest_line) {}
@@ -63,7 +64,7 @@ class LineInput {
   std::size_t longest_line_;
   std::string buffer_;
   std::size_t begin_ = 0;    ///< of the next line
-  std::size_t scanned_ = 0;  ///< up to here there is no end of a line
+  std::size_t scanned_ = 0;  ///< there is no line end before this
   bool has_ended_ = false;
   bool skips_ = false;  ///< in a line that is too long
   std::string_view line_;
@@ -71,11 +72,7 @@ class LineInput {
   std::string error_;
 };
 
-namespace {
-
 constexpr std::size_t block_size = std::size_t{1} << 16;
-
-}  // namespace
 
 LineInput::Status LineInput::next() {
   for (;;) {
@@ -99,7 +96,7 @@ LineInput::Status LineInput::next() {
   }
 }
 
-/// `line`: there may be one now.
+/// Reads more input. Returns `line` if there may be one now.
 LineInput::Status LineInput::fill() {
   buffer_.erase(0, begin_);
   scanned_ -= begin_;
@@ -123,8 +120,8 @@ LineInput::Status LineInput::fill() {
   }
 }
 
-/// Writes lines to standard output, each at once and as a whole. A reader that has gone away is an
-/// error like any other, for the life of this object.
+/// Writes lines to standard output, each immediately and as a whole. While this object lives, a
+/// closed pipe is an ordinary error.
 class LineOutput {
  public:
   LineOutput();
@@ -132,7 +129,7 @@ class LineOutput {
   LineOutput(const LineOutput&) = delete;
   LineOutput& operator=(const LineOutput&) = delete;
 
-  /// Does nothing after an error, which is complained of once.
+  /// Does nothing after an error, which is reported once.
   void write(std::string_view line);
   [[nodiscard]] bool has_failed() const { return has_failed_; }
 
@@ -150,7 +147,7 @@ void LineOutput::write(std::string_view line) {
     if (count >= 0) {
       line.remove_prefix(static_cast<std::size_t>(count));
     } else if (errno == EAGAIN) {
-      // Whoever shares the pipe may have asked not to wait for its reader.
+      // Another process that shares the pipe may have made it non-blocking.
       pollfd reader{STDOUT_FILENO, POLLOUT, 0};
       static_cast<void>(::poll(&reader, 1, -1));
     } else if (errno != EINTR) {
@@ -160,22 +157,9 @@ void LineOutput::write(std::string_view line) {
   }
 }
 
-/// What streams and replays begin and end with. Problems go to standard error.
+// The beginning and the end of streams and replays. Problems go to standard error.
 
-/// Whether the files that the options name can be used together, and the state can be written.
-[[nodiscard]] bool can_use_files(const SolveOptions& options);
-
-/// The state of --state-in. False if it cannot be used; without the option all is well.
-[[nodiscard]] bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
-                              std::optional<Snapshot>& state);
-
-/// Writes --state-out, if it is asked for and the run has not broken off. False after an error.
-[[nodiscard]] bool save_state(const StreamOptions& options, const CompiledCatalog& catalog,
-                              const Runner& runner);
-
-/// Says why a run ended early, if it did. Returns the exit status of the run.
-[[nodiscard]] int report_end(const Runner& runner, const CoordinatorOptions& options);
-
+/// Whether the files of the options can be used together, and the state can be written.
 bool can_use_files(const SolveOptions& options) {
   const StreamOptions& stream = options.stream;
   if (!stream.state_out) return true;
@@ -184,6 +168,7 @@ bool can_use_files(const SolveOptions& options) {
   return !obstacle;
 }
 
+/// Loads the state of --state-in, if the option is given. False if it cannot be used.
 bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
                 std::optional<Snapshot>& state) {
   if (!options.state_in) return true;
@@ -199,12 +184,15 @@ bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
   return true;
 }
 
+/// Writes the state of --state-out, if the option is given and the run did not end early. False
+/// after an error.
 bool save_state(const StreamOptions& options, const CompiledCatalog& catalog,
                 const Runner& runner) {
   if (!options.state_out || runner.result().status != Coordinator::Status::ok) return true;
   return write_output(*options.state_out, write_state(catalog, runner.snapshot())) == exit_ok;
 }
 
+/// Reports why a run ended early, if it did. Returns the exit status of the run.
 int report_end(const Runner& runner, const CoordinatorOptions& options) {
   const RunResult& result = runner.result();
   const std::string reason = describe_end(result, options);
@@ -215,11 +203,9 @@ int report_end(const Runner& runner, const CoordinatorOptions& options) {
   return status_of(result);
 }
 
-namespace {
-
-/// Longer lines are refused, so that no input can eat the memory of the machine.
+/// Longer lines are refused, to bound the memory.
 constexpr std::size_t longest_event = std::size_t{1} << 20;
-/// More warnings about a stream would only hide what else is said.
+/// More warnings about a stream would only hide other messages.
 constexpr int most_warnings = 20;
 
 class Stream {
@@ -284,7 +270,7 @@ class Stream {
     }
   }
 
-  /// What is due at the last instant still comes with a continued mission, if there is one.
+  /// What is due at the last instant is left to the continued mission, if the state is saved.
   int end() {
     const bool goes_on = runner_.result().status == Coordinator::Status::ok;
     if (goes_on && !options_.stream.state_out && !output_.has_failed()) {
@@ -311,7 +297,7 @@ class Stream {
       lines.resume(runner_.coordinator().now(), runner_.coordinator().state());
     }
     if (!reading.step) return true;
-    // A stream has no length that its clock events could be compared with; a line has.
+    // The limit of clock events applies to each line, since a stream has no end.
     runner_.restart_count();
     return runner_.take(*reading.step);
   }
@@ -421,7 +407,7 @@ int solve_stream(const SolveOptions& options) {
 
 namespace {
 
-/// An event line names all that runs.
+/// Event lines name all running tasks, so they may be long.
 constexpr std::size_t longest_line = std::size_t{64} << 20;
 
 bool is_same(const yaml::Node& left, const yaml::Node& right) {
@@ -526,7 +512,7 @@ class Replay {
     return header;
   }
 
-  /// Each scripted event, when the lines up to it are read.
+  /// Runs each scripted event after reading the log up to it.
   void run_steps(Runner& runner) {
     while (!is_over() && read_line()) {
       if (!expected_.back().entry.step) {
@@ -543,8 +529,8 @@ class Replay {
     }
   }
 
-  /// What came by the clock after the last scripted event: up to an expectation, which is in no
-  /// log, or to the last instant.
+  /// Runs the clock events after the last scripted event: up to the time of an expectation, which
+  /// logs do not contain, or to the last instant.
   void run_to_end(Runner& runner) {
     const auto last = std::find_if(expected_.rbegin(), expected_.rend(),
                                    [](const Line& line) { return line.entry.is_event; });
@@ -560,7 +546,7 @@ class Replay {
     static_cast<void>(runner.settle());
   }
 
-  /// Adds the next line of the log to what is expected.
+  /// Adds the next line of the log to the expected ones.
   bool read_line() {
     switch (input_.next()) {
       case LineInput::Status::line:
@@ -586,11 +572,11 @@ class Replay {
     return true;
   }
 
-  /// Takes a line that the run has made.
+  /// Compares a line of the run with the log.
   void compare(std::string_view line) {
     if (is_over()) return;
     pass_answers();
-    // Events that follow a scripted one at once are not read yet.
+    // Clock events that follow a scripted one have not been read yet.
     while (expected_.empty() && read_line()) pass_answers();
     if (is_over()) return;
     output_.write(line);
@@ -612,14 +598,14 @@ class Replay {
     }
   }
 
-  /// All of the log must have come again.
+  /// Nothing of the log may be left.
   void look_for_rest() {
     pass_answers();
     if (expected_.empty()) return;
     tell_difference(expected_.front().number, expected_.front().text, "", "the replay ends here");
   }
 
-  /// Answers to lines that were no events cannot be made again.
+  /// Skips answers to lines that were not events, which a replay cannot reproduce.
   void pass_answers() {
     while (!expected_.empty() && !expected_.front().entry.is_event) {
       output_.write(expected_.front().text + "\n");
@@ -650,7 +636,7 @@ class Replay {
   LineInput input_;
   LineOutput output_;
   EventLog log_;
-  std::deque<Line> expected_;  ///< lines of the log that no event was compared with yet
+  std::deque<Line> expected_;  ///< lines of the log that are not compared yet
   bool is_at_end_ = false;     ///< of the log
   int status_ = exit_ok;
 };

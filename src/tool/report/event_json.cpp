@@ -123,7 +123,7 @@ void write_loss(JsonWriter& json, const CompiledCatalog& catalog, const EventRec
   json.close('}');
 }
 
-/// In one text.
+/// The sentences as one text.
 std::string message_of(const Sentences& sentences) {
   std::string text = sentences.first;
   for (std::size_t place = 0; place < sentences.more.size(); ++place) {

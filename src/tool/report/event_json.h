@@ -17,30 +17,30 @@
 
 namespace cbc {
 
-/// What the events have beside the keys that they always have.
+/// The optional keys of events.
 struct EventAdditions {
   bool why = false;
   bool alternatives = false;
 };
 
-/// Appends one event as the JSON of `cbc solve` has it, on one line. `step` is the scripted one, or
-/// null. It goes straight to text: streams write a hundred thousand of them in a second.
+/// Appends one event as JSON on one line, as in cbc.solve/1. `step` is the scripted one, or null.
+/// No tree is built: streams write a hundred thousand events per second.
 void append_event(std::string& text, const CompiledCatalog& catalog, const EventRecord& record,
                   const Step* step, const State& state, const EventAdditions& adds);
 
-// The lines of a stream of events, each with the end of the line.
+// The lines of an event stream (schema cbc.events/1), each with its line end.
 
-/// `catalog_name`: as it was named.
+/// `catalog_name`: the path of the catalog as the user gave it.
 [[nodiscard]] std::string stream_header(const CompiledCatalog& catalog,
                                         std::string_view catalog_name, Microseconds reactive_delay,
                                         std::span<const Availability> situation);
-/// Of a line of the input that is no event.
+/// The answer to an input line that is not an event.
 [[nodiscard]] std::string stream_error(std::string_view message, std::uint64_t line);
 
-/// What searches took, for the end of a stream; and the process, until now.
+/// The last line of a stream with statistics: the effort of all searches and of the process so far.
 [[nodiscard]] std::string stream_totals(const SearchTotals& totals);
 
-/// Gives each event away as a line as soon as it is solved.
+/// Passes on each event as a line as soon as it is solved.
 class EventStream final : public RunListener {
  public:
   using TakeLine = std::function<void(std::string_view)>;

@@ -169,7 +169,7 @@ std::string diff_text(const CatalogDiff& diff, const Style& style) {
     }
     std::string line = fmt::format("{} {}", sign, describe_subject(change));
     std::string_view separator = ": ";
-    // Of a new task the name is news enough; what it is set to stands in the catalog.
+    // For a new task or behavior the name is enough; its attributes are in the catalog.
     const bool is_whole =
         change.kind != ChangeKind::changed &&
         (change.subject == ChangeSubject::task || change.subject == ChangeSubject::behavior);
@@ -237,6 +237,15 @@ std::string diff_json(const CatalogDiff& diff, std::string_view before, std::str
   json.write("further_exclusions", diff.further_exclusions);
   json.close('}');
   return text += '\n';
+}
+
+std::span<const GraphFormat> graph_formats() {
+  static constexpr GraphFormat formats[] = {
+      {"dot", {".dot", ".gv"}, graph_dot},      {"mermaid", {".mmd", ".mermaid"}, graph_mermaid},
+      {"json", {".json"}, graph_json},          {"svg", {".svg"}, graph_dot, true},
+      {"png", {".png"}, graph_dot, true, true}, {"pdf", {".pdf"}, graph_dot, true, true},
+  };
+  return formats;
 }
 
 }  // namespace cbc

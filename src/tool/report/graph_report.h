@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -123,6 +124,18 @@ namespace cbc {
 ///
 /// Bytes of names that are no valid UTF-8 are replaced.
 [[nodiscard]] std::string graph_json(const draw::Diagram& diagram);
+
+/// A format of `cbc graph`.
+struct GraphFormat {
+  std::string_view name;
+  std::array<std::string_view, 2> suffixes;    ///< of files in it; the second one may be empty
+  std::string (*write)(const draw::Diagram&);  ///< of one by Graphviz: the input of `dot`
+  bool is_by_graphviz = false;                 ///< `dot -T<name>` makes it
+  bool is_binary = false;
+};
+
+/// The first one is the default.
+[[nodiscard]] std::span<const GraphFormat> graph_formats();
 
 /// The differences for a person to read, a line for each: `-` removed, `+` added, `~` changed.
 /// Empty if there are none.

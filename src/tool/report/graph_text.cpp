@@ -23,8 +23,8 @@ using draw::NodeKind;
 
 constexpr std::size_t line_length = 10;  // characters, about
 
-/// A text of DOT. Between quotes only the quote itself needs a backslash; in texts that are shown,
-/// backslashes and ampersands would begin something else as well.
+/// A quoted string of DOT. Only the quote itself needs a backslash; in labels, backslashes and
+/// ampersands must be escaped as well.
 void append_dot_id(std::string& dot, std::string_view id) {
   dot += '"';
   for (const char character : id) {
@@ -59,7 +59,7 @@ class Attributes {
     append_shown(value, text);
     add(name, value + '"');
   }
-  /// Long names are broken, since pictures are wide rather than high.
+  /// Long names are broken into lines, since pictures tend to be wide rather than high.
   void add_label(const Node& node) {
     std::string value = "\"";
     std::vector<std::string_view> lines = wrap_name(node.label, line_length);
@@ -84,7 +84,7 @@ class DotWriter {
     dot_ = "digraph ";
     append_dot_id(dot_, draw::id_of("catalog", diagram_.file));
     dot_ += " {\n";
-    // The page is white, not transparent: black lines would not be seen on a dark one.
+    // White, not transparent: black lines would be invisible on a dark page.
     dot_ += "  graph [rankdir=LR, bgcolor=\"#FFFFFF\", pad=0.2, ";
     add_distances();
     dot_ +=
@@ -100,8 +100,8 @@ class DotWriter {
   }
 
  private:
-  /// Many lines need space between the columns. Within a column each of them takes some itself, so
-  /// that the picture grows too high if there are many nodes, too.
+  /// Many edges need space between the columns. They also take vertical space within a column, so
+  /// the picture would grow too high with many nodes.
   void add_distances() {
     const bool is_dense = diagram_.edges.size() > 3 * diagram_.nodes.size() / 2;
     const bool is_large = diagram_.nodes.size() > 40;
@@ -109,7 +109,7 @@ class DotWriter {
     dot_ += is_dense && is_large ? "nodesep=0.02, " : "nodesep=0.15, ";
   }
 
-  /// Stands last, as clusters would take it over.
+  /// Comes last, since clusters would inherit it.
   void add_caption() {
     dot_ += "  labelloc=t; label=\"";
     std::string_view separator;
@@ -150,8 +150,7 @@ class DotWriter {
     dot_ += attributes.end();
   }
 
-  /// A dot, unless it has something to say. (A label beside a dot, an xlabel, does not go with
-  /// pack.)
+  /// A dot, or a box if it has a label. (An xlabel beside a dot does not work with pack.)
   static void add_hub(const Node& node, Attributes& attributes) {
     const std::optional<palette::Look> look = palette::look_of(node.mark);
     const std::string_view color = look ? look->color.line : palette::exclusion;
@@ -274,8 +273,8 @@ void append_mermaid_id(std::string& text, std::string_view id) {
   }
 }
 
-/// A label, which Mermaid reads as Markdown with entities of its own ("#35;"). Only what has no
-/// meaning there stands for itself.
+/// A label. Mermaid reads it as Markdown with its own entities ("#35;"), so every character that
+/// may have a meaning there is escaped.
 void append_mermaid_label(std::string& text, std::string_view label) {
   for (std::size_t i = 0; i < label.size(); ++i) {
     const char byte = label[i];
@@ -324,8 +323,8 @@ class MermaidWriter {
   }
 
  private:
-  /// Between the dashes is YAML, which JSON is part of. In titles Mermaid takes "<stdin>" for a
-  /// tag, and knows no entities that could stand for it.
+  /// The front matter between the dashes is YAML, which includes JSON. Mermaid takes "<stdin>" in
+  /// titles for a tag, and titles have no entities to escape it with.
   void add_title() {
     std::string title;
     for (const std::string& line : draw::caption_of(*diagram_.moment)) {
@@ -458,7 +457,7 @@ class MermaidWriter {
     return style + (style.empty() ? "" : ",") + "stroke-dasharray:2 5";
   }
 
-  /// One for each line: a second one would take the place of the first.
+  /// One for each edge: a second one would replace the first.
   void add_line_styles() {
     std::map<std::string, std::vector<std::size_t>> by_style;
     for (std::size_t place = 0; place < diagram_.edges.size(); ++place) {

@@ -1,4 +1,5 @@
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -18,8 +19,8 @@
 namespace cbc {
 namespace {
 
-/// A text in which GitHub's runner finds neither the end of the line nor any of `separators`.
-/// Control characters that it has no escape for are made printable.
+/// Escapes line ends and `separators` for GitHub's runner. Control characters that it has no escape
+/// for become printable.
 std::string escape(std::string_view text, std::string_view separators) {
   std::string escaped;
   for (const char byte : text) {
@@ -41,7 +42,7 @@ std::string describe_range(const Range& range) {
                      range.begin.column, range.end.column);
 }
 
-/// GitHub attaches nothing to "./a.yaml", which is how a search in "." names a file.
+/// GitHub does not attach annotations to "./a.yaml", which is how a search in "." names a file.
 std::string plain_path(const std::string& file) {
   return std::filesystem::path(file).lexically_normal().string();
 }
@@ -229,6 +230,17 @@ void write_tool(JsonWriter& json) {
   json.close('}');
 }
 
+/// FNV-1a of 64 bits. It must never change: services that collect findings recognize them by it.
+constexpr std::uint64_t hash_of(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char byte : text) {
+    hash ^= static_cast<unsigned char>(byte);
+    hash *= 0x100000001b3;
+  }
+  return hash;
+}
+static_assert(hash_of("foobar") == 0x85944171f73967e8);
+
 /// Where a file lies, relative to the working directory if it is below it.
 struct FileUri {
   std::string uri;
@@ -236,10 +248,10 @@ struct FileUri {
   bool is_standard_input = false;
 };
 
-/// Writes the one run of a log.
-class Run {
+/// Writes the only run of a SARIF log.
+class SarifRun {
  public:
-  Run(JsonWriter& json, std::string_view working_directory)
+  SarifRun(JsonWriter& json, std::string_view working_directory)
       : json_(json), directory_(fs::path(working_directory).lexically_normal()) {}
 
   void write(const std::vector<LintedFile>& files, bool is_complete) {
@@ -332,13 +344,13 @@ class Run {
     });
   }
 
-  /// Tells a finding from all others, wherever it moves to in its file.
+  /// Identifies a finding, even if it moves to another line of its file.
   std::string fingerprint_of(const Diagnostic& finding) {
     std::string uri;
     append_text(uri, locate(finding.file).uri);
     const std::string identity = fmt::format("{}\n{}\n{}", finding.rule, uri, finding.message);
     const std::size_t index = times_seen_[identity]++;
-    return fmt::format("{:016x}", fingerprint(fmt::format("{}\n{}", identity, index)));
+    return fmt::format("{:016x}", hash_of(fmt::format("{}\n{}", identity, index)));
   }
 
   JsonWriter& json_;
@@ -357,10 +369,24 @@ std::string lint_sarif(const std::vector<LintedFile>& files, std::string_view wo
   json.write("$schema", schema);
   json.write("version", "2.1.0");
   json.open("runs", '[');
-  Run(json, working_directory).write(files, is_complete);
+  SarifRun(json, working_directory).write(files, is_complete);
   json.close(']');
   json.close('}');
   return text + "\n";
+}
+
+std::span<const LintFormat> lint_formats() {
+  using Files = const std::vector<LintedFile>&;
+  using Run = const LintRun&;
+  static constexpr LintFormat formats[] = {
+      {"text", [](Files files, Run run) { return lint_text(files, run.style); }},
+      {"json", [](Files files, Run /*run*/) { return lint_json(files); }},
+      {"sarif", [](Files files,
+                   Run run) { return lint_sarif(files, run.working_directory, run.is_complete); }},
+      {"github", [](Files files, Run /*run*/) { return lint_github(files); }},
+      {"gcc", [](Files files, Run /*run*/) { return lint_gcc(files); }},
+  };
+  return formats;
 }
 
 }  // namespace cbc

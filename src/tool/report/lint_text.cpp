@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::size_t line_width = 80;
 
-/// Cuts off what is before the first `separator`, and the separator; all if there is none.
+/// Takes the text before the first `separator` off the front, with the separator; all of it if
+/// there is none.
 std::string_view take_until(std::string_view separator, std::string_view& rest) {
   const std::size_t end = std::min(rest.find(separator), rest.size());
   const std::string_view taken = rest.substr(0, end);
@@ -26,7 +27,7 @@ std::string_view take_until(std::string_view separator, std::string_view& rest) 
   return taken;
 }
 
-/// A paragraph in lines of at most 80 line_width, if no word is longer. The texts are ASCII.
+/// Breaks a paragraph of ASCII into lines of at most 80 characters, unless a word is longer.
 std::string wrap(std::string_view paragraph) {
   std::string text;
   std::size_t used = 0;
@@ -120,7 +121,7 @@ constexpr std::size_t longest_name = 40;
 constexpr std::size_t label_width = 20;
 constexpr std::size_t number_width = 8;
 
-// Digits of a search space that are read at a glance, and that are shown at all.
+// Up to how many digits a search space is readable at a glance, and is shown at all.
 constexpr std::size_t short_number = 6;
 constexpr std::size_t longest_number = 30;
 
@@ -129,7 +130,7 @@ struct Cut {
   std::size_t columns = 0;
 };
 
-/// A name as it prints, cut if it is long.
+/// A printable name, cut if it is long.
 Cut cut_name(std::string_view name) {
   const std::string whole = printable(name);
   std::size_t columns = 0;
@@ -230,10 +231,10 @@ std::string lint_summary(const LintedFile& file, const Style& style) {
 
 namespace {
 
-// Of findings that say the same as one that is shown in full.
+// For findings that repeat one that is shown in full.
 constexpr std::size_t most_lines = 10;
 
-/// Findings that say the same, in the order of the file.
+/// Findings with the same message, in the order of the file.
 using Alike = std::vector<const Diagnostic*>;
 
 /// "  and 2 more like this, on lines 9, 15"

@@ -37,7 +37,7 @@ struct Product {
     return std::strtod((digits.str() + "e-" + std::to_string(decimals)).c_str(), nullptr);
   }
 
-  /// It is 1 at most.
+  /// The product is at most 1.
   [[nodiscard]] std::string exact() const {
     if (digits == 0) return "0";
     if (decimals == 0) return "1";
@@ -103,7 +103,7 @@ double to_seconds(Microseconds time) {
 
 namespace {
 
-/// Texts with commas between.
+/// Joins texts with commas.
 class List {
  public:
   void add(std::string_view text) {
@@ -183,7 +183,7 @@ std::string place(const CompiledCatalog& catalog, const Reason& reason) {
 
 std::string describe_protection(const EventRecord& record, const Reason& reason) {
   if (record.origin == Origin::reactive) {
-    return "runs by request, and a reactive start stops no such task";
+    return "runs on request, and a reactive start never stops such a task";
   }
   const std::int32_t level = record.search != nullptr ? record.search->protection : record.priority;
   if (level == 0 && record.verb != Verb::start && record.verb != Verb::stop) {
@@ -235,7 +235,7 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
 std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const EventRecord& record,
                                           std::span<const Reason> reasons, TaskId it) {
   std::vector<std::string> sentences;
-  std::vector<TaskId> told;  // protected tasks whose sentence is part of another one
+  std::vector<TaskId> told;  // protected tasks that another sentence mentions already
   const auto protection_of = [&](TaskId task) -> const Reason* {
     const auto found = std::find_if(reasons.begin(), reasons.end(), [&](const Reason& reason) {
       return reason.kind == Reason::Kind::is_protected && reason.task == task;
@@ -266,7 +266,7 @@ std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const 
     if (reason.kind == Reason::Kind::exclusive) continue;
     if (reason.kind == Reason::Kind::is_protected && protection_of(reason.task) == nullptr)
       continue;
-    // A minimum performance says that the task is required, too.
+    // A minimum performance implies that the task is required.
     if (reason.kind == Reason::Kind::requires_task &&
         std::any_of(reasons.begin(), reasons.end(), [&reason](const Reason& other) {
           return other.kind == Reason::Kind::performance && other.behavior == reason.behavior &&
@@ -282,7 +282,7 @@ std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const 
 std::vector<std::string> describe_rejection(const CompiledCatalog& catalog,
                                             const EventRecord& record) {
   if (record.search != nullptr && record.search->result.status == SearchStatus::unknown) {
-    return {"a search limit came before the first solution"};
+    return {"a search limit was reached before the first solution"};
   }
   std::vector<std::string> sentences = describe_reasons(catalog, record, record.conflict);
   if (sentences.empty()) {
@@ -294,7 +294,7 @@ std::vector<std::string> describe_rejection(const CompiledCatalog& catalog,
 
 namespace {
 
-/// Digits of a long number that are shown beyond those that two have in common.
+/// Digits shown after the common beginning of two long numbers.
 constexpr std::size_t digits_beyond = 6;
 
 std::string shorten(const std::string& number, std::size_t length) {
@@ -341,7 +341,7 @@ std::string describe_loss(const CompiledCatalog& catalog, const EventRecord& rec
       return fmt::format("{} of {} requests would be satisfied, not {}", other.objective.satisfied,
                          other.objective.requests, chosen.objective.satisfied);
     case Criterion::request_order:
-      return fmt::format("{} would not run, whose request comes before that of {}",
+      return fmt::format("{} would not run, although its request comes before that of {}",
                          task_name(catalog, difference.task),
                          task_name(catalog, difference.other_task));
     case Criterion::suitability: {
@@ -359,7 +359,7 @@ std::string describe_loss(const CompiledCatalog& catalog, const EventRecord& rec
     case Criterion::canonical: {
       const std::uint32_t task = difference.task - first;
       return fmt::format(
-          "all objectives would be the same; of {}, {} comes before {} in the canonical order",
+          "all objectives would be equal; for {}, {} comes before {} in the canonical order",
           task_name(catalog, difference.task),
           value_name(catalog, difference.task, chosen.assignment[task]),
           value_name(catalog, difference.task, other.assignment[task]));
@@ -368,12 +368,12 @@ std::string describe_loss(const CompiledCatalog& catalog, const EventRecord& rec
   return {};
 }
 
-/// `condition`: under which the alternative would have been.
+/// `condition`: what would differ in the alternative ("if it ran").
 Sentences describe(const CompiledCatalog& catalog, const EventRecord& record,
                    const std::string& subject, const std::string& condition, const WhyNot& why_not,
                    TaskId it, const State& state) {
   if (why_not.is_cut) {
-    return {subject + ": a limit of effort came before the reason was found", {}};
+    return {subject + ": a search limit was reached before the reason was found", {}};
   }
   if (why_not.alternative) {
     return {fmt::format("{}: {}, {}", subject, condition,

@@ -17,24 +17,25 @@
 
 namespace cbc {
 
-/// f2 of a state: the product of the suitabilities of all running tasks, to the nearest double.
+/// The suitability objective of a state: the product of the suitabilities of all running tasks, as
+/// the nearest double (docs/semantics.md, "Objectives").
 [[nodiscard]] double total_suitability(const CompiledCatalog& catalog, const State& state);
 
-/// The same with another configuration of one group.
+/// The same, with another configuration of one group.
 [[nodiscard]] double total_suitability(const CompiledCatalog& catalog, const State& state,
                                        std::uint32_t group, const Assignment& places);
 
-/// The same exactly, as a decimal number. A suitability of 0 outside the group decides nothing, so
-/// then that of the group alone.
+/// The same, as an exact decimal number. If a suitability outside the group is 0, only the group
+/// counts, since the product could not tell its configurations apart.
 [[nodiscard]] std::string exact_suitability(const CompiledCatalog& catalog, const State& state,
                                             std::uint32_t group, const Assignment& places);
 
-/// f3: the share of the tasks that are not start_on_request which do not run.
+/// The idle objective: of the tasks without start_on_request, the share that does not run.
 [[nodiscard]] double idle_share(const ObjectiveValues& objective);
 
 [[nodiscard]] double to_seconds(Microseconds time);
 
-/// Seconds, to the millisecond, or to the microsecond where it takes that.
+/// Seconds with 3 decimals, or 6 if the time is not a whole number of milliseconds.
 [[nodiscard]] std::string format_time(Microseconds time);
 
 /// What happened: "start HOVER, priority 2". `step` is the scripted one, or null.
@@ -49,13 +50,13 @@ namespace cbc {
 [[nodiscard]] std::string describe_expectation(const CompiledCatalog& catalog,
                                                const Expectation& expectation);
 
-/// A reason why an event was rejected, or did not do otherwise, in a sentence, with the place in
-/// the catalog if it has one.
+/// A reason for a rejection or a choice, in a sentence, with its place in the catalog if it has
+/// one.
 [[nodiscard]] std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& record,
                                           const Reason& reason);
 
-/// A set of reasons for a person: an exclusion and the protection that makes it hurt are one
-/// sentence. `it`: a task that the sentences are about, or none.
+/// A set of reasons for people. An exclusion and the protection of the excluding task make one
+/// sentence. `it`: the task that the sentences are about, or none.
 [[nodiscard]] std::vector<std::string> describe_reasons(const CompiledCatalog& catalog,
                                                         const EventRecord& record,
                                                         std::span<const Reason> reasons,
@@ -65,36 +66,36 @@ namespace cbc {
 [[nodiscard]] std::vector<std::string> describe_rejection(const CompiledCatalog& catalog,
                                                           const EventRecord& record);
 
-/// An explanation for a person: a sentence, and what it announces, if that is more than one.
+/// An explanation for people: a sentence, and the sentences that it introduces, if any.
 struct Sentences {
   std::string first;
   std::vector<std::string> more;
 };
 
-/// Why a requested task does not run any more. The state is that after the event, here and below.
+/// Why a requested task no longer runs. Here and below, the state is the one after the event.
 [[nodiscard]] Sentences describe_displacement(const CompiledCatalog& catalog,
                                               const EventRecord& record,
                                               const Displacement& displaced, const State& state);
 
-/// Why a task has its value, or a behavior is active or not.
+/// Why a task has its value, or why a behavior is active or not.
 [[nodiscard]] Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record,
                                      const Why& why, const State& state);
 
-/// A listed configuration: its objectives, then what runs in the first one of the list, or in what
-/// another one differs from that.
+/// A listed configuration: its objectives, then what runs in it; for all but the first one, only
+/// the differences from the first.
 [[nodiscard]] std::string describe_alternative(const CompiledCatalog& catalog,
                                                const EventRecord& record, std::size_t place,
                                                const State& state);
 
-/// Knows what came before a failed expectation: the event it follows; why the last scripted start,
-/// stop or finish was rejected, if it was; and when and why tasks stopped that are expected to run.
+/// Tells what led to a failed expectation: the event before it; why the last scripted start, stop
+/// or finish was rejected, if it was; and when and why tasks stopped that are expected to run.
 class FailureStory {
  public:
-  /// At the begin of a run. The catalog outlives it.
+  /// Starts a run. The catalog must outlive it.
   void begin_run(const CompiledCatalog& catalog);
   void add(const EventRecord& record, const Step* step, const State& state);
 
-  /// In lines. To be asked before the next event is handled.
+  /// The story, in lines. Call it before the next event is handled.
   [[nodiscard]] std::vector<std::string> tell(const Expectation& failed) const;
 
  private:

@@ -13,7 +13,7 @@
 namespace cbc {
 namespace {
 
-/// By number: a parser turns a plain line end in an attribute into a blank.
+/// As a character reference: parsers turn a plain line end in an attribute into a blank.
 constexpr std::string_view line_end = "&#10;";
 
 std::string escape(std::string_view character, char32_t code) {
@@ -123,7 +123,8 @@ void JunitReport::end_run(const RunResult& result, const std::string& error) {
   fmt::print(out_, "</testsuite>\n");
 }
 
-/// Expectations are checked in the order of the script: the first are done when a run ends early.
+/// Expectations are checked in the order of the script, so if a run ends early, the first ones are
+/// done.
 void JunitReport::write_cases(const RunResult& result) const {
   std::uint64_t to_come = result.passed + result.failed;
   auto failed = failed_.begin();
@@ -156,25 +157,26 @@ void JunitReport::add_part(std::string_view text, const RunResult& /*result*/) {
   fmt::print(out_, "{}", text);
 }
 
-void JunitReport::add_unreadable(const std::vector<Diagnostic>& findings) {
+void JunitReport::report_unreadable(std::FILE* out, const std::vector<Diagnostic>& findings) {
+  const auto write_suite = [out](const std::string& file, const std::string& message,
+                                 const std::string& details) {
+    fmt::print(out, "{}{}</testsuite>\n", open_suite(file, 1, 0, 1, 0),
+               broken_case("can be read", file, problem("error", "input", message, details)));
+  };
+  JunitReport report(out);
   std::map<std::string, std::vector<const Diagnostic*>> by_file;
   for (const Diagnostic& finding : findings) {
     if (finding.severity == Severity::error) by_file[finding.file].push_back(&finding);
   }
   if (by_file.empty()) {
-    write_broken_suite("<input>", "the input cannot be read; standard error has the reason", "");
+    write_suite("<input>", "the input cannot be read; standard error has the reason", "");
   }
   for (const auto& [file, errors] : by_file) {
     std::string details;
     for (const Diagnostic* error : errors) details += xml_text(describe_finding(*error)) + "\n";
-    write_broken_suite(file, errors.front()->message, details);
+    write_suite(file, errors.front()->message, details);
   }
-}
-
-void JunitReport::write_broken_suite(const std::string& file, const std::string& message,
-                                     const std::string& details) const {
-  fmt::print(out_, "{}{}</testsuite>\n", open_suite(file, 1, 0, 1, 0),
-             broken_case("can be read", file, problem("error", "input", message, details)));
+  report.end();
 }
 
 void GithubReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
@@ -207,11 +209,32 @@ void GithubReport::add_part(std::string_view text, const RunResult& /*result*/) 
   fmt::print(out_, "{}", text);
 }
 
-void GithubReport::add_unreadable(const std::vector<Diagnostic>& findings) {
+void GithubReport::report_unreadable(std::FILE* out, const std::vector<Diagnostic>& findings) {
   for (const Diagnostic& finding : findings) {
-    if (finding.severity != Severity::error) continue;
-    fmt::print(out_, "{}", github_command_of(finding));
+    if (finding.severity == Severity::error) fmt::print(out, "{}", github_command_of(finding));
   }
+}
+
+std::span<const SolveFormat> solve_formats() {
+  using Report = std::unique_ptr<SolveReport>;
+  using Settings = const ReportSettings&;
+  static constexpr SolveFormat formats[] = {
+      {"text",
+       [](Settings settings) -> Report {
+         return std::make_unique<TextReport>(settings.style, settings.out);
+       }},
+      {"json",
+       [](Settings settings) -> Report {
+         return std::make_unique<JsonReport>(settings.out, settings.adds);
+       }},
+      {"junit",
+       [](Settings settings) -> Report { return std::make_unique<JunitReport>(settings.out); },
+       JunitReport::report_unreadable},
+      {"github",
+       [](Settings settings) -> Report { return std::make_unique<GithubReport>(settings.out); },
+       GithubReport::report_unreadable},
+  };
+  return formats;
 }
 
 }  // namespace cbc

@@ -113,7 +113,7 @@ std::vector<draw::RunState::RunningTask> running_tasks(const CompiledCatalog& ca
   return running;
 }
 
-/// With what came of it, where it can be rejected. Parameters are left out: they may be long.
+/// The event, with its outcome if it has one. Parameters are left out: they may be long.
 std::string describe(const CompiledCatalog& catalog, const EventRecord& record) {
   std::string text = describe_event(catalog, record, nullptr);
   if (form_of(record.verb).is_decided) text += ": " + std::string(name_of(record.outcome));
@@ -163,7 +163,7 @@ void StateRecorder::on_event(const EventRecord& record, const Step* /*step*/, co
                               change.is_activation, change.success,
                               change.cause == ChangeCause::undone});
   }
-  // It goes through the whole catalog: for a state that may be the wanted one only.
+  // This takes time in proportion to the catalog, so only for states that may be the selected one.
   if (has_passed_ || wanted_.time) note_behaviors(state);
 }
 
@@ -204,8 +204,8 @@ void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
   json.close('}');
 }
 
-/// JSON for a script element, which ends at the first "</script", wherever that stands, and is read
-/// in another way after "<!--". In JSON a "<" can only stand in a string.
+/// Makes JSON safe in a script element, which ends at the first "</script" wherever it is, and is
+/// parsed differently after "<!--". In JSON, "<" occurs in strings only.
 std::string for_script_element(std::string_view json) {
   std::string text;
   text.reserve(json.size());

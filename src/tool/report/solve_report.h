@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,12 +27,12 @@
 
 namespace cbc {
 
-/// A text as content of an element or as value of an attribute in quotes. Line ends stay; other
-/// control characters, bytes that are no UTF-8, and characters that XML 1.0 has no place for become
+/// Escapes a text as content of an XML element or as a quoted attribute value. Line ends are kept;
+/// other control characters, invalid UTF-8 and characters that XML 1.0 does not allow become
 /// printable.
 [[nodiscard]] std::string xml_text(std::string_view text);
 
-/// A stream of C that collects in memory what is written to it.
+/// A C stream that writes to memory.
 class MemoryFile {
  public:
   MemoryFile() : file_(open_memstream(&data_, &size_)) {
@@ -45,7 +46,7 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
 
   [[nodiscard]] std::FILE* stream() { return file_; }
-  /// What was written so far; valid until more is.
+  /// What was written so far; valid until the next write.
   [[nodiscard]] std::string_view text() {
     if (std::fflush(file_) != 0 || std::ferror(file_) != 0) throw std::bad_alloc();
     return {data_, size_};
@@ -57,27 +58,27 @@ class MemoryFile {
   std::FILE* const file_;
 };
 
-/// What this process has taken so far.
+/// The resources that this process has used so far.
 struct ProcessUsage {
-  std::uint64_t peak_memory = 0;  ///< bytes of main memory, at most at one time
-  Microseconds cpu_time = 0;      ///< of all threads, and of the system for them
+  std::uint64_t peak_memory = 0;  ///< bytes of main memory, at its peak
+  Microseconds cpu_time = 0;      ///< of all threads, user and system
 };
 
 [[nodiscard]] ProcessUsage process_usage();
 
-/// What searches took, as a table for a person: for each kind of event that there was, and for all,
-/// the number of events, and mean, least and greatest of each measure. Below it what the process
-/// took.
+/// The effort of searches as a table for people: for each kind of event that occurred, and for all,
+/// the number of events and the mean, minimum and maximum of each measure; below it the resources
+/// of the process.
 [[nodiscard]] std::string stats_table(const SearchTotals& totals, const ProcessUsage& usage,
                                       const Style& style);
 
-/// What one search took, in a line.
+/// The effort of one search, in one line.
 [[nodiscard]] std::string stats_line(const SearchRecord& search);
 
-/// Writes the member "totals": the same as the table, without the process. It is {"events",
-/// "solutions", "nodes", "propagations", "elapsed_us", "kinds"}. Each measure is {"sum", "mean",
-/// "min", "max"}, the last three null where there was no event; each of the kinds that there were
-/// has "verb", "origin", and the same measures.
+/// Writes the member "totals", the same numbers as the table: {"events", "solutions", "nodes",
+/// "propagations", "elapsed_us", "kinds"}. Each measure is {"sum", "mean", "min", "max"}, the last
+/// three null if there was no event. Each kind that occurred has "verb", "origin" and the same
+/// measures.
 void write_totals(JsonWriter& json, const SearchTotals& totals);
 
 /// Writes the member "process": {"peak_memory_bytes", "cpu_us"}.
@@ -86,8 +87,8 @@ void write_process(JsonWriter& json, const ProcessUsage& usage);
 /// Microseconds, exact to the nanosecond.
 [[nodiscard]] double to_microseconds(std::uint64_t nanoseconds);
 
-/// Is told of all runs of a call, one after the other; what happens in a run comes between its
-/// begin and its end. Catalogs and scripts outlive it.
+/// Receives all runs of a call, one after the other: for each run begin_run, its events, end_run.
+/// Catalogs and scripts must outlive it.
 class SolveReport : public RunListener {
  public:
   virtual void begin_run(const CompiledCatalog& catalog, const Script& script) = 0;
@@ -96,18 +97,18 @@ class SolveReport : public RunListener {
   /// After the last run.
   virtual void end() = 0;
 
-  // For runs that are not told one after the other.
+  // For runs in parallel.
 
-  /// A report that is told of one run, on any thread, and writes to `out` what this one would write
-  /// of it. Null: this report has to be told of all runs itself.
+  /// A report for one run, on any thread, which writes to `out` what this one would write. Null:
+  /// this report must receive all runs itself.
   [[nodiscard]] virtual std::unique_ptr<SolveReport> make_part(std::FILE* /*out*/) const {
     return nullptr;
   }
-  /// Takes, in place of a run, what a part has written of it.
+  /// Adds what a part has written, in place of its run.
   virtual void add_part(std::string_view /*text*/, const RunResult& /*result*/) {}
 };
 
-/// Passes everything on to two reports.
+/// Forwards everything to two reports.
 class ReportPair final : public SolveReport {
  public:
   ReportPair(SolveReport& one, SolveReport& other) : first_(one), second_(other) {}
@@ -142,14 +143,14 @@ class ReportPair final : public SolveReport {
   SolveReport& second_;
 };
 
-/// Which state of a run is asked for: that after an event, or after all that happens by a time;
-/// if neither is given, the one at the end.
+/// Selects a state of a run: the one after an event, after all events up to a time, or, if neither
+/// is given, at the end.
 struct WantedState {
   std::optional<std::uint64_t> index;  ///< of the event; 0: before the first one
   std::optional<Microseconds> time;
 };
 
-/// Keeps one state of a run.
+/// Records the selected state of a run.
 class StateRecorder final : public RunListener {
  public:
   /// `catalog` must outlive this object.
@@ -159,12 +160,11 @@ class StateRecorder final : public RunListener {
   void on_failure(const Failure& /*failure*/) override {}
   void on_end(const State& state) override;
 
-  /// Whether the run has come to the state, however it goes on. A run that came to its end has
-  /// passed all of its times.
+  /// Whether the run has reached the state. A run that reached its end has passed all times.
   [[nodiscard]] bool has_passed() const { return has_passed_; }
-  /// How many events there were.
+  /// Number of events so far.
   [[nodiscard]] std::uint64_t events() const { return events_; }
-  /// The state that is asked for, or the last one before it.
+  /// The selected state, or the last one before it.
   [[nodiscard]] const draw::RunState& state() const { return state_; }
   [[nodiscard]] const draw::Moment& moment() const { return moment_; }
 
@@ -179,8 +179,9 @@ class StateRecorder final : public RunListener {
   bool has_passed_ = false;
 };
 
-/// Writes a run for a person: a line for each event, below it the changes in the columns of the
-/// execution viewer of the paper (P priority, T type, S success), at the end what is active.
+/// Writes a run for people: a line for each event, below it the changes with the columns of the
+/// execution viewer in the paper (P priority, T type, S success), and the active behaviors at the
+/// end.
 class TextReport final : public SolveReport {
  public:
   TextReport(const Style& style, std::FILE* out) : style_(style), out_(out) {}
@@ -189,9 +190,9 @@ class TextReport final : public SolveReport {
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
   void on_failure(const Failure& failure) override;
   void on_end(const State& state) override;
-  /// An error is told elsewhere.
+  /// Errors go to standard error, not here.
   void end_run(const RunResult& result, const std::string& error) override;
-  /// The sum, if there are several runs, and what searches took, if that was measured.
+  /// Writes the totals: of several runs, and of searches if they were measured.
   void end() override;
 
   [[nodiscard]] std::unique_ptr<SolveReport> make_part(std::FILE* out) const override;
@@ -217,7 +218,7 @@ class TextReport final : public SolveReport {
   std::optional<SearchTotals> totals_;
 };
 
-/// Writes runs as one JSON document, event by event, so that memory does not grow with the run.
+/// Writes runs as one JSON document, event by event: memory does not grow with the run.
 class JsonReport final : public SolveReport {
  public:
   explicit JsonReport(std::FILE* out, const EventAdditions& adds = {})
@@ -244,13 +245,13 @@ class JsonReport final : public SolveReport {
   const CompiledCatalog* catalog_ = nullptr;
   bool is_first_run_ = true;
   bool is_first_event_ = true;
-  std::string event_;                   ///< kept for its memory
+  std::string event_;                   ///< reused, to save allocations
   std::optional<SearchTotals> totals_;  ///< if time was measured
   std::string failures_;                ///< of the run, as JSON
 };
 
-/// Makes one page of all runs, with everything in it: a picture to look at, to step through, to
-/// print. Its data are the report in JSON, and of each catalog what the picture needs beyond that.
+/// Makes a self-contained HTML page of all runs: a timeline to step through or to print. Its data
+/// are the JSON report and what the picture needs of each catalog beyond that.
 class HtmlReport final : public SolveReport {
  public:
   HtmlReport() : json_(memory_.stream()) {}
@@ -262,7 +263,7 @@ class HtmlReport final : public SolveReport {
   void end_run(const RunResult& result, const std::string& error) override;
   void end() override;
 
-  /// The page, after the end.
+  /// The page; call it after end().
   [[nodiscard]] std::string page();
 
  private:
@@ -273,8 +274,8 @@ class HtmlReport final : public SolveReport {
   std::string runs_json_ = "[";
 };
 
-/// Writes failed expectations, and runs that ended early, as workflow commands of GitHub Actions:
-/// each becomes an annotation of its line of the script. Nothing is written of what went well.
+/// Writes failed expectations and runs that ended early as workflow commands of GitHub Actions:
+/// each becomes an annotation of its line in the script. Nothing is written about successes.
 class GithubReport final : public SolveReport {
  public:
   explicit GithubReport(std::FILE* out) : out_(out) {}
@@ -289,8 +290,8 @@ class GithubReport final : public SolveReport {
   [[nodiscard]] std::unique_ptr<SolveReport> make_part(std::FILE* out) const override;
   void add_part(std::string_view text, const RunResult& result) override;
 
-  /// In place of runs: why there were none, as far as files have errors.
-  void add_unreadable(const std::vector<Diagnostic>& findings);
+  /// Writes the errors of files that could not be read, in place of runs.
+  static void report_unreadable(std::FILE* out, const std::vector<Diagnostic>& findings);
 
  private:
   std::FILE* const out_;
@@ -298,9 +299,9 @@ class GithubReport final : public SolveReport {
   FailureStory story_;
 };
 
-/// Writes runs as JUnit XML, of the schema that Jenkins validates with: a script is a test suite,
-/// an expectation a test case. A run that ended early is an error, and the expectations it did not
-/// come to are skipped. Nothing is said of times: those of a mission are no durations of tests.
+/// Writes runs as JUnit XML (the schema that Jenkins validates with): a script is a test suite, an
+/// expectation a test case. A run that ended early is an error, and the expectations it did not
+/// reach are skipped. There are no times: those of a mission are not durations of tests.
 class JunitReport final : public SolveReport {
  public:
   explicit JunitReport(std::FILE* out) : JunitReport(out, false) {}
@@ -315,9 +316,9 @@ class JunitReport final : public SolveReport {
   [[nodiscard]] std::unique_ptr<SolveReport> make_part(std::FILE* out) const override;
   void add_part(std::string_view text, const RunResult& result) override;
 
-  /// In place of runs: why there were none. Each file with errors is a suite of its own; if there
-  /// is none, one suite says that something else is wrong.
-  void add_unreadable(const std::vector<Diagnostic>& findings);
+  /// Writes why there were no runs. Each file with errors is a suite; if there is none, one suite
+  /// says that something else is wrong.
+  static void report_unreadable(std::FILE* out, const std::vector<Diagnostic>& findings);
 
  private:
   struct FailedCase {
@@ -328,14 +329,29 @@ class JunitReport final : public SolveReport {
 
   JunitReport(std::FILE* out, bool is_part);
   void write_cases(const RunResult& result) const;
-  void write_broken_suite(const std::string& file, const std::string& message,
-                          const std::string& details) const;
-
   std::FILE* const out_;
   const CompiledCatalog* catalog_ = nullptr;
   const Script* script_ = nullptr;
   FailureStory story_;
   std::vector<FailedCase> failed_;  ///< in the order of the script
 };
+
+/// What a report depends on besides the runs.
+struct ReportSettings {
+  std::FILE* out = stdout;
+  Style style = plain_style();  ///< of a text for people
+  EventAdditions adds;          ///< of a report for programs
+};
+
+/// A format of `cbc solve` for whole runs. Event streams (jsonl) are not among them.
+struct SolveFormat {
+  std::string_view name;
+  std::unique_ptr<SolveReport> (*make)(const ReportSettings& settings);
+  /// Writes why there are no runs, in place of a report. Null: nothing is written then.
+  void (*report_unreadable)(std::FILE* out, const std::vector<Diagnostic>& findings) = nullptr;
+};
+
+/// The first one is the default.
+[[nodiscard]] std::span<const SolveFormat> solve_formats();
 
 }  // namespace cbc

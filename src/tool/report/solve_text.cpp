@@ -39,7 +39,7 @@ std::string name_of_kind(const SearchTotals::Kind& kind) {
   return name;
 }
 
-/// One measure of a kind of events: its name, mean, least and greatest.
+/// One measure of a kind of events: its name, mean, minimum and maximum.
 std::string columns(const char* measure, const Spread& spread, std::uint64_t events) {
   return fmt::format("{:<12}  {:>12.2f} {:>12} {:>12}\n", measure, mean(spread, events),
                      spread.least, spread.greatest);
@@ -61,7 +61,7 @@ std::string rows(const std::string& name, const SearchEffort& effort) {
          columns_of_time(effort.nanoseconds, effort.events);
 }
 
-/// `to_unit` makes a number of what the spread counts.
+/// `to_unit` converts what the spread counts to the unit of the report.
 template <typename ToUnit>
 void write_spread(JsonWriter& json, std::string_view name, const Spread& spread,
                   std::uint64_t count, double mean_unit, ToUnit to_unit) {
@@ -217,7 +217,7 @@ std::string TextReport::describe_outcome(const EventRecord& record) const {
   if (record.outcome == Outcome::rejected) color = style_.bad;
   const bool is_cut = record.search && record.search->result.status == SearchStatus::feasible;
   return fmt::format(": {}{}{}{}", color, name_of(record.outcome), style_.reset,
-                     is_cut ? " (not proven best: a search limit came first)" : "");
+                     is_cut ? " (not proven best: a search limit was reached)" : "");
 }
 
 void TextReport::write_change(const EventRecord& record, const Change& change) {
@@ -257,7 +257,7 @@ void TextReport::write_alternatives(const EventRecord& record, const State& stat
                describe_alternative(*catalog_, record, place, state));
   }
   if (record.explanation.is_list_cut) {
-    fmt::print(out_, "{}a limit of effort came before the next one\n", text_indent);
+    fmt::print(out_, "{}a search limit was reached before the next one was found\n", text_indent);
   }
 }
 

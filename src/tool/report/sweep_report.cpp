@@ -62,12 +62,12 @@ std::string describe_reason(const SweepResult& result, const RejectionReason& re
     case Reason::Kind::faulty:
       return behavior + " is faulty";
     case Reason::Kind::finished:
-      break;  // of no rejected event
+      break;  // not a reason of rejections
   }
   return {};
 }
 
-/// "2.5" for 2500 nanoseconds, to three digits or more.
+/// "2.50" for 2500 nanoseconds, with at least three digits.
 std::string to_microseconds(std::uint64_t nanoseconds) {
   const double time = static_cast<double>(nanoseconds) / 1000;
   return fmt::format("{:.{}f}", time, time < 10 ? 2 : time < 100 ? 1 : 0);
@@ -450,7 +450,7 @@ class SweepReader {
     result_.counts.reasons[reason] = item["count"].integer<std::uint64_t>(1, largest_count);
   }
 
-  /// Reports use the members that a reason of its kind has.
+  /// Reports use the members that a reason of its kind always has.
   static void check_members(const RejectionReason& reason) {
     const bool has_task = reason.task != none;
     const bool has_behavior = reason.behavior != none;
@@ -474,7 +474,7 @@ class SweepReader {
         is_right = has_behavior;
         break;
       case Reason::Kind::finished:
-        break;  // of no rejected event
+        break;  // not a reason of rejections
     }
     if (!is_right) throw JsonFault("a reason lacks a task or a behavior");
   }
@@ -574,6 +574,14 @@ std::variant<SweepResult, std::string> sweep_from_json(std::string_view text) {
   } catch (const JsonFault& fault) {
     return fault.what();
   }
+}
+
+std::span<const SweepFormat> sweep_formats() {
+  static constexpr SweepFormat formats[] = {
+      {"text", sweep_to_text},
+      {"json", [](const SweepResult& result, const Style&) { return sweep_to_json(result); }},
+  };
+  return formats;
 }
 
 }  // namespace cbc

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -38,5 +38,14 @@ namespace cbc {
 
 /// The result of a sweep for people.
 [[nodiscard]] std::string sweep_to_text(const SweepResult& result, const Style& style);
+
+/// A format of `cbc solve --sweep`.
+struct SweepFormat {
+  std::string_view name;
+  std::string (*write)(const SweepResult& result, const Style& style);
+};
+
+/// The first one is the default.
+[[nodiscard]] std::span<const SweepFormat> sweep_formats();
 
 }  // namespace cbc

@@ -21,7 +21,7 @@ namespace cbc {
 
 EventLines::Reading EventLines::read(std::string_view line, std::uint32_t number) {
   Reading reading;
-  if (line.ends_with('\r')) line.remove_suffix(1);  // Windows ends lines so
+  if (line.ends_with('\r')) line.remove_suffix(1);  // a line end of Windows
   const std::size_t begin = line.find_first_not_of(" \t");
   if (begin == std::string_view::npos || line[begin] == '#') return reading;
 
@@ -55,7 +55,7 @@ using yaml::Node;
 
 constexpr std::string_view events_schema = "cbc.events/1";
 
-/// Reports an absent key.
+/// Reports a missing key.
 const Node* require(const Node& object, std::string_view key, Reporter& reporter) {
   const Node* const value = object.find(key);
   if (value == nullptr) {
@@ -70,7 +70,7 @@ std::string text_of(const Node& object, std::string_view key, Reporter& reporter
   return std::string(yaml::read_text(*node, key, "a text", reporter).value_or(""));
 }
 
-/// Whether a line, of an event or the last one, has what --stats adds.
+/// Whether a line (an event or the last one) has what --stats adds.
 bool has_times(const Node& line) {
   const Node* const search = line.find("search");
   return line.find("totals") != nullptr ||
@@ -168,7 +168,7 @@ Step EventLog::read_step(const Node& event, Reporter& reporter) {
   return step;
 }
 
-/// Takes up the first error.
+/// Keeps the first error.
 bool EventLog::is_good(const Reporter& reporter, const Diagnostics& diagnostics) {
   if (reporter.errors() == 0) return true;
   for (const Diagnostic& finding : diagnostics.all()) {

@@ -15,15 +15,16 @@
 
 namespace cbc {
 
-/// Reads events that come line by line, each a JSON object or a mapping in YAML.
+// Events that are read line by line, from streams and from logs, and saved states.
+
+/// Reads events from single lines, each a JSON object or a YAML mapping.
 class EventLines {
  public:
-  /// What a line says: a step, an error, or, if neither is there, nothing (an empty line or a
-  /// comment).
+  /// The content of a line: a step, an error, or neither (an empty line or a comment).
   struct Reading {
     std::optional<Step> step;
     std::string error;
-    std::vector<std::string> warnings;  ///< the step may be used all the same
+    std::vector<std::string> warnings;  ///< the step can be used nevertheless
   };
 
   /// The catalog must outlive this object.
@@ -31,8 +32,7 @@ class EventLines {
 
   [[nodiscard]] Reading read(std::string_view line, std::uint32_t number);
 
-  /// Goes on from the state that a coordinator has come to: at the beginning, or to forget what a
-  /// line with errors said.
+  /// Continues from the state of a coordinator: at the beginning, or to forget a line with errors.
   void resume(Microseconds now, const State& state) { reader_.resume(now, state); }
 
  private:
@@ -44,12 +44,12 @@ class EventLines {
 class EventLog {
  public:
   struct Header {
-    std::string catalog;  ///< as it was named
+    std::string catalog;  ///< its path, as the user gave it
     Microseconds reactive_delay = 0;
     std::vector<Availability> situation;
   };
   struct Entry {
-    bool is_event = false;     ///< if not, it is the answer to a line that was no event
+    bool is_event = false;     ///< false: the answer to a line that was not an event
     Microseconds time = 0;     ///< of an event
     std::optional<Step> step;  ///< of an event of origin script
   };
@@ -58,7 +58,7 @@ class EventLog {
   explicit EventLog(const CompiledCatalog& catalog)
       : catalog_(catalog), reader_(catalog, Severity::note) {}
 
-  /// Each is empty if the line is not what it should be: see error().
+  /// Both are empty if the line is not as expected: see error().
   [[nodiscard]] std::optional<Header> read_header(std::string_view line);
   [[nodiscard]] std::optional<Entry> read_entry(std::string_view line, std::uint32_t number);
   [[nodiscard]] const std::string& error() const { return error_; }
@@ -93,7 +93,7 @@ class EventLog {
 
 [[nodiscard]] std::string write_state(const CompiledCatalog& catalog, const Snapshot& snapshot);
 
-/// A snapshot that a coordinator on the catalog can go on from, or why there is none.
+/// A snapshot that a coordinator on the catalog can continue from, or why there is none.
 struct StateReading {
   std::optional<Snapshot> snapshot;
   std::string error;

@@ -26,9 +26,9 @@ void report_duplicates(const Node& node, Reporter& reporter) {
 
 // Canonical form -----------------------------------------------------------------------------
 //
-// Every value says how long it is before it begins, so that no two values have the same text: a
-// scalar is "s<bytes>:<text>", a list "l<items>:<items>", a mapping "m<entries>:<keys and values>",
-// and an empty item of a list "n".
+// Every value begins with its length, so that no two values have the same text: a scalar is
+// "s<bytes>:<text>", a list "l<items>:<items>", a mapping "m<entries>:<keys and values>", and an
+// empty item of a list "n".
 
 std::string tagged(char tag, std::size_t size) { return tag + std::to_string(size) + ":"; }
 
@@ -37,7 +37,7 @@ std::string canonical(const Node& node);
 std::string canonical_list(const Node& node) {
   std::string text;
   std::size_t size = 0;
-  std::size_t waiting = 0;  // empty items that only count if another one follows
+  std::size_t waiting = 0;  // empty items, which only count if another item follows
   for (const Node* item : node.items) {
     const std::string value = canonical(*item);
     if (value.empty()) {
@@ -169,7 +169,7 @@ void ParameterChecks::check(std::uint32_t task, const yaml::Node& given, Reporte
   Declared& declared = declared_by(task);
   std::unordered_set<std::string_view> known;
   for (const auto& [name, value] : given.entries) {
-    if (!known.insert(name->text).second) continue;  // an error of its own
+    if (!known.insert(name->text).second) continue;  // reported elsewhere
     const auto found = declared.values.find(name->text);
     if (found == declared.values.end()) {
       report_undeclared(task, *name, reporter);

@@ -58,7 +58,7 @@ Suggestions& suggestions_from(const Texts& names, std::optional<Suggestions>& ma
   return *made;
 }
 
-// Of a name that is unknown as a `kind`, but perhaps known as another.
+// The name is unknown as a `kind`, but may be known as another.
 std::string describe_unknown(std::string_view name, std::string_view kind, bool is_other,
                              std::string_view other, Suggestions& suggestions) {
   std::string message = "there is no " + std::string(kind) + " " + quote(name);
@@ -222,7 +222,7 @@ std::string list_verbs(bool VerbForm::*belongs) {
   return text;
 }
 
-/// The words that an event may have one of.
+/// The keys of which an event needs one, for messages.
 const std::string& all_event_words() {
   static const std::string words = [] {
     std::string text;
@@ -245,7 +245,7 @@ void report_misplaced(const Fields& fields, std::string_view verb, Reporter& rep
   }
 }
 
-// The verb of an entry; "wait" if it has a time only; empty after an error.
+// The verb of an entry; "wait" if it only has a time; empty after an error.
 std::string_view find_verb(const Fields& fields, const Range& range, Reporter& reporter) {
   std::vector<std::string_view> found;
   std::string_view without_value;

@@ -20,14 +20,16 @@
 
 namespace cbc {
 
+// Event scripts: the reader of whole scripts, and the parts that streams and logs share with it.
+
 /// Finds the tasks and behaviors that a script names, by their places in the catalog, and reports
-/// names that there are not.
+/// unknown names.
 class NameIndex {
  public:
   /// The catalog must outlive this object.
   explicit NameIndex(const CompiledCatalog& catalog) : catalog_(catalog) {}
 
-  /// `what` is the key that the name belongs to.
+  /// `what` is the key that the name is the value of.
   [[nodiscard]] std::optional<std::uint32_t> find_task(const yaml::Node& node,
                                                        std::string_view what, Reporter& reporter);
   [[nodiscard]] std::optional<std::uint32_t> find_behavior(const yaml::Node& node,
@@ -43,19 +45,19 @@ class NameIndex {
   std::optional<Suggestions> behaviors_;
 };
 
-/// Checks what tasks are started with against what they declare.
+/// Checks the parameters of starts against those that the tasks declare.
 class ParameterChecks {
  public:
   /// Findings have this severity. The catalog must outlive this object.
   ParameterChecks(const CompiledCatalog& catalog, Severity severity)
       : catalog_(catalog), severity_(severity) {}
 
-  /// Reports the parameters that the task does not declare, and values that are not allowed.
-  /// `given` is a mapping.
+  /// Reports parameters that the task does not declare, and values that are not allowed. `given` is
+  /// a mapping.
   void check(std::uint32_t task, const yaml::Node& given, Reporter& reporter);
 
  private:
-  /// The parameters that a task declares; of equal names the first counts.
+  /// The parameters that a task declares; the first one of a name counts.
   struct Declared {
     explicit Declared(std::vector<Parameter> declared);
     Declared(const Declared&) = delete;
@@ -71,27 +73,27 @@ class ParameterChecks {
 
   const CompiledCatalog& catalog_;
   Severity severity_;
-  std::unordered_map<std::uint32_t, Declared> declared_;  ///< of tasks that were asked for
+  std::unordered_map<std::uint32_t, Declared> declared_;  ///< by task, made on demand
 };
 
 /// Reads the parameters of a start: a mapping of anything.
 ///
-/// The canonical form compares them as data: scalars by their text, mappings without order; null,
-/// empty and absent are alike at every depth. The JSON form keeps the order, and numbers, booleans
-/// and nulls where the text is plain and JSON would write it in just this way.
+/// The canonical form compares them as data: scalars by their text, mappings regardless of order;
+/// null, empty and absent are the same at every depth. The JSON form keeps the order; a plain
+/// scalar is a number, a boolean or null in it if JSON would write it in the same way.
 [[nodiscard]] std::optional<Parameters> read_parameters(const yaml::Node& node, Reporter& reporter);
 
-/// The values that an event consists of, as an entry of a script or a line of a log has them.
+/// The parts of an event, as an entry of a script or a line of a log has them.
 struct EventParts {
   Verb verb = Verb::wait;
   std::string_view subject_key;         ///< names the subject in messages
-  const yaml::Node* subject = nullptr;  ///< null: there is none, or that is an error already
+  const yaml::Node* subject = nullptr;  ///< null: none, or reported as missing
   const yaml::Node* priority = nullptr;
   const yaml::Node* parameters = nullptr;
   const yaml::Node* cause = nullptr;
 };
 
-/// Reads the entries of a script one after the other, and keeps its clock and its situation.
+/// Reads the entries of a script one after the other, and keeps track of clock and situation.
 class StepReader {
  public:
   /// The catalog must outlive this object; see read_script.
@@ -100,11 +102,11 @@ class StepReader {
         parameter_checks_(catalog, of_parameters),
         is_available_(catalog.behaviors.size(), true) {}
 
-  /// The next entry. What is wrong with it is reported; the result may be used only if there were
-  /// no errors.
+  /// Reads the next entry. Mistakes are reported; the result may be used only if there was no
+  /// error.
   [[nodiscard]] Step read(const yaml::Node& node, Reporter& reporter);
 
-  /// Reads an event into a step, but for its time. Parts that do not belong to the verb are
+  /// Reads an event into a step, except for its time. Parts that do not belong to the verb are
   /// ignored.
   void read_parts(const EventParts& parts, Step& step, Reporter& reporter);
 
@@ -112,10 +114,10 @@ class StepReader {
   [[nodiscard]] std::vector<Availability> read_situation(const yaml::Node& node,
                                                          Reporter& reporter);
 
-  /// Goes on from the state that a coordinator has come to, whatever was read before.
+  /// Continues from the state of a coordinator, whatever was read before.
   void resume(Microseconds now, const State& state);
 
-  /// Tells that something may be meant to change the situation, but is not understood.
+  /// Notes that something not understood may have been meant to change the situation.
   void doubt_situation() { knows_situation_ = false; }
 
  private:
@@ -129,17 +131,17 @@ class StepReader {
   bool knows_situation_ = true;
 };
 
-/// Reads the value of an `expect`, and warns of what can never hold. What is wrong with it is
-/// reported; the result may be used only if there were no errors.
+/// Reads the value of an `expect`, and warns of expectations that can never hold. Mistakes are
+/// reported; the result may be used only if there was no error.
 [[nodiscard]] Expectation read_expectation(const yaml::Node& node, NameIndex& names,
                                            Reporter& reporter);
 
 /// The `catalog:` of a script (as written, relative to the script), if it names one.
 [[nodiscard]] std::optional<std::string> catalog_of_script(const yaml::Document& document);
 
-/// Understands an event script and checks it as a whole. A script has a meaning whatever the
-/// parameters in it are: findings about them have the severity `of_parameters`. It goes on from
-/// `state`, if there is one. The result is empty if there is an error.
+/// Reads and checks a whole event script. Findings about parameters have the severity
+/// `of_parameters`, since a script has a meaning whatever they are. The script continues from
+/// `state`, if there is one. The result is empty after an error.
 [[nodiscard]] std::optional<Script> read_script(const yaml::Document& document,
                                                 const CompiledCatalog& catalog,
                                                 Severity of_parameters, Diagnostics& diagnostics,

@@ -17,7 +17,7 @@
 
 namespace cbc {
 
-/// Sum, least and greatest of some numbers.
+/// Sum, minimum and maximum of some numbers.
 struct Spread {
   std::uint64_t sum = 0;
   std::uint64_t least = UINT64_MAX;
@@ -31,7 +31,7 @@ struct Spread {
   }
 };
 
-/// What the searches of some events took.
+/// The effort of the searches of some events.
 struct SearchEffort {
   std::uint64_t events = 0;
   Spread solutions;
@@ -42,15 +42,15 @@ struct SearchEffort {
   void merge(const SearchEffort& other);
 };
 
-/// What the searches of a run took, or of several: by kind of event, and of all. Events that were
-/// not searched for count nowhere.
+/// The effort of all searches of one run or of several, by kind of event and in all. Events without
+/// a search do not count.
 class SearchTotals {
  public:
   struct Kind {
     Verb verb = Verb::wait;
     Origin origin = Origin::script;
   };
-  /// The kinds of events that may be searched for.
+  /// The kinds of events that may take a search.
   static constexpr std::array<Kind, 6> kinds{{{Verb::start, Origin::script},
                                               {Verb::stop, Origin::script},
                                               {Verb::finish, Origin::script},
@@ -58,12 +58,12 @@ class SearchTotals {
                                               {Verb::finish, Origin::fault},
                                               {Verb::start, Origin::reactive}}};
 
-  /// An event whose time was measured, if it was searched for.
+  /// Counts an event if it took a search whose time was measured.
   void add(const EventRecord& record);
   void merge(const SearchTotals& other);
 
   [[nodiscard]] const SearchEffort& all() const { return all_; }
-  /// Of one of the kinds, by its place.
+  /// The effort of one kind, by its place in `kinds`.
   [[nodiscard]] const SearchEffort& of_kind(std::size_t kind) const { return by_kind_[kind]; }
 
  private:
@@ -71,8 +71,8 @@ class SearchTotals {
   std::array<SearchEffort, kinds.size()> by_kind_;
 };
 
-/// What of the expectation does not hold, in a sentence; empty if all of it holds. `outcome` is
-/// that of the last scripted start, stop or finish.
+/// Says which parts of the expectation do not hold; empty if all hold. `outcome` is that of the
+/// last scripted start, stop or finish.
 [[nodiscard]] std::string find_mismatch(const Expectation& expectation,
                                         const CompiledCatalog& catalog, const State& state,
                                         std::optional<Outcome> outcome);
@@ -85,7 +85,7 @@ struct Failure {
   const Step* step = nullptr;  ///< the entry of the script
 };
 
-/// Is told what happens in a run, in order.
+/// Receives what happens in a run, in order.
 class RunListener {
  public:
   virtual ~RunListener() = default;
@@ -104,10 +104,10 @@ struct RunResult {
   std::optional<SearchTotals> totals;  ///< if time was measured
 };
 
-/// The event of a step, which is no expectation. Refers to the step.
+/// The event of a step that is not an expectation. It refers to the step.
 [[nodiscard]] Event event_of(const Step& step);
 
-/// Runs steps one after the other through a coordinator.
+/// Runs steps through a coordinator, one after the other.
 class Runner final : private EventListener {
  public:
   /// `catalog` and `listener` must outlive this object.
@@ -116,15 +116,15 @@ class Runner final : private EventListener {
     if (options.measure_time) result_.totals.emplace();
   }
 
-  /// First of all, one of the two: see Coordinator.
+  /// Call one of the two first: see Coordinator.
   void begin(std::span<const Availability> situation) { coordinator_.begin(situation); }
   void resume(const Snapshot& snapshot);
-  /// All that there is to go on from. The last call returned true.
+  /// The state to continue from. The last call must have returned true.
   [[nodiscard]] Snapshot snapshot() const;
 
-  /// Takes a step, and before it what falls due earlier. False if the run ends early: see result().
+  /// Handles what is due before a step, then the step. False if the run ends early: see result().
   [[nodiscard]] bool take(const Step& step);
-  /// Processes what is due at the present instant; false as in take.
+  /// Handles what is due at the present instant; false as in take().
   [[nodiscard]] bool settle() { return note(coordinator_.settle()); }
   /// See Coordinator: the count of events that no script asked for.
   void restart_count() { coordinator_.restart_count(); }

@@ -10,7 +10,7 @@
 #include "diagnostic/diagnostic.h"
 #include "yaml/values.h"
 
-/// The keys of each kind of mapping in a script.
+/// The keys of the mappings in a script.
 namespace cbc::shape {
 
 extern const yaml::Shape script;
@@ -27,7 +27,7 @@ struct Parameters {
   std::string json;       ///< as JSON text, for reports
 };
 
-/// A check on the state at its place in the script.
+/// A check of the state at its place in the script.
 struct Expectation {
   struct Running {
     std::uint32_t task = 0;

@@ -57,14 +57,4 @@ class Suggestions {
 /// Appends a byte as "%2F".
 void append_percent_encoded(std::string& text, char byte);
 
-/// A number for a text: FNV-1a of 64 bits, the same on every machine, forever.
-[[nodiscard]] constexpr std::uint64_t fingerprint(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char byte : text) {
-    hash ^= static_cast<unsigned char>(byte);
-    hash *= 0x100000001b3;
-  }
-  return hash;
-}
-
 }  // namespace cbc

@@ -28,7 +28,7 @@ std::uint64_t Histogram::round_down(std::uint64_t number) {
   return (number >> dropped) << dropped;
 }
 
-/// The number at a place, from 1, in the ascending order of all.
+/// The number at a rank, from 1, in ascending order.
 std::uint64_t Histogram::at_rank(std::uint64_t rank) const {
   std::uint64_t passed = 0;
   for (const auto& [number, count] : counts_) {
@@ -65,7 +65,7 @@ SweepKind kind_of(const EventRecord& record) {
     case Verb::repair:
       return SweepKind::repair;
     case Verb::situation:
-    case Verb::wait:  // a sweep has none
+    case Verb::wait:  // not in sweeps
       break;
   }
   return SweepKind::situation;
@@ -191,8 +191,8 @@ EventGenerator::EventGenerator(const CompiledCatalog& catalog, const SweepShape&
       random_(seed, sequence),
       first_task_(below(std::max<std::size_t>(catalog.tasks.size(), 1))) {}
 
-/// Half of the events follow at once, the others after milliseconds to minutes, or just when
-/// something falls due.
+/// Half of the events follow immediately, the others after milliseconds to minutes, or exactly when
+/// something is due.
 Microseconds EventGenerator::draw_time(const Coordinator& coordinator) {
   constexpr std::array<std::uint32_t, 3> longest{1'000, 10'000, 100'000};  // ms
   const Microseconds now = coordinator.now();
@@ -203,7 +203,7 @@ Microseconds EventGenerator::draw_time(const Coordinator& coordinator) {
   } else if (choice < 8) {
     time = now + Microseconds{1'000} * (1 + below(longest[below(longest.size())]));
   }
-  // Waiting for what falls due in a year is no use.
+  // Something that is due in a year is not worth waiting for.
   return time - now <= Microseconds{longest.back()} * 1'000 && time <= longest_time ? time : now;
 }
 
@@ -232,7 +232,7 @@ void EventGenerator::draw_event(const State& state, Step& step) {
   }
 }
 
-/// A few tasks of each sequence are started again and again, in every sequence other ones.
+/// A few tasks are started again and again, different ones in each sequence.
 void EventGenerator::draw_start(Step& step) {
   const std::uint32_t offset = below(below(catalog_.tasks.size()) + 1);
   step.verb = Verb::start;
@@ -280,7 +280,7 @@ void EventGenerator::draw_finish(const State& state, Step& step) {
                                                 : FinishCause::goal_achieved;
 }
 
-/// The more is broken, the more likely is it that something is mended.
+/// The more is broken, the more likely a repair is.
 void EventGenerator::draw_surroundings(const State& state, Step& step) {
   const std::size_t broken = faulty_.size() + unavailable_.size();
   if (below(broken + 2 + catalog_.behaviors.size() / 16) < broken) {
@@ -304,8 +304,8 @@ void EventGenerator::mend(Step& step) {
   take_out(unavailable_, place);
 }
 
-/// Rather what is active than what is not. What becomes unavailable while active finishes, as a
-/// robot would report it; most of the time, as robots may be late.
+/// Prefers active behaviors. An active behavior that becomes unavailable finishes next, as a robot
+/// would report it; not always, since robots may be late.
 void EventGenerator::break_something(const State& state, Step& step) {
   running_ = state.running();
   const std::uint32_t behavior =
@@ -352,7 +352,7 @@ class Sequence final : public EventListener {
         generator_(catalog, settings.shape, settings.seed, sequence),
         coordinator_(catalog, to_coordinator_options(settings.search), *this) {}
 
-  /// Steps are added to `record` before they are run, unless it is null.
+  /// Steps are added to `record`, unless it is null, before they run.
   [[nodiscard]] SequenceEnd run(std::vector<Step>* record) {
     const Coordinator::Status status = take_all(record);
     return {status, coordinator_.internal_error()};
@@ -389,7 +389,7 @@ class Sequence final : public EventListener {
   Coordinator coordinator_;
 };
 
-/// Notes how many steps it takes to an event.
+/// Counts the steps up to an event.
 class StepCounter final : public SequenceListener {
  public:
   StepCounter(const std::vector<Step>& steps, std::uint64_t index) : steps_(steps), index_(index) {}
@@ -404,7 +404,7 @@ class StepCounter final : public SequenceListener {
   std::size_t count_ = 0;
 };
 
-// Scripts. Names are quoted as in JSON, so that no name is taken for something else.
+// Scripts. Names are quoted as in JSON, so that none is taken for another type.
 
 std::string in_quotes(std::string_view text) {
   std::string json;

@@ -20,11 +20,13 @@
 
 namespace cbc {
 
-/// Random numbers that are the same on every machine (SplitMix64). The distributions of the
-/// standard library differ between its implementations, so there are some here.
+// Random event sequences: how they are drawn and run, and what is counted in them.
+
+/// Random numbers that are the same on every machine (SplitMix64). The standard distributions
+/// differ between implementations of the library, so this class has its own.
 class RandomSource {
  public:
-  /// A source of its own for each pair of numbers.
+  /// Each pair of numbers gives an independent source.
   RandomSource(std::uint64_t seed, std::uint64_t stream)
       : state_(mix(mix(seed + increment) + stream)) {}
 
@@ -53,16 +55,16 @@ class RandomSource {
 
 /// What the random event sequences of a sweep look like.
 struct SweepShape {
-  std::uint32_t events = 100;   ///< scripted ones in each sequence; those of the clock come on top
-  std::int32_t priorities = 3;  ///< requests have priorities from 1 to this
+  std::uint32_t events = 100;     ///< scripted ones in each sequence; clock events are extra
+  std::int32_t priorities = 3;    ///< requests have priorities from 1 to this number
   Millionths failures = 300'000;  ///< probability that a finish is a failure
   Millionths faults = 100'000;    ///< probability that an event is a situation, fault or repair
 
   bool operator==(const SweepShape&) const = default;
 };
 
-/// How the coordinator is to search in a sweep: those of its options by which nothing depends on
-/// the clock of the machine.
+/// The search options of a sweep: those of the coordinator that do not depend on the clock of the
+/// machine.
 struct SweepSearch {
   std::uint64_t max_solutions = 0;
   std::uint64_t max_nodes = 0;
@@ -72,7 +74,7 @@ struct SweepSearch {
   bool operator==(const SweepSearch&) const = default;
 };
 
-/// Which share of the sequences is run: share `index` (from 1) of `count`.
+/// The share of the sequences that is run: number `index` (from 1) of `count`.
 struct SweepShard {
   std::uint64_t index = 1;
   std::uint64_t count = 1;
@@ -80,7 +82,7 @@ struct SweepShard {
   bool operator==(const SweepShard&) const = default;
 };
 
-/// All that the result of a sweep on a catalog depends on.
+/// Everything that the result of a sweep on a catalog depends on.
 struct SweepSettings {
   std::uint64_t sequences = 1;
   std::uint64_t seed = 1;
@@ -89,8 +91,8 @@ struct SweepSettings {
   SweepShard shard;
 };
 
-/// Draws the events of one random sequence, as they suit the state of the coordinator that has
-/// handled those before.
+/// Draws the events of one random sequence to suit the state of the coordinator that handled the
+/// previous ones.
 class EventGenerator {
  public:
   /// `catalog` must outlive this object.
@@ -99,7 +101,7 @@ class EventGenerator {
 
   /// The instant of the next event.
   [[nodiscard]] Microseconds draw_time(const Coordinator& coordinator);
-  /// What the next event is, at this instant. The step has its time already.
+  /// Draws the next event at this instant. The step already has its time.
   void draw_event(const State& state, Step& step);
 
  private:
@@ -119,14 +121,14 @@ class EventGenerator {
   const CompiledCatalog& catalog_;
   const SweepShape shape_;
   RandomSource random_;
-  std::uint32_t first_task_;                ///< the one that is started most often
+  std::uint32_t first_task_;                ///< the one started most often
   std::vector<std::uint32_t> faulty_;       ///< behaviors, by their places in the catalog
   std::vector<std::uint32_t> unavailable_;  ///< the same
-  std::uint32_t lost_ = none;  ///< an active behavior that became unavailable, and finishes next
+  std::uint32_t lost_ = none;  ///< an active behavior that became unavailable and finishes next
   std::vector<std::uint32_t> running_;
 };
 
-/// Is told of every event of a sequence, with the state after it.
+/// Receives every event of a sequence, with the state after it.
 class SequenceListener {
  public:
   virtual ~SequenceListener() = default;
@@ -143,21 +145,21 @@ struct SequenceEnd {
                                        const SweepSettings& settings, std::uint64_t sequence,
                                        SequenceListener& listener);
 
-/// The steps of a sequence up to the one by whose end event `index` has happened; all of them if it
-/// never does.
+/// The steps of a sequence up to the one that completes event `index`; all of them if it never
+/// happens.
 [[nodiscard]] std::vector<Step> steps_of_sequence(const CompiledCatalog& catalog,
                                                   const SweepSettings& settings,
                                                   std::uint64_t sequence, std::uint64_t index);
 
-/// A script for `cbc solve` with these steps. Each line of `comment` stands above it.
+/// A script for `cbc solve` with these steps, below the lines of `comment`.
 [[nodiscard]] std::string write_script(const CompiledCatalog& catalog,
                                        const std::vector<Step>& steps, const std::string& comment);
 
-/// The options of `cbc solve` that a script needs to run as in the sweep: " --max-nodes 5".
+/// The options of `cbc solve` with which a script runs as in the sweep: " --max-nodes 5".
 [[nodiscard]] std::string options_for_script(const SweepSearch& search);
 
-/// How often numbers occurred. Those below 1024 are counted exactly; larger ones are rounded down
-/// to their first 10 binary digits (less than 0.2 % off), so that memory is bounded.
+/// Counts how often numbers occur. Numbers from 1024 on are rounded down to their first 10 binary
+/// digits (less than 0.2 % off), which bounds the memory.
 class Histogram {
  public:
   void add(std::uint64_t number) { add_rounded(round_down(number), 1); }
@@ -174,8 +176,8 @@ class Histogram {
 
   [[nodiscard]] std::uint64_t total() const { return total_; }
   [[nodiscard]] const std::map<std::uint64_t, std::uint64_t>& counts() const { return counts_; }
-  /// The least number that is not below half of those counted, not below 99 % of them, and the
-  /// largest; 0 if there are none.
+  /// The smallest number that is not less than half of the counted ones, than 99 % of them, and the
+  /// largest number; 0 if there are none.
   [[nodiscard]] std::uint64_t median() const { return at_rank(total_ - total_ / 2); }
   [[nodiscard]] std::uint64_t percentile_99() const { return at_rank(total_ - total_ / 100); }
   [[nodiscard]] std::uint64_t maximum() const {
@@ -189,7 +191,7 @@ class Histogram {
   std::uint64_t total_ = 0;
 };
 
-/// What kinds of events a sweep tells apart.
+/// The kinds of events that a sweep distinguishes.
 enum class SweepKind : std::uint8_t {
   start,
   stop,

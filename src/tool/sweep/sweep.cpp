@@ -46,8 +46,8 @@ std::optional<std::string> SweepMerger::add(SweepResult shard, const std::string
     return fmt::format("{} is shard {}/{} again, after {}", quote(file), index,
                        shard.settings.shard.count, quote(known->second));
   }
-  // The names of the source may differ; that of the first shard counts, in whatever order they
-  // come.
+  // The paths of the catalog may differ. That of the lowest shard counts, so that the order of the
+  // shards does not matter.
   if (index < files_.begin()->first) merged_.catalog = std::move(shard.catalog);
   files_[index] = file;
   merged_.counts.add(shard.counts);
@@ -61,7 +61,7 @@ std::optional<std::string> SweepMerger::add(SweepResult shard, const std::string
   return std::nullopt;
 }
 
-/// What of a shard is not as in the others, though it has to be.
+/// The first mismatch between a shard and the others.
 std::optional<std::string> SweepMerger::find_difference(const SweepResult& shard) const {
   const SweepSettings& ours = merged_.settings;
   const SweepSettings& theirs = shard.settings;
@@ -115,8 +115,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// An event, by its cost. Of equal cost the one that comes first is the slower one, so that the
-/// slowest of all does not depend on the order in which they are looked at.
+/// A candidate for the slowest event. Among equal costs the earliest event wins, so that the result
+/// does not depend on the order of the threads.
 struct Candidate {
   std::uint64_t cost = 0;
   std::uint64_t sequence = 0;  ///< from 0
@@ -133,7 +133,7 @@ struct Candidate {
   }
 };
 
-/// Sums are the same in any order.
+/// Sums, which do not depend on the order of the parts.
 struct Totals {
   SweepCounts counts;
   Histogram nodes;
@@ -222,7 +222,8 @@ class Work {
   void do_share(Tally& tally, const std::function<void(std::uint64_t)>& progress) {
     for (;;) {
       const std::uint64_t sequence = next_.fetch_add(1);
-      // Those before the first failure are finished, so that it is the first one whoever runs what.
+      // Sequences before the first failure still run, so that it is the first one with any number
+      // of threads.
       if (sequence >= failed_.load()) return;
       tally.begin(sequence);
       if (run_sequence(catalog_, settings_, sequence, tally).status != Coordinator::Status::ok) {
@@ -266,7 +267,7 @@ void run_in_threads(Work& work, std::vector<Tally>& tallies,
     try {
       threads.emplace_back([&run, place] { run(place, nullptr); });
     } catch (const std::system_error&) {
-      break;  // the machine has no more threads to give; those there are do the work
+      break;  // no more threads available: the existing ones do the work
     }
   }
   run(0, progress);

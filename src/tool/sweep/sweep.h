@@ -22,25 +22,25 @@ struct SlowestEvent {
   std::string script;          ///< that has this event as its last, or nearly so
 };
 
-/// What depends on the machine. A time is that of a whole event that took a search: the
-/// question, the searches, the checks and the changes.
+/// The results that depend on the machine. Times are those of whole events that took a search: the
+/// problem, the searches, the checks and the changes.
 struct SweepTimes {
   std::uint64_t elapsed = 0;  ///< microseconds; of all shards together
   Histogram events;           ///< nanoseconds
   std::optional<SlowestEvent> slowest;
 };
 
-/// What a sweep, or a shard of one, found.
+/// The result of a sweep or of a shard of one.
 struct SweepResult {
-  std::string catalog;  ///< the source, as it was named
-  std::string digest;   ///< of what the catalog means, wherever it lies; hexadecimal
-  std::string version;  ///< of cbc: another one may draw other events
+  std::string catalog;  ///< path of the source, as the user gave it
+  std::string digest;   ///< of the content of the catalog without its path; hexadecimal
+  std::string version;  ///< of cbc: other versions may draw other events
   SweepSettings settings;
   std::vector<std::string> task_names;      ///< in catalog order
   std::vector<std::string> behavior_names;  ///< in catalog order
   SweepCounts counts;
   Histogram nodes;                      ///< of the events that took a search
-  std::optional<SlowestEvent> slowest;  ///< by nodes: of equal ones the first; none: no search
+  std::optional<SlowestEvent> slowest;  ///< by nodes, the first of equal ones; empty: no search
   std::optional<SweepTimes> times;
 };
 
@@ -52,20 +52,20 @@ struct SequenceRange {
 
 [[nodiscard]] SequenceRange sequences_of(const SweepSettings& settings);
 
-/// A sweep may have this many shards at most, so that sums of their numbers fit.
+/// The largest number of shards, so that sums of their numbers fit.
 inline constexpr std::uint64_t most_shards = 1000;
-/// No number of a shard is larger.
+/// The largest number that a shard may contain.
 inline constexpr std::uint64_t largest_count = std::uint64_t{1} << 53U;
 
-/// Puts the shards of a sweep together, in any order, to the result of one run.
+/// Merges the shards of a sweep, in any order, into the result of the whole sweep.
 class SweepMerger {
  public:
-  /// Takes a shard, which was read from `file`. Returns why it does not belong to the others, for
-  /// people, or nothing.
+  /// Adds a shard that was read from `file`. Returns why it does not match the others, for people,
+  /// or nothing.
   [[nodiscard]] std::optional<std::string> add(SweepResult shard, const std::string& file);
-  /// Which shards are missing, for people, or nothing if all are there.
+  /// Says which shards are missing, for people; empty if there are all.
   [[nodiscard]] std::optional<std::string> find_missing() const;
-  /// The result. All shards are there.
+  /// The result. No shard may be missing.
   [[nodiscard]] SweepResult take();
 
  private:
@@ -75,7 +75,7 @@ class SweepMerger {
   std::map<std::uint64_t, std::string> files_;  ///< by index of the shard
 };
 
-/// A sequence that ended early, the first one that did.
+/// The first sequence that ended early.
 struct SweepFailure {
   std::uint64_t sequence = 0;  ///< counts from 1
   Coordinator::Status status = Coordinator::Status::ok;
@@ -88,9 +88,9 @@ struct SweepOutcome {
   std::optional<SweepFailure> failure;
 };
 
-/// Runs random event sequences on a catalog that has tasks. The result, but for its times, is the
-/// same for any number of jobs (at least 1), and memory does not grow with the number of sequences.
-/// `progress` is called now and then, in this thread, with the number of sequences done.
+/// Runs random event sequences on a catalog that has tasks. The result, except for its times, does
+/// not depend on the number of jobs (at least 1), and memory does not grow with the number of
+/// sequences. `progress` is called repeatedly, in this thread, with the number of sequences done.
 [[nodiscard]] SweepOutcome sweep(const CompiledCatalog& catalog, const SweepSettings& settings,
                                  std::size_t jobs,
                                  const std::function<void(std::uint64_t)>& progress);

@@ -78,10 +78,11 @@ class JsonValue {
   [[nodiscard]] Integer integer(Integer least = 0,
                                 Integer most = std::numeric_limits<Integer>::max()) const {
     const auto value = parse<std::uint64_t>();
-    if (!value || std::cmp_less(*value, least) || std::cmp_greater(*value, most)) {
-      fail("a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+    if (value && std::cmp_greater_equal(*value, least) && std::cmp_less_equal(*value, most)) {
+      return static_cast<Integer>(*value);
     }
-    return static_cast<Integer>(*value);
+    if (most == std::numeric_limits<Integer>::max()) fail("a whole number in its range");
+    fail("a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   }
   [[nodiscard]] double number(double least, double most, std::string_view range) const {
     const auto value = parse<double>();

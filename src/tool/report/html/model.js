@@ -285,7 +285,7 @@ class Run {
     const say = (text, why = '', isBad = false) => list.push({ text, why, isBad });
     if (event.verb === 'situation') say(describeSituation(event.situation ?? {}));
     if (event.search?.status === 'unknown') {
-      say('a search limit came before the first solution', '', true);
+      say('a search limit was reached before the first solution', '', true);
     } else if (event.outcome === 'rejected' && event.conflict.length === 0) {
       say('no consistent set of behaviors; finding the reasons would have taken too long', '', true);
     }
