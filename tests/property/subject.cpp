@@ -78,7 +78,8 @@ class ExplainedEvents final : public RunListener {
       why.why_not = displaced.why_not;
       of_displaced.explanation.why.push_back(why);
     }
-    event["displaced"] = why_to_json(catalog_, of_displaced, state);
+    const auto explained = event_to_json(catalog_, of_displaced, step, state, {true, false});
+    event["displaced"] = explained.value("why", nlohmann::ordered_json::array());
     events_.push_back(std::move(event));
   }
   void on_failure(const Failure& failure) override { throw std::runtime_error(failure.message); }

@@ -17,6 +17,15 @@
 namespace cbc {
 namespace {
 
+/// By group.
+std::vector<ConstraintCount> count_constraints(const CompiledCatalog& catalog) {
+  std::vector<ConstraintCount> counts;
+  for (const CatalogNumbers& group : summarize_groups(catalog).groups) {
+    counts.push_back(group.constraints);
+  }
+  return counts;
+}
+
 using test::behavior_id;
 using test::compile_text;
 using test::task_id;
