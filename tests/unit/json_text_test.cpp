@@ -86,6 +86,21 @@ TEST(JsonText, WhatIsWrittenAsANumberStaysAsItIs) {
   }
 }
 
+TEST(JsonText, TheShortestFormOfANumberHasItsValue) {
+  const auto shortest = [](std::string_view text) {
+    std::string json;
+    append_shortest(json, text);
+    return json;
+  };
+  EXPECT_EQ(shortest("0.50"), "0.5");
+  EXPECT_EQ(shortest("-7"), "-7");
+  EXPECT_EQ(shortest("1e3"), "1000.0");
+  EXPECT_EQ(shortest("18446744073709551615"), "18446744073709551615");
+  for (const std::string_view text : {"", ".5", "1e999", "true", "7 m", "a\"b"}) {
+    EXPECT_EQ(shortest(text), dump(text));
+  }
+}
+
 /// Every kind of value, as a tree and as it is written, on one line and indented.
 TEST(JsonWriter, WritesWhatTheTreeDoes) {
   const Json tree = {{"text", "a\"b"},

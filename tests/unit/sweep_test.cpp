@@ -277,6 +277,22 @@ TEST(Sweep, KeepsToItsShape) {
   EXPECT_EQ(broken.counts.events[static_cast<std::size_t>(SweepKind::start)].accepted, 0U);
 }
 
+TEST(Sweep, WritesAllowedNumbersInTheirShortestForm) {
+  const CompiledCatalog catalog = test::compile_text(R"(
+tasks:
+- {task: A, parameters: [{parameter: p, allowed_values: [0.50, 1e3]}]}
+behaviors:
+- {behavior: a, task: A}
+)");
+  SweepSettings settings;
+  settings.shape.events = 400;  // one of 16 starts has parameters
+  const std::string script = write_script(catalog, steps_of_sequence(catalog, settings, 0, 0), "");
+  EXPECT_NE(script.find("\"p\":0.5}"), std::string::npos) << script;
+  EXPECT_NE(script.find("\"p\":1000.0}"), std::string::npos) << script;
+  EXPECT_EQ(script.find("0.50"), std::string::npos);
+  EXPECT_EQ(script.find("1e3"), std::string::npos);
+}
+
 TEST(Sweep, DrawsTheSameNumbersOnEveryMachine) {
   // Worked out apart, by the published algorithm of SplitMix64.
   RandomSource first(1, 0);

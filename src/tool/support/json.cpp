@@ -90,6 +90,11 @@ void append_as_written(std::string& json, std::string_view text) {
   }
 }
 
+void append_shortest(std::string& json, std::string_view text) {
+  const auto number = nlohmann::json::parse(text, nullptr, false);
+  json += dump(number.is_number() ? number : nlohmann::json(text));
+}
+
 void append_seconds(std::string& json, Microseconds time) {
   append_integer(json, time / second);
   std::string fraction = std::to_string(second + time % second);

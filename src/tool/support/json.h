@@ -30,6 +30,9 @@ void append_integer(std::string& json, Integer number) {
 /// JSON and a double can hold it; anything else as a text.
 void append_as_written(std::string& json, std::string_view text);
 
+/// The same in the shortest form of the number: 0.5 for 0.50.
+void append_shortest(std::string& json, std::string_view text);
+
 /// Appends a time, which is not negative, in seconds. It is exact to the microsecond; a double
 /// would not be, as some of them need more digits.
 void append_seconds(std::string& json, Microseconds time);

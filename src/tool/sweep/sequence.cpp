@@ -151,7 +151,7 @@ std::string draw_value(const Parameter& parameter, RandomSource& random) {
   if (parameter.allowed_is_list) {
     const auto size = static_cast<std::uint32_t>(parameter.allowed_values.size());
     const std::string& text = parameter.allowed_values[random.below(size)];
-    append_as_written(json, text);
+    append_shortest(json, text);
     return json;
   }
   const std::string& type = parameter.allowed_values.front();
