@@ -35,23 +35,6 @@ TEST(Graph, LongPathsInAnyOrderAreOneComponent) {
   }
 }
 
-TEST(Graph, TargetsComeBeforeSourcesInReverseTopologicalOrder) {
-  const Edges edges{{3, 0}, {0, 4}, {3, 4}, {1, 3}, {4, 2}, {1, 2}, {3, 0}};
-  const Vertices order = reverse_topological_order(5, edges);
-  EXPECT_EQ(order, (Vertices{2, 4, 0, 3, 1})) << "the only order of this graph";
-}
-
-TEST(Graph, OrderHasEveryVertexOnce) {
-  Vertices order = reverse_topological_order(5, {{1, 0}});
-  const auto place = [&](std::uint32_t vertex) {
-    return std::find(order.begin(), order.end(), vertex);
-  };
-  EXPECT_LT(place(0), place(1));
-  std::sort(order.begin(), order.end());
-  EXPECT_EQ(order, (Vertices{0, 1, 2, 3, 4}));
-  EXPECT_EQ(reverse_topological_order(0, {}), Vertices{});
-}
-
 TEST(Graph, EdgesAreTransitiveIfAnotherPathLeadsToTheirTarget) {
   using Answer = std::vector<bool>;
   EXPECT_EQ(transitive_edges(3, {{0, 1}, {0, 2}, {1, 2}}), (Answer{false, true, false}));

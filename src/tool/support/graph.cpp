@@ -38,14 +38,6 @@ std::vector<std::uint32_t> strong_components(std::size_t vertices, const Edges& 
   return component;
 }
 
-std::vector<std::uint32_t> reverse_topological_order(std::size_t vertices, const Edges& edges) {
-  std::vector<std::uint32_t> order;
-  order.reserve(vertices);
-  const Directed graph = to_directed(vertices, edges);
-  boost::topological_sort(graph, std::back_inserter(order));
-  return order;
-}
-
 namespace {
 
 using Vertex = std::uint32_t;
@@ -58,7 +50,10 @@ class Search {
       : edges_(std::move(edges)), height_(vertices), visit_(vertices) {
     std::sort(edges_.begin(), edges_.end());
     edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-    for (const Vertex vertex : reverse_topological_order(vertices, edges_)) {
+    std::vector<Vertex> order;  // sources after their targets
+    const Directed graph = to_directed(vertices, edges_);
+    boost::topological_sort(graph, std::back_inserter(order));
+    for (const Vertex vertex : order) {
       for (auto edge = first_edge(vertex); is_of(edge, vertex); ++edge) {
         height_[vertex] = std::max(height_[vertex], height_[edge->second] + 1);
       }

@@ -18,10 +18,6 @@ using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 [[nodiscard]] std::vector<std::uint32_t> strong_components(std::size_t vertices,
                                                            const Edges& edges);
 
-/// The vertices of an acyclic graph, ordered so that every edge (from, to) has `to` before `from`.
-[[nodiscard]] std::vector<std::uint32_t> reverse_topological_order(std::size_t vertices,
-                                                                   const Edges& edges);
-
 /// Whether each edge is implied by the others: another path leads from its source to its target.
 /// Each cycle counts as one vertex, so edges within cycles are not implied. Edges are distinct.
 [[nodiscard]] std::vector<bool> transitive_edges(std::size_t vertices, const Edges& edges);
