@@ -83,35 +83,16 @@ std::optional<Type> type_of(std::string_view name) {
 }
 
 std::string_view describe_item(Item item) {
-  switch (item) {
-    case Item::string:
-      return "a string";
-    case Item::boolean:
-      return "true or false";
-    case Item::integer:
-      return "an integer";
-    case Item::number:
-      return "a number";
-    case Item::point:
-      break;
-  }
-  return "a point (2 or 3 numbers)";
+  constexpr std::string_view phrases[] = {"a string", "true or false", "an integer", "a number",
+                                          "a point (2 or 3 numbers)"};
+  return phrases[static_cast<std::size_t>(item)];
 }
 
 std::string_view describe_list(Item item) {
-  switch (item) {
-    case Item::string:
-      return "a list of strings";
-    case Item::boolean:
-      return "a list of booleans";
-    case Item::integer:
-      return "a list of integers";
-    case Item::number:
-      return "a list of numbers";
-    case Item::point:
-      break;
-  }
-  return "a list of points (2 or 3 numbers each)";
+  constexpr std::string_view phrases[] = {"a list of strings", "a list of booleans",
+                                          "a list of integers", "a list of numbers",
+                                          "a list of points (2 or 3 numbers each)"};
+  return phrases[static_cast<std::size_t>(item)];
 }
 
 // Values -------------------------------------------------------------------------------------

@@ -54,28 +54,9 @@ std::optional<Mark> join(Mark a, Mark b) {
 }
 
 std::string_view name_of(Mark mark) {
-  switch (mark) {
-    case Mark::plain:
-    case Mark::faint:
-      break;
-    case Mark::faulty:
-      return "faulty";
-    case Mark::added:
-      return "added";
-    case Mark::removed:
-      return "removed";
-    case Mark::changed:
-      return "changed";
-    case Mark::active:
-      return "active";
-    case Mark::started:
-      return "started";
-    case Mark::stopped:
-      return "stopped";
-    case Mark::unavailable:
-      return "unavailable";
-  }
-  return {};
+  constexpr std::string_view names[] = {"",        "",       "faulty",  "added",   "removed",
+                                        "changed", "active", "started", "stopped", "unavailable"};
+  return names[static_cast<std::size_t>(mark)];
 }
 
 namespace {

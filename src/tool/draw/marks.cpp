@@ -328,15 +328,8 @@ using ChangeSubject = CatalogChange::Subject;
 using Places = std::unordered_map<std::string_view, std::uint32_t>;
 
 Mark mark_of(ChangeKind kind) {
-  switch (kind) {
-    case ChangeKind::removed:
-      return Mark::removed;
-    case ChangeKind::added:
-      return Mark::added;
-    case ChangeKind::changed:
-      break;
-  }
-  return Mark::changed;
+  constexpr Mark marks[] = {Mark::removed, Mark::added, Mark::changed};
+  return marks[static_cast<std::size_t>(kind)];
 }
 
 template <typename Link>

@@ -74,15 +74,8 @@ std::string name_of_option(RuleSetting setting) { return "--" + std::string(name
 }  // namespace
 
 std::string_view name_of(RuleSetting setting) {
-  switch (setting) {
-    case RuleSetting::error:
-      return "error";
-    case RuleSetting::warn:
-      return "warn";
-    case RuleSetting::allow:
-      break;
-  }
-  return "allow";
+  constexpr std::string_view names[] = {"error", "warn", "allow"};
+  return names[static_cast<std::size_t>(setting)];
 }
 
 bool is_fixed(const Diagnostic& finding) {
