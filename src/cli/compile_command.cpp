@@ -19,7 +19,7 @@
 #include "cli/output.h"
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
-#include "report/catalog_dump.h"
+#include "report/catalog_report.h"
 
 namespace cbc::cli {
 namespace {

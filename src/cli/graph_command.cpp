@@ -26,7 +26,7 @@
 #include "diff/catalog_diff.h"
 #include "draw/catalog_graph.h"
 #include "draw/diagram.h"
-#include "report/graph_report.h"
+#include "report/catalog_report.h"
 #include "report/solve_report.h"
 #include "script/runner.h"
 #include "support/system.h"

@@ -13,7 +13,6 @@
 #include "compiled/compiled_catalog.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/record.h"
-#include "report/event_json.h"
 #include "report/solve_report.h"
 #include "script/runner.h"
 #include "script/script.h"

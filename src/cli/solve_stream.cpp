@@ -23,7 +23,7 @@
 #include "cli/solve.h"
 #include "compiled/compiled_catalog.h"
 #include "coordinator/state.h"
-#include "report/event_json.h"
+#include "report/solve_report.h"
 #include "script/event_lines.h"
 #include "script/reader.h"
 #include "script/runner.h"

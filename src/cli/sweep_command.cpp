@@ -12,7 +12,7 @@
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/solve.h"
-#include "report/sweep_report.h"
+#include "report/solve_report.h"
 #include "sweep/sweep.h"
 
 namespace cbc::cli {

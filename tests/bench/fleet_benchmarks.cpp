@@ -15,7 +15,7 @@
 #include "coordinator/coordinator.h"
 #include "draw/catalog_graph.h"
 #include "draw/diagram.h"
-#include "report/graph_report.h"
+#include "report/catalog_report.h"
 
 namespace cbc::bench {
 namespace {

@@ -16,7 +16,7 @@
 #include "draw/catalog_graph.h"
 #include "draw/diagram.h"
 #include "graph/hostile_catalog.h"
-#include "report/graph_report.h"
+#include "report/catalog_report.h"
 #include "report/solve_report.h"
 #include "script/runner.h"
 #include "support/read_file.h"

@@ -16,7 +16,7 @@
 #include "compile/compile.h"
 #include "generator.h"
 #include "random.h"
-#include "report/event_json.h"
+#include "report/solve_report.h"
 #include "script/event_lines.h"
 #include "script/reader.h"
 #include "script/runner.h"

@@ -6,7 +6,7 @@
 #include "catalog/reader.h"
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
-#include "report/event_json.h"
+#include "report/solve_report.h"
 #include "script/reader.h"
 #include "script/runner.h"
 #include "yaml/document.h"

@@ -8,7 +8,7 @@
 
 #include "catalog/reader.h"
 #include "compile/compile.h"
-#include "report/graph_report.h"
+#include "report/catalog_report.h"
 
 namespace cbc {
 namespace {

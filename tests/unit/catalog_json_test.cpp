@@ -11,7 +11,7 @@
 
 #include "catalog/reader.h"
 #include "compile/compile.h"
-#include "report/catalog_dump.h"
+#include "report/catalog_report.h"
 #include "support/read_file.h"
 #include "unit/compiled_bytes.h"
 #include "unit/compiled_fixture.h"

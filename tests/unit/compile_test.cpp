@@ -20,7 +20,7 @@ namespace {
 /// By group.
 std::vector<ConstraintCount> count_constraints(const CompiledCatalog& catalog) {
   std::vector<ConstraintCount> counts;
-  for (const CatalogNumbers& group : summarize_groups(catalog).groups) {
+  for (const CatalogNumbers& group : summarize(catalog).groups) {
     counts.push_back(group.constraints);
   }
   return counts;

@@ -11,7 +11,7 @@
 #include "draw/catalog_graph.h"
 #include "draw/diagram.h"
 #include "property/random.h"
-#include "report/graph_report.h"
+#include "report/catalog_report.h"
 #include "yaml/document.h"
 
 namespace cbc::draw {

@@ -141,6 +141,21 @@ TEST(JsonWriter, WritesWhatTheTreeDoes) {
   }
 }
 
+TEST(JsonWriter, WritesObjectsOfPlainMembers) {
+  const auto text = json_line([](JsonWriter& json) {
+    json.write_members({{"text", std::string("a\"b")}, {"truth", false}, {"less", -1}});
+    json.write_object("numbers", {{"most", std::numeric_limits<std::uint64_t>::max()},
+                                  {"whole", 2.0},
+                                  {"part", 0.5},
+                                  {"some", std::optional(3)}});
+    json.write_object("empty", {{"null", nullptr}, {"none", std::optional<int>()}});
+  });
+  EXPECT_EQ(text, R"({"text":"a\"b","truth":false,"less":-1,)"
+                  R"("numbers":{"most":18446744073709551615,"whole":2.0,"part":0.5,"some":3},)"
+                  R"("empty":{"null":null,"none":null}})"
+                  "\n");
+}
+
 TEST(JsonWriter, PutsItemsOnLinesOfTheirOwn) {
   std::string text;
   JsonWriter json(text);

@@ -12,13 +12,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Summary example_summary() {
-  Summary summary;
-  summary.tasks = 4;
-  summary.behaviors = 5;
-  summary.constraints = {3, 2, 1};
-  summary.groups = {{{"HOVER", "LAND", "LOCALIZE"}, 6}, {{"BLINK"}, 0}};
-  summary.search_space = "123456789012345678901234567890";
+CatalogSummary example_summary() {
+  CatalogSummary summary;
+  summary.total.tasks = 4;
+  summary.total.behaviors = 5;
+  summary.total.constraints = {3, 2, 1};
+  summary.groups.resize(2);
+  summary.groups[0].task_names = {"HOVER", "LAND", "LOCALIZE"};
+  summary.groups[0].constraints = {3, 2, 1};
+  summary.groups[1].task_names = {"BLINK"};
+  summary.total.search_space = "123456789012345678901234567890";
   return summary;
 }
 
@@ -64,8 +67,8 @@ TEST(LintJson, CountsFindingsOfAllFiles) {
 TEST(LintJson, IsValidForNoFileAndForEmptyCatalogs) {
   EXPECT_EQ(Json::parse(lint_json({})), Json::parse(R"({"schema": "cbc.lint/1", "files": [],
                             "errors": 0, "warnings": 0, "notes": 0})"));
-  Summary summary;
-  summary.search_space = "1";
+  CatalogSummary summary;
+  summary.total.search_space = "1";
   const Json json = Json::parse(lint_json({{"a.yaml", "", {}, summary}}));
   EXPECT_EQ(json["files"][0]["summary"]["groups"], Json::array());
   EXPECT_EQ(json["files"][0]["summary"]["search_space"], "1");
@@ -73,8 +76,8 @@ TEST(LintJson, IsValidForNoFileAndForEmptyCatalogs) {
 
 TEST(LintJson, GivesHostileNamesBack) {
   const std::string name = "\"a\\\n%,:\x1b'é日.yaml";
-  Summary summary = example_summary();
-  summary.groups[0].tasks[0] = name;
+  CatalogSummary summary = example_summary();
+  summary.groups[0].task_names[0] = name;
   const Json json = Json::parse(lint_json(
       {{name,
         "",

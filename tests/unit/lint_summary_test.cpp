@@ -11,14 +11,22 @@
 namespace cbc {
 namespace {
 
-std::string show(const Summary& summary, const std::string& name = "a.yaml") {
+std::string show(const CatalogSummary& summary, const std::string& name = "a.yaml") {
   return lint_summary({name, "", {}, summary}, plain_style());
+}
+
+CatalogNumbers group_of(std::vector<std::string> tasks, std::uint64_t constraints) {
+  CatalogNumbers numbers;
+  numbers.tasks = tasks.size();
+  numbers.constraints.exclusive_pairs = constraints;
+  numbers.task_names = std::move(tasks);
+  return numbers;
 }
 
 /// What the table says about a search space.
 std::string search_space(const std::string& digits) {
-  Summary summary;
-  summary.search_space = digits;
+  CatalogSummary summary;
+  summary.total.search_space = digits;
   const std::string text = show(summary);
   const std::string line = text.substr(text.find("search space") + 12);
   return line.substr(line.find_first_not_of(' '));
@@ -26,9 +34,9 @@ std::string search_space(const std::string& digits) {
 
 /// The line about a group of these tasks.
 std::string group_line(std::vector<std::string> tasks) {
-  Summary summary;
-  summary.groups = {{std::move(tasks), 7}};
-  summary.search_space = "1";
+  CatalogSummary summary;
+  summary.groups = {group_of(std::move(tasks), 7)};
+  summary.total.search_space = "1";
   const std::string text = show(summary);
   const std::string_view head = "7 constraints: ";
   const std::size_t names = text.find(head) + head.size();
@@ -36,16 +44,13 @@ std::string group_line(std::vector<std::string> tasks) {
 }
 
 TEST(LintSummary, ShowsACatalogInNumbers) {
-  Summary summary;
-  summary.tasks = 9;
-  summary.behaviors = 12;
-  summary.constraints = {3, 2, 1};
-  summary.groups = {{{"HOVER", "LAND", "LOCALIZE"}, 5},
-                    {{"BLINK"}, 0},
-                    {{"SING"}, 1},
-                    {{"LOOK", "LISTEN"}, 0},
-                    {{"WAIT"}, 0}};
-  summary.search_space = "1327104";
+  CatalogSummary summary;
+  summary.total.tasks = 9;
+  summary.total.behaviors = 12;
+  summary.total.constraints = {3, 2, 1};
+  summary.groups = {group_of({"HOVER", "LAND", "LOCALIZE"}, 5), group_of({"BLINK"}, 0),
+                    group_of({"SING"}, 1), group_of({"LOOK", "LISTEN"}, 0), group_of({"WAIT"}, 0)};
+  summary.total.search_space = "1327104";
   EXPECT_EQ(show(summary),
             "a.yaml\n"
             "  tasks                      9\n"
@@ -63,8 +68,8 @@ TEST(LintSummary, ShowsACatalogInNumbers) {
 }
 
 TEST(LintSummary, ShowsAnEmptyCatalog) {
-  Summary summary;
-  summary.search_space = "1";
+  CatalogSummary summary;
+  summary.total.search_space = "1";
   EXPECT_EQ(show(summary),
             "a.yaml\n"
             "  tasks                      0\n"
@@ -118,8 +123,8 @@ TEST(LintSummary, MakesHostileNamesHarmless) {
 }
 
 TEST(LintSummary, ColorsOnRequest) {
-  Summary summary;
-  summary.search_space = "1";
+  CatalogSummary summary;
+  summary.total.search_space = "1";
   const std::string text = lint_summary({"a.yaml", "", {}, summary}, color_style());
   EXPECT_EQ(text.substr(0, text.find('\n')), "\x1b[1ma.yaml\x1b[0m");
 }

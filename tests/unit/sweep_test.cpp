@@ -12,8 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "report/event_json.h"
-#include "report/sweep_report.h"
+#include "report/solve_report.h"
 #include "script/reader.h"
 #include "script/runner.h"
 #include "support/read_file.h"

@@ -38,32 +38,18 @@ struct CatalogNumbers {
   std::uint32_t levels = 0;  ///< 1 + highest level of a task; 0 if there is no task
   ConstraintCount constraints;
   std::string search_space;  ///< product over the tasks of 1 + number of behaviors, an integer
+  std::vector<std::string> task_names;  ///< of a group, in catalog order
 };
 
 struct CatalogSummary {
   CatalogNumbers total;
-  std::vector<CatalogNumbers> groups;
+  std::vector<CatalogNumbers> groups;  ///< in the order of their first task
 };
 
-[[nodiscard]] CatalogSummary summarize_groups(const CompiledCatalog& catalog);
+[[nodiscard]] CatalogSummary summarize(const CompiledCatalog& catalog);
 
 /// The exclusivity lists of a group, as places in CompiledCatalog::cliques, by their first task.
 [[nodiscard]] std::vector<std::uint32_t> cliques_of_group(const CompiledCatalog& catalog,
                                                           std::size_t group);
-
-/// A catalog in numbers.
-struct Summary {
-  struct Group {
-    std::vector<std::string> tasks;  ///< in catalog order
-    std::uint64_t constraints = 0;
-  };
-  std::size_t tasks = 0;
-  std::size_t behaviors = 0;
-  ConstraintCount constraints;
-  std::vector<Group> groups;  ///< in the order of their first task
-  std::string search_space;   ///< product over all tasks of 1 + number of behaviors, an integer
-};
-
-[[nodiscard]] Summary summarize(const CompiledCatalog& catalog);
 
 }  // namespace cbc

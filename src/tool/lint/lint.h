@@ -34,11 +34,11 @@ struct LintResult {
 
 /// What lint has to say about one file.
 struct LintedFile {
-  std::string file;                  ///< name in messages
-  std::string text;                  ///< as it was read
-  std::vector<Diagnostic> findings;  ///< in the order of Diagnostics::sort
-  std::optional<Summary> summary;    ///< of a catalog that was understood
-  bool is_script = false;            ///< an event script, which has no summary
+  std::string file;                       ///< name in messages
+  std::string text;                       ///< as it was read
+  std::vector<Diagnostic> findings;       ///< in the order of Diagnostics::sort
+  std::optional<CatalogSummary> summary;  ///< of a catalog that was understood
+  bool is_script = false;                 ///< an event script, which has no summary
 };
 
 /// Number of findings of a severity in a file, in all files.

@@ -1,5 +1,3 @@
-#include "report/catalog_dump.h"
-
 #include <cstddef>
 #include <iterator>
 #include <optional>
@@ -12,6 +10,7 @@
 #include "catalog/allowed_values.h"
 #include "cbc/units.h"
 #include "compile/compile.h"
+#include "report/catalog_report.h"
 #include "report/sentences.h"
 #include "support/json.h"
 
@@ -26,7 +25,7 @@ class Listing {
 
   [[nodiscard]] std::string run() {
     add_file();
-    const CatalogSummary summary = summarize_groups(catalog_);
+    const CatalogSummary summary = summarize(catalog_);
     line("");
     add_numbers("", summary.total);
     line("groups: {}", summary.groups.size());
@@ -154,27 +153,27 @@ void write_timeout(JsonWriter& json, Microseconds time) {
 }
 
 void write_parameter(JsonWriter& json, const Parameter& parameter) {
-  json.open('{');
-  json.write("parameter", parameter.name);
+  const std::vector<std::string>& allowed = parameter.allowed_values;
   if (parameter.allowed_is_list) {
-    json.write_list("allowed_values", parameter.allowed_values);
-  } else if (parameter.allowed_values.empty()) {
-    json.write("allowed_values", nullptr);
+    json.open('{');
+    json.write("parameter", parameter.name);
+    json.write_list("allowed_values", allowed);
+    json.close('}');
   } else {
-    json.write("allowed_values", parameter.allowed_values.front());
+    json.write_object({{"parameter", parameter.name},
+                       {"allowed_values", allowed.empty() ? JsonPlain(nullptr) : allowed.front()}});
   }
-  json.close('}');
 }
 
 void write_task(JsonWriter& json, const CompiledCatalog& catalog, TaskId id) {
   const CompiledTask& task = catalog.tasks[id];
   const bool has_minimum = task.minimum_performance > 0;
   json.on_new_line().open('{');
-  json.write("task", catalog.name_of_task(id));
-  json.write("level", task.level);
-  json.write("execution_goal", task.keep_running != 0 ? "keep_running" : "achieve_goal");
-  json.write("start_on_request", task.start_on_request != 0);
-  json.write("reactive_start", task.reactive_start != 0);
+  json.write_members({{"task", catalog.name_of_task(id)},
+                      {"level", task.level},
+                      {"execution_goal", task.keep_running != 0 ? "keep_running" : "achieve_goal"},
+                      {"start_on_request", task.start_on_request != 0},
+                      {"reactive_start", task.reactive_start != 0}});
   write_timeout(json, task.timeout);
   write_minimum(json, task.minimum_performance);
   json.write("line", has_minimum ? std::optional(task.minimum_line) : std::nullopt);
@@ -192,9 +191,10 @@ void write_task(JsonWriter& json, const CompiledCatalog& catalog, TaskId id) {
 void write_behavior(JsonWriter& json, const CompiledCatalog& catalog, BehaviorId id) {
   const CompiledBehavior& behavior = catalog.behaviors[id];
   json.on_new_line().open('{');
-  json.write("behavior", catalog.name_of_behavior(id));
-  json.write("level", behavior.level);
-  json.write("package", catalog.texts[catalog.behavior_packages[behavior.catalog_index]]);
+  json.write_members(
+      {{"behavior", catalog.name_of_behavior(id)},
+       {"level", behavior.level},
+       {"package", catalog.texts[catalog.behavior_packages[behavior.catalog_index]]}});
   write_timeout(json, behavior.timeout);
   json.write_list("requires", catalog.requirements[id], [&](const CompiledRequirement& required) {
     json.open('{');
@@ -245,39 +245,32 @@ void write_group(JsonWriter& json, const CompiledCatalog& catalog, std::size_t g
 }  // namespace
 
 void write_constraints(JsonWriter& json, const ConstraintCount& constraints) {
-  json.open("constraints", '{');
-  json.write("exclusive_pairs", constraints.exclusive_pairs);
-  json.write("requirements", constraints.requirements);
-  json.write("task_minimums", constraints.task_minimums);
-  json.write("total", constraints.total());
-  json.close('}');
+  json.write_object("constraints", {{"exclusive_pairs", constraints.exclusive_pairs},
+                                    {"requirements", constraints.requirements},
+                                    {"task_minimums", constraints.task_minimums},
+                                    {"total", constraints.total()}});
 }
 
 std::string catalog_json(const CompiledFile& file) {
   const CompiledCatalog& catalog = file.catalog;
-  const CatalogSummary summary = summarize_groups(catalog);
-  std::string text;
-  JsonWriter json(text);
-  json.open('{');
-  json.write("schema", "cbc.catalog/1");
-  json.on_new_line().write("format", file.format);
-  json.on_new_line().write("written_by", file.written_by);
-  json.on_new_line().open("source", '{');
-  json.write("file", catalog.file);
-  json.write("digest", to_hex(file.source));
-  json.close('}');
-  json.on_new_line().write("content_digest", to_hex(file.content));
-  json.on_new_line().write("size", file.size);
-  json.on_new_line().write("tasks", summary.total.tasks);
-  json.on_new_line().write("behaviors", summary.total.behaviors);
-  write_numbers(json, summary.total);
-  json.on_new_line().open("groups", '[');
-  for (std::size_t group = 0; group < summary.groups.size(); ++group) {
-    write_group(json, catalog, group, summary.groups[group]);
-  }
-  json.close(']');
-  json.close('}');
-  return text + "\n";
+  const CatalogSummary summary = summarize(catalog);
+  return json_line([&](JsonWriter& json) {
+    json.write("schema", "cbc.catalog/1");
+    json.on_new_line().write("format", file.format);
+    json.on_new_line().write("written_by", file.written_by);
+    json.on_new_line().write_object("source",
+                                    {{"file", catalog.file}, {"digest", to_hex(file.source)}});
+    json.on_new_line().write("content_digest", to_hex(file.content));
+    json.on_new_line().write("size", file.size);
+    json.on_new_line().write("tasks", summary.total.tasks);
+    json.on_new_line().write("behaviors", summary.total.behaviors);
+    write_numbers(json, summary.total);
+    json.on_new_line().open("groups", '[');
+    for (std::size_t group = 0; group < summary.groups.size(); ++group) {
+      write_group(json, catalog, group, summary.groups[group]);
+    }
+    json.close(']');
+  });
 }
 
 }  // namespace cbc

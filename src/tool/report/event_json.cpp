@@ -1,6 +1,5 @@
-#include "report/event_json.h"
-
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -26,10 +25,8 @@ void write_reason(JsonWriter& json, const CompiledCatalog& catalog, const EventR
     json.write("behavior", catalog.name_of_behavior(reason.behavior));
   }
   if (reason.other_task != none) {
-    json.open("tasks", '[');
-    json.write(catalog.name_of_task(reason.task));
-    json.write(catalog.name_of_task(reason.other_task));
-    json.close(']');
+    json.write_list("tasks", std::array{reason.task, reason.other_task},
+                    [&](TaskId task) { json.write(catalog.name_of_task(task)); });
   } else if (reason.task != none) {
     json.write("task", catalog.name_of_task(reason.task));
   }
@@ -54,6 +51,14 @@ std::optional<std::string_view> name_of_value(const CompiledCatalog& catalog, Ta
   return catalog.name_of_behavior(catalog.values[task][value_index].behavior);
 }
 
+void write_objective(JsonWriter& json, const ObjectiveValues& objective, double suitability) {
+  json.write_object("objective", {{"satisfied", objective.satisfied},
+                                  {"requests", objective.requests},
+                                  {"suitability", suitability},
+                                  {"idle", idle_share(objective)},
+                                  {"changes", objective.changes}});
+}
+
 /// The running tasks of the group, in catalog order, and the objectives.
 void write_configuration(JsonWriter& json, const CompiledCatalog& catalog,
                          const EventRecord& record, const Configuration& configuration,
@@ -67,14 +72,8 @@ void write_configuration(JsonWriter& json, const CompiledCatalog& catalog,
     if (behavior) json.write(catalog.name_of_task(first + task), *behavior);
   }
   json.close('}');
-  const ObjectiveValues& objective = configuration.objective;
-  json.open("objective", '{');
-  json.write("satisfied", objective.satisfied);
-  json.write("requests", objective.requests);
-  json.write("suitability", total_suitability(catalog, state, group, configuration.assignment));
-  json.write("idle", idle_share(objective));
-  json.write("changes", objective.changes);
-  json.close('}');
+  write_objective(json, configuration.objective,
+                  total_suitability(catalog, state, group, configuration.assignment));
   json.close('}');
 }
 
@@ -90,8 +89,7 @@ void write_loss(JsonWriter& json, const CompiledCatalog& catalog, const EventRec
   const Configuration& other = *why_not.alternative;
   const Difference& difference = why_not.difference;
   const auto write = [&](const auto& ours, const auto& theirs) {
-    json.write("chosen", ours);
-    json.write("alternative", theirs);
+    json.write_members({{"chosen", ours}, {"alternative", theirs}});
   };
   json.open("loses", '{');
   json.write("objective", name_of(difference.criterion));
@@ -221,37 +219,24 @@ class EventText {
   }
 
   void write_changes() {
-    json_.open("changes", '[');
-    for (const Change& change : record_.changes) {
+    json_.write_list("changes", record_.changes, [&](const Change& change) {
       json_.open('{');
       json_.write("op", change.is_activation ? "activate" : "deactivate");
       json_.write("behavior", catalog_.name_of_behavior(change.behavior));
-      write_tasks(record_.tasks_of(change));
-      json_.write("cause", name_of(change.cause));
-      json_.write("priority", change.priority);
-      json_.write("success", change.success);
+      json_.write_list("tasks", record_.tasks_of(change),
+                       [&](TaskId task) { json_.write(catalog_.name_of_task(task)); });
+      json_.write_members({{"cause", name_of(change.cause)},
+                           {"priority", change.priority},
+                           {"success", change.success}});
       json_.close('}');
-    }
-    json_.close(']');
-  }
-
-  void write_tasks(std::span<const TaskId> tasks) {
-    json_.open("tasks", '[');
-    for (const TaskId task : tasks) {
-      json_.write(catalog_.name_of_task(task));
-    }
-    json_.close(']');
+    });
   }
 
   void write_stopped() {
-    json_.open("stopped_tasks", '[');
-    for (const StoppedTask& entry : record_.stopped_tasks) {
-      json_.open('{');
-      json_.write("task", catalog_.name_of_task(entry.task));
-      json_.write("cause", name_of(entry.cause));
-      json_.close('}');
-    }
-    json_.close(']');
+    json_.write_list("stopped_tasks", record_.stopped_tasks, [&](const StoppedTask& entry) {
+      json_.write_object(
+          {{"task", catalog_.name_of_task(entry.task)}, {"cause", name_of(entry.cause)}});
+    });
   }
 
   void write_state() {
@@ -281,14 +266,7 @@ class EventText {
 
   void write_objective() {
     if (!record_.objective) return json_.write("objective", nullptr);
-    const ObjectiveValues& objective = *record_.objective;
-    json_.open("objective", '{');
-    json_.write("satisfied", objective.satisfied);
-    json_.write("requests", objective.requests);
-    json_.write("suitability", total_suitability(catalog_, state_));
-    json_.write("idle", idle_share(objective));
-    json_.write("changes", objective.changes);
-    json_.close('}');
+    cbc::write_objective(json_, *record_.objective, total_suitability(catalog_, state_));
   }
 
   void write_search() {
@@ -324,36 +302,26 @@ void append_event(std::string& text, const CompiledCatalog& catalog, const Event
 
 std::string stream_header(const CompiledCatalog& catalog, std::string_view catalog_name,
                           Microseconds reactive_delay, std::span<const Availability> situation) {
-  std::string text;
-  JsonWriter json(text);
-  json.open('{');
-  json.write("schema", "cbc.events/1");
-  json.write("catalog", catalog_name);
-  json.write("digest", to_hex(identity_of(catalog)));
-  json.write_seconds("reactive_delay", reactive_delay);
-  write_situation(json, catalog, situation);
-  json.close('}');
-  return text + "\n";
+  return json_line([&](JsonWriter& json) {
+    json.write_members({{"schema", "cbc.events/1"},
+                        {"catalog", catalog_name},
+                        {"digest", to_hex(identity_of(catalog))}});
+    json.write_seconds("reactive_delay", reactive_delay);
+    write_situation(json, catalog, situation);
+  });
 }
 
 std::string stream_error(std::string_view message, std::uint64_t line) {
-  std::string text;
-  JsonWriter json(text);
-  json.open('{');
-  json.write("error", message);
-  json.write("line", line);
-  json.close('}');
-  return text + "\n";
+  return json_line([&](JsonWriter& json) {
+    json.write_members({{"error", message}, {"line", line}});
+  });
 }
 
 std::string stream_totals(const SearchTotals& totals) {
-  std::string text;
-  JsonWriter json(text);
-  json.open('{');
-  write_totals(json, totals);
-  write_process(json, process_usage());
-  json.close('}');
-  return text + "\n";
+  return json_line([&](JsonWriter& json) {
+    write_totals(json, totals);
+    write_process(json, process_usage());
+  });
 }
 
 void EventStream::on_event(const EventRecord& record, const Step* step, const State& state) {

@@ -1,3 +1,4 @@
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
@@ -5,7 +6,8 @@
 
 #include "base/text.h"
 #include "diff/catalog_diff.h"
-#include "report/graph_report.h"
+#include "report/catalog_report.h"
+#include "report/sentences.h"
 #include "support/json.h"
 
 namespace cbc {
@@ -18,43 +20,19 @@ using draw::Node;
 using draw::NodeKind;
 
 std::string_view name_of(draw::View view) {
-  switch (view) {
-    case draw::View::tasks:
-      return "tasks";
-    case draw::View::constraints:
-      return "constraints";
-    case draw::View::behaviors:
-      return "behaviors";
-    case draw::View::full:
-      break;
-  }
-  return "full";
+  constexpr std::string_view names[] = {"full", "tasks", "constraints", "behaviors"};
+  return names[static_cast<std::size_t>(view)];
 }
 
 std::string_view name_of(NodeKind kind) {
-  switch (kind) {
-    case NodeKind::behavior:
-      return "behavior";
-    case NodeKind::hub:
-      return "hub";
-    case NodeKind::task:
-      break;
-  }
-  return "task";
+  constexpr std::string_view names[] = {"task", "behavior", "hub"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 std::string_view name_of(EdgeKind kind) {
-  switch (kind) {
-    case EdgeKind::requirement:
-      return "requirement";
-    case EdgeKind::exclusion:
-      return "exclusion";
-    case EdgeKind::same_behavior:
-      return "same_behavior";
-    case EdgeKind::performed_by:
-      break;
-  }
-  return "performed_by";
+  constexpr std::string_view names[] = {"performed_by", "requirement", "exclusion",
+                                        "same_behavior"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 void write_mark(JsonWriter& json, Mark mark) {
@@ -64,11 +42,9 @@ void write_mark(JsonWriter& json, Mark mark) {
 
 void write_moment(JsonWriter& json, const draw::Moment& moment) {
   json.open("state", '{');
-  json.write("script", moment.script);
-  json.write("index", moment.index);
+  json.write_members({{"script", moment.script}, {"index", moment.index}});
   if (moment.index == 0) {
-    json.write("time", nullptr);
-    json.write("event", nullptr);
+    json.write_members({{"time", nullptr}, {"event", nullptr}});
   } else {
     json.write_seconds("time", moment.time);
     json.write("event", moment.event);
@@ -78,9 +54,8 @@ void write_moment(JsonWriter& json, const draw::Moment& moment) {
 
 void write_node(JsonWriter& json, const Node& node, bool has_state) {
   json.on_new_line().open('{');
-  json.write("id", node.id);
-  json.write("kind", name_of(node.kind));
   const bool is_unnamed = node.name.empty() && node.kind != NodeKind::task;
+  json.write_members({{"id", node.id}, {"kind", name_of(node.kind)}});
   json.write("name", is_unnamed ? std::nullopt : std::optional(node.name));
   json.write("group", node.group == none ? std::nullopt : std::optional(node.group));
   if (node.kind == NodeKind::behavior) json.write("package", node.package);
@@ -98,9 +73,9 @@ void write_node(JsonWriter& json, const Node& node, bool has_state) {
 
 void write_edge(JsonWriter& json, const draw::Diagram& diagram, const Edge& edge) {
   json.on_new_line().open('{');
-  json.write("kind", name_of(edge.kind));
-  json.write("from", diagram.nodes[edge.from].id);
-  json.write("to", diagram.nodes[edge.to].id);
+  json.write_members({{"kind", name_of(edge.kind)},
+                      {"from", diagram.nodes[edge.from].id},
+                      {"to", diagram.nodes[edge.to].id}});
   if (edge.kind == EdgeKind::performed_by) json.write_percent("suitability", edge.degree);
   if (edge.kind == EdgeKind::requirement) json.write_percent("minimum_performance", edge.degree);
   write_mark(json, edge.mark);
@@ -110,24 +85,15 @@ void write_edge(JsonWriter& json, const draw::Diagram& diagram, const Edge& edge
 }  // namespace
 
 std::string graph_json(const draw::Diagram& diagram) {
-  std::string text;
-  JsonWriter json(text);
-  json.open('{');
-  json.write("schema", "cbc.graph/1");
-  json.write("catalog", diagram.file);
-  json.write("view", name_of(diagram.view));
-  if (diagram.moment) write_moment(json, *diagram.moment);
-  json.open("nodes", '[');
-  for (const Node& node : diagram.nodes) {
-    write_node(json, node, diagram.moment.has_value());
-  }
-  json.close(']');
-  json.open("edges", '[');
-  for (const Edge& edge : diagram.edges) write_edge(json, diagram, edge);
-  json.close(']');
-  json.close('}');
-  text += '\n';
-  return text;
+  return json_line([&](JsonWriter& json) {
+    json.write_members(
+        {{"schema", "cbc.graph/1"}, {"catalog", diagram.file}, {"view", name_of(diagram.view)}});
+    if (diagram.moment) write_moment(json, *diagram.moment);
+    json.write_list("nodes", diagram.nodes,
+                    [&](const Node& node) { write_node(json, node, diagram.moment.has_value()); });
+    json.write_list("edges", diagram.edges,
+                    [&](const Edge& edge) { write_edge(json, diagram, edge); });
+  });
 }
 
 namespace {
@@ -189,54 +155,37 @@ std::string diff_text(const CatalogDiff& diff, const Style& style) {
 
 namespace {
 
-void write_value(JsonWriter& json, std::string_view name, const AttributeValue& value) {
-  if (const bool* const truth = std::get_if<bool>(&value)) {
-    json.write(name, *truth);
-  } else if (const Millionths* const degree = std::get_if<Millionths>(&value)) {
-    json.write(name, *degree / 10'000.0);
-  } else if (const Microseconds* const time = std::get_if<Microseconds>(&value)) {
-    json.write(name, static_cast<double>(*time) / 1'000'000.0);
-  } else if (const std::string* const text = std::get_if<std::string>(&value)) {
-    json.write(name, *text);
-  } else {
-    json.write(name, nullptr);
-  }
+JsonPlain to_json(const AttributeValue& value) {
+  if (const bool* const truth = std::get_if<bool>(&value)) return *truth;
+  if (const auto* const degree = std::get_if<Millionths>(&value)) return *degree / 10'000.0;
+  if (const auto* const time = std::get_if<Microseconds>(&value)) return to_seconds(*time);
+  if (const auto* const text = std::get_if<std::string>(&value)) return *text;
+  return nullptr;
 }
 
 void write_change(JsonWriter& json, const CatalogChange& change) {
   json.open('{');
-  json.write("kind", name_of(change.kind));
-  json.write("subject", name_of(change.subject));
+  json.write_members({{"kind", name_of(change.kind)}, {"subject", name_of(change.subject)}});
   if (!change.behavior.empty()) json.write("behavior", change.behavior);
   if (!change.task.empty()) json.write("task", change.task);
   if (!change.other_task.empty()) json.write("other_task", change.other_task);
-  json.open("attributes", '[');
-  for (const AttributeChange& attribute : change.attributes) {
-    json.open('{');
-    json.write("name", attribute.name);
-    write_value(json, "before", attribute.before);
-    write_value(json, "after", attribute.after);
-    json.close('}');
-  }
-  json.close(']');
+  json.write_list("attributes", change.attributes, [&](const AttributeChange& attribute) {
+    json.write_object({{"name", attribute.name},
+                       {"before", to_json(attribute.before)},
+                       {"after", to_json(attribute.after)}});
+  });
   json.close('}');
 }
 
 }  // namespace
 
 std::string diff_json(const CatalogDiff& diff, std::string_view before, std::string_view after) {
-  std::string text;
-  JsonWriter json(text);
-  json.open('{');
-  json.write("schema", "cbc.diff/1");
-  json.write("old", before);
-  json.write("new", after);
-  json.open("changes", '[');
-  for (const CatalogChange& change : diff.changes) write_change(json, change);
-  json.close(']');
-  json.write("further_exclusions", diff.further_exclusions);
-  json.close('}');
-  return text += '\n';
+  return json_line([&](JsonWriter& json) {
+    json.write_members({{"schema", "cbc.diff/1"}, {"old", before}, {"new", after}});
+    json.write_list("changes", diff.changes,
+                    [&](const CatalogChange& change) { write_change(json, change); });
+    json.write("further_exclusions", diff.further_exclusions);
+  });
 }
 
 std::span<const GraphFormat> graph_formats() {

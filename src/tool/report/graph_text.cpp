@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "draw/diagram.h"
-#include "report/graph_report.h"
+#include "report/catalog_report.h"
 #include "support/json.h"
 #include "support/wording.h"
 

@@ -1,3 +1,4 @@
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,7 +12,7 @@
 #include "base/text.h"
 #include "cbc/version.h"
 #include "diagnostic/rules.h"
-#include "report/catalog_dump.h"
+#include "report/catalog_report.h"
 #include "report/lint_report.h"
 #include "support/json.h"
 #include "support/wording.h"
@@ -91,36 +92,33 @@ namespace {
 
 void write_finding(JsonWriter& json, const Diagnostic& finding) {
   json.on_new_line().open('{');
-  json.write("rule", finding.rule);
-  json.write("severity", name_of(finding.severity));
-  json.write("message", finding.message);
-  json.write("line", finding.range.begin.line);
-  json.write("column", finding.range.begin.column);
-  json.write("end_line", finding.range.end.line);
-  json.write("end_column", finding.range.end.column);
+  json.write_members({{"rule", finding.rule},
+                      {"severity", name_of(finding.severity)},
+                      {"message", finding.message},
+                      {"line", finding.range.begin.line},
+                      {"column", finding.range.begin.column},
+                      {"end_line", finding.range.end.line},
+                      {"end_column", finding.range.end.column}});
   json.write_list("related", finding.notes, [&](const Note& note) {
-    json.open('{');
-    json.write("file", note.file);
-    json.write("line", note.range.begin.line);
-    json.write("column", note.range.begin.column);
-    json.write("message", note.message);
-    json.close('}');
+    json.write_object({{"file", note.file},
+                       {"line", note.range.begin.line},
+                       {"column", note.range.begin.column},
+                       {"message", note.message}});
   });
   json.close('}');
 }
 
-void write_summary(JsonWriter& json, const Summary& summary) {
+void write_summary(JsonWriter& json, const CatalogSummary& summary) {
   json.open("summary", '{');
-  json.write("tasks", summary.tasks);
-  json.write("behaviors", summary.behaviors);
-  write_constraints(json, summary.constraints);
-  json.write_list("groups", summary.groups, [&](const Summary::Group& group) {
+  json.write_members({{"tasks", summary.total.tasks}, {"behaviors", summary.total.behaviors}});
+  write_constraints(json, summary.total.constraints);
+  json.write_list("groups", summary.groups, [&](const CatalogNumbers& group) {
     json.open('{');
-    json.write_list("tasks", group.tasks);
-    json.write("constraints", group.constraints);
+    json.write_list("tasks", group.task_names);
+    json.write("constraints", group.constraints.total());
     json.close('}');
   });
-  json.write("search_space", summary.search_space);
+  json.write("search_space", summary.total.search_space);
   json.close('}');
 }
 
@@ -140,25 +138,17 @@ void write_file(JsonWriter& json, const LintedFile& file) {
 }  // namespace
 
 std::string lint_json(const std::vector<LintedFile>& files) {
-  std::string text;
-  JsonWriter json(text);
-  json.open('{');
-  json.write("schema", "cbc.lint/1");
-  json.write_list("files", files, [&](const LintedFile& file) { write_file(json, file); });
-  json.on_new_line().write("errors", count(files, Severity::error));
-  json.write("warnings", count(files, Severity::warning));
-  json.write("notes", count(files, Severity::note));
-  json.close('}');
-  return text + "\n";
+  return json_line([&](JsonWriter& json) {
+    json.write("schema", "cbc.lint/1");
+    json.write_list("files", files, [&](const LintedFile& file) { write_file(json, file); });
+    json.on_new_line().write_members({{"errors", count(files, Severity::error)},
+                                      {"warnings", count(files, Severity::warning)},
+                                      {"notes", count(files, Severity::note)}});
+  });
 }
 
-namespace {
-
-std::string code(std::string_view text) { return fmt::format("```yaml\n{}```\n", text); }
-
-}  // namespace
-
 std::string rule_markdown(const Rule& rule) {
+  const auto code = [](std::string_view text) { return fmt::format("```yaml\n{}```\n", text); };
   std::string text =
       fmt::format("{}\n\n## Example\n\n{}\n## How to mend it\n\n{}\n\n{}", rule.explanation,
                   code(rule.example), rule.mending, code(rule.mended));
@@ -192,29 +182,17 @@ std::string to_camel_case(std::string_view name) {
   return result;
 }
 
-void write_message(JsonWriter& json, std::string_view name, std::string_view text) {
-  json.open(name, '{');
-  json.write("text", text);
-  json.close('}');
-}
-
 void write_rule(JsonWriter& json, const Rule& rule) {
   json.on_new_line().open('{');
   json.write("id", rule.name);
   json.write("name", to_camel_case(rule.name));
-  write_message(json, "shortDescription", rule.summary);
-  write_message(json, "fullDescription", rule.explanation);
-  json.open("help", '{');
-  json.write("text", rule_text(rule, plain_style()));
-  json.write("markdown", rule_markdown(rule));
-  json.close('}');
-  json.open("defaultConfiguration", '{');
-  json.write("level", name_of(rule.severity));
-  json.close('}');
+  json.write_object("shortDescription", {{"text", rule.summary}});
+  json.write_object("fullDescription", {{"text", rule.explanation}});
+  json.write_object("help",
+                    {{"text", rule_text(rule, plain_style())}, {"markdown", rule_markdown(rule)}});
+  json.write_object("defaultConfiguration", {{"level", name_of(rule.severity)}});
   json.open("properties", '{');
-  json.open("tags", '[');
-  json.write(rule.is_of_scripts ? "event-script" : "catalog");
-  json.close(']');
+  json.write_list("tags", std::array{rule.is_of_scripts ? "event-script" : "catalog"});
   json.close('}');
   json.close('}');
 }
@@ -222,9 +200,7 @@ void write_rule(JsonWriter& json, const Rule& rule) {
 void write_tool(JsonWriter& json) {
   json.open("tool", '{');
   json.open("driver", '{');
-  json.write("name", "cbc");
-  json.write("version", version);
-  json.write("semanticVersion", version);
+  json.write_members({{"name", "cbc"}, {"version", version}, {"semanticVersion", version}});
   json.write_list("rules", all_rules(), [&](const Rule& rule) { write_rule(json, rule); });
   json.close('}');
   json.close('}');
@@ -258,9 +234,7 @@ class SarifRun {
     json_.open('{');
     write_tool(json_);
     json_.open("invocations", '[');
-    json_.open('{');
-    json_.write("executionSuccessful", is_complete);
-    json_.close('}');
+    json_.write_object({{"executionSuccessful", is_complete}});
     json_.close(']');
     json_.write_list("artifacts", files,
                      [&](const LintedFile& file) { write_artifact(file.file); });
@@ -288,7 +262,7 @@ class SarifRun {
     json_.open(name, '{');
     json_.write("uri", place.uri);
     if (place.is_relative) json_.write("uriBaseId", root);
-    if (place.is_standard_input) write_message(json_, "description", "standard input");
+    if (place.is_standard_input) json_.write_object("description", {{"text", "standard input"}});
     json_.close('}');
   }
 
@@ -297,21 +271,17 @@ class SarifRun {
     if (!known_artifacts_.insert(place.uri).second) return;
     json_.on_new_line().open('{');
     write_location("location", place);
-    json_.open("roles", '[');
-    json_.write("analysisTarget");
-    json_.close(']');
+    json_.write_list("roles", std::array{"analysisTarget"});
     json_.close('}');
   }
 
   void write_physical_location(const std::string& file, const Range& range) {
     json_.open("physicalLocation", '{');
     write_location("artifactLocation", locate(file));
-    json_.open("region", '{');
-    json_.write("startLine", range.begin.line);
-    json_.write("startColumn", range.begin.column);
-    json_.write("endLine", range.end.line);
-    json_.write("endColumn", range.end.column);
-    json_.close('}');
+    json_.write_object("region", {{"startLine", range.begin.line},
+                                  {"startColumn", range.begin.column},
+                                  {"endLine", range.end.line},
+                                  {"endColumn", range.end.column}});
     json_.close('}');
   }
 
@@ -320,15 +290,13 @@ class SarifRun {
     json_.write("ruleId", finding.rule);
     json_.write("ruleIndex", find_rule(finding.rule) - all_rules().data());
     json_.write("level", name_of(finding.severity));
-    write_message(json_, "message", finding.message);
+    json_.write_object("message", {{"text", finding.message}});
     json_.open("locations", '[');
     json_.open('{');
     write_physical_location(finding.file, finding.range);
     json_.close('}');
     json_.close(']');
-    json_.open("partialFingerprints", '{');
-    json_.write("cbcFinding/v1", fingerprint_of(finding));
-    json_.close('}');
+    json_.write_object("partialFingerprints", {{"cbcFinding/v1", fingerprint_of(finding)}});
     if (!finding.notes.empty()) write_related(finding.notes);
     json_.close('}');
   }
@@ -339,7 +307,7 @@ class SarifRun {
       json_.open('{');
       json_.write("id", ++id);
       write_physical_location(note.file, note.range);
-      write_message(json_, "message", note.message);
+      json_.write_object("message", {{"text", note.message}});
       json_.close('}');
     });
   }
@@ -363,16 +331,12 @@ class SarifRun {
 
 std::string lint_sarif(const std::vector<LintedFile>& files, std::string_view working_directory,
                        bool is_complete) {
-  std::string text;
-  JsonWriter json(text);
-  json.open('{');
-  json.write("$schema", schema);
-  json.write("version", "2.1.0");
-  json.open("runs", '[');
-  SarifRun(json, working_directory).write(files, is_complete);
-  json.close(']');
-  json.close('}');
-  return text + "\n";
+  return json_line([&](JsonWriter& json) {
+    json.write_members({{"$schema", schema}, {"version", "2.1.0"}});
+    json.open("runs", '[');
+    SarifRun(json, working_directory).write(files, is_complete);
+    json.close(']');
+  });
 }
 
 std::span<const LintFormat> lint_formats() {

@@ -175,8 +175,8 @@ std::string describe_search_space(const std::string& digits) {
   return fmt::format("{:>{}} (~{})", digits, number_width, about);
 }
 
-bool is_single(const Summary::Group& group) {
-  return group.tasks.size() == 1 && group.constraints == 0;
+bool is_single(const CatalogNumbers& group) {
+  return group.tasks == 1 && group.constraints.total() == 0;
 }
 
 class Table {
@@ -197,12 +197,13 @@ class Table {
   std::string text_;
 };
 
-void add_groups(Table& table, const std::vector<Summary::Group>& groups) {
+void add_groups(Table& table, const std::vector<CatalogNumbers>& groups) {
   table.add("groups", groups.size());
-  for (const Summary::Group& group : groups) {
+  for (const CatalogNumbers& group : groups) {
     if (is_single(group)) continue;
-    table.add_line(fmt::format("{}, {}: {}", quantity(group.tasks.size(), "task"),
-                               quantity(group.constraints, "constraint"), list_names(group.tasks)));
+    table.add_line(fmt::format("{}, {}: {}", quantity(group.tasks, "task"),
+                               quantity(group.constraints.total(), "constraint"),
+                               list_names(group.task_names)));
   }
   const auto singles =
       static_cast<std::size_t>(std::count_if(groups.begin(), groups.end(), is_single));
@@ -216,16 +217,16 @@ void add_groups(Table& table, const std::vector<Summary::Group>& groups) {
 std::string lint_summary(const LintedFile& file, const Style& style) {
   const std::string name = style.paint(style.strong, printable(file.file));
   if (!file.summary) return name + ": no summary, as the file could not be understood\n";
-  const Summary& summary = *file.summary;
+  const CatalogNumbers& total = file.summary->total;
   Table table(style);
-  table.add("tasks", summary.tasks);
-  table.add("behaviors", summary.behaviors);
-  table.add("constraints", summary.constraints.total());
-  table.add("  exclusive pairs", summary.constraints.exclusive_pairs);
-  table.add("  requirements", summary.constraints.requirements);
-  table.add("  task minimums", summary.constraints.task_minimums);
-  add_groups(table, summary.groups);
-  table.add("search space", describe_search_space(summary.search_space));
+  table.add("tasks", total.tasks);
+  table.add("behaviors", total.behaviors);
+  table.add("constraints", total.constraints.total());
+  table.add("  exclusive pairs", total.constraints.exclusive_pairs);
+  table.add("  requirements", total.constraints.requirements);
+  table.add("  task minimums", total.constraints.task_minimums);
+  add_groups(table, file.summary->groups);
+  table.add("search space", describe_search_space(total.search_space));
   return name + "\n" + table.text();
 }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "page_files.h"
-#include "report/event_json.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
 #include "support/json.h"
@@ -23,8 +22,7 @@ void JsonReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   std::string text;
   JsonWriter json(text);
   json.open('{');
-  json.write("catalog", catalog.file);
-  json.write("script", script.file);
+  json.write_members({{"catalog", catalog.file}, {"script", script.file}});
   json.open("events", '[');
   write(text);
   is_first_event_ = true;
@@ -40,19 +38,15 @@ void JsonReport::on_event(const EventRecord& record, const Step* step, const Sta
 
 void JsonReport::on_failure(const Failure& failure) {
   JsonWriter json(failures_);
-  json.open('{');
-  json.write("index", failure.index);
-  json.write("line", failure.range.begin.line);
-  json.write("message", failure.message);
-  json.close('}');
+  json.write_object(
+      {{"index", failure.index}, {"line", failure.range.begin.line}, {"message", failure.message}});
 }
 
 void JsonReport::end_run(const RunResult& result, const std::string& error) {
   std::string text = "]";
   JsonWriter json(text);
   json.open("expectations", '{');
-  json.write("passed", result.passed);
-  json.write("failed", result.failed);
+  json.write_members({{"passed", result.passed}, {"failed", result.failed}});
   json.write_json("failures", "[" + failures_ + "]");
   json.close('}');
   if (result.totals) write_totals(json, *result.totals);
@@ -185,10 +179,8 @@ void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
     json.open('{');
     json.write("name", catalog.name_of_behavior(behavior));
     json.write_list("performs", catalog.performs[behavior], [&](ValueId value) {
-      json.open('{');
-      json.write("task", catalog.name_of_task(catalog.task_of(value)));
-      json.write("suitability", catalog.values.items[value].suitability / one_percent);
-      json.close('}');
+      json.write_object({{"task", catalog.name_of_task(catalog.task_of(value))},
+                         {"suitability", catalog.values.items[value].suitability / one_percent}});
     });
     json.write_list("requires", catalog.requirements[behavior],
                     [&](const CompiledRequirement& required) { write_task(required.task); });

@@ -4,26 +4,32 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <new>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
+#include "cbc/event.h"
 #include "cbc/units.h"
 #include "compiled/compiled_catalog.h"
 #include "coordinator/record.h"
 #include "coordinator/state.h"
 #include "diagnostic/diagnostic.h"
-#include "draw/diagram.h"
 #include "draw/catalog_graph.h"
-#include "report/event_json.h"
+#include "draw/diagram.h"
 #include "report/sentences.h"
 #include "script/runner.h"
 #include "script/script.h"
 #include "support/json.h"
+#include "sweep/sweep.h"
+
+// The reports of `cbc solve`: of runs, of event streams, and of sweeps.
 
 namespace cbc {
 
@@ -87,6 +93,54 @@ void write_process(JsonWriter& json, const ProcessUsage& usage);
 /// Microseconds, exact to the nanosecond.
 [[nodiscard]] double to_microseconds(std::uint64_t nanoseconds);
 
+/// The optional keys of events.
+struct EventAdditions {
+  bool why = false;
+  bool alternatives = false;
+};
+
+/// Appends one event as JSON on one line, as in cbc.solve/1. `step` is the scripted one, or null.
+/// No tree is built: streams write a hundred thousand events per second.
+void append_event(std::string& text, const CompiledCatalog& catalog, const EventRecord& record,
+                  const Step* step, const State& state, const EventAdditions& adds);
+
+// The lines of an event stream (schema cbc.events/1), each with its line end.
+
+/// `catalog_name`: the path of the catalog as the user gave it.
+[[nodiscard]] std::string stream_header(const CompiledCatalog& catalog,
+                                        std::string_view catalog_name, Microseconds reactive_delay,
+                                        std::span<const Availability> situation);
+/// The answer to an input line that is not an event.
+[[nodiscard]] std::string stream_error(std::string_view message, std::uint64_t line);
+
+/// The last line of a stream with statistics: the effort of all searches and of the process so far.
+[[nodiscard]] std::string stream_totals(const SearchTotals& totals);
+
+/// Passes on each event as a line as soon as it is solved.
+class EventStream final : public RunListener {
+ public:
+  using TakeLine = std::function<void(std::string_view)>;
+  using TakeFailure = std::function<void(const Failure&)>;
+
+  /// The catalog must outlive this object.
+  EventStream(const CompiledCatalog& catalog, const EventAdditions& adds, TakeLine take_line,
+              TakeFailure take_failure)
+      : catalog_(catalog),
+        adds_(adds),
+        take_line_(std::move(take_line)),
+        take_failure_(std::move(take_failure)) {}
+
+  void on_event(const EventRecord& record, const Step* step, const State& state) override;
+  void on_failure(const Failure& failure) override { take_failure_(failure); }
+
+ private:
+  const CompiledCatalog& catalog_;
+  const EventAdditions adds_;
+  TakeLine take_line_;
+  TakeFailure take_failure_;
+  std::string line_;  ///< kept for its memory
+};
+
 /// Receives all runs of a call, one after the other: for each run begin_run, its events, end_run.
 /// Catalogs and scripts must outlive it.
 class SolveReport : public RunListener {
@@ -95,7 +149,7 @@ class SolveReport : public RunListener {
   /// `error`: why the run ended early, or empty.
   virtual void end_run(const RunResult& result, const std::string& error) = 0;
   /// After the last run.
-  virtual void end() = 0;
+  virtual void end() {}
 
   // For runs in parallel.
 
@@ -157,7 +211,6 @@ class StateRecorder final : public RunListener {
   StateRecorder(const CompiledCatalog& catalog, const Script& script, const WantedState& wanted);
 
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
-  void on_failure(const Failure& /*failure*/) override {}
   void on_end(const State& state) override;
 
   /// Whether the run has reached the state. A run that reached its end has passed all times.
@@ -227,7 +280,6 @@ class JsonReport final : public SolveReport {
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
   void on_failure(const Failure& failure) override;
-  void on_end(const State& /*state*/) override {}
   void end_run(const RunResult& result, const std::string& error) override;
   void end() override;
 
@@ -283,9 +335,7 @@ class GithubReport final : public SolveReport {
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
   void on_failure(const Failure& failure) override;
-  void on_end(const State& /*state*/) override {}
   void end_run(const RunResult& result, const std::string& error) override;
-  void end() override {}
 
   [[nodiscard]] std::unique_ptr<SolveReport> make_part(std::FILE* out) const override;
   void add_part(std::string_view text, const RunResult& result) override;
@@ -309,7 +359,6 @@ class JunitReport final : public SolveReport {
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
   void on_failure(const Failure& failure) override;
-  void on_end(const State& /*state*/) override {}
   void end_run(const RunResult& result, const std::string& error) override;
   void end() override;
 
@@ -353,5 +402,42 @@ struct SolveFormat {
 
 /// The first one is the default.
 [[nodiscard]] std::span<const SolveFormat> solve_formats();
+
+/// The result of a sweep, schema cbc.sweep/1; "stats" is there if the result has times.
+///
+///   sequences, seed, options, shard   what was run; {"index": 1, "count": 1} is a whole sweep
+///   digest         of the compiled catalog without the name of its file
+///   events         by kind, in this order, how many had which outcome; "escalated" counts the
+///                  accepted ones at a protection level above the first
+///   tasks          in catalog order: start events of scripts that were accepted ("started") or
+///                  rejected, and how often the task started to run, for whatever reason ("runs")
+///   behaviors      in catalog order: activations that succeeded (but for undone ones) and failed
+///   never_ran, never_active    the tasks, the behaviors with none of these
+///   reasons        in how many rejections each reason had a part, whatever the priorities; the
+///                  members are those of "conflict" of cbc.solve/1
+///   nodes          of the events that took a search: median (p50), 99th percentile and maximum;
+///                  histogram: [number, count], numbers from 1024 on rounded down to 10 binary
+///                  digits, as are the percentiles then
+///   slowest        the first event with the most nodes, and a script to reproduce it, or null;
+///                  sequence and event count from 1
+///   stats          elapsed time, summed over shards [µs]; times of the events that took a search,
+///                  and the slowest of them [ns]
+[[nodiscard]] std::string sweep_to_json(const SweepResult& result);
+
+/// Reads what sweep_to_json wrote. Whatever the text, the result may be merged and reported; if it
+/// cannot be understood, the second alternative says why, for people.
+[[nodiscard]] std::variant<SweepResult, std::string> sweep_from_json(std::string_view text);
+
+/// The result of a sweep for people.
+[[nodiscard]] std::string sweep_to_text(const SweepResult& result, const Style& style);
+
+/// A format of `cbc solve --sweep`.
+struct SweepFormat {
+  std::string_view name;
+  std::string (*write)(const SweepResult& result, const Style& style);
+};
+
+/// The first one is the default.
+[[nodiscard]] std::span<const SweepFormat> sweep_formats();
 
 }  // namespace cbc

@@ -65,17 +65,14 @@ std::string rows(const std::string& name, const SearchEffort& effort) {
 template <typename ToUnit>
 void write_spread(JsonWriter& json, std::string_view name, const Spread& spread,
                   std::uint64_t count, double mean_unit, ToUnit to_unit) {
-  json.open(name, '{');
   if (count == 0) {
-    json.write("sum", 0);
-    for (const std::string_view key : {"mean", "min", "max"}) json.write(key, nullptr);
+    json.write_object(name, {{"sum", 0}, {"mean", nullptr}, {"min", nullptr}, {"max", nullptr}});
   } else {
-    json.write("sum", to_unit(spread.sum));
-    json.write("mean", mean(spread, count) / mean_unit);
-    json.write("min", to_unit(spread.least));
-    json.write("max", to_unit(spread.greatest));
+    json.write_object(name, {{"sum", to_unit(spread.sum)},
+                             {"mean", mean(spread, count) / mean_unit},
+                             {"min", to_unit(spread.least)},
+                             {"max", to_unit(spread.greatest)}});
   }
-  json.close('}');
 }
 
 void write_effort(JsonWriter& json, const SearchEffort& effort) {
@@ -127,8 +124,8 @@ void write_totals(JsonWriter& json, const SearchTotals& totals) {
   for (std::size_t kind = 0; kind < SearchTotals::kinds.size(); ++kind) {
     if (totals.of_kind(kind).events == 0) continue;
     json.open('{');
-    json.write("verb", name_of(SearchTotals::kinds[kind].verb));
-    json.write("origin", name_of(SearchTotals::kinds[kind].origin));
+    const auto& [verb, origin] = SearchTotals::kinds[kind];
+    json.write_members({{"verb", name_of(verb)}, {"origin", name_of(origin)}});
     write_effort(json, totals.of_kind(kind));
     json.close('}');
   }
@@ -137,10 +134,8 @@ void write_totals(JsonWriter& json, const SearchTotals& totals) {
 }
 
 void write_process(JsonWriter& json, const ProcessUsage& usage) {
-  json.open("process", '{');
-  json.write("peak_memory_bytes", usage.peak_memory);
-  json.write("cpu_us", usage.cpu_time);
-  json.close('}');
+  json.write_object("process",
+                    {{"peak_memory_bytes", usage.peak_memory}, {"cpu_us", usage.cpu_time}});
 }
 
 namespace {

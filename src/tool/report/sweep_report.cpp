@@ -1,5 +1,3 @@
-#include "report/sweep_report.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "report/solve_report.h"
 #include "support/json.h"
 #include "support/wording.h"
 #include "sweep/sweep.h"
@@ -21,17 +20,17 @@ namespace cbc {
 namespace {
 
 constexpr std::string_view label(SweepKind kind) {
-  constexpr std::array<std::string_view, sweep_kinds> labels{"start",
-                                                             "stop",
-                                                             "finish, goal achieved",
-                                                             "finish, failure",
-                                                             "finish, situation change",
-                                                             "situation",
-                                                             "fault",
-                                                             "repair",
-                                                             "timeout",
-                                                             "reactive start",
-                                                             "finish after a failed undo"};
+  constexpr std::array<std::string_view, sweep_kinds> labels = {"start",
+                                                                "stop",
+                                                                "finish, goal achieved",
+                                                                "finish, failure",
+                                                                "finish, situation change",
+                                                                "situation",
+                                                                "fault",
+                                                                "repair",
+                                                                "timeout",
+                                                                "reactive start",
+                                                                "finish after a failed undo"};
   return labels[static_cast<std::size_t>(kind)];
 }
 
@@ -200,29 +199,25 @@ double to_share(Millionths share) { return share / double{one_million}; }
 
 void write_options(JsonWriter& json, const SweepSettings& settings) {
   const SweepSearch& search = settings.search;
-  json.on_new_line().open("options", '{');
-  json.write("events", settings.shape.events);
-  json.write("priorities", settings.shape.priorities);
-  json.write("failures", to_share(settings.shape.failures));
-  json.write("faults", to_share(settings.shape.faults));
-  json.write("max_solutions", search.max_solutions);
-  json.write("max_nodes", search.max_nodes);
-  json.write("tie_seed", search.tie_seed);
-  json.write("max_clock_events", search.max_clock_events);
-  json.close('}');
+  json.on_new_line().write_object("options", {{"events", settings.shape.events},
+                                              {"priorities", settings.shape.priorities},
+                                              {"failures", to_share(settings.shape.failures)},
+                                              {"faults", to_share(settings.shape.faults)},
+                                              {"max_solutions", search.max_solutions},
+                                              {"max_nodes", search.max_nodes},
+                                              {"tie_seed", search.tie_seed},
+                                              {"max_clock_events", search.max_clock_events}});
 }
 
 void write_events(JsonWriter& json, const SweepCounts& counts) {
   json.on_new_line().open("events", '[');
   for (std::size_t kind = 0; kind < sweep_kinds; ++kind) {
     const OutcomeCounts& of_kind = counts.events[kind];
-    json.on_new_line().open('{');
-    json.write("kind", name_of(static_cast<SweepKind>(kind)));
-    json.write("accepted", of_kind.accepted);
-    json.write("escalated", of_kind.escalated);
-    json.write("rejected", of_kind.rejected);
-    json.write("unchanged", of_kind.unchanged);
-    json.close('}');
+    json.on_new_line().write_object({{"kind", name_of(static_cast<SweepKind>(kind))},
+                                     {"accepted", of_kind.accepted},
+                                     {"escalated", of_kind.escalated},
+                                     {"rejected", of_kind.rejected},
+                                     {"unchanged", of_kind.unchanged}});
   }
   json.close(']');
 }
@@ -231,12 +226,10 @@ void write_tasks(JsonWriter& json, const SweepResult& result) {
   json.on_new_line().open("tasks", '[');
   for (std::size_t task = 0; task < result.task_names.size(); ++task) {
     const TaskCounts& counts = result.counts.tasks[task];
-    json.on_new_line().open('{');
-    json.write("task", result.task_names[task]);
-    json.write("started", counts.starts);
-    json.write("rejected", counts.rejected);
-    json.write("runs", counts.runs);
-    json.close('}');
+    json.on_new_line().write_object({{"task", result.task_names[task]},
+                                     {"started", counts.starts},
+                                     {"rejected", counts.rejected},
+                                     {"runs", counts.runs}});
   }
   json.close(']');
 }
@@ -245,11 +238,9 @@ void write_behaviors(JsonWriter& json, const SweepResult& result) {
   json.on_new_line().open("behaviors", '[');
   for (std::size_t behavior = 0; behavior < result.behavior_names.size(); ++behavior) {
     const BehaviorCounts& counts = result.counts.behaviors[behavior];
-    json.on_new_line().open('{');
-    json.write("behavior", result.behavior_names[behavior]);
-    json.write("activations", counts.activations);
-    json.write("failures", counts.failures);
-    json.close('}');
+    json.on_new_line().write_object({{"behavior", result.behavior_names[behavior]},
+                                     {"activations", counts.activations},
+                                     {"failures", counts.failures}});
   }
   json.close(']');
 }
@@ -272,10 +263,8 @@ void write_reasons(JsonWriter& json, const SweepResult& result) {
     json.write("kind", name_of(reason.kind));
     if (reason.behavior != none) json.write("behavior", result.behavior_names[reason.behavior]);
     if (reason.other_task != none) {
-      json.open("tasks", '[');
-      json.write(result.task_names[reason.task]);
-      json.write(result.task_names[reason.other_task]);
-      json.close(']');
+      json.write_list("tasks", std::array{reason.task, reason.other_task},
+                      [&](std::uint32_t task) { json.write(result.task_names[task]); });
     } else if (reason.task != none) {
       json.write("task", result.task_names[reason.task]);
     }
@@ -288,21 +277,19 @@ void write_reasons(JsonWriter& json, const SweepResult& result) {
 void write_slowest(JsonWriter& json, const std::optional<SlowestEvent>& slowest,
                    std::string_view unit) {
   if (!slowest) return json.write("slowest", nullptr);
-  json.open("slowest", '{');
-  json.write("sequence", slowest->sequence);
-  json.write("event", slowest->event);
-  json.write("what", slowest->what);
-  json.write(unit, slowest->cost);
-  json.write("script", slowest->script);
-  json.close('}');
+  json.write_object("slowest", {{"sequence", slowest->sequence},
+                                {"event", slowest->event},
+                                {"what", slowest->what},
+                                {unit, slowest->cost},
+                                {"script", slowest->script}});
 }
 
 void write_histogram(JsonWriter& json, std::string_view name, const Histogram& histogram,
                      const std::optional<SlowestEvent>& slowest) {
   json.open(name, '{');
-  json.write("p50", histogram.median());
-  json.write("p99", histogram.percentile_99());
-  json.write("max", slowest ? slowest->cost : 0);
+  json.write_members({{"p50", histogram.median()},
+                      {"p99", histogram.percentile_99()},
+                      {"max", slowest ? slowest->cost : 0}});
   json.write_list("histogram", histogram.counts(), [&](const auto& entry) {
     json.open('[');
     json.write(entry.first);
@@ -317,41 +304,35 @@ void write_histogram(JsonWriter& json, std::string_view name, const Histogram& h
 std::string sweep_to_json(const SweepResult& result) {
   const SweepCounts& counts = result.counts;
   const SweepShard& shard = result.settings.shard;
-  std::string text;
-  JsonWriter json(text);
-  json.open('{');
-  json.write("schema", "cbc.sweep/1");
-  json.on_new_line().write("catalog", result.catalog);
-  json.on_new_line().write("digest", result.digest);
-  json.on_new_line().write("version", result.version);
-  json.on_new_line().write("sequences", result.settings.sequences);
-  json.on_new_line().write("seed", result.settings.seed);
-  write_options(json, result.settings);
-  json.on_new_line().open("shard", '{');
-  json.write("index", shard.index);
-  json.write("count", shard.count);
-  json.close('}');
-  write_events(json, counts);
-  write_tasks(json, result);
-  write_behaviors(json, result);
-  write_unused(json, "never_ran", result.task_names,
-               [&](std::size_t task) { return counts.tasks[task].runs; });
-  write_unused(json, "never_active", result.behavior_names,
-               [&](std::size_t behavior) { return counts.behaviors[behavior].activations; });
-  write_reasons(json, result);
-  json.on_new_line();
-  write_histogram(json, "nodes", result.nodes, result.slowest);
-  json.on_new_line();
-  write_slowest(json, result.slowest, "nodes");
-  if (result.times) {
-    json.on_new_line().open("stats", '{');
-    json.write("elapsed_us", result.times->elapsed);
-    write_histogram(json, "event_ns", result.times->events, result.times->slowest);
-    write_slowest(json, result.times->slowest, "ns");
-    json.close('}');
-  }
-  json.close('}');
-  return text + "\n";
+  return json_line([&](JsonWriter& json) {
+    json.write("schema", "cbc.sweep/1");
+    json.on_new_line().write("catalog", result.catalog);
+    json.on_new_line().write("digest", result.digest);
+    json.on_new_line().write("version", result.version);
+    json.on_new_line().write("sequences", result.settings.sequences);
+    json.on_new_line().write("seed", result.settings.seed);
+    write_options(json, result.settings);
+    json.on_new_line().write_object("shard", {{"index", shard.index}, {"count", shard.count}});
+    write_events(json, counts);
+    write_tasks(json, result);
+    write_behaviors(json, result);
+    write_unused(json, "never_ran", result.task_names,
+                 [&](std::size_t task) { return counts.tasks[task].runs; });
+    write_unused(json, "never_active", result.behavior_names,
+                 [&](std::size_t behavior) { return counts.behaviors[behavior].activations; });
+    write_reasons(json, result);
+    json.on_new_line();
+    write_histogram(json, "nodes", result.nodes, result.slowest);
+    json.on_new_line();
+    write_slowest(json, result.slowest, "nodes");
+    if (result.times) {
+      json.on_new_line().open("stats", '{');
+      json.write("elapsed_us", result.times->elapsed);
+      write_histogram(json, "event_ns", result.times->events, result.times->slowest);
+      write_slowest(json, result.times->slowest, "ns");
+      json.close('}');
+    }
+  });
 }
 
 namespace {

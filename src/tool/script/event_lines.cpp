@@ -262,17 +262,15 @@ class StateReader {
 void write_running(JsonWriter& json, const CompiledCatalog& catalog,
                    const Snapshot::RunningTask& entry) {
   json.open('{');
-  json.write("task", catalog.name_of_task(entry.task));
-  json.write("behavior",
-             catalog.name_of_behavior(catalog.values[entry.task][entry.value_index].behavior));
-  json.write("since_us", entry.since);
-  json.write("waits_for_timeout", entry.waits_for_timeout);
+  const BehaviorId behavior = catalog.values[entry.task][entry.value_index].behavior;
+  json.write_members({{"task", catalog.name_of_task(entry.task)},
+                      {"behavior", catalog.name_of_behavior(behavior)},
+                      {"since_us", entry.since},
+                      {"waits_for_timeout", entry.waits_for_timeout}});
   if (entry.request) {
-    json.open("request", '{');
-    json.write("priority", entry.request->priority);
-    json.write("event", entry.request->event);
-    json.write("parameters", entry.request->parameters);
-    json.close('}');
+    json.write_object("request", {{"priority", entry.request->priority},
+                                  {"event", entry.request->event},
+                                  {"parameters", entry.request->parameters}});
   } else {
     json.write("request", nullptr);
   }
@@ -283,30 +281,29 @@ void write_running(JsonWriter& json, const CompiledCatalog& catalog,
 
 std::string write_state(const CompiledCatalog& catalog, const Snapshot& snapshot) {
   const auto name_of_behavior = [&](BehaviorId id) { return catalog.name_of_behavior(id); };
-  std::string text;
-  JsonWriter json(text, JsonWriter::Layout::indented);
-  json.open('{');
-  json.write("schema", state_schema);
-  json.write("digest", to_hex(identity_of(catalog)));
-  json.write("time_us", snapshot.now);
-  json.write("events", snapshot.events);
-  json.write("reactive_delay_us", snapshot.reactive_delay);
-  json.write("outcome",
-             snapshot.outcome ? std::optional(name_of(*snapshot.outcome)) : std::nullopt);
-  json.write_list("running", snapshot.running,
-                  [&](const Snapshot::RunningTask& entry) { write_running(json, catalog, entry); });
-  json.open("active", '{');
-  for (const auto& [behavior, time] : snapshot.active) json.write(name_of_behavior(behavior), time);
-  json.close('}');
-  json.write_list("unavailable", snapshot.unavailable,
-                  [&](BehaviorId id) { json.write(name_of_behavior(id)); });
-  json.write_list("faulty", snapshot.faulty,
-                  [&](BehaviorId id) { json.write(name_of_behavior(id)); });
-  json.open("queue", '{');
-  for (const auto& [task, due] : snapshot.queue) json.write(catalog.name_of_task(task), due);
-  json.close('}');
-  json.close('}');
-  return text + "\n";
+  const auto write = [&](JsonWriter& json) {
+    const auto& outcome = snapshot.outcome;
+    json.write_members({{"schema", state_schema},
+                        {"digest", to_hex(identity_of(catalog))},
+                        {"time_us", snapshot.now},
+                        {"events", snapshot.events},
+                        {"reactive_delay_us", snapshot.reactive_delay},
+                        {"outcome", outcome ? std::optional(name_of(*outcome)) : std::nullopt}});
+    json.write_list("running", snapshot.running, [&](const Snapshot::RunningTask& entry) {
+      write_running(json, catalog, entry);
+    });
+    json.open("active", '{');
+    for (const auto& [id, time] : snapshot.active) json.write(name_of_behavior(id), time);
+    json.close('}');
+    json.write_list("unavailable", snapshot.unavailable,
+                    [&](BehaviorId id) { json.write(name_of_behavior(id)); });
+    json.write_list("faulty", snapshot.faulty,
+                    [&](BehaviorId id) { json.write(name_of_behavior(id)); });
+    json.open("queue", '{');
+    for (const auto& [task, due] : snapshot.queue) json.write(catalog.name_of_task(task), due);
+    json.close('}');
+  };
+  return json_line(write, JsonWriter::Layout::indented);
 }
 
 StateReading read_state(std::string_view text, const CompiledCatalog& catalog) {

@@ -91,9 +91,9 @@ class RunListener {
   virtual ~RunListener() = default;
   /// `step` is the scripted one, or null. The record and the state are those after the event.
   virtual void on_event(const EventRecord& record, const Step* step, const State& state) = 0;
-  virtual void on_failure(const Failure& failure) = 0;
+  virtual void on_failure(const Failure& /*failure*/) {}
   /// After the last event, also of a run that ended early.
-  virtual void on_end(const State& state) = 0;
+  virtual void on_end(const State& /*state*/) {}
 };
 
 struct RunResult {

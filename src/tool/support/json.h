@@ -4,10 +4,12 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <variant>
 
 #include "cbc/units.h"
 
@@ -58,6 +60,39 @@ void append_value(std::string& json, const Value& value) {
     append_text(json, value);
   }
 }
+
+/// A boolean, a number, a text that outlives it, or null, which an empty optional is as well.
+class JsonPlain {
+ public:
+  template <typename Value>
+  JsonPlain(const Value& value) {  // NOLINT(google-explicit-constructor): stands for the value
+    if constexpr (requires { value.has_value(); }) {
+      if (value.has_value()) *this = JsonPlain(*value);
+    } else if constexpr (std::is_same_v<Value, bool> || std::floating_point<Value>) {
+      value_ = value;
+    } else if constexpr (std::signed_integral<Value>) {
+      value_ = std::int64_t{value};
+    } else if constexpr (std::unsigned_integral<Value>) {
+      value_ = std::uint64_t{value};
+    } else if constexpr (!std::is_same_v<Value, std::nullptr_t>) {
+      value_ = std::string_view(value);
+    }
+  }
+
+  void append_to(std::string& json) const {
+    std::visit([&](const auto& value) { append_value(json, value); }, value_);
+  }
+
+ private:
+  std::variant<std::nullptr_t, bool, std::int64_t, std::uint64_t, double, std::string_view> value_;
+};
+
+/// Plain members of an object, in their order: {{"index", 1}, {"count", 2}}.
+struct JsonMember {
+  std::string_view name;
+  JsonPlain value;
+};
+using JsonMembers = std::initializer_list<JsonMember>;
 
 /// Writes JSON value by value to the end of a text, without a tree in memory. The caller opens and
 /// closes brackets in pairs, and gives names to the members of objects only.
@@ -112,6 +147,24 @@ class JsonWriter {
     key(name);
     append_value(text_, value);
   }
+  /// Members of the open object.
+  void write_members(JsonMembers members) {
+    for (const JsonMember& member : members) {
+      key(member.name);
+      member.value.append_to(text_);
+    }
+  }
+  /// An object of plain members only.
+  void write_object(JsonMembers members) {
+    open('{');
+    write_members(members);
+    close('}');
+  }
+  void write_object(std::string_view name, JsonMembers members) {
+    open(name, '{');
+    write_members(members);
+    close('}');
+  }
   void write_seconds(std::string_view name, Microseconds time) {
     key(name);
     append_seconds(text_, time);
@@ -159,5 +212,17 @@ class JsonWriter {
   bool has_new_line_ = false;
   std::size_t depth_ = 0;
 };
+
+/// An object on a line of its own. `write_members` writes its members to a JsonWriter.
+template <typename WriteMembers>
+[[nodiscard]] std::string json_line(WriteMembers write_members,
+                                    JsonWriter::Layout layout = JsonWriter::Layout::line) {
+  std::string text;
+  JsonWriter json(text, layout);
+  json.open('{');
+  write_members(json);
+  json.close('}');
+  return text + "\n";
+}
 
 }  // namespace cbc
