@@ -26,21 +26,11 @@ behaviors:
   requires:
   - task: TRACK_MARKER
   - task: LOOK_AHEAD
-- behavior: LAND_SLOWLY
-  task: LAND
-  suitability: 60
-- behavior: MARKER_TRACKER
-  task: TRACK_MARKER
-  requires:
-  - task: LOOK_DOWN
-- behavior: CAMERA
-  tasks:
-  - task: LOOK_AHEAD
-  - task: LOOK_DOWN
+- {behavior: LAND_SLOWLY, task: LAND, suitability: 60}
+- {behavior: MARKER_TRACKER, task: TRACK_MARKER, requires: [{task: LOOK_DOWN}]}
+- {behavior: CAMERA, tasks: [{task: LOOK_AHEAD}, {task: LOOK_DOWN}]}
 tasks:
-- task: LAND
-  execution_goal: achieve_goal
-  start_on_request: TRUE
+- {task: LAND, execution_goal: achieve_goal, start_on_request: TRUE}
 - task: TRACK_MARKER
 - task: LOOK_AHEAD
 - task: LOOK_DOWN
@@ -51,25 +41,12 @@ exclusivity_constraints:
     .mended = R"(default_values:
   tasks: {execution_goal: keep_running, start_on_request: FALSE}
 behaviors:
-- behavior: LAND_ON_MARKER
-  task: LAND
-  requires:
-  - task: TRACK_MARKER
-- behavior: LAND_SLOWLY
-  task: LAND
-  suitability: 60
-- behavior: MARKER_TRACKER
-  task: TRACK_MARKER
-  requires:
-  - task: LOOK_DOWN
-- behavior: CAMERA
-  tasks:
-  - task: LOOK_AHEAD
-  - task: LOOK_DOWN
+- {behavior: LAND_ON_MARKER, task: LAND, requires: [{task: TRACK_MARKER}]}
+- {behavior: LAND_SLOWLY, task: LAND, suitability: 60}
+- {behavior: MARKER_TRACKER, task: TRACK_MARKER, requires: [{task: LOOK_DOWN}]}
+- {behavior: CAMERA, tasks: [{task: LOOK_AHEAD}, {task: LOOK_DOWN}]}
 tasks:
-- task: LAND
-  execution_goal: achieve_goal
-  start_on_request: TRUE
+- {task: LAND, execution_goal: achieve_goal, start_on_request: TRUE}
 - task: TRACK_MARKER
 - task: LOOK_AHEAD
 - task: LOOK_DOWN
@@ -100,18 +77,11 @@ behaviors:
   requires:
   - task: FOLLOW_PATH
   - task: DETECT_CRACKS
-- behavior: FOLLOW_PATH_WITH_PID
-  task: FOLLOW_PATH
-- behavior: CRACK_DETECTOR
-  task: DETECT_CRACKS
-  requires:
-  - task: HOVER
-- behavior: HOVER_WITH_PID
-  task: HOVER
+- {behavior: FOLLOW_PATH_WITH_PID, task: FOLLOW_PATH}
+- {behavior: CRACK_DETECTOR, task: DETECT_CRACKS, requires: [{task: HOVER}]}
+- {behavior: HOVER_WITH_PID, task: HOVER}
 tasks:
-- task: INSPECT_BRIDGE
-  execution_goal: achieve_goal
-  start_on_request: TRUE
+- {task: INSPECT_BRIDGE, execution_goal: achieve_goal, start_on_request: TRUE}
 - task: FOLLOW_PATH
 - task: DETECT_CRACKS
 - task: HOVER
@@ -128,18 +98,11 @@ behaviors:
   task: INSPECT_BRIDGE
   requires:
   - task: DETECT_CRACKS
-- behavior: FOLLOW_PATH_WITH_PID
-  task: FOLLOW_PATH
-- behavior: CRACK_DETECTOR
-  task: DETECT_CRACKS
-  requires:
-  - task: HOVER
-- behavior: HOVER_WITH_PID
-  task: HOVER
+- {behavior: FOLLOW_PATH_WITH_PID, task: FOLLOW_PATH}
+- {behavior: CRACK_DETECTOR, task: DETECT_CRACKS, requires: [{task: HOVER}]}
+- {behavior: HOVER_WITH_PID, task: HOVER}
 tasks:
-- task: INSPECT_BRIDGE
-  execution_goal: achieve_goal
-  start_on_request: TRUE
+- {task: INSPECT_BRIDGE, execution_goal: achieve_goal, start_on_request: TRUE}
 - task: FOLLOW_PATH
 - task: DETECT_CRACKS
 - task: HOVER
@@ -171,17 +134,11 @@ const Rule unreachable_performance = {
   suitability: 95
   requires:
   - task: PROVIDE_IMAGES
-- behavior: FRONT_CAMERA
-  task: PROVIDE_IMAGES
-  suitability: 80
+- {behavior: FRONT_CAMERA, task: PROVIDE_IMAGES, suitability: 80}
 tasks:
 - task: FOLLOW_PATH
-- task: LOCALIZE
-  execution_goal: keep_running
-  start_on_request: FALSE
-- task: PROVIDE_IMAGES
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
+- {task: PROVIDE_IMAGES, execution_goal: keep_running, start_on_request: FALSE}
 )",
     .mending =
         "Lower the minimum to what can be reached, here 95 % times 80 %, or add a better behavior.",
@@ -196,17 +153,11 @@ tasks:
   suitability: 95
   requires:
   - task: PROVIDE_IMAGES
-- behavior: FRONT_CAMERA
-  task: PROVIDE_IMAGES
-  suitability: 80
+- {behavior: FRONT_CAMERA, task: PROVIDE_IMAGES, suitability: 80}
 tasks:
 - task: FOLLOW_PATH
-- task: LOCALIZE
-  execution_goal: keep_running
-  start_on_request: FALSE
-- task: PROVIDE_IMAGES
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
+- {task: PROVIDE_IMAGES, execution_goal: keep_running, start_on_request: FALSE}
 )",
 };
 
@@ -231,33 +182,23 @@ behaviors:
 - behavior: LOCALIZE_BY_LIDAR
   task: LOCALIZE
   requires: [{task: LIDAR}]
-- behavior: LOCALIZE_BY_WHEELS
-  task: LOCALIZE
-  suitability: 60
+- {behavior: LOCALIZE_BY_WHEELS, task: LOCALIZE, suitability: 60}
 - behavior: AVOID_BY_SONAR
   task: AVOID
   requires: [{task: SONAR}]
-- behavior: AVOID_BY_BUMPER
-  task: AVOID
-  suitability: 60
+- {behavior: AVOID_BY_BUMPER, task: AVOID, suitability: 60}
 - behavior: MAP_BY_RADAR
   task: MAP
   requires: [{task: RADAR}]
-- behavior: MAP_BY_PLAN
-  task: MAP
-  suitability: 60
+- {behavior: MAP_BY_PLAN, task: MAP, suitability: 60}
 - behavior: TRACK_BY_CAMERA
   task: TRACK
   requires: [{task: CAMERA}]
-- behavior: TRACK_BY_SOUND
-  task: TRACK
-  suitability: 60
+- {behavior: TRACK_BY_SOUND, task: TRACK, suitability: 60}
 - behavior: SENSOR_DRIVER
   tasks: [{task: LIDAR}, {task: SONAR}, {task: RADAR}, {task: CAMERA}]
 tasks:
-- task: DELIVER
-  execution_goal: achieve_goal
-  start_on_request: TRUE
+- {task: DELIVER, execution_goal: achieve_goal, start_on_request: TRUE}
 - task: LOCALIZE
 - task: AVOID
 - task: MAP
@@ -281,18 +222,12 @@ behaviors:
 - behavior: DELIVERY
   task: DELIVER
   requires: [{task: LOCALIZE}, {task: AVOID}, {task: MAP}, {task: TRACK}]
-- behavior: LOCALIZE_BY_WHEELS
-  task: LOCALIZE
-- behavior: AVOID_BY_BUMPER
-  task: AVOID
-- behavior: MAP_BY_PLAN
-  task: MAP
-- behavior: TRACK_BY_SOUND
-  task: TRACK
+- {behavior: LOCALIZE_BY_WHEELS, task: LOCALIZE}
+- {behavior: AVOID_BY_BUMPER, task: AVOID}
+- {behavior: MAP_BY_PLAN, task: MAP}
+- {behavior: TRACK_BY_SOUND, task: TRACK}
 tasks:
-- task: DELIVER
-  execution_goal: achieve_goal
-  start_on_request: TRUE
+- {task: DELIVER, execution_goal: achieve_goal, start_on_request: TRUE}
 - task: LOCALIZE
 - task: AVOID
 - task: MAP
