@@ -129,8 +129,8 @@ SeveritySettings settings_of_options(const SeverityOptions& options,
       }
       const auto [first, is_new] = given.try_emplace(rule->name, setting);
       if (first->second != setting) {
-        errors.push_back(option + ": rule " + quote(name) + " is given to " +
-                         name_of_option(first->second) + ", too");
+        errors.push_back(option + ": rule " + quote(name) + " is also given to " +
+                         name_of_option(first->second));
       } else if (!is_possible(*rule, setting)) {
         errors.push_back(option + ": " + describe_fixed(*rule));
       } else {

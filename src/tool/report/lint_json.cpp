@@ -160,7 +160,7 @@ std::string code(std::string_view text) { return fmt::format("```yaml\n{}```\n",
 
 std::string rule_markdown(const Rule& rule) {
   std::string text =
-      fmt::format("{}\n\n## Example\n\n{}\n## How to mend it\n\n{}\n\n{}", rule.explanation,
+      fmt::format("{}\n\n## Example\n\n{}\n## How to fix it\n\n{}\n\n{}", rule.explanation,
                   code(rule.example), rule.mending, code(rule.mended));
   if (rule.is_of_scripts) {
     text += fmt::format("\n## The catalog of these scripts\n\n{}", code(example_catalog()));
