@@ -380,7 +380,7 @@ class CommentReader {
   void report_other_word(std::string_view word, std::size_t begin) {
     if (word.empty()) {
       report(range_of(text_.substr(begin, end_ - begin)),
-             "the comment says nothing: expected 'cbc: allow RULE'");
+             "the comment is empty: expected 'cbc: allow RULE'");
       return;
     }
     const std::string_view known[] = {verb};
