@@ -87,8 +87,8 @@ constexpr const char* solve_examples =
     "  cbc solve robot.yaml mission.yaml --html mission.html\n"
     "                                            also a timeline for a browser\n"
     "  cbc solve robot.yaml mission.yaml --why HOVER --alternatives 3\n"
-    "                                            explain HOVER and list the three best\n"
-    "                                            configurations at each event\n";
+    "                                            explain HOVER and list the three\n"
+    "                                            best configurations at each event\n";
 
 constexpr const char* solve_footer =
     "More examples:\n"
