@@ -532,17 +532,19 @@ std::string find_clash(const Option& option, const Command& command, const Given
     const auto other = std::find_if(others.begin(), others.end(), is_there);
     if (other == others.end()) continue;
     if (reason.empty())
-      return fmt::format("{} and {} do not go together", option.name(), quote_if_split(*other));
-    return fmt::format("{} does not go with {}: {}", option.name(), quote_if_split(*other), reason);
+      return fmt::format("{} and {} cannot be used together", option.name(),
+                         quote_if_split(*other));
+    return fmt::format("{} cannot be used with {}: {}", option.name(), quote_if_split(*other),
+                       reason);
   }
   for (const std::vector<std::string>& others : option.requirements) {
     if (std::any_of(others.begin(), others.end(), is_there)) continue;
-    return fmt::format("{} goes with {} only", option.name(), join_with_or(others));
+    return fmt::format("{} can only be used with {}", option.name(), join_with_or(others));
   }
   for (const auto& [other, accepted] : option.accepted_values) {
     const auto found = given.find(command.find(other));
     if (found == given.end() || contains(accepted, found->second.front())) continue;
-    return fmt::format("{} goes with {} {} only, not {}", option.name(), other,
+    return fmt::format("{} can only be used with {} {}, not {}", option.name(), other,
                        join_with_or(accepted), found->second.front());
   }
   return {};

@@ -29,19 +29,19 @@ namespace fs = std::filesystem;
 constexpr const char* compile_examples =
     "  cbc compile robot.yaml                    writes robot.cbc\n"
     "  cbc compile --check robot.yaml            is robot.cbc up to date?\n"
-    "  cbc compile --dump robot.cbc              what a compiled catalog holds\n";
+    "  cbc compile --dump robot.cbc              the contents of a compiled catalog\n";
 
 constexpr const char* compile_footer =
     "More examples:\n"
     "  cbc compile robot.yaml -o robot/catalog.cbc\n"
     "                                            writes another file\n"
-    "  cbc solve robot.cbc mission.yaml          takes it in place of the YAML\n"
+    "  cbc solve robot.cbc mission.yaml          uses it in place of the YAML\n"
     "\n"
     "A catalog with errors is not compiled. The same catalog gives the same bytes on every "
-    "machine, and the file is replaced as a whole or not at all. Nothing is printed if all is "
-    "well.\n"
+    "machine, and the file is replaced as a whole or not at all. Nothing is printed on "
+    "success.\n"
     "\n"
-    "Exit status: 0 all is well, 1 the file that --check looked at is stale, 2 the catalog has "
+    "Exit status: 0 success, 1 the file checked with --check is not up to date, 2 the catalog has "
     "errors, a file could not be read or written, or the usage is wrong, 3 an internal error.\n"
     "\n"
     "Read more: man cbc-compile";
@@ -151,7 +151,7 @@ int check(const CompileCommand& command) {
   const CompiledFileResult existing = read_compiled(memory.content);
   if (!existing.file) return say_stale(output, existing.error);
   if (existing.file->source != source->digest) {
-    return say_stale(output, fmt::format("it was made from another text of {}", quote(name)));
+    return say_stale(output, fmt::format("{} has changed since it was compiled", quote(name)));
   }
   if (existing.file->written_by != version) {
     return say_stale(output, fmt::format("it was written by cbc {}, and this is cbc {}",
@@ -162,7 +162,7 @@ int check(const CompileCommand& command) {
   const std::optional<Compiled> compiled = compile_source(*source);
   if (!compiled) return exit_unusable;
   if (compiled->content == memory.content) return exit_ok;
-  return say_stale(output, "it is not what would be written now");
+  return say_stale(output, "its bytes differ from what cbc compile would write");
 }
 
 /// The compiled form of a catalog, even if there is no file of it.
@@ -192,7 +192,7 @@ int run_compile(const CompileCommand& command) {
   if (command.dump) return dump(command);
   if (command.catalog == "-" && !command.output) {
     return usage_error("compile",
-                       "a catalog from standard input gives the output no name; expected -o OUT");
+                       "a catalog from standard input needs the name of the output: -o OUT");
   }
   return command.check ? check(command) : compile_to_file(command);
 }
@@ -202,7 +202,7 @@ int run_compile(const CompileCommand& command) {
 void add_compile_command(Program& program) {
   const auto options = std::make_shared<CompileCommand>();
   Command& command = program.add_command(
-      "compile", "Writes a catalog in the form that robots load in microseconds.",
+      "compile", "Compiles a catalog into a file that robots load in microseconds.",
       {{"[OPTION...] CATALOG", "--check [OPTION...] CATALOG", "--dump [OPTION...] CATALOG"},
        compile_examples,
        compile_footer});
@@ -215,14 +215,11 @@ void add_compile_command(Program& program) {
               "The file to write, or - for standard output (default: CATALOG with the suffix "
               ".cbc)")
       .not_with({"--dump"}, "it writes to standard output");
-  command
-      .flag("--check", options->check,
-            "Write nothing; say whether the file is what would be written now")
-      .not_with({"--output -"}, "it looks at a file");
+  command.flag("--check", options->check, "Write nothing; check that the file is up to date")
+      .not_with({"--output -"}, "it checks a file");
   command
       .flag("--dump", options->dump,
-            "Write nothing; list what the catalog, a compiled one or YAML, holds when it "
-            "is compiled")
+            "Write nothing; list the contents of the catalog (YAML or compiled)")
       .not_with({"--check"});
   command
       .option("--format", options->format, one_of("FORMAT", {"text", "json"}),

@@ -91,7 +91,8 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
   command.option("--view", options.view,
                  one_of("VIEW", {"full", "tasks", "constraints", "behaviors"}),
                  "What is drawn: full (default: tasks and behaviors), tasks (what each requires), "
-                 "constraints (between tasks, one color a group), behaviors (what each requires)");
+                 "constraints (between tasks, one color per group), behaviors (what each "
+                 "requires)");
   command.option("--exclusivity", options.exclusivity, one_of("STYLE", {"pairs", "hubs", "none"}),
                  "Draw lists of exclusive tasks as pairs, as hubs (a dot with a line to each "
                  "task), or none (default: up to three tasks as pairs, more as hubs; in the views "
@@ -105,7 +106,7 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
       .only_with({"--view tasks"});
   command
       .option("--task", options.tasks, name_of("NAME", ValueKind::task),
-              "Draw only this task, with what it requires and what requires it. Repeatable")
+              "Draw only this task, with what it requires and what requires it. May be repeated")
       .not_with({"--group"});
   command.flag("--up", options.up, "With --task: only what requires it").only_with({"--task"});
   command.flag("--down", options.down, "With --task: only what it requires").only_with({"--task"});
@@ -115,7 +116,7 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
       .only_with({"--task"});
   command.option("--group", options.group, whole_number("N", 0, most),
                  "Draw only this group, as numbered by 'cbc compile --dump'");
-  command.flag("--legend", options.legend, "Add a legend of the shapes and lines");
+  command.flag("--legend", options.legend, "Add a legend of shapes and lines");
 }
 
 draw::ViewOptions view_options(const DrawingOptions& options) {
@@ -141,7 +142,8 @@ std::optional<draw::Part> find_part(const draw::CatalogGraph& graph,
     if (*options.group >= groups) {
       complain(fmt::format(
           "--group: catalog {} has no group {}; {}", quote(graph.file), *options.group,
-          groups == 0 ? "it has none" : fmt::format("they count from 0 to {}", groups - 1)));
+          groups == 0 ? "it has none"
+                      : fmt::format("the groups are numbered from 0 to {}", groups - 1)));
       return std::nullopt;
     }
     return part_of_group(graph, *options.group);
@@ -319,21 +321,21 @@ constexpr const char* graph_examples =
 constexpr const char* graph_footer =
     "More examples:\n"
     "  cbc graph robot.yaml | dot -Tx11          in a window\n"
-    "  cbc graph robot.yaml --view tasks --reduce  which task requires which\n"
-    "  cbc graph robot.cbc --view constraints    what hangs together\n"
+    "  cbc graph robot.yaml --view tasks --reduce  which tasks require which\n"
+    "  cbc graph robot.cbc --view constraints    which tasks constraints connect\n"
     "  cbc graph robot.yaml --format mermaid     for a README file, a pull request\n"
     "  cbc graph robot.yaml --script mission.yaml --after 5\n"
     "                                            what runs after the 5th event\n"
     "\n"
     "Tasks are ellipses, behaviors are rectangles. A solid line says which behavior performs a "
     "task, and how well; a dashed arrow what it requires, and the minimum performance; a dotted "
-    "line that tasks exclude one another. A catalog with errors is drawn as far as it is "
-    "understood, with the faults in red. svg, png and pdf need Graphviz.\n"
+    "line that tasks exclude one another. A catalog with errors is drawn as far as it can be "
+    "understood, with the errors in red. svg, png and pdf need Graphviz.\n"
     "\n"
-    "With --diff, what is new is green (+), what is gone red and dashed (-), what has changed "
-    "orange. In the format text a line says what; json is for programs (schema cbc.diff/1).\n"
+    "With --diff, added is green (+), removed is red and dashed (-), changed is orange; the format "
+    "text has one line per difference; json is for programs (schema cbc.diff/1).\n"
     "\n"
-    "Exit status: 0 all is well, or the catalog has errors but was drawn, 1 the catalogs of "
+    "Exit status: 0 success, or the catalog has errors but was drawn, 1 the catalogs of "
     "--diff differ, 2 nothing could be drawn, a file could not be read or written, or the usage "
     "is wrong, 3 an internal error.\n"
     "\n"
@@ -408,17 +410,17 @@ std::string find_misuse(const GraphCommand& command) {
     return fmt::format("expected two catalogs to compare, found {}", catalogs);
   }
   if (!command.is_diff && catalogs > 1) {
-    return fmt::format("expected one catalog, found {}; two can be compared with --diff", catalogs);
+    return fmt::format("expected one catalog, found {}; --diff compares two", catalogs);
   }
   if (catalogs == 0 && !command.state.script) return "expected a catalog";
-  if (!command.is_diff && format == text_format) return "the format text goes with --diff only";
+  if (!command.is_diff && format == text_format)
+    return "--format text can only be used with --diff";
   if (format == text_format || (command.is_diff && format == "json")) {
     if (command.drawing != DrawingOptions()) {
-      return fmt::format("what is drawn, and how, does not go with --diff in the format {}",
-                         format);
+      return fmt::format("options of the drawing cannot be used with --diff --format {}", format);
     }
   } else if (command.drawing.legend && format == "json") {
-    return "--legend is for pictures; it does not go with json";
+    return "--legend cannot be used with --format json";
   }
   return {};
 }
@@ -445,7 +447,7 @@ int draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& mom
   const GraphFormat& format = *find_format(format_of(command));
   if (format.name == "mermaid" && diagram.edges.size() > most_mermaid_edges) {
     complain(
-        fmt::format("the picture has {} lines; Mermaid draws {} if it is not told otherwise "
+        fmt::format("the picture has {} lines; by default Mermaid draws at most {} "
                     "(maxEdges); --task and --group draw less",
                     diagram.edges.size(), most_mermaid_edges));
   }
@@ -509,11 +511,11 @@ void add_graph_command(Program& program) {
       "graph", "Draws the tasks and behaviors of a catalog.",
       {{"[OPTION...] [CATALOG]", "--diff [OPTION...] OLD NEW"}, graph_examples, graph_footer});
   command.argument("CATALOG", options->catalogs, input("", ValueKind::catalog),
-                   "The catalog: YAML or a compiled one, or - for standard input; with --diff two "
-                   "of them, the older one first");
+                   "The catalog: YAML or compiled, or - for standard input; with --diff two "
+                   "catalogs, the older one first");
   command.flag("--diff", options->is_diff,
-               "Show the differences between two catalogs, regardless of order and layout; the "
-               "exit status is 1 if there are any");
+               "Show the differences between two catalogs, ignoring order and layout; exit status "
+               "1 if they differ");
   command.option("-o,--output", options->output, output("OUT"),
                  "The file to write, or - for standard output (default)");
   command.option("--format", options->format, one_of("FORMAT", formats),

@@ -213,7 +213,7 @@ void Linter::fix(const std::string& path, Linted& linted, const SeveritySettings
   if (mended == 0) return;
   if (!same_meaning(linted.catalog, fixed.catalog) || fixed.errors > linted.errors) {
     complain(
-        fmt::format("internal error: mending {} would change its meaning, so nothing is "
+        fmt::format("internal error: fixing {} would change its meaning, so nothing is "
                     "written; please report it with the file",
                     quote(linted.file.file)));
     has_internal_error_ = true;
@@ -226,7 +226,7 @@ void Linter::fix(const std::string& path, Linted& linted, const SeveritySettings
     return;
   } else {
     has_mended_ = true;
-    complain(fmt::format("{}: {} {} mended", printable(linted.file.file), mended,
+    complain(fmt::format("{}: {} {} fixed", printable(linted.file.file), mended,
                          mended == 1 ? "finding" : "findings"));
   }
   linted = std::move(fixed);
@@ -237,7 +237,7 @@ bool Linter::write_fixed(const std::string& path, const std::string& before,
   const std::optional<std::string> now = read_input(path);
   if (!now) return false;
   if (*now != before) {
-    complain(fmt::format("{} has changed meanwhile; it is left as it is", quote(path)));
+    complain(fmt::format("{} has changed in the meantime; it is not overwritten", quote(path)));
     return false;
   }
   return write_output(path, after) == exit_ok;
@@ -328,22 +328,22 @@ namespace {
 constexpr const char* lint_examples =
     "  cbc lint robot.yaml                       every mistake, with place and reason\n"
     "  cbc lint --diff robot.yaml                what --fix would change\n"
-    "  cbc lint --explain dead-behavior          what a rule is about; how to mend it\n";
+    "  cbc lint --explain dead-behavior          what a rule means and how to fix it\n";
 
 constexpr const char* lint_footer =
     "More examples:\n"
-    "  cbc lint --strict catalogs/               a folder; warnings fail, too\n"
+    "  cbc lint --strict catalogs/               a folder; also fail on warnings\n"
     "  cbc lint --format sarif catalogs/ > lint.sarif\n"
     "                                            for code scanning\n"
-    "  cbc lint --script mission.yaml robot.yaml  an event script as well\n"
+    "  cbc lint --script mission.yaml robot.yaml  also check an event script\n"
     "\n"
     "A comment '# cbc: allow RULE' at the end of a line, or above an entry, allows a finding "
     "there. A file .cbc.yaml in the folder of a catalog, or above it, has settings for all of "
     "them:\n"
     "  error: [RULE, ...]   warn: [RULE, ...]   allow: [RULE, ...]   strict: true\n"
     "\n"
-    "Exit status: 0 nothing is wrong, 1 there is an error (under --strict: or a warning), 2 a "
-    "file could not be read or written, or the usage is wrong, 3 an internal error.\n"
+    "Exit status: 0 no errors, 1 errors (with --strict, also warnings), 2 a file could not be "
+    "read or written, or the usage is wrong, 3 an internal error.\n"
     "\n"
     "Read more: man cbc-lint, man cbc-rules (every rule, with examples)";
 
@@ -376,7 +376,8 @@ int explain_rule(const std::string& name) {
 
 /// Says what is wrong with the choice of files; empty if nothing is.
 std::string find_misuse(const LintCommand& command) {
-  if (command.paths.empty() && command.scripts.empty()) return "no catalog given to lint";
+  if (command.paths.empty() && command.scripts.empty())
+    return "expected a catalog, or an event script that names one";
   if (!command.scripts.empty() &&
       (command.paths.size() > 1 || (command.paths.size() == 1 && is_folder(command.paths[0])))) {
     return "--script checks against one catalog, but several are given";
@@ -386,7 +387,7 @@ std::string find_misuse(const LintCommand& command) {
   };
   const bool has_stdin = is_stdin_in(command.paths) || is_stdin_in(command.scripts);
   if (!command.stdin_filename.empty() && !has_stdin) {
-    return "--stdin-filename is of use with '-' only";
+    return "--stdin-filename needs '-' (standard input) among the files";
   }
   if (command.fix && !command.diff && has_stdin) {
     return "standard input cannot be fixed in place; --diff shows what would change";
@@ -451,7 +452,7 @@ bool lint_all(const LintCommand& command, Linter& linter) {
     if (!is_folder(path) || folders_with_catalogs.contains(path)) continue;
     complain(fmt::format("found no catalog in {}{}", quote(path),
                          folders_with_files.contains(path)
-                             ? "; an event script is checked if it is named itself"
+                             ? "; to check an event script, name the file itself"
                              : ""));
     has_failed = true;
   }
@@ -486,7 +487,7 @@ constexpr std::array<LintFormat, 5> lint_formats = {{
 void print_report(const LintCommand& command, const Linter& linter, bool is_complete) {
   if (command.diff) {
     fmt::print("{}", linter.diff());
-    if (linter.has_found()) complain("there is more that only a person can mend: see 'cbc lint'");
+    if (linter.has_found()) complain("other findings need a person to fix them: see 'cbc lint'");
     return;
   }
   const LintRun run{std::filesystem::current_path().string(), is_complete, style_for(stdout)};
@@ -532,7 +533,7 @@ int lint(const LintCommand& command) {
   const bool has_all = lint_all(command, linter);
   if (!linter.files().empty()) print_report(command, linter, has_all && !linter.has_failed());
   if (command.fix && !command.diff && !linter.has_mended() && has_faults(linter.files())) {
-    complain("nothing of this can be mended in place");
+    complain("none of these findings can be fixed in place");
   }
   if (linter.has_internal_error()) return exit_internal;
   if (!has_all || linter.has_failed()) return exit_unusable;
@@ -553,19 +554,19 @@ void add_lint_command(Program& program) {
                            lint_footer});
   command.argument("CATALOG", options->paths, input("...", ValueKind::catalog),
                    "Catalogs: files, folders (all *.yaml and *.yml in them that look like "
-                   "catalogs), or - for standard input; event scripts, too, if they name their "
+                   "catalogs), or - for standard input; also event scripts that name their "
                    "catalogs");
   command.option("--script", options->scripts, input("FILE", ValueKind::script),
-                 "Also check an event script, against the one catalog that is given. Repeatable");
+                 "Also check this event script against the catalog. May be repeated");
   command.option("--format", options->format, one_of("FORMAT", formats),
                  "text (the default), json, sarif, github, or gcc");
   command
       .flag("--summary", options->summary,
-            "Show numbers of each catalog: tasks, behaviors, constraints, groups, search space; "
-            "also of compiled ones")
+            "Show figures for each catalog: tasks, behaviors, constraints, groups, search space; "
+            "also for compiled catalogs")
       .only_with_values("--format", {"text", "json"});
   command.flag("--fix", options->fix,
-               "Fix in place what can be fixed without changing the meaning of a catalog");
+               "Fix in place what can be fixed without changing the meaning");
   command.flag("--diff", options->diff, "Show what --fix would change, as a diff")
       .not_with({"--summary"})
       .only_with_values("--format", {"text"});
@@ -587,12 +588,12 @@ void add_lint_command(Program& program) {
       .separated_by(',');
   command.option("--allow", options->severities.allow, rules, "Do not report findings of a rule")
       .separated_by(',');
-  command.flag("--strict", options->severities.strict, "Let warnings fail, too");
+  command.flag("--strict", options->severities.strict, "Also fail on warnings");
   command.option("--stdin-filename", options->stdin_filename, name_of("NAME", ValueKind::file),
                  "Name of standard input in messages and for .cbc.yaml");
   command.option("--max-nodes", options->max_nodes, whole_number("N", 1),
                  "Decisions that the proof of one finding may take (default: 100000)");
-  const std::string only_explains = "it prints a text about rules, and lints nothing";
+  const std::string only_explains = "it describes rules and checks no files";
   command.option("--explain", options->explain, rule, "Explain a rule")
       .not_with({"CATALOG", "--script"}, only_explains)
       .only_with_values("--format", {"text"});

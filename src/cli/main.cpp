@@ -26,7 +26,7 @@ constexpr const char* program_examples =
     "  cbc graph robot.yaml -o robot.svg   a picture of the catalog\n";
 
 constexpr const char* program_footer =
-    "Exit status: 0 all is well, 1 lint found an error, a compiled catalog is stale, two "
+    "Exit status: 0 success, 1 lint found an error, a compiled catalog is not up to date, two "
     "catalogs differ, or an expectation failed, 2 the input or the usage is wrong, 3 an internal "
     "error.\n"
     "\n"
@@ -61,7 +61,8 @@ int run(int argc, char** argv) {
 /// Handles SIGBUS. Compiled catalogs are mapped into memory, and the system sends this signal if
 /// the file is truncated meanwhile.
 void end_without_file(int /*signal*/) {
-  constexpr std::string_view message = "cbc: a compiled catalog was cut off while it was in use\n";
+  constexpr std::string_view message =
+      "cbc: a compiled catalog was truncated while it was in use\n";
   const auto ignored = write(STDERR_FILENO, message.data(), message.size());
   static_cast<void>(ignored);
   _exit(cbc::cli::exit_unusable);

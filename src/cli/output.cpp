@@ -195,7 +195,7 @@ std::string describe_end(const RunResult& result, const CoordinatorOptions& opti
       return fmt::format("the clock made more than {} events (--max-clock-events)",
                          options.max_clock_events);
     case Coordinator::Status::refused_answer:
-      return "the checker refuses an answer of the solver: " + result.internal_error;
+      return "the checker rejects an answer of the solver: " + result.internal_error;
   }
   return {};
 }

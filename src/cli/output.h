@@ -98,7 +98,7 @@ void hold_standard_descriptors();
 [[nodiscard]] bool is_same_file(const std::string& input, const std::string& output);
 
 /// The message about such an output.
-inline constexpr const char* overwrites_input = "the output {} is an input, too";
+inline constexpr const char* overwrites_input = "the output {} is also an input";
 
 /// Why a run ended early, or empty.
 [[nodiscard]] std::string describe_end(const RunResult& result, const CoordinatorOptions& options);

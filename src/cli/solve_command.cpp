@@ -85,10 +85,10 @@ namespace {
 constexpr const char* solve_examples =
     "  cbc solve robot.yaml mission.yaml         one script, for a person to read\n"
     "  cbc solve robot.yaml mission.yaml --html mission.html\n"
-    "                                            a picture, too, for a browser\n"
+    "                                            also a timeline for a browser\n"
     "  cbc solve robot.yaml mission.yaml --why HOVER --alternatives 3\n"
-    "                                            why HOVER is as it is, and the three\n"
-    "                                            best configurations, of each event\n";
+    "                                            explain HOVER and list the three\n"
+    "                                            best configurations at each event\n";
 
 constexpr const char* solve_footer =
     "More examples:\n"
@@ -99,8 +99,8 @@ constexpr const char* solve_footer =
     "  cbc solve robot.yaml missions/ --format junit > results.xml\n"
     "                                            for CI, a test suite per script\n"
     "  robot | cbc solve robot.cbc - --format jsonl > log.jsonl\n"
-    "                                            events as they come, one on a line\n"
-    "  cbc solve --replay log.jsonl robot.cbc    the same again: is it still so?\n"
+    "                                            a live stream, one event per line\n"
+    "  cbc solve --replay log.jsonl robot.cbc    run the log again and compare\n"
     "  cbc solve robot.yaml mission.yaml --max-solutions 5\n"
     "                                            best of the first 5 solutions\n"
     "  cbc solve robot.yaml --sweep 1000         random events and faults\n"
@@ -116,7 +116,7 @@ constexpr const char* solve_footer =
 /// Says what is missing on the command line; empty if nothing is.
 std::string find_missing(const SolveOptions& options) {
   if (!options.paths.empty()) return {};
-  if (options.sweep.merge) return "expected the files of the shards to merge";
+  if (options.sweep.merge) return "expected the JSON results of the shards to merge";
   if (options.sweep.is_wanted()) return "expected the catalog of the sweep";
   if (options.stream.replay) return "expected the catalog of the log";
   return "expected a catalog and a script";
@@ -138,7 +138,7 @@ void add_solve_command(Program& program) {
   constexpr std::uint32_t most_alternatives = 1000;
   const auto options = std::make_shared<SolveOptions>();
   Command& command = program.add_command(
-      "solve", "Runs scripted events through the coordinator, with the proven best answers.",
+      "solve", "Runs event scripts on a catalog and computes proven best answers.",
       {{"[OPTION...] [CATALOG] SCRIPT...", "--format jsonl [OPTION...] CATALOG SCRIPT|-",
         "--replay LOG [OPTION...] CATALOG", "--sweep N [OPTION...] CATALOG",
         "--merge [OPTION...] SHARD..."},
@@ -150,7 +150,7 @@ void add_solve_command(Program& program) {
   command.option("--format", options->format,
                  one_of("FORMAT", {"text", "json", "junit", "github", "jsonl"}),
                  "text (the default), json, junit, github; or jsonl: each event as a line, as "
-                 "soon as it is solved; - is then a stream of events, one on a line (JSON, or a "
+                 "soon as it is solved; - is then a stream of events, one per line (JSON, or a "
                  "mapping in braces)");
   command
       .option("--html", options->html, further_output("FILE"),
@@ -171,13 +171,13 @@ void add_solve_command(Program& program) {
   for (Option* const option :
        {&command.option("--why", options->explain.why, name_of("NAME", ValueKind::task_or_behavior),
                         "Explain for each accepted event why this task or behavior is as it is: "
-                        "where the best alternative loses. Repeatable"),
+                        "where the best alternative is worse. May be repeated"),
         &command.option(
             "--alternatives", options->explain.alternatives,
             whole_number("K", 1, most_alternatives),
             fmt::format("List the K best configurations of each accepted event (at most {})",
                         most_alternatives))}) {
-    option->not_with({"--sweep", "--merge"}, "a sweep reports no single events")
+    option->not_with({"--sweep", "--merge"}, "a sweep does not report single events")
         .not_with({"--format junit", "--format github"}, "it has no place for reasons");
   }
 
@@ -211,8 +211,8 @@ void add_solve_command(Program& program) {
   command.group("Streams");
   command
       .option("--state-out", options->stream.state_out, further_output("FILE"),
-              "Save the state at the end of a stream (jsonl) to FILE; what is due at its last "
-              "instant is left to the continuation")
+              "Save the state at the end of a stream (jsonl) to FILE; timeouts and starts due at "
+              "its last instant are left to the stream that continues")
       .only_with({"--format jsonl", "--replay"});
   command
       .option("--state-in", options->stream.state_in, input("FILE", ValueKind::file),
@@ -221,8 +221,8 @@ void add_solve_command(Program& program) {
       .only_with({"--format jsonl", "--replay"});
   command
       .option("--replay", options->stream.replay, input("LOG", ValueKind::file),
-              "Run the scripted events of LOG, which --format jsonl wrote, again with the same "
-              "options, and compare byte for byte")
+              "Run the events of LOG (from --format jsonl) again with the same options, and "
+              "compare byte for byte")
       .not_with({"--sweep", "--merge"})
       .only_with_values("--format", {"jsonl", "text"});
 

@@ -583,13 +583,14 @@ class Replay {
     line.remove_suffix(1);
     if (expected_.empty()) {
       tell_difference(input_.number() + 1, "", std::string(line),
-                      is_at_end_ ? "the log ends here, before what is due at its last instant; "
-                                   "a log made with --state-out is replayed with it"
+                      is_at_end_ ? "the log ends here, before the events due at its last "
+                                   "instant; replay a log made with --state-out with the same "
+                                   "option"
                                  : "the log ends here");
     } else if (expected_.front().text != line) {
       std::string names = find_differences(expected_.front().text, line);
       if (!options_.stream.state_in && names.starts_with("'index'")) {
-        names += "; a log that goes on from a state is replayed with --state-in";
+        names += "; replay a log that continues from a saved state with --state-in";
       }
       tell_difference(expected_.front().number, expected_.front().text, std::string(line),
                       "they differ in " + names);

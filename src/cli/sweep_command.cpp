@@ -54,7 +54,7 @@ std::optional<SweepShard> parse_shard(const std::string& text) {
 Values shard_of_sweep() {
   Values values;
   values.placeholder = "I/N";
-  values.expected = "a share, such as 1/8";
+  values.expected = "a shard, such as 1/8";
   values.check = [](const std::string& text) -> std::string {
     if (parse_shard(text)) return {};
     return fmt::format("expected I/N, such as 3/8, with I from 1 to N and N at most {}, found {}",
@@ -76,7 +76,7 @@ void add_sweep_options(Command& command, SweepOptions& options) {
   const auto add = [&](const char* name, auto& target, Values values, const char* help) {
     command.option(name, target, std::move(values), help).only_with({"--sweep"});
   };
-  add("--seed", options.seed, whole_number("S", 0), "Draw other sequences (default: 1)");
+  add("--seed", options.seed, whole_number("S", 0), "Seed of the random sequences (default: 1)");
   add("--events", options.events, whole_number("E", 1, most_events),
       "Events in each sequence (default: 100)");
   add("--priorities", options.priorities, whole_number("P", 1, 1'000'000),
@@ -86,10 +86,10 @@ void add_sweep_options(Command& command, SweepOptions& options) {
   add("--faults", options.faults, probability(),
       "Share of events that are faults, repairs or changes of the situation, from 0 to 1 (default: "
       "0.1)");
-  add("--shard", options.shard, shard_of_sweep(), "Run only the I-th of N shares of the sweep");
+  add("--shard", options.shard, shard_of_sweep(), "Run only shard I of N of the sweep");
   command
       .flag("--merge", options.merge,
-            "Merge the results of all shards, as JSON, into that of one run")
+            "Merge the JSON results of all shards into the result of one run")
       .makes_arguments(ValueKind::shard)
       .only_with_values("--format", formats);
   command
@@ -98,7 +98,7 @@ void add_sweep_options(Command& command, SweepOptions& options) {
       .only_with({"--sweep", "--merge"});
   command
       .option("--slowest-by-time", options.slowest_by_time, further_output("FILE"),
-              "The same for the event that took longest")
+              "The same for the slowest event by time")
       .only_with({"--sweep", "--merge"});
 }
 
@@ -137,7 +137,7 @@ std::shared_ptr<const CompiledCatalog> load_swept(const std::vector<std::string>
 
 int report_failure(const SweepFailure& failure, const SweepSettings& settings) {
   if (failure.status == Coordinator::Status::refused_answer) {
-    complain(fmt::format("sequence {}: the checker refuses an answer of the solver: {}",
+    complain(fmt::format("sequence {}: the checker rejects an answer of the solver: {}",
                          failure.sequence, failure.internal_error));
     complain(
         "this is a fault of cbc, not of the catalog; please report it with the catalog and "
@@ -157,7 +157,7 @@ int write_slowest(const std::optional<std::string>& path,
                   const std::optional<SlowestEvent>& slowest) {
   if (!path) return exit_ok;
   if (!slowest) {
-    complain(fmt::format("there is no script for {}: no event took a search", quote(*path)));
+    complain(fmt::format("there is no script for {}: no event needed a search", quote(*path)));
     return exit_unusable;
   }
   return write_output(*path, slowest->script);
@@ -167,7 +167,7 @@ int report(SweepResult result, const SolveOptions& options) {
   const SweepOptions& of_sweep = options.sweep;
   int status = write_slowest(of_sweep.slowest, result.slowest);
   if (of_sweep.slowest_by_time && !result.times) {
-    complain("--slowest-by-time: the shards were made without '--stats'");
+    complain("--slowest-by-time: the shards were run without '--stats'");
     status = exit_unusable;
   } else if (result.times) {
     status = std::max(status, write_slowest(of_sweep.slowest_by_time, result.times->slowest));

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # check_hooks.sh PROGRAM: runs the hooks of .pre-commit-hooks.yaml with pre-commit, in a repository with a
-# sound catalog, settings of lint, a catalog with an error, and one that can be mended. Then the same with
+# sound catalog, settings of lint, a catalog with an error, and one that can be fixed. Then the same with
 # the example of docs/ci.md.
 #
 # Exit status: 0 all is well, 1 it is not, 77 skipped: a tool is missing.
@@ -46,7 +46,7 @@ cp -- "$source/catalogs/quadrotor.yaml" catalogs
 echo 'this: [is no catalog' >settings.yaml # of another folder, so of no concern
 echo 'strict: true' >catalogs/.cbc.yaml    # no catalog either
 hook cbc-lint-fix
-[[ $status == 0 && $output == *"mend behavior catalogs"*Passed* ]] || fail "a sound catalog to be mended"
+[[ $status == 0 && $output == *"fix behavior catalogs"*Passed* ]] || fail "a sound catalog to be fixed"
 hook cbc-lint
 [[ $status == 0 && $output == *"check behavior catalogs"*Passed*"no findings in 1 file"* ]] || fail "a sound catalog"
 
@@ -56,9 +56,9 @@ hook cbc-lint
 
 printf 'behaviors:\n- behavior: A\n  task: B\ntasks:\n- task: B\n  category: recurrent\n' >catalogs/wrong.yaml
 hook cbc-lint-fix
-[[ $status == 1 && $output == *"files were modified by this hook"* ]] || fail "a catalog to be mended"
+[[ $status == 1 && $output == *"files were modified by this hook"* ]] || fail "a catalog to be fixed"
 hook cbc-lint-fix
-[[ $status == 0 && $(<catalogs/wrong.yaml) == *"execution_goal: keep_running"* ]] || fail "a mended catalog"
+[[ $status == 0 && $(<catalogs/wrong.yaml) == *"execution_goal: keep_running"* ]] || fail "a fixed catalog"
 
 # The example, but for the address.
 awk '/^```/ { if (inside) exit; inside = /yaml/; next } inside' "$source/docs/ci.md" |
@@ -78,8 +78,8 @@ example
 [[ $status == 0 && $output == *"no findings in 1 file"* ]] || fail "the example, with a sound catalog"
 printf 'behaviors:\n- behavior: A\n  task: B\ntasks:\n- task: B\n  category: recurrent\n' >robot/older.yaml
 example
-[[ $status == 1 && $output == *"mend behavior catalogs"*Failed*"check behavior catalogs"*Passed* ]] ||
-  fail "the example, with a catalog to be mended"
+[[ $status == 1 && $output == *"fix behavior catalogs"*Failed*"check behavior catalogs"*Passed* ]] ||
+  fail "the example, with a catalog to be fixed"
 example
-[[ $status == 0 ]] || fail "the example, with a mended catalog"
+[[ $status == 0 ]] || fail "the example, with a fixed catalog"
 echo "check_hooks.sh: all is well"

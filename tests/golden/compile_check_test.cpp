@@ -60,13 +60,13 @@ TEST_F(CompileCheck, TellsWhyAFileIsStale) {
   std::string content = folder.read("robot.cbc");
   content[content.size() / 2] = static_cast<char>(content[content.size() / 2] ^ 1);
   folder.write("robot.cbc", content);
-  expect_stale("it is damaged: its content does not fit its digest");
+  expect_stale("it is damaged: its content does not match its digest");
   folder.write("robot.cbc", content.substr(0, content.size() / 2));
   EXPECT_EQ(cbc({"compile", "--check", "robot.yaml"}).status, 1);
 
   compile_robot();
   folder.write("robot.yaml", std::string(robot) + "# more\n");
-  expect_stale("it was made from another text of 'robot.yaml'");
+  expect_stale("'robot.yaml' has changed since it was compiled");
 }
 
 /// Replaces a text, which is as long, in a compiled file, and makes the digest fit again.
@@ -94,7 +94,7 @@ TEST_F(CompileCheck, TellsThatAFileIsNotWhatItSeems) {
   compile_robot();
   folder.write("robot.cbc", forge(folder.read("robot.cbc"), "LAND_SOFTLY", "LAND_GENTLY"));
   expect_result(cbc({"compile", "--check", "robot.yaml"}), 1,
-                "'robot.cbc' is not up to date: it is not what would be written now\n", "");
+                "'robot.cbc' is not up to date: its bytes differ from what cbc compile would write\n", "");
 }
 
 TEST_F(CompileCheck, CannotCheckWhatIsNoFile) {
@@ -153,7 +153,7 @@ TEST_F(CompileDump, ListsNoDamagedFile) {
   content[content.size() / 2] = static_cast<char>(content[content.size() / 2] ^ 1);
   folder.write("robot.cbc", content);
   expect_result(cbc({"compile", "--dump", "robot.cbc"}), 2, "",
-                "cbc: cannot read 'robot.cbc': it is damaged: its content does not fit its "
+                "cbc: cannot read 'robot.cbc': it is damaged: its content does not match its "
                 "digest\n");
 }
 

@@ -169,7 +169,7 @@ TEST_F(Compile, RefusesToWriteOverTheCatalog) {
     all.insert(all.end(), arguments.begin(), arguments.end());
     const Result result = cbc(all);
     EXPECT_EQ(result.status, 2);
-    EXPECT_NE(result.err.find("is an input, too"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("is also an input"), std::string::npos) << result.err;
     EXPECT_EQ(folder.read("robot.cbc"), robot);
   }
 }

@@ -149,7 +149,7 @@ TEST_F(CompiledCatalog, ThatIsCutOffMeanwhileEndsTheProgramWithAMessage) {
     EXPECT_EQ(write(pipe, script, std::strlen(script)), static_cast<ssize_t>(std::strlen(script)));
     close(pipe);
   });
-  expect_result(result, 2, "", "cbc: a compiled catalog was cut off while it was in use\n");
+  expect_result(result, 2, "", "cbc: a compiled catalog was truncated while it was in use\n");
 }
 
 /// In folders, lint looks for catalogs to mend.

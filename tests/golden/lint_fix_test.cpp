@@ -101,9 +101,9 @@ TEST_F(LintFix, MendsInPlaceAndReportsTheRest) {
   const Result result = fix({"plow.yaml"});
   EXPECT_EQ(folder.read("plow.yaml"), after);
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.err, "cbc: plow.yaml: 10 findings mended\n");
+  EXPECT_EQ(result.err, "cbc: plow.yaml: 10 findings fixed\n");
   EXPECT_EQ(result.out,
-            "plow.yaml:15:16: warning: a suitability of 0.5 % is next to nothing; is 50 % meant? "
+            "plow.yaml:15:16: warning: a suitability of 0.5 % is very low; did you mean 50 %? "
             "[suspicious-suitability]\n"
             "    suitability: 0.5          # a guess\n"
             "                 ^~~\n"
@@ -121,7 +121,7 @@ TEST_F(LintFix, ChangesNothingTheSecondTime) {
   EXPECT_EQ(folder.read("plow.yaml"), after);
   EXPECT_EQ(first.st_ino, second.st_ino) << "written anew";
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.err, "cbc: nothing of this can be mended in place\n");
+  EXPECT_EQ(result.err, "cbc: none of these findings can be fixed in place\n");
 }
 
 TEST_F(LintFix, KeepsPermissionsAndLineEnds) {
@@ -137,7 +137,7 @@ TEST_F(LintFix, KeepsPermissionsAndLineEnds) {
   fs::permissions(folder / "gps.yaml", fs::perms::owner_read | fs::perms::owner_write |
                                            fs::perms::owner_exec | fs::perms::others_read);
   const fs::perms permissions = fs::status(folder / "gps.yaml").permissions();
-  EXPECT_EQ(fix({"gps.yaml"}).err, "cbc: gps.yaml: 1 finding mended\n");
+  EXPECT_EQ(fix({"gps.yaml"}).err, "cbc: gps.yaml: 1 finding fixed\n");
   EXPECT_EQ(folder.read("gps.yaml"), expected);
   EXPECT_EQ(fs::status(folder / "gps.yaml").permissions(), permissions);
 }
@@ -161,7 +161,7 @@ tasks:
 )");
   const Result result = fix({"a.yaml"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(result.err, "cbc: a.yaml: 1 finding mended\n");
+  EXPECT_EQ(result.err, "cbc: a.yaml: 1 finding fixed\n");
 }
 
 TEST_F(LintFix, MendsAllFilesOfAFolder) {
@@ -172,7 +172,7 @@ TEST_F(LintFix, MendsAllFilesOfAFolder) {
   folder.write("script.yaml", "events: []  # efficacy: 95\n");
   const Result result = fix({"."});
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.err, "cbc: ./a.yaml: 1 finding mended\ncbc: ./old/c.yml: 1 finding mended\n");
+  EXPECT_EQ(result.err, "cbc: ./a.yaml: 1 finding fixed\ncbc: ./old/c.yml: 1 finding fixed\n");
   EXPECT_EQ(folder.read("a.yaml"), small_mended);
   EXPECT_EQ(folder.read("b.yaml"), small_mended);
   EXPECT_EQ(folder.read("old/c.yml"), small_mended);
@@ -185,7 +185,7 @@ TEST_F(LintFix, MendsWhatItCanOfACatalogWithErrors) {
   folder.write("gps.yaml", small + error);
   const Result result = fix({"gps.yaml"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(result.err, "cbc: gps.yaml: 1 finding mended\n");
+  EXPECT_EQ(result.err, "cbc: gps.yaml: 1 finding fixed\n");
   EXPECT_EQ(folder.read("gps.yaml"), small_mended + error);
 }
 
@@ -194,7 +194,7 @@ TEST_F(LintFix, LeavesWhatIsNoYamlAlone) {
   folder.write("gps.yaml", text);
   const Result result = fix({"gps.yaml"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(result.err, "cbc: nothing of this can be mended in place\n");
+  EXPECT_EQ(result.err, "cbc: none of these findings can be fixed in place\n");
   EXPECT_EQ(folder.read("gps.yaml"), text);
 }
 

@@ -102,7 +102,7 @@ std::string section_of(const Rule& rule) {
     text += ".Pp\n" + prose(take_until("\n\n", rest));
   }
   text += ".Pp\n.Sy Example .\n" + literal(rule.example);
-  text += ".Pp\n.Sy To mend it .\n" + prose(rule.mending) + literal(rule.mended);
+  text += ".Pp\n.Sy How to fix it .\n" + prose(rule.mending) + literal(rule.mended);
   return text;
 }
 

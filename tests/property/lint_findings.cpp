@@ -242,7 +242,7 @@ class FindingReader {
     const RequirementEntry entry = entry_at(finding.range);
     std::string rest =
         expect(after(finding.message, "behavior " + behavior(entry) + " requires " + task(entry) +
-                                          ", which starts on request only: "
+                                          ", which starts only on request: "
                                           "request "));
     rest = expect(before(rest, " first"));
     std::vector<std::size_t> names;

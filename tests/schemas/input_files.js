@@ -61,7 +61,7 @@ function* yamlFiles(root) {
   }
 }
 
-/** The example of a rule, or what it is when it is mended: the lines that are set in. */
+/** The example of a rule, or what it is when it is fixed: the lines that are set in. */
 function exampleIn(explanation, heading) {
   const place = new RegExp(`^${heading}[^\\n]*:\\n\\n((?:    [^\\n]*\\n|\\n)+)`, 'm');
   return place.exec(explanation)?.[1].replace(/^ {4}/gm, '');
@@ -74,7 +74,7 @@ function* examples(linter) {
     const explanation = linter.run('--explain', rule);
     const catalog = exampleIn(explanation, 'The catalog');
     const schema = catalog === undefined ? 'catalog' : 'script';
-    for (const heading of ['Example', 'Mended']) {
+    for (const heading of ['Example', 'Fixed']) {
       const text = exampleIn(explanation, heading);
       yield {source: `${heading} of rule ${rule}`, schema, text, catalog};
     }

@@ -204,7 +204,7 @@ TEST(AllowComments, ReportsWhatIsNotUnderstood) {
   EXPECT_EQ(control("a: 1 # cbc: ignore dead-task, dead-behavior\n"),
             "1:13-19 warning unknown-rule: expected 'allow' after 'cbc:', found 'ignore'\n");
   EXPECT_EQ(control("a: 1 # cbc:\n"),
-            "1:6-12 warning unknown-rule: the comment says nothing: expected 'cbc: allow RULE'\n");
+            "1:6-12 warning unknown-rule: the comment is empty: expected 'cbc: allow RULE'\n");
   for (const std::string comment : {"# cbc: allow", "# cbc: allow  ", "# cbc: allow ,",
                                     "# cbc: allow -- dead-task", "# cbc: allow\t"}) {
     const std::string report = control("a: 1 " + comment + "\n");

@@ -453,7 +453,7 @@ TEST(CatalogReader, TaskAndTasks) {
   EXPECT_EQ(findings("behaviors: [{behavior: B, tasks: []}]\n"),
             "1:27-32 error invalid-value: a behavior must have at least one task\n");
   EXPECT_EQ(findings("behaviors: [{behavior: B, tasks: [{task: X}, {task: Y}, {task: X}]}]\n"),
-            "1:64-65 error invalid-value: task 'X' stands twice in one behavior\n"
+            "1:64-65 error invalid-value: task 'X' is listed twice in one behavior\n"
             "  1:42-43 first given here\n");
 }
 
@@ -547,11 +547,11 @@ TEST(CatalogReader, Percentages) {
   EXPECT_EQ(value_finding("suitability: 100.0001"),
             "error invalid-value: " + must + "'100.0001'\n");
   EXPECT_EQ(value_finding("suitability: 0.00001"),
-            "error invalid-value: 'suitability' has at most 4 decimals, found '0.00001'\n");
+            "error invalid-value: 'suitability' may have at most 4 decimals, found '0.00001'\n");
 }
 
 TEST(CatalogReader, Timeouts) {
-  const std::string must = "'timeout' must be a number of seconds over 0 to 1000000000, found ";
+  const std::string must = "'timeout' must be a number of seconds above 0, up to 1000000000, found ";
   for (const std::string value : {"15", "0.000001", "1000000000"}) {
     EXPECT_EQ(value_finding("timeout: " + value), "") << value;
   }
@@ -562,7 +562,7 @@ TEST(CatalogReader, Timeouts) {
   EXPECT_EQ(value_finding("timeout: 1000000001"),
             "error invalid-value: " + must + "'1000000001'\n");
   EXPECT_EQ(value_finding("timeout: 0.0000001"),
-            "error invalid-value: 'timeout' has at most 6 decimals, found '0.0000001'\n");
+            "error invalid-value: 'timeout' may have at most 6 decimals, found '0.0000001'\n");
 }
 
 TEST(CatalogReader, ValuesOfTasks) {
@@ -809,7 +809,7 @@ tasks:
   reactive_start: maybe
 - task: X
 )"),
-            "1:35-40 error wrong-type: 'timeout' must be a number of seconds over 0 to 1000000000, "
+            "1:35-40 error wrong-type: 'timeout' must be a number of seconds above 0, up to 1000000000, "
             "found 'never'\n"
             "3:13-14 error missing-key: missing key 'task' in behavior 'A'\n"
             "6:16-19 error invalid-value: 'suitability' must be a number from 0 to 100 (percent), "

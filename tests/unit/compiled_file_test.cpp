@@ -130,7 +130,7 @@ TEST(CompiledFile, OfANewerFormatIsRefusedByItsNumber) {
   EXPECT_EQ(read_compiled(bytes).error, "its format is version 7, but cbc " + std::string(version) +
                                             " knows none above 1; a newer cbc can read it");
   bytes[place] = 0;
-  EXPECT_EQ(read_compiled(bytes).error, "it is damaged or cut off");
+  EXPECT_EQ(read_compiled(bytes).error, "it is damaged or truncated");
 }
 
 }  // namespace

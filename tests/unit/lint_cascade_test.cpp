@@ -97,7 +97,7 @@ constexpr const char* conflict_and_request =
     "exclude one another, so it can never be active\n"
     "  5:44-45 'B' is required here\n"
     "  17:3-21 mutually exclusive by this list\n"
-    "6:44-45 warning requires-on-request: behavior 'E' requires 'F', which starts on request only: "
+    "6:44-45 warning requires-on-request: behavior 'E' requires 'F', which starts only on request: "
     "request 'F' first\n"
     "  14:10-11 'F' is defined here\n";
 

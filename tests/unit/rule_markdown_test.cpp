@@ -31,7 +31,7 @@ TEST(RuleMarkdown, FencesTheExamples) {
             "- task: A\n"
             "```\n"
             "\n"
-            "## How to mend it\n"
+            "## How to fix it\n"
             "\n"
             "Do this.\n"
             "\n"

@@ -48,11 +48,11 @@ TEST(RuleText, SaysAllAboutARule) {
             "    walls:\n"
             "    - blue\n"
             "\n"
-            "To mend it:\n"
+            "How to fix it:\n"
             "\n"
             "Paint it.\n"
             "\n"
-            "Mended:\n"
+            "Fixed:\n"
             "\n"
             "    walls:\n"
             "    - green\n");

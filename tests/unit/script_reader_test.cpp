@@ -215,7 +215,7 @@ TEST(ScriptReader, WrongScripts) {
       findings("catalog: []\nreactive_delay: 0\nsituation: HOVER\ndelay: 1\nevents: []\n"),
       "1:10-11 error wrong-type: 'catalog' must be the path of a catalog, found an empty "
       "list\n"
-      "2:17-18 error invalid-value: 'reactive_delay' must be a number of seconds over 0 to "
+      "2:17-18 error invalid-value: 'reactive_delay' must be a number of seconds above 0, up to "
       "1000000000, found '0'\n"
       "3:12-17 error wrong-type: 'situation' must be a mapping of behaviors to true or false, "
       "found 'HOVER'\n"
@@ -226,7 +226,7 @@ TEST(ScriptReader, WrongScripts) {
 TEST(ScriptReader, OneVerbForEachEvent) {
   EXPECT_EQ(
       findings("- {stop: LAND, start: LAND}\n- {}\n- {priority: 3}\n- start:\n- 7\n- ~\n"),
-      "1:16-21 error invalid-value: an event has one verb, found 'stop' and 'start'\n"
+      "1:16-21 error invalid-value: an event must have exactly one verb, found 'stop' and 'start'\n"
       "  1:4-8 the first one is here\n"
       "2:3-4 error missing-key: an event needs one of 'start', 'stop', 'finish', 'situation', "
       "'fault', 'repair', 'expect', 'at' and 'wait'\n"
@@ -424,8 +424,8 @@ TEST(ScriptReader, FindingsAboutParametersHaveTheSeverityThatIsAskedFor) {
 
 std::string still_available(const std::string& place, const std::string& behavior) {
   return place + " warning still-available: behavior '" + behavior +
-         "' is still available here, so that it can be chosen again at once; say 'situation: {" +
-         behavior + ": false}' before\n";
+         "' is still available here, so that it can be chosen again at once; add 'situation: {" +
+         behavior + ": false}' before it\n";
 }
 
 TEST(ScriptReader, AFinishByTheSituationOfWhatStaysAvailable) {
@@ -517,7 +517,7 @@ TEST(ScriptReader, Times) {
       findings("- at: -1\n- wait: soon\n- wait: '1'\n- wait: 0.0000001\n- at: 1000000000.1\n"),
       "1:7-9 error invalid-value: 'at'" + must + "'-1'\n" + "2:9-13 error wrong-type: 'wait'" +
           must + "'soon'\n" + "3:9-12 error wrong-type: 'wait'" + must + "'1' in quotes\n" +
-          "4:9-18 error invalid-value: 'wait' has at most 6 decimals, found '0.0000001'\n" +
+          "4:9-18 error invalid-value: 'wait' may have at most 6 decimals, found '0.0000001'\n" +
           "5:7-19 error invalid-value: 'at'" + must + "'1000000000.1'\n");
   EXPECT_EQ(findings("- at: 1000000000\n- wait: 0\n- wait: 0.000001\n"),
             "3:9-17 error invalid-value: after this wait it is later than 1000000000 s, the end of "

@@ -532,11 +532,11 @@ TEST(SemanticChecks, OfManyTasksToRequestSomeAreNamed) {
     text += "- {task: T" + std::to_string(i) + ", start_on_request: TRUE}\n";
   }
   const std::string found = lint(text);
-  EXPECT_NE(found.find("requires 'T9', which starts on request only: request 'T0', then 'T1', then "
+  EXPECT_NE(found.find("requires 'T9', which starts only on request: request 'T0', then 'T1', then "
                        "'T2', then 'T3', then 'T4', then 'T5', then 'T6', then 'T7', then 'T8', "
                        "then 'T9' first\n"),
             std::string::npos);
-  EXPECT_NE(found.find("requires 'T11', which starts on request only: request 'T0', then 'T1', "
+  EXPECT_NE(found.find("requires 'T11', which starts only on request: request 'T0', then 'T1', "
                        "then 'T2', then 'T3', then 'T4', then 'T5', then 'T6', then 'T7', then "
                        "'T8', then 2 more, then 'T11' first\n"),
             std::string::npos);

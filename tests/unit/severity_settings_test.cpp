@@ -66,7 +66,7 @@ TEST(SeveritySettings, ReportAllBadOptions) {
       "--warn: 'missing-key' is always an error: a file that breaks this rule has no meaning\n"
       "--warn: there is no rule ''\n"
       "--warn: there is no rule 'Dead_Task'; did you mean 'dead-task'?\n"
-      "--allow: rule 'dead-behavior' is given to --error, too\n"
+      "--allow: rule 'dead-behavior' is also given to --error\n"
       "--allow: there is no rule 'no-such-thing'\n");
 }
 

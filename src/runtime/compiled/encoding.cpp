@@ -158,7 +158,7 @@ class Decoder {
                                    stored.content()->size());
     file.content = from_flat(*stored.content_digest());
     if (digest_of(content) != file.content) {
-      return "it is damaged: its content does not fit its digest";
+      return "it is damaged: its content does not match its digest";
     }
     if (!is_aligned(content.data(), alignof(std::max_align_t))) return damaged;
     flatbuffers::Verifier verifier(data_of(content), content.size());
@@ -201,7 +201,7 @@ class Decoder {
     return reinterpret_cast<const std::uint8_t*>(bytes.data());
   }
 
-  static constexpr const char* damaged = "it is damaged or cut off";
+  static constexpr const char* damaged = "it is damaged or truncated";
 
   std::string_view bytes_;
 };

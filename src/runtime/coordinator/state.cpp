@@ -224,9 +224,9 @@ class SnapshotCheck {
       refuse("its time is not between 0 and " + seconds(longest_time));
     }
     if (snapshot_.reactive_delay <= 0 || snapshot_.reactive_delay > longest_time) {
-      refuse("its reactive delay is not over 0 and at most " + seconds(longest_time));
+      refuse("its reactive delay is not above 0 and at most " + seconds(longest_time));
     }
-    if (snapshot_.events > UINT64_MAX / 2) refuse("its number of events is beyond reach");
+    if (snapshot_.events > UINT64_MAX / 2) refuse("its number of events is too large");
   }
 
   void check_activation(BehaviorId behavior, Microseconds time) {
@@ -259,9 +259,9 @@ class SnapshotCheck {
   void check_request(const std::string& name, const Request& request) {
     if (request.priority < 0) refuse(concat("the request of ", name, " has no priority"));
     if (request.event == 0 || request.event > snapshot_.events) {
-      refuse(concat("the request of ", name, " is of an event that was not"));
+      refuse(concat("the request of ", name, " is from an event that never happened"));
     } else if (!events_.insert(request.event).second) {
-      refuse(concat("the request of ", name, " is of the same event as another one"));
+      refuse(concat("the request of ", name, " is from the same event as another one"));
     }
   }
 
@@ -298,7 +298,7 @@ class SnapshotCheck {
       refuse(concat("task ", name, " is in the queue twice"));
     }
     if (due < snapshot_.now || due - snapshot_.now > snapshot_.reactive_delay) {
-      refuse(concat("task ", name, " is in the queue for a time that cannot be"));
+      refuse(concat("task ", name, " is in the queue for an impossible time"));
     }
   }
 

@@ -413,7 +413,7 @@ class Reader {
         behavior.performs.push_back({*name, suitability});
       } else {
         reporter_.report(rule::invalid_value, name->range,
-                         "task " + quote(name->text) + " stands twice in one behavior",
+                         "task " + quote(name->text) + " is listed twice in one behavior",
                          {reporter_.note(first->second, "first given here")});
       }
     }

@@ -6,7 +6,7 @@ namespace cbc::rule {
 const Rule self_exclusion = {
     .name = "self-exclusion",
     .severity = Severity::warning,
-    .summary = "A task stands twice in one exclusivity list.",
+    .summary = "A task is listed twice in one exclusivity list.",
     .explanation =
         "A task does not exclude itself, so its second place in the list has no effect. Usually "
         "another task is meant there, which can now run together with the tasks that it should "
@@ -19,7 +19,7 @@ tasks: [{task: HOVER}, {task: ROTATE}, {task: LAND}]
 exclusivity_constraints:
 - mutually_exclusive: [HOVER, ROTATE, HOVER]
 )",
-    .mending = "Write the task that is meant, or remove the second one.",
+    .mending = "Name the intended task, or remove the second entry.",
     .mended = R"(behaviors:
 - {behavior: HOVER_WITH_PID, task: HOVER}
 - {behavior: ROTATE_WITH_PID, task: ROTATE}
@@ -202,7 +202,7 @@ const Rule redundant_requirement = {
         "and without it. Usually another task that the behavior requires always requires this one "
         "as well, or the behavior requires it twice. A minimum_performance is part of its "
         "requirement: other constraints must ensure both the task and its minimum.\n\n"
-        "It does no harm, but it is one more thing to keep right when the catalog changes.",
+        "It does no harm, but it is one more thing to maintain when the catalog changes.",
     .example = R"(behaviors:
 - behavior: FOLLOW_PATH_WITH_PID
   task: FOLLOW_PATH
@@ -236,12 +236,12 @@ tasks:
 const Rule requires_on_request = {
     .name = "requires-on-request",
     .severity = Severity::warning,
-    .summary = "A behavior requires a task that starts on request only.",
+    .summary = "A behavior requires a task that starts only on request.",
     .explanation =
         "A task with start_on_request TRUE, which is the default, starts only when it is "
-        "requested; the coordinator never starts it because something requires it. So the behavior "
-        "can be chosen only while that task already runs: unless it was requested before, a "
-        "request that needs the behavior is rejected. The message says what must be requested "
+        "requested; the coordinator never starts it merely because something requires it. So the "
+        "behavior can be chosen only while that task already runs: unless it was requested before, "
+        "a request that needs the behavior is rejected. The message says what must be requested "
         "first, and in which order.",
     .example = R"(behaviors:
 - behavior: PHOTOGRAPH_WITH_CAMERA

@@ -32,11 +32,11 @@ const Rule undefined_task = {
     .name = "undefined-task",
     .severity = Severity::error,
     .is_fixed = true,
-    .summary = "A task is named that is not defined.",
+    .summary = "A name refers to a task that is not defined.",
     .explanation =
         "An entry of the section 'tasks' defines a task, and so does a behavior that performs it. "
-        "A name that stands only in a requirement, in an exclusivity list or in a script defines "
-        "none. Usually it is misspelt; the message gives the nearest known name.\n\n"
+        "A name that appears only in a requirement, an exclusivity list or a script does not "
+        "define a task. Usually it is misspelled; the message gives the nearest known name.\n\n"
         "A requirement of such a task could never be met, and an exclusivity list with it would "
         "let tasks run together that are meant to exclude one another. So such a file is neither "
         "compiled nor solved.",
@@ -82,13 +82,13 @@ tasks: [{task: HOVER}, {task: LAND}]
 const Rule implicit_task = {
     .name = "implicit-task",
     .severity = Severity::note,
-    .summary = "A task is named by a behavior only.",
+    .summary = "A task is named only by a behavior.",
     .explanation =
         "A behavior performs the task, but the section 'tasks' does not list it. It is still a "
         "task, with the default attributes and without parameters.\n\n"
-        "This is allowed, but a misspelt name looks just like it: it makes one more task, and the "
-        "task that is meant has one behavior fewer. In a catalog without a section 'tasks' there "
-        "is one finding for all of them, at the first.",
+        "This is allowed, but a misspelled name looks just like it: it adds a task, and the "
+        "intended task has one behavior fewer. In a catalog without a section 'tasks' there is one "
+        "finding for all of them, at the first.",
     .example = R"(behaviors:
 - {behavior: HOVER_WITH_PID, task: HOVER}
 - {behavior: LAND_WITH_PID, task: LAND}
@@ -120,7 +120,7 @@ tasks:
   - parameter: angle
     allowed_values: [-360, 360]
 )",
-    .mending = "Make one entry of the two, or correct the name of one of them.",
+    .mending = "Merge the two entries, or correct the name of one of them.",
     .mended = R"(behaviors:
 - {behavior: ROTATE_WITH_PID, task: ROTATE}
 tasks:
@@ -136,7 +136,7 @@ const Rule on_request_and_reactive = {
     .name = "on-request-and-reactive",
     .severity = Severity::error,
     .is_fixed = true,
-    .summary = "A task is to start on request only, and also by itself.",
+    .summary = "A task is set to start only on request, and also by itself.",
     .explanation =
         "With start_on_request TRUE the coordinator starts a task only when it is requested; with "
         "reactive_start TRUE it starts the task by itself whenever that is possible. A task cannot "
@@ -190,7 +190,7 @@ tasks:
 const Rule no_timeout_effect = {
     .name = "no-timeout-effect",
     .severity = Severity::note,
-    .summary = "A timeout has no effect, since the task is to keep running.",
+    .summary = "A timeout has no effect, since the task keeps running.",
     .explanation =
         "A timeout ends a behavior that does not achieve the goal of its task in time. A task with "
         "execution_goal keep_running has no goal to achieve, so the coordinator sets no timer: the "
@@ -220,8 +220,7 @@ const Rule suspicious_suitability = {
         "Suitabilities are given in percent, from 0 to 100. One that is at most 1 is probably a "
         "fraction: 0.9 means 0.9 percent, not 90. Of the configurations that serve the same "
         "requests the coordinator takes the one with the highest product of suitabilities, so it "
-        "avoids such a behavior where it can, and no minimum_performance worth the name is reached "
-        "with it.\n\n"
+        "avoids such a behavior where it can, and it reaches no useful minimum_performance.\n\n"
         "A suitability of 0 makes the whole product 0, however suitable all other behaviors are, "
         "so that they no longer count.",
     .example = R"(behaviors:
@@ -229,8 +228,8 @@ const Rule suspicious_suitability = {
 tasks: [{task: HOVER}]
 )",
     .mending =
-        "Give the suitability in percent. If a last resort is meant, which is chosen only where "
-        "nothing else will do, keep it and allow the rule there.",
+        "Give the suitability in percent. If the behavior is a last resort, chosen only where "
+        "nothing else is possible, keep the value and allow the rule there.",
     .mended = R"(behaviors:
 - {behavior: HOVER_WITH_PID, task: HOVER, suitability: 90}
 tasks: [{task: HOVER}]
@@ -240,11 +239,11 @@ tasks: [{task: HOVER}]
 const Rule suspicious_minimum = {
     .name = "suspicious-minimum",
     .severity = Severity::warning,
-    .summary = "A minimum performance is over 0, but 1 percent or less.",
+    .summary = "A minimum performance is above 0, but 1 percent or less.",
     .explanation =
         "A minimum_performance, of a requirement or of a task, is given in percent, from 0 to 100. "
-        "One that is over 0 and at most 1 is probably a fraction: 0.8 means 0.8 percent, not 80. "
-        "Nearly every choice of behaviors reaches it, so the coordinator accepts ones that the "
+        "One that is above 0 and at most 1 is probably a fraction: 0.8 means 0.8 percent, not 80. "
+        "Nearly every choice of behaviors reaches it, so the coordinator accepts choices that the "
         "author of the catalog wanted to rule out.",
     .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
@@ -276,9 +275,9 @@ const Rule duplicate_parameter = {
     .severity = Severity::warning,
     .summary = "A parameter is listed twice in one task.",
     .explanation =
-        "Two entries of one name say twice which values the parameter may have, perhaps "
-        "differently. Often the second one was copied and not renamed: then the parameter that was "
-        "meant is not declared, and a request that gives it breaks undeclared-parameter.",
+        "Two entries with the same name both define the allowed values, perhaps differently. Often "
+        "the second one was copied and not renamed: then the parameter that was meant is not "
+        "declared, and a request that gives it breaks undeclared-parameter.",
     .example = R"(behaviors:
 - {behavior: ROTATE_WITH_PID, task: ROTATE}
 tasks:
@@ -289,7 +288,7 @@ tasks:
   - parameter: angle
     allowed_values: [0, 90]
 )",
-    .mending = "Give the second entry the name that is meant, or remove one of the two.",
+    .mending = "Give the second entry the intended name, or remove one of the two.",
     .mended = R"(behaviors:
 - {behavior: ROTATE_WITH_PID, task: ROTATE}
 tasks:
@@ -305,7 +304,7 @@ tasks:
 const Rule empty_range = {
     .name = "empty-range",
     .severity = Severity::warning,
-    .summary = "A range of allowed values contains nothing.",
+    .summary = "A range of allowed values is empty.",
     .explanation =
         "Two numbers as allowed_values are a range: from the first to the second, both of them "
         "included. Here the first is greater than the second, so no value is allowed, and every "
@@ -332,7 +331,7 @@ tasks:
 const Rule unknown_type = {
     .name = "unknown-type",
     .severity = Severity::note,
-    .summary = "Allowed values are given as a type that is not known.",
+    .summary = "Allowed values name an unknown type.",
     .explanation =
         "allowed_values is a range of numbers, a list of words, or a single word, which is the "
         "name of a type. The types that cbc knows are string, boolean, integer, number and point, "

@@ -10,11 +10,11 @@ const Rule dead_behavior = {
     .explanation =
         "No assignment of behaviors to tasks that satisfies all constraints has this behavior, "
         "even if all behaviors are available. The coordinator never chooses it: where only this "
-        "behavior would do, it rejects the request. Whether tasks start on request plays no part "
-        "in this.\n\n"
+        "behavior would do, it rejects the request. Whether tasks start on request does not matter "
+        "here.\n\n"
         "The finding is proven by a search through all assignments. It gives a minimal set of "
-        "constraints that are the reason together: if any one of them is left out, the others have "
-        "such an assignment.\n\n"
+        "constraints that together are the reason: without any one of them, such an assignment "
+        "exists.\n\n"
         "A fault is reported once, where it is: there is no finding for a behavior that is dead "
         "only because of another finding, such as conflicting-requirements or a dead-task. If all "
         "behaviors of a task are dead, the finding is dead-task.",
@@ -62,10 +62,10 @@ const Rule dead_task = {
     .explanation =
         "No assignment of behaviors to tasks that satisfies all constraints has the task running, "
         "even if all behaviors are available. The coordinator rejects every request of it. Whether "
-        "tasks start on request plays no part in this.\n\n"
+        "tasks start on request does not matter here.\n\n"
         "The finding is proven by a search through all assignments. It gives a minimal set of "
-        "constraints that are the reason together: if any one of them is left out, the others have "
-        "such an assignment.\n\n"
+        "constraints that together are the reason: without any one of them, such an assignment "
+        "exists.\n\n"
         "A fault is reported once, where it is: there is no finding for each behavior of the task, "
         "nor for what requires it. For a task that is dead only because of another finding, such "
         "as exclusive-requirement or unreachable-performance, there is none either.",
@@ -114,7 +114,7 @@ exclusivity_constraints:
 const Rule unreachable_performance = {
     .name = "unreachable-performance",
     .severity = Severity::warning,
-    .summary = "A minimum performance is higher than any choice of behaviors reaches.",
+    .summary = "No choice of behaviors reaches a minimum performance.",
     .explanation =
         "The performance of a task is the suitability of its behavior times the suitabilities of "
         "the behaviors of all tasks that it requires, directly or through others, each task once. "

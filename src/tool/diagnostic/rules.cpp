@@ -14,8 +14,8 @@ const Rule yaml_syntax = {
     .is_fixed = true,
     .summary = "The file is not one valid YAML document.",
     .explanation =
-        "What is not YAML cannot be understood at all: this is the only finding about the file, "
-        "and it is neither compiled nor solved. The finding stands where reading had to stop. The "
+        "A file that is not YAML cannot be read at all: this is its only finding, and the file is "
+        "neither compiled nor solved. The finding is at the place where reading had to stop. The "
         "mistake may be a little before that place: an indentation that differs from that of the "
         "line above, a bracket or a quote that is not closed, a tab that indents, a text with ': ' "
         "in it that is not in quotes.\n\n"
@@ -44,15 +44,15 @@ tasks:
 const Rule unknown_key = {
     .name = "unknown-key",
     .severity = Severity::warning,
-    .summary = "A key has no meaning where it stands.",
+    .summary = "A key is not known at this place.",
     .explanation =
-        "An unknown key has no effect. With a misspelt 'suitability' a behavior has the default "
-        "one; with a misspelt 'requires' it requires nothing, and the coordinator runs it without "
-        "what it needs. The message gives the key that is probably meant, or the level of the file "
-        "at which the key belongs.\n\n"
+        "An unknown key has no effect. With a misspelled 'suitability' a behavior has the default "
+        "one; with a misspelled 'requires' it requires nothing, and the coordinator runs it "
+        "without what it needs. The message gives the key that is probably meant, or the level of "
+        "the file at which the key belongs.\n\n"
         "In a catalog this is a warning, in an event script an error that settings cannot change. "
-        "Keys that begin with 'x-' are the user's own, and are ignored. Where a key that must be "
-        "there is misspelt, the finding is missing-key.",
+        "Keys that begin with 'x-' are the user's own, and are ignored. If a required key is "
+        "misspelled, the finding is missing-key.",
     .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
@@ -61,7 +61,7 @@ tasks:
 - task: HOVER
 )",
     .mending =
-        "Correct the key, move it to where it belongs, or remove it. Let a key for another program "
+        "Correct the key, move it to where it belongs, or remove it. Keys for other programs must "
         "begin with 'x-'.",
     .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
@@ -76,23 +76,22 @@ const Rule missing_key = {
     .name = "missing-key",
     .severity = Severity::error,
     .is_fixed = true,
-    .summary = "A mapping lacks a key that it must have.",
+    .summary = "A mapping lacks a required key.",
     .explanation =
         "A catalog must have 'behaviors'; a behavior its name, 'behavior', and 'task' or 'tasks'; "
         "a task, a requirement and each task of a behavior 'task'; a parameter 'parameter'; an "
         "exclusivity constraint 'mutually_exclusive'. A script must have 'events', unless it is "
         "just a list of events, and an event must have a verb or a time.\n\n"
-        "A key with a null value is as if it were absent. A key that resembles the missing one is "
-        "taken in its place, so that the rest can be checked; the message then names both. As "
-        "nothing can take the place of what is missing, such a file is neither compiled nor "
-        "solved.",
+        "A key with a null value counts as absent. A key that resembles the missing one is taken "
+        "in its place, so that the rest can be checked; the message then names both. Since a "
+        "missing value cannot be guessed, such a file is neither compiled nor solved.",
     .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   package: motion_control
 tasks:
 - task: HOVER
 )",
-    .mending = "Add the key, or correct the one that is misspelt.",
+    .mending = "Add the key, or correct the one that is misspelled.",
     .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   package: motion_control
@@ -106,7 +105,7 @@ const Rule wrong_type = {
     .name = "wrong-type",
     .severity = Severity::error,
     .is_fixed = true,
-    .summary = "A value is of another type than its key takes.",
+    .summary = "A value has the wrong type for its key.",
     .explanation =
         "A list, a mapping, a number, a boolean or a text stands where something else is expected; "
         "the message says what. Often it is a name where a list is expected, a bare name in the "
@@ -145,10 +144,10 @@ const Rule invalid_value = {
     .name = "invalid-value",
     .severity = Severity::error,
     .is_fixed = true,
-    .summary = "A value is of the right type, but not one that is allowed.",
+    .summary = "A value has the right type, but is not allowed.",
     .explanation =
         "Percentages go from 0 to 100 and have at most four decimals. Times are in seconds and "
-        "have at most six, and a timeout is over 0. execution_goal is achieve_goal or "
+        "have at most six, and a timeout is greater than 0. execution_goal is achieve_goal or "
         "keep_running. A name is not empty, and a behavior performs at least one task, each of "
         "them once. In a script, an event has one verb and not both 'at' and 'wait', a priority is "
         "an integer, at least 1 for a start and 0 for a stop, and causes and outcomes are known "
@@ -186,8 +185,8 @@ tasks:
 - task: HOVER
 )",
     .mending =
-        "Remove the one that is not meant. If the second was to begin another entry of a list, the "
-        "'- ' before it is missing.",
+        "Remove the one that is not meant. If the second was meant to begin another list entry, "
+        "add the missing '- ' before it.",
     .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
@@ -218,7 +217,7 @@ tasks:
 - task: HOVER
 - {task: LOCALIZE, category: recurrent, automatic_activation: TRUE}
 )",
-    .mending = "Write the present name, which the message gives; 'cbc lint --fix' does so.",
+    .mending = "Use the current name, which the message gives; 'cbc lint --fix' does this.",
     .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
@@ -239,7 +238,7 @@ const Rule unused_allow = {
     .explanation =
         "A comment '# cbc: allow RULE' at the end of a line allows the rule on this line; alone "
         "above an entry, on the whole entry. Several rules are separated by commas, and a reason "
-        "may follow after ' -- '. Here there is no finding of the rule: the mistake was mended, or "
+        "may follow after ' -- '. Here there is no finding of the rule: the mistake was fixed, or "
         "is on another line.\n\n"
         "Left behind, the comment would hide the next mistake of its kind.",
     .example = R"(behaviors:
@@ -262,7 +261,7 @@ const Rule unknown_rule = {
     .summary = "A setting names a rule that does not exist.",
     .explanation =
         "A comment '# cbc: allow RULE' in a file, or a setting in .cbc.yaml, names a rule that cbc "
-        "does not have, so it has no effect: what it was to allow is still reported. The message "
+        "does not have, so it has no effect: what it should allow is still reported. The message "
         "gives the nearest known name; 'cbc lint --list-rules' shows all of them. A reason has to "
         "follow ' -- '; otherwise its words are taken for names of rules.",
     .example = R"(behaviors:
@@ -342,10 +341,10 @@ const Rule undeclared_parameter = {
     .is_of_scripts = true,
     .summary = "A start gives a parameter that its task does not declare.",
     .explanation =
-        "The coordinator hands parameters on to the behavior as they are. A misspelt one stops "
-        "nothing: the behavior runs without the value that is meant for it, or fails on the robot. "
-        "The message gives the nearest declared name.\n\n"
-        "'cbc solve' reports it as a warning and goes on, since the choice of behaviors does not "
+        "The coordinator hands parameters on to the behavior as they are. It does not notice a "
+        "misspelled name: the behavior runs without the intended value, or fails on the robot. The "
+        "message gives the nearest declared name.\n\n"
+        "'cbc solve' reports it as a warning and continues, since the choice of behaviors does not "
         "depend on parameters.",
     .example = R"(events:
 - start: ROTATE
@@ -367,7 +366,7 @@ const Rule parameter_value = {
         "In the catalog, allowed_values says what the parameter may be: a number in a range, a "
         "word from a list, or any value of a type, such as string or point_list. This value is not "
         "allowed. On the robot the behavior would refuse it, or do something that nobody wants.\n\n"
-        "'cbc solve' reports it as a warning and goes on, since the choice of behaviors does not "
+        "'cbc solve' reports it as a warning and continues, since the choice of behaviors does not "
         "depend on parameters.",
     .example = R"(events:
 - start: ROTATE
@@ -397,7 +396,7 @@ const Rule still_available = {
   cause: situation_change
   at: 12.5
 )",
-    .mending = "Say 'situation: {BEHAVIOR: false}' before the behavior finishes.",
+    .mending = "Add 'situation: {BEHAVIOR: false}' before the behavior finishes.",
     .mended = R"(events:
 - start: ROTATE
 - situation: {GPS: false}
@@ -411,7 +410,7 @@ const Rule impossible_expectation = {
     .name = "impossible-expectation",
     .severity = Severity::warning,
     .is_of_scripts = true,
-    .summary = "A script expects what can never be.",
+    .summary = "A script expects something that can never hold.",
     .explanation =
         "A behavior is expected to run a task that it does not perform, or a task is expected both "
         "to run and to be stopped. Whatever happens before, this expectation fails.",

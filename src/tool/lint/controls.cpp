@@ -122,8 +122,8 @@ SeveritySettings settings_of_options(const SeverityOptions& options,
       }
       const auto [first, is_new] = given.try_emplace(rule->name, setting);
       if (first->second != setting) {
-        errors.push_back(option + ": rule " + quote(name) + " is given to " +
-                         name_of_option(first->second) + ", too");
+        errors.push_back(option + ": rule " + quote(name) + " is also given to " +
+                         name_of_option(first->second));
       } else if (!is_possible(*rule, setting)) {
         errors.push_back(option + ": " + describe_fixed(*rule));
       } else {
@@ -373,7 +373,7 @@ class CommentReader {
   void report_other_word(std::string_view word, std::size_t begin) {
     if (word.empty()) {
       report(range_of(text_.substr(begin, end_ - begin)),
-             "the comment says nothing: expected 'cbc: allow RULE'");
+             "the comment is empty: expected 'cbc: allow RULE'");
       return;
     }
     const std::string_view known[] = {verb};

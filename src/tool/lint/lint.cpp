@@ -46,8 +46,8 @@ void check_suspicious_minimum(Millionths minimum, const Range& range, Reporter& 
   if (!looks_like_fraction(minimum)) return;
   reporter.report(rule::suspicious_minimum, range,
                   "a minimum_performance of " + format_percent(minimum) +
-                      " is next to nothing; is " + format_percent(std::int64_t{minimum} * 100) +
-                      " meant?");
+                      " is very low; did you mean " + format_percent(std::int64_t{minimum} * 100) +
+                      "?");
 }
 
 void check_suitability(const Performance& performance, Reporter& reporter) {
@@ -55,12 +55,14 @@ void check_suitability(const Performance& performance, Reporter& reporter) {
   const Millionths suitability = performance.suitability;
   // One number may be that of many behaviors, so the message names none.
   if (suitability == 0) {
-    reporter.report(rule::suspicious_suitability, *performance.suitability_range,
-                    "a suitability of 0 % makes the performance of all that depends on it 0");
+    reporter.report(
+        rule::suspicious_suitability, *performance.suitability_range,
+        "a suitability of 0 % makes the performance of everything that depends on it 0");
   } else if (looks_like_fraction(suitability)) {
     reporter.report(rule::suspicious_suitability, *performance.suitability_range,
-                    "a suitability of " + format_percent(suitability) + " is next to nothing; is " +
-                        format_percent(std::int64_t{suitability} * 100) + " meant?");
+                    "a suitability of " + format_percent(suitability) +
+                        " is very low; did you mean " +
+                        format_percent(std::int64_t{suitability} * 100) + "?");
   }
 }
 
@@ -226,12 +228,12 @@ void check_implicit_tasks(const Catalog& catalog, Reporter& reporter) {
     if (!task.implicit) continue;
     if (!catalog.has_task_section) {
       reporter.report(rule::implicit_task, task.range,
-                      "there is no 'tasks' section: all tasks are named by behaviors only, and "
+                      "there is no 'tasks' section: all tasks are named only by behaviors, and "
                       "have the default attributes");
       return;
     }
     std::string message =
-        "task " + quote(task.name) + " is named by a behavior only, and has the default attributes";
+        "task " + quote(task.name) + " is named only by a behavior, and has the default attributes";
     message += did_you_mean(suggestions.nearest(task.name));
     reporter.report(rule::implicit_task, task.range, std::move(message));
   }
@@ -268,13 +270,13 @@ void check_own_tasks(const Catalog& catalog, const ExclusivityList& list, Report
     if (is_mendable) edits.push_back({Edit::Kind::remove_entry, list.ranges[place], {}});
     reporter.report(rule::self_exclusion, list.ranges[place],
                     "task " + quote(catalog.tasks[list.tasks[place]].name) +
-                        " stands twice in one list; a task does not exclude itself",
+                        " is listed twice; a task does not exclude itself",
                     {reporter.note(first->second, "first given here")}, std::move(edits));
   }
   if (known.size() < 2 && !has_repetition && list.is_complete) {
     reporter.report(rule::trivial_exclusion, list.range,
                     list.tasks.empty() ? "the list has no task, so it excludes nothing"
-                                       : "the list has one task only, so it excludes nothing");
+                                       : "the list has only one task, so it excludes nothing");
   }
 }
 

@@ -287,7 +287,7 @@ void report(const Behavior& behavior, const Requirement& requirement, const Task
             const std::string& first, Reporter& reporter) {
   reporter.report(rule::requires_on_request, requirement.range,
                   describe(behavior) + " requires " + quote(task.name) +
-                      ", which starts on request only: request " + first + " first",
+                      ", which starts only on request: request " + first + " first",
                   {reporter.note(task.range, quote(task.name) + " is defined here")});
 }
 

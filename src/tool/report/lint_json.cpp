@@ -150,7 +150,7 @@ std::string lint_json(const std::vector<LintedFile>& files) {
 std::string rule_markdown(const Rule& rule) {
   const auto code = [](std::string_view text) { return fmt::format("```yaml\n{}```\n", text); };
   std::string text =
-      fmt::format("{}\n\n## Example\n\n{}\n## How to mend it\n\n{}\n\n{}", rule.explanation,
+      fmt::format("{}\n\n## Example\n\n{}\n## How to fix it\n\n{}\n\n{}", rule.explanation,
                   code(rule.example), rule.mending, code(rule.mended));
   if (rule.is_of_scripts) {
     text += fmt::format("\n## The catalog of these scripts\n\n{}", code(example_catalog()));

@@ -69,8 +69,8 @@ std::string rule_text(const Rule& rule, const Style& style) {
   }
   text += example_text(rule.is_of_scripts ? "Example, a script for the catalog below" : "Example",
                        rule.example, style);
-  text += fmt::format("\n{}To mend it:{}\n\n{}", style.strong, style.reset, wrap(rule.mending));
-  text += example_text("Mended", rule.mended, style);
+  text += fmt::format("\n{}How to fix it:{}\n\n{}", style.strong, style.reset, wrap(rule.mending));
+  text += example_text("Fixed", rule.mended, style);
   if (rule.is_of_scripts) text += example_text("The catalog", example_catalog(), style);
   return text;
 }

@@ -214,7 +214,7 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
       return fmt::format("{} excludes {}", task, task_name(reason.other_task)) +
              place(catalog, reason);
     case Reason::Kind::on_request:
-      return fmt::format("{} is not running, and starts on request only", task);
+      return fmt::format("{} is not running, and starts only on request", task);
     case Reason::Kind::requires_task:
       return fmt::format("{} requires {}", behavior, task) + place(catalog, reason);
     case Reason::Kind::performance:
@@ -223,7 +223,7 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
                          format_decimal(reason.minimum_performance, 4)) +
              place(catalog, reason);
     case Reason::Kind::unavailable:
-      return fmt::format("{} cannot be activated in the present situation", behavior);
+      return fmt::format("{} is unavailable in the current situation", behavior);
     case Reason::Kind::faulty:
       return fmt::format("{} is faulty", behavior);
     case Reason::Kind::finished:

@@ -133,7 +133,7 @@ void JunitReport::write_cases(const RunResult& result) const {
     fmt::print(out_, R"(<testcase name="line {}: {}" classname="{}")", step.range.begin.line,
                xml_text(describe_expectation(*catalog_, *step.expect)), xml_text(script_->file));
     if (to_come == 0) {
-      fmt::print(out_, "><skipped message=\"the run ended before\"/></testcase>\n");
+      fmt::print(out_, "><skipped message=\"the run ended earlier\"/></testcase>\n");
       continue;
     }
     --to_come;

@@ -42,7 +42,7 @@ std::string describe_reason(const SweepResult& result, const RejectionReason& re
   const std::string behavior = name_in(result.behavior_names, reason.behavior);
   switch (reason.kind) {
     case Reason::Kind::priority:
-      return task + " has a request of higher priority itself";
+      return task + " has its own request of higher priority";
     case Reason::Kind::no_behavior:
       return "no behavior performs " + task;
     case Reason::Kind::is_protected:
@@ -50,14 +50,14 @@ std::string describe_reason(const SweepResult& result, const RejectionReason& re
     case Reason::Kind::exclusive:
       return task + " excludes " + name_in(result.task_names, reason.other_task);
     case Reason::Kind::on_request:
-      return task + " is not running, and starts on request only";
+      return task + " is not running, and starts only on request";
     case Reason::Kind::requires_task:
       return behavior + " requires " + task;
     case Reason::Kind::performance:
       return fmt::format("{} requires a minimum performance of {}",
                          behavior.empty() ? "the catalog" : behavior, task);
     case Reason::Kind::unavailable:
-      return behavior + " cannot be activated in the present situation";
+      return behavior + " is unavailable in the current situation";
     case Reason::Kind::faulty:
       return behavior + " is faulty";
     case Reason::Kind::finished:
@@ -148,7 +148,7 @@ class SweepText {
     if (reasons.empty()) return;
     std::stable_sort(reasons.begin(), reasons.end(),
                      [](const auto& a, const auto& b) { return a.second > b.second; });
-    add("{}reasons of rejections{}, the most frequent of {}\n", style_.strong, style_.reset,
+    add("{}reasons for rejections{}, the most frequent of {}\n", style_.strong, style_.reset,
         reasons.size());
     reasons.resize(std::min(reasons.size(), most_shown));
     for (const auto& [reason, count] : reasons) {
@@ -158,7 +158,7 @@ class SweepText {
 
   void write_nodes() {
     if (!result_.slowest) {
-      add("no event took a search\n");
+      add("no event needed a search\n");
       return;
     }
     add("{}nodes{} of {}: median {}, 99th percentile {}, largest {}\n", style_.strong, style_.reset,
@@ -178,7 +178,7 @@ class SweepText {
 
   void write_slowest(const SlowestEvent& slowest, std::string_view measure,
                      std::string_view option) {
-    add("  slowest by {}: event {} of sequence {}, {} ({} FILE writes a script of it)\n", measure,
+    add("  slowest by {}: event {} of sequence {}, {} ({} FILE writes it as a script)\n", measure,
         slowest.event, slowest.sequence, printable(slowest.what), option);
   }
 
@@ -548,7 +548,7 @@ std::variant<SweepResult, std::string> sweep_from_json(std::string_view text) {
   yaml::JsonReader reader;
   const yaml::Node* const root = reader.read(text);
   if (root == nullptr) {
-    return "it is no JSON, or cut off; expected what '--shard I/N --format json' writes";
+    return "it is not JSON, or it is truncated; expected what '--shard I/N --format json' writes";
   }
   try {
     return SweepReader().read(JsonValue(*root));

@@ -175,7 +175,7 @@ class ExpectationReader {
       if (running == running_at_.end()) continue;
       reporter_.report(
           rule::impossible_expectation, item->range,
-          "this can never hold: task " + quote(item->text) + " is expected to run, too",
+          "this can never hold: task " + quote(item->text) + " is also expected to run",
           {reporter_.note(running->second, "expected to run here")});
     }
   }
@@ -265,9 +265,10 @@ std::string_view find_verb(const Fields& fields, const Range& range, Reporter& r
     std::sort(found.begin(), found.end(), [&fields](std::string_view a, std::string_view b) {
       return fields.range_of(a) < fields.range_of(b);
     });
-    reporter.report(rule::invalid_value, fields.range_of(found[1]),
-                    "an event has one verb, found " + quote(found[0]) + " and " + quote(found[1]),
-                    {reporter.note(fields.range_of(found[0]), "the first one is here")});
+    reporter.report(
+        rule::invalid_value, fields.range_of(found[1]),
+        "an event must have exactly one verb, found " + quote(found[0]) + " and " + quote(found[1]),
+        {reporter.note(fields.range_of(found[0]), "the first one is here")});
   } else if (!without_value.empty()) {
     reporter.report(rule::missing_key, fields.range_of(without_value),
                     quote(without_value) + " has no value");
@@ -397,8 +398,8 @@ void StepReader::check_finish(std::uint32_t behavior, const Range& range, Report
   const std::string_view name = names_.catalog().behavior_names[behavior];
   reporter.report(rule::still_available, range,
                   "behavior " + quote(name) +
-                      " is still available here, so that it can be chosen again at once; say " +
-                      quote("situation: {" + std::string(name) + ": false}") + " before");
+                      " is still available here, so that it can be chosen again at once; add " +
+                      quote("situation: {" + std::string(name) + ": false}") + " before it");
 }
 
 std::vector<Availability> StepReader::read_situation(const Node& node, Reporter& reporter) {

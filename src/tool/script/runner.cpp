@@ -95,7 +95,7 @@ void check_active(std::vector<std::uint32_t> expected, const CompiledCatalog& ca
   std::sort(expected.begin(), expected.end());
   expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
   if (active == expected) return;
-  mismatches.add(fmt::format("expected the active behaviors to be {}, but they are {}",
+  mismatches.add(fmt::format("expected the active behaviors to be {}, but found {}",
                              join_names(catalog, expected), join_names(catalog, active)));
 }
 

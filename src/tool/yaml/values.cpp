@@ -45,8 +45,9 @@ void report_number(const Node& node, std::string_view what, std::string_view exp
                       must_be(what, expected) + ", found " + describe(node));
       break;
     case DecimalError::too_precise:
-      reporter.report(rule::invalid_value, node.range,
-                      quote(what) + " has " + std::string(precision) + ", found " + describe(node));
+      reporter.report(
+          rule::invalid_value, node.range,
+          quote(what) + " may have " + std::string(precision) + ", found " + describe(node));
       break;
   }
 }
@@ -161,7 +162,7 @@ std::optional<Millionths> read_percent(const Node& node, std::string_view what,
 std::optional<Microseconds> read_seconds(const Node& node, std::string_view what, bool positive,
                                          Reporter& reporter) {
   const std::string expected = "a number of seconds " +
-                               std::string(positive ? "over 0" : "from 0") + " to " +
+                               std::string(positive ? "above 0, up to " : "from 0 to ") +
                                std::to_string(longest_time / second);
   if (node.kind != Kind::scalar || !node.plain) {
     report_wrong_type(node, what, expected, reporter);

@@ -270,7 +270,7 @@ class Run {
     if (event.verb === 'start' && event.name === link.to.task) {
       reasons.push(`${link.to.task} was started with priority ${event.priority}`);
     } else if (requirers.length > 0) {
-      reasons.push(`${requirers.join(', ')} requires ${link.to.task} now`);
+      reasons.push(`${link.to.task} is now required by ${requirers.join(', ')}`);
     }
     reasons.push(`${link.to.task} excludes ${task}`);
     return reasons.join('; ');
