@@ -18,7 +18,6 @@
 
 #include "base/text.h"
 #include "cli/command_line.h"
-#include "cli/commands.h"
 #include "cli/input.h"
 
 namespace cbc::cli {

@@ -14,13 +14,14 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "catalog/reader.h"
 #include "cli/output.h"
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
+#include "coordinator/record.h"
 #include "diagnostic/diagnostic.h"
 #include "lint/controls.h"
 #include "script/reader.h"
@@ -58,14 +59,15 @@ bool is_catalog(const yaml::Document& document) { return has_any(document.root()
 bool is_script(const yaml::Document& document) {
   constexpr std::array<std::string_view, 4> keys = {"events", "catalog", "reactive_delay",
                                                     "situation"};
-  constexpr std::array<std::string_view, 9> event_keys = {
-      "start", "stop", "finish", "situation", "fault", "repair", "expect", "at", "wait"};
+  const auto is_event = [](const yaml::Node* item) {
+    return std::any_of(verb_forms.begin(), verb_forms.end(),
+                       [&](const VerbForm& form) { return item->find(form.name) != nullptr; }) ||
+           item->find("expect") != nullptr || item->find("at") != nullptr;
+  };
   const yaml::Node& root = document.root();
   if (root.kind != yaml::Kind::sequence) return !is_catalog(document) && has_any(root, keys);
   // Another list is more likely a catalog that lacks a key.
-  return root.items.empty() ||
-         std::any_of(root.items.begin(), root.items.end(),
-                     [&event_keys](const yaml::Node* item) { return has_any(*item, event_keys); });
+  return root.items.empty() || std::any_of(root.items.begin(), root.items.end(), is_event);
 }
 
 bool looks_like_script(const yaml::Document& document) {
@@ -119,7 +121,7 @@ struct CloseFile {
 };
 
 std::optional<std::string> fail(const std::string& path, const std::string& reason) {
-  complain(fmt::format("cannot read {}: {}", quote(display_name(path)), reason));
+  complain("cannot read {}: {}", quote(display_name(path)), reason);
   return std::nullopt;
 }
 
@@ -204,7 +206,7 @@ std::optional<InputFile> InputFiles::read(const std::string& path) {
 std::optional<InputFile> InputFiles::read_catalog(const std::string& path) {
   std::optional<InputFile> file = read(path);
   if (file && file->document != nullptr && is_script(*file->document)) {
-    complain(fmt::format("{} is a script; expected a catalog here", quote(display_name(path))));
+    complain("{} is a script; expected a catalog here", quote(display_name(path)));
     return std::nullopt;
   }
   return file;
@@ -292,7 +294,7 @@ std::optional<CompiledFile> load(const CatalogInput& input) {
   CompiledFileResult result =
       input.content.empty() ? load_compiled(input.path) : read_compiled(input.content);
   if (!result.file) {
-    complain(fmt::format("cannot read {}: {}", quote(display_name(input.path)), result.error));
+    complain("cannot read {}: {}", quote(display_name(input.path)), result.error);
   }
   return std::move(result.file);
 }

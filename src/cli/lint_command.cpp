@@ -17,7 +17,6 @@
 #include "base/text.h"
 #include "catalog/catalog.h"
 #include "cli/command_line.h"
-#include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/output.h"
 #include "compile/compile.h"
@@ -104,7 +103,7 @@ class Linter {
 namespace {
 
 void complain_of_catalog(const std::string& name) {
-  complain(fmt::format("{} is a catalog; expected an event script", quote(name)));
+  complain("{} is a catalog; expected an event script", quote(name));
 }
 
 }  // namespace
@@ -138,8 +137,8 @@ bool Linter::lint_if_catalog(const std::string& path) {
 void Linter::take_compiled(const CatalogInput& input) {
   std::optional<CompiledFile> file;
   if (options_.is_to_fix || !(options_.is_to_summarize || options_.has_scripts)) {
-    complain(fmt::format("{} is a compiled catalog; expected YAML (--summary takes either)",
-                         quote(name_of(input.path))));
+    complain("{} is a compiled catalog; expected YAML (--summary takes either)",
+             quote(name_of(input.path)));
   } else {
     file = load(input);
   }
@@ -213,9 +212,9 @@ void Linter::fix(const std::string& path, Linted& linted, const SeveritySettings
   if (mended == 0) return;
   if (!same_meaning(linted.catalog, fixed.catalog) || fixed.errors > linted.errors) {
     complain(
-        fmt::format("internal error: mending {} would change its meaning, so nothing is "
-                    "written; please report it with the file",
-                    quote(linted.file.file)));
+        "internal error: mending {} would change its meaning, so nothing is "
+        "written; please report it with the file",
+        quote(linted.file.file));
     has_internal_error_ = true;
     return;
   }
@@ -226,8 +225,8 @@ void Linter::fix(const std::string& path, Linted& linted, const SeveritySettings
     return;
   } else {
     has_mended_ = true;
-    complain(fmt::format("{}: {} {} mended", printable(linted.file.file), mended,
-                         mended == 1 ? "finding" : "findings"));
+    complain("{}: {} {} mended", printable(linted.file.file), mended,
+             mended == 1 ? "finding" : "findings");
   }
   linted = std::move(fixed);
 }
@@ -237,7 +236,7 @@ bool Linter::write_fixed(const std::string& path, const std::string& before,
   const std::optional<std::string> now = read_input(path);
   if (!now) return false;
   if (*now != before) {
-    complain(fmt::format("{} has changed meanwhile; it is left as it is", quote(path)));
+    complain("{} has changed meanwhile; it is left as it is", quote(path));
     return false;
   }
   return write_output(path, after) == exit_ok;
@@ -293,9 +292,9 @@ std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& 
       given.empty() ? path_of_catalog(script.file(), script).value_or("") : given;
   if (catalog.empty()) {
     complain(
-        fmt::format("{} is an event script that names no catalog; give one: "
-                    "cbc lint --script {} CATALOG",
-                    quote(script.file()), printable(script.file())));
+        "{} is an event script that names no catalog; give one: "
+        "cbc lint --script {} CATALOG",
+        quote(script.file()), printable(script.file()));
     has_failed_ = true;
     return nullptr;
   }
@@ -303,9 +302,9 @@ std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& 
   std::shared_ptr<const CompiledCatalog> compiled = catalogs_.load(catalog);
   if (compiled == nullptr) {
     complain(
-        fmt::format("script {} is not checked, as its catalog {} cannot be used; "
-                    "'cbc lint' says why",
-                    quote(script.file()), quote(catalog)));
+        "script {} is not checked, as its catalog {} cannot be used; "
+        "'cbc lint' says why",
+        quote(script.file()), quote(catalog));
     // If it was linted, its errors are findings.
     if (!is_linted) has_failed_ = true;
   }
@@ -367,8 +366,8 @@ int explain_rule(const std::string& name) {
     std::vector<std::string_view> names;
     for (const Rule& known : all_rules()) names.push_back(known.name);
     const std::string meant = did_you_mean(nearest(name, names));
-    return usage_error("lint", fmt::format("there is no rule {}{}", quote(name),
-                                           meant.empty() ? " (--list-rules lists them)" : meant));
+    return usage_error("lint", "there is no rule {}{}", quote(name),
+                       meant.empty() ? " (--list-rules lists them)" : meant);
   }
   fmt::print("{}", rule_text(*rule, style_for(stdout)));
   return exit_ok;
@@ -449,39 +448,14 @@ bool lint_all(const LintCommand& command, Linter& linter) {
   progress.clear();
   for (const std::string& path : command.paths) {
     if (!is_folder(path) || folders_with_catalogs.contains(path)) continue;
-    complain(fmt::format("found no catalog in {}{}", quote(path),
-                         folders_with_files.contains(path)
-                             ? "; an event script is checked if it is named itself"
-                             : ""));
+    complain("found no catalog in {}{}", quote(path),
+             folders_with_files.contains(path)
+                 ? "; an event script is checked if it is named itself"
+                 : "");
     has_failed = true;
   }
   return !has_failed;
 }
-
-/// What a report depends on besides the files.
-struct LintRun {
-  std::string working_directory;  ///< absolute
-  bool is_complete = true;        ///< whether all files could be read
-  Style style = plain_style();    ///< of text for people
-};
-
-/// A format of reports.
-struct LintFormat {
-  std::string_view name;
-  std::string (*write)(const std::vector<LintedFile>& files, const LintRun& run);
-};
-
-/// The first one is the default.
-constexpr std::array<LintFormat, 5> lint_formats = {{
-    {"text", [](const auto& files, const LintRun& run) { return lint_text(files, run.style); }},
-    {"json", [](const auto& files, const LintRun& /*run*/) { return lint_json(files); }},
-    {"sarif",
-     [](const auto& files, const LintRun& run) {
-       return lint_sarif(files, run.working_directory, run.is_complete);
-     }},
-    {"github", [](const auto& files, const LintRun& /*run*/) { return lint_github(files); }},
-    {"gcc", [](const auto& files, const LintRun& /*run*/) { return lint_gcc(files); }},
-}};
 
 void print_report(const LintCommand& command, const Linter& linter, bool is_complete) {
   if (command.diff) {
@@ -495,10 +469,7 @@ void print_report(const LintCommand& command, const Linter& linter, bool is_comp
       if (!file.is_script) fmt::print("{}", lint_summary(file, run.style));
     }
   }
-  const auto* const format =
-      std::find_if(lint_formats.begin(), lint_formats.end(),
-                   [&](const LintFormat& known) { return known.name == command.format; });
-  fmt::print("{}", format->write(linter.files(), run));
+  fmt::print("{}", find_named(lint_formats(), command.format)->write(linter.files(), run));
 }
 
 bool has_faults(const std::vector<LintedFile>& files) {
@@ -526,7 +497,7 @@ int lint(const LintCommand& command) {
   options.has_scripts = !command.scripts.empty();
   std::vector<std::string> errors;
   options.settings = settings_of_options(command.severities, errors);
-  if (!errors.empty()) return usage_error("lint", fmt::format("{}", fmt::join(errors, "\ncbc: ")));
+  if (!errors.empty()) return usage_error("lint", "{}", fmt::join(errors, "\ncbc: "));
 
   Linter linter(std::move(options));
   const bool has_all = lint_all(command, linter);
@@ -542,8 +513,7 @@ int lint(const LintCommand& command) {
 }  // namespace
 
 void add_lint_command(Program& program) {
-  std::vector<std::string> formats;
-  for (const LintFormat& format : lint_formats) formats.emplace_back(format.name);
+  const std::vector<std::string> formats = names_in(lint_formats());
   const auto options = std::make_shared<LintCommand>();
   Command& command =
       program.add_command("lint", "Finds every mistake in catalogs, with its place and its reason.",
@@ -558,7 +528,7 @@ void add_lint_command(Program& program) {
   command.option("--script", options->scripts, input("FILE", ValueKind::script),
                  "Also check an event script, against the one catalog that is given. Repeatable");
   command.option("--format", options->format, one_of("FORMAT", formats),
-                 "text (the default), json, sarif, github, or gcc");
+                 fmt::format("{} (default: {})", join_with_or(formats), formats.front()));
   command
       .flag("--summary", options->summary,
             "Show numbers of each catalog: tasks, behaviors, constraints, groups, search space; "

@@ -16,22 +16,22 @@
 #include <unistd.h>
 #include <utility>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "support/system.h"
 
 namespace cbc::cli {
 
-void complain(const std::string& message) {
+int complain(const std::string& message) {
   const std::string line = "cbc: " + message + "\n";
   // If it cannot be written, the exit status still tells; a stream goes on.
   static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
+  return exit_unusable;
 }
 
 int usage_error(std::string_view command, const std::string& message) {
-  complain(fmt::format("{}\nSee 'cbc{}{} --help'.", message, command.empty() ? "" : " ", command));
-  return exit_unusable;
+  return complain("{}\nSee 'cbc{}{} --help'.", message, command.empty() ? "" : " ", command);
 }
 
 bool is_terminal(std::FILE* stream) {
@@ -172,8 +172,7 @@ int write_output(const std::string& path, std::string_view content) {
     return exit_ok;
   }
   if (const auto error = write_atomically(path, content)) {
-    complain(fmt::format("cannot write {}: {}", quote(path), *error));
-    return exit_unusable;
+    return complain("cannot write {}: {}", quote(path), *error);
   }
   return exit_ok;
 }

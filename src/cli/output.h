@@ -5,6 +5,9 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include <fmt/core.h>
 
 #include "coordinator/coordinator.h"
 #include "diagnostic/diagnostic.h"
@@ -20,12 +23,21 @@ enum ExitStatus : int {
   exit_internal = 3   ///< a fault of cbc
 };
 
-/// Prints a message to standard error.
-void complain(const std::string& message);
+/// Prints a message to standard error. Returns exit_unusable, which most messages lead to.
+int complain(const std::string& message);
+template <typename... Arguments>
+int complain(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  return complain(fmt::format(format, std::forward<Arguments>(arguments)...));
+}
 
 /// The same for a wrong command line, with a pointer to the help of the command, or of the program
-/// if the name is empty. Returns the exit status.
+/// if the name is empty.
 int usage_error(std::string_view command, const std::string& message);
+template <typename... Arguments>
+int usage_error(std::string_view command, fmt::format_string<Arguments...> format,
+                Arguments&&... arguments) {
+  return usage_error(command, fmt::format(format, std::forward<Arguments>(arguments)...));
+}
 
 /// Whether a stream is a terminal that understands escape sequences.
 [[nodiscard]] bool is_terminal(std::FILE* stream);

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "cli/input.h"
@@ -77,8 +77,8 @@ void MissionLoader::add_folder(const std::string& path) {
 }
 
 void MissionLoader::complain_of_catalog(const std::string& path) {
-  complain(fmt::format("{} is a catalog; expected a script here (a catalog goes first)",
-                       quote(display_name(path))));
+  complain("{} is a catalog; expected a script here (a catalog goes first)",
+           quote(display_name(path)));
   has_failed_ = true;
 }
 
@@ -106,8 +106,7 @@ std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_of(const std::stri
   if (given_catalog_ != nullptr || is_given_catalog_bad_) return given_catalog_;
   const std::optional<std::string> named = path_of_catalog(script_path, script);
   if (!named) {
-    complain(fmt::format("script {} names no catalog, and none is given",
-                         quote(display_name(script_path))));
+    complain("script {} names no catalog, and none is given", quote(display_name(script_path)));
     return nullptr;
   }
   return catalogs_.load(*named);
@@ -243,13 +242,6 @@ int draw_missions(const std::vector<Mission>& missions, const SolveOptions& opti
   return std::max(status, write_output(*options.html, picture.page()));
 }
 
-const SolveFormat& format_of(const SolveOptions& options) {
-  const std::span<const SolveFormat> formats = solve_formats();
-  return *std::find_if(formats.begin(), formats.end(), [&options](const SolveFormat& format) {
-    return format.name == options.format;
-  });
-}
-
 /// Whether all catalogs have the names in the options.
 bool know_names(const std::vector<Mission>& missions, const ExplainOptions& options) {
   return std::all_of(missions.begin(), missions.end(), [&](const Mission& mission) {
@@ -269,7 +261,7 @@ bool is_read(const std::string& path, const std::vector<Mission>& missions) {
 }  // namespace
 
 int solve_missions(const SolveOptions& options) {
-  const SolveFormat& format = format_of(options);
+  const SolveFormat& format = *find_named(solve_formats(), options.format);
   MissionLoader loader;
   const std::optional<std::vector<Mission>> missions = loader.load(options.paths);
   if (!missions) {
@@ -279,13 +271,11 @@ int solve_missions(const SolveOptions& options) {
   }
   if (!know_names(*missions, options.explain)) return exit_unusable;
   if (options.html && is_read(*options.html, *missions)) {
-    complain(fmt::format("the output {} is a script of a folder, or a catalog that a script names",
-                         quote(*options.html)));
-    return exit_unusable;
+    return complain("the output {} is a script of a folder, or a catalog that a script names",
+                    quote(*options.html));
   }
-  const Style style = wants_color(stdout) ? color_style() : plain_style();
   const std::unique_ptr<SolveReport> report =
-      format.make({stdout, style, event_additions(options)});
+      format.make({stdout, style_for(stdout), event_additions(options)});
   return options.html ? draw_missions(*missions, options, *report)
                       : run_missions(*missions, options, *report);
 }

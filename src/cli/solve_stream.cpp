@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <utility>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "cli/input.h"
@@ -152,7 +152,7 @@ void LineOutput::write(std::string_view line) {
       static_cast<void>(::poll(&reader, 1, -1));
     } else if (errno != EINTR) {
       has_failed_ = true;
-      complain(fmt::format("cannot write the output: {}", std::strerror(errno)));
+      complain("cannot write the output: {}", std::strerror(errno));
     }
   }
 }
@@ -164,7 +164,7 @@ bool can_use_files(const SolveOptions& options) {
   const StreamOptions& stream = options.stream;
   if (!stream.state_out) return true;
   const auto obstacle = find_obstacle(*stream.state_out);
-  if (obstacle) complain(fmt::format("cannot write {}: {}", quote(*stream.state_out), *obstacle));
+  if (obstacle) complain("cannot write {}: {}", quote(*stream.state_out), *obstacle);
   return !obstacle;
 }
 
@@ -176,8 +176,7 @@ bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
   if (!text) return false;
   StateReading reading = read_state(*text, catalog);
   if (!reading.snapshot) {
-    complain(fmt::format("cannot use the state {}: {}", quote(display_name(*options.state_in)),
-                         reading.error));
+    complain("cannot use the state {}: {}", quote(display_name(*options.state_in)), reading.error);
     return false;
   }
   state = std::move(reading.snapshot);
@@ -308,7 +307,7 @@ class Stream {
   }
 
   void complain_of_line(std::uint64_t number, const std::string& message) const {
-    complain(fmt::format("{}:{}: {}", printable(script_), number, message));
+    complain("{}:{}: {}", printable(script_), number, message);
   }
 
   const CompiledCatalog& catalog_;
@@ -330,7 +329,7 @@ std::optional<Script> load_script(const std::string& path, const CompiledCatalog
   std::optional<Script> script;
   const std::optional<InputFile> file = files.read(path);
   if (file && file->document == nullptr) {
-    complain(fmt::format("{} is a catalog; expected a script here", quote(display_name(path))));
+    complain("{} is a catalog; expected a script here", quote(display_name(path)));
   } else if (file) {
     Diagnostics diagnostics;
     script = read_script(*file->document, catalog, Severity::warning, diagnostics,
@@ -348,9 +347,8 @@ int run_script_of(const Script& script, const CompiledCatalog& catalog, const So
   CoordinatorOptions coordinator = coordinator_options(options, catalog);
   coordinator.reactive_delay = state ? state->reactive_delay : script.reactive_delay;
   if (state && !script.situation.empty()) {
-    complain(fmt::format("script {} has a situation to begin with, but --state-in has one already",
-                         quote(script.file)));
-    return exit_unusable;
+    return complain("script {} has a situation to begin with, but --state-in has one already",
+                    quote(script.file));
   }
   Stream stream(catalog, options, coordinator, state, script.file);
   stream.run(script);
@@ -360,14 +358,12 @@ int run_script_of(const Script& script, const CompiledCatalog& catalog, const So
 /// A script that names its catalog.
 int solve_mission(const SolveOptions& options) {
   if (options.stream.state_in) {
-    complain("--state-in needs a catalog and a script: cbc solve CATALOG SCRIPT");
-    return exit_unusable;
+    return complain("--state-in needs a catalog and a script: cbc solve CATALOG SCRIPT");
   }
   const auto missions = MissionLoader().load(options.paths);
   if (!missions) return exit_unusable;
   if (missions->size() != 1) {
-    complain("--format jsonl runs one script at a time");
-    return exit_unusable;
+    return complain("--format jsonl runs one script at a time");
   }
   return run_script_of(missions->front().script, *missions->front().catalog, options, {});
 }
@@ -388,14 +384,12 @@ int solve_stream(const SolveOptions& options) {
   const std::vector<std::string>& paths = options.paths;
   if (!can_use_files(options)) return exit_unusable;
   if (paths.size() > 2) {
-    complain("--format jsonl runs one script at a time: cbc solve CATALOG SCRIPT");
-    return exit_unusable;
+    return complain("--format jsonl runs one script at a time: cbc solve CATALOG SCRIPT");
   }
   const bool is_stream = paths.back() == "-";
   if (paths.size() == 1) {
     if (!is_stream) return solve_mission(options);
-    complain("a stream of events needs a catalog: cbc solve CATALOG - --format jsonl");
-    return exit_unusable;
+    return complain("a stream of events needs a catalog: cbc solve CATALOG - --format jsonl");
   }
   const auto catalog = load_catalog(paths.front());
   std::optional<Snapshot> state;
@@ -616,7 +610,7 @@ class Replay {
   [[nodiscard]] bool is_over() const { return status_ != exit_ok || output_.has_failed(); }
 
   int refuse(const std::string& reason) {
-    complain(fmt::format("cannot replay {}: {}", quote(name_), reason));
+    complain("cannot replay {}: {}", quote(name_), reason);
     return status_ = exit_unusable;
   }
 
@@ -645,8 +639,7 @@ class Replay {
 
 int replay_stream(const SolveOptions& options) {
   if (options.paths.size() != 1) {
-    complain("--replay needs a log and its catalog: cbc solve --replay LOG CATALOG");
-    return exit_unusable;
+    return complain("--replay needs a log and its catalog: cbc solve --replay LOG CATALOG");
   }
   if (!can_use_files(options)) return exit_unusable;
   const std::string& path = *options.stream.replay;
@@ -658,8 +651,7 @@ int replay_stream(const SolveOptions& options) {
   }
   const int file = path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {
-    complain(fmt::format("cannot read {}: {}", quote(path), std::strerror(errno)));
-    return exit_unusable;
+    return complain("cannot read {}: {}", quote(path), std::strerror(errno));
   }
   const int status = Replay(file, display_name(path), *catalog, options).run(state);
   if (file != STDIN_FILENO) ::close(file);
