@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <fcntl.h>
 #include <initializer_list>
+#include <poll.h>
 #include <string_view>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
@@ -155,6 +157,26 @@ StopSignals::~StopSignals() {
 bool StopSignals::have_come() const { return stop != 0; }
 
 int StopSignals::descriptor() const { return ends[0]; }
+
+LineOutput::LineOutput() { std::signal(SIGPIPE, SIG_IGN); }
+
+LineOutput::~LineOutput() { std::signal(SIGPIPE, SIG_DFL); }
+
+void LineOutput::write(std::string_view line) {
+  while (!line.empty() && !has_failed_) {
+    const ssize_t count = ::write(STDOUT_FILENO, line.data(), line.size());
+    if (count >= 0) {
+      line.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EAGAIN) {
+      // Another process that shares the pipe may have made it non-blocking.
+      pollfd reader{STDOUT_FILENO, POLLOUT, 0};
+      static_cast<void>(::poll(&reader, 1, -1));
+    } else if (errno != EINTR) {
+      has_failed_ = true;
+      complain("cannot write the output: {}", std::strerror(errno));
+    }
+  }
+}
 
 void hold_standard_descriptors() {
   // In this order, as an opened file takes the lowest free descriptor.

@@ -97,6 +97,23 @@ class StopSignals {
   [[nodiscard]] int descriptor() const;
 };
 
+/// Writes lines to standard output, each immediately and as a whole. While this object lives, a
+/// closed pipe is an ordinary error.
+class LineOutput {
+ public:
+  LineOutput();
+  ~LineOutput();
+  LineOutput(const LineOutput&) = delete;
+  LineOutput& operator=(const LineOutput&) = delete;
+
+  /// Does nothing after an error, which is reported once.
+  void write(std::string_view line);
+  [[nodiscard]] bool has_failed() const { return has_failed_; }
+
+ private:
+  bool has_failed_ = false;
+};
+
 /// If the program was started with a closed standard stream, keeps the next opened file from taking
 /// its place. Reading from such a stream or writing to it fails; messages are dropped.
 void hold_standard_descriptors();

@@ -2,9 +2,9 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,6 +22,7 @@
 #include "script/runner.h"
 
 namespace cbc::cli {
+
 std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::string>& paths) {
   std::size_t first_script = 0;
   if (!is_folder(paths.front())) {
@@ -116,6 +117,13 @@ namespace {
 
 constexpr const char* doing = "solving";
 
+/// Runs a mission, and reports it from begin to end. May be called on several threads at once, with
+/// a report for each.
+using RunMission = std::function<RunResult(const Mission& mission, SolveReport& report)>;
+
+/// Called after each run that was reported.
+using AfterRun = std::function<void(const Mission& mission, const RunResult& result)>;
+
 /// Forwards everything, and shows the progress of a run.
 class ProgressReport final : public SolveReport {
  public:
@@ -188,8 +196,9 @@ void run_at_once(const std::vector<Mission>& missions, std::size_t jobs, SolveRe
   }
 }
 
-}  // namespace
-
+/// Runs all missions, up to `jobs` at once if the report supports it. The report and `after_run`
+/// see the missions in order, so the result does not depend on `jobs`. A terminal shows the
+/// progress.
 void run_all(const std::vector<Mission>& missions, std::size_t jobs, SolveReport& report,
              const RunMission& run, const AfterRun& after_run) {
   const std::size_t threads = std::min(jobs, missions.size());
@@ -200,8 +209,6 @@ void run_all(const std::vector<Mission>& missions, std::size_t jobs, SolveReport
   }
   report.end();
 }
-
-namespace {
 
 /// Reports on standard error why a run ended early.
 void complain_of_run(const Mission& mission, const RunResult& result, const std::string& reason) {
