@@ -124,11 +124,8 @@ void Linter::lint_catalog(const std::string& path) {
 
 bool Linter::lint_if_catalog(const std::string& path) {
   std::optional<CatalogInput> input = read_catalog_input(path);
-  if (!input) {
-    has_failed_ = true;
-    return false;
-  }
-  if (input->is_compiled || !looks_like_catalog(input->content)) return false;
+  has_failed_ |= !input;
+  if (!input || input->is_compiled || !looks_like_catalog(input->content)) return false;
   lint_catalog_text(path, std::move(input->content));
   return true;
 }

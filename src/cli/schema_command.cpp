@@ -48,18 +48,18 @@ std::vector<const Schema*> referenced_by(const Schema& schema) {
   return found;
 }
 
-/// The text of a schema, including the schemas that it refers to: they are added to its "$defs",
-/// which is its last member, by their ids.
+/// The text of a schema, including the schemas that it refers to: they become the first of its
+/// "$defs", by their ids.
 std::string standalone(const Schema& schema) {
-  constexpr std::string_view end = "\n  }\n}\n";
+  constexpr std::string_view definitions = "\n  \"$defs\": {";
   std::string text(schema.text);
   for (const Schema* other : referenced_by(schema)) {
-    std::string definition = fmt::format(",\n\"{}\": {}", id_of(*other), other->text);
-    definition.pop_back();
+    std::string definition = fmt::format("\n\"{}\": {}", id_of(*other), other->text);
+    definition.back() = ',';  // in place of the last line end
     for (std::size_t at = 0; (at = definition.find('\n', at)) != std::string::npos; ++at) {
       definition.insert(at + 1, "    ");
     }
-    text.insert(text.size() - end.size(), definition);
+    text.insert(text.find(definitions) + definitions.size(), definition);
   }
   return text;
 }
