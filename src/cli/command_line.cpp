@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "cli/output.h"
@@ -40,6 +40,15 @@ std::string suggest(std::string_view name, const std::vector<std::string>& known
 }
 
 }  // namespace
+
+std::string join(const std::vector<std::string>& words, std::string_view separator) {
+  std::string text;
+  for (const std::string& word : words) {
+    if (&word != &words.front()) text += separator;
+    text += word;
+  }
+  return text;
+}
 
 std::string join_with_or(const std::vector<std::string>& words) {
   std::string list = quote_if_split(words.front());
@@ -257,9 +266,9 @@ std::string entry(const std::string& name, const std::string& text) {
 
 std::string entry(const Option& option) {
   const std::string& placeholder = option.values.placeholder;
-  return entry(fmt::format("{}{}{}", fmt::join(option.names, ","), placeholder.empty() ? "" : " ",
-                           placeholder),
-               option.help);
+  return entry(
+      fmt::format("{}{}{}", join(option.names, ","), placeholder.empty() ? "" : " ", placeholder),
+      option.help);
 }
 
 /// The command as it is called: "cbc lint", or "cbc".
@@ -316,7 +325,7 @@ void declare(CLI::App& app, const Command& command,
   app.set_help_flag();  // it has one like all others
   app.allow_extras();
   for (const Option& option : command.options()) {
-    const std::string names = fmt::format("{}", fmt::join(option.names, ","));
+    const std::string names = join(option.names, ",");
     CLI::Option* const added = option.is_flag ? app.add_flag(names) : app.add_option(names);
     if (!option.is_flag) {
       added->expected(option.is_argument && option.is_repeatable ? any_number : 1);

@@ -64,6 +64,7 @@ struct Values {
 /// Of a time of at least so many microseconds, written in seconds.
 [[nodiscard]] Values seconds(Microseconds least = 1);
 
+[[nodiscard]] std::string join(const std::vector<std::string>& words, std::string_view separator);
 /// "text, json or gcc"
 [[nodiscard]] std::string join_with_or(const std::vector<std::string>& words);
 

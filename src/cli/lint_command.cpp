@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "catalog/catalog.h"
@@ -31,21 +31,29 @@
 #include "yaml/document.h"
 
 namespace cbc::cli {
+namespace {
+
+struct LintCommand {
+  std::vector<std::string> paths;
+  std::vector<std::string> scripts;
+  std::string format = "text";
+  SeverityOptions severities;
+  std::string stdin_filename;
+  std::uint64_t max_nodes = LintOptions{}.max_nodes;
+  std::string explain;
+  bool list_rules = false;
+  bool summary = false;
+  bool fix = false;
+  bool diff = false;  ///< what --fix would change, instead of changing it
+};
 
 /// Lints the files of a command line, with the settings that apply to each. Messages about
 /// unreadable files go to standard error.
 class Linter {
  public:
-  struct Options {
-    LintOptions lint;
-    SeveritySettings settings;   ///< of the command line; they override those of files
-    std::string stdin_filename;  ///< for "-"
-    bool is_to_fix = false;
-    bool is_to_show_fixes = false;  ///< as a diff, instead of writing the files
-    bool is_to_summarize = false;   ///< also compiled catalogs
-    bool has_scripts = false;       ///< which may use a compiled catalog
-  };
-  explicit Linter(Options options);
+  /// `settings` are those of the command line, which override those of files.
+  Linter(const LintCommand& command, SeveritySettings settings)
+      : command_(command), settings_(std::move(settings)) {}
 
   /// A catalog, or an event script that names its catalog.
   void lint_catalog(const std::string& path);
@@ -87,8 +95,9 @@ class Linter {
   void take_compiled(const CatalogInput& input);
   void add(LintedFile file, const SeveritySettings& settings);
   [[nodiscard]] std::string name_of(const std::string& path) const;
+  [[nodiscard]] bool is_to_fix() const { return command_.fix || command_.diff; }
 
-  const Options options_;
+  const LintCommand& command_;
   std::vector<LintedFile> files_;
   InputFiles unlinted_{InputFiles::Findings::dropped};
   CatalogLoader catalogs_{unlinted_};  ///< those that were linted, and others that scripts use
@@ -100,15 +109,9 @@ class Linter {
   bool has_mended_ = false;
 };
 
-namespace {
-
 void complain_of_catalog(const std::string& name) {
   complain("{} is a catalog; expected an event script", quote(name));
 }
-
-}  // namespace
-
-Linter::Linter(Options options) : options_(std::move(options)), settings_(options_.settings) {}
 
 void Linter::lint_catalog(const std::string& path) {
   std::optional<CatalogInput> input = read_catalog_input(path);
@@ -133,7 +136,7 @@ bool Linter::lint_if_catalog(const std::string& path) {
 /// A compiled catalog has no text to lint.
 void Linter::take_compiled(const CatalogInput& input) {
   std::optional<CompiledFile> file;
-  if (options_.is_to_fix || !(options_.is_to_summarize || options_.has_scripts)) {
+  if (is_to_fix() || (!command_.summary && command_.scripts.empty())) {
     complain("{} is a compiled catalog; expected YAML (--summary takes either)",
              quote(name_of(input.path)));
   } else {
@@ -146,7 +149,7 @@ void Linter::take_compiled(const CatalogInput& input) {
   }
   const auto catalog = std::make_shared<const CompiledCatalog>(std::move(file->catalog));
   catalogs_.keep(input.path, catalog);
-  if (options_.is_to_summarize) {
+  if (command_.summary) {
     files_.push_back({name_of(input.path), {}, {}, summarize(*catalog), false});
   }
 }
@@ -163,7 +166,7 @@ void Linter::lint_catalog_text(const std::string& path, std::string text) {
     lint_script_text(path, std::move(linted.file.text), "");
     return;
   }
-  if (options_.is_to_fix) fix(path, linted, *settings);
+  if (is_to_fix()) fix(path, linted, *settings);
   catalogs_.keep(path, linted.compiled);
   add(std::move(linted.file), *settings);
 }
@@ -179,7 +182,7 @@ Linter::Linted Linter::lint_text(const std::string& name, std::string text,
   if (document != nullptr) {
     linted.is_script = is_script(*document);
     if (linted.is_script) return linted;
-    LintResult result = cbc::lint_catalog(*document, options_.lint, diagnostics);
+    LintResult result = cbc::lint_catalog(*document, LintOptions{command_.max_nodes}, diagnostics);
     commented.document = document.get();
     commented.is_complete = result.compiled.has_value();
     if (result.compiled) {
@@ -215,7 +218,7 @@ void Linter::fix(const std::string& path, Linted& linted, const SeveritySettings
     has_internal_error_ = true;
     return;
   }
-  if (options_.is_to_show_fixes) {
+  if (command_.diff) {
     diff_ += unified_diff(linted.file.text, fixed.file.text, linted.file.file);
   } else if (!write_fixed(path, linted.file.text, fixed.file.text)) {
     has_failed_ = true;
@@ -315,11 +318,9 @@ void Linter::add(LintedFile file, const SeveritySettings& settings) {
 }
 
 std::string Linter::name_of(const std::string& path) const {
-  return path == "-" && !options_.stdin_filename.empty() ? options_.stdin_filename
+  return path == "-" && !command_.stdin_filename.empty() ? command_.stdin_filename
                                                          : display_name(path);
 }
-
-namespace {
 
 constexpr const char* lint_examples =
     "  cbc lint robot.yaml                       every mistake, with place and reason\n"
@@ -342,20 +343,6 @@ constexpr const char* lint_footer =
     "file could not be read or written, or the usage is wrong, 3 an internal error.\n"
     "\n"
     "Read more: man cbc-lint, man cbc-rules (every rule, with examples)";
-
-struct LintCommand {
-  std::vector<std::string> paths;
-  std::vector<std::string> scripts;
-  std::string format = "text";
-  SeverityOptions severities;
-  std::string stdin_filename;
-  std::uint64_t max_nodes = LintOptions{}.max_nodes;
-  std::string explain;
-  bool list_rules = false;
-  bool summary = false;
-  bool fix = false;
-  bool diff = false;
-};
 
 int explain_rule(const std::string& name) {
   const Rule* rule = find_rule(name);
@@ -485,18 +472,11 @@ int lint(const LintCommand& command) {
     return usage_error("lint", misuse);
   }
 
-  Linter::Options options;
-  options.lint.max_nodes = command.max_nodes;
-  options.stdin_filename = command.stdin_filename;
-  options.is_to_fix = command.fix || command.diff;
-  options.is_to_show_fixes = command.diff;
-  options.is_to_summarize = command.summary;
-  options.has_scripts = !command.scripts.empty();
   std::vector<std::string> errors;
-  options.settings = settings_of_options(command.severities, errors);
-  if (!errors.empty()) return usage_error("lint", "{}", fmt::join(errors, "\ncbc: "));
+  SeveritySettings settings = settings_of_options(command.severities, errors);
+  if (!errors.empty()) return usage_error("lint", join(errors, "\ncbc: "));
 
-  Linter linter(std::move(options));
+  Linter linter(command, std::move(settings));
   const bool has_all = lint_all(command, linter);
   if (!linter.files().empty()) print_report(command, linter, has_all && !linter.has_failed());
   if (command.fix && !command.diff && !linter.has_mended() && has_faults(linter.files())) {
