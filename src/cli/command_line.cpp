@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "cli/output.h"
@@ -16,48 +16,18 @@
 namespace cbc::cli {
 namespace {
 
-std::string describe(ValueKind kind) {
-  switch (kind) {
-    case ValueKind::text:
-      return "a value";
-    case ValueKind::catalog:
-      return "a catalog";
-    case ValueKind::script:
-      return "a script";
-    case ValueKind::catalog_or_script:
-      return "a catalog or a script";
-    case ValueKind::shard:
-      return "the result of a shard";
-    case ValueKind::file:
-      return "a file";
-    case ValueKind::task:
-      return "a task";
-    case ValueKind::task_or_behavior:
-      return "a task or a behavior";
-  }
-  return {};
-}
-
-Values values_of_kind(std::string placeholder, ValueKind kind) {
-  Values values;
-  values.placeholder = std::move(placeholder);
-  values.expected = describe(kind);
-  values.kind = kind;
-  return values;
-}
-
 /// An option with a value, in a sentence.
 std::string quote_if_split(const std::string& text) {
   return text.find(' ') == std::string::npos ? text : quote(text);
 }
 
-/// "text, json or gcc"
-std::string join_with_or(const std::vector<std::string>& words) {
-  std::string list = quote_if_split(words.front());
-  for (std::size_t i = 1; i < words.size(); ++i) {
-    list += (i + 1 < words.size() ? ", " : " or ") + quote_if_split(words[i]);
+/// The parts between separators; at least one, which may be empty.
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size(); begin += parts.back().size() + 1) {
+    parts.push_back(text.substr(begin, text.find(separator, begin) - begin));
   }
-  return list;
+  return parts;
 }
 
 bool contains(const std::vector<std::string>& texts, std::string_view text) {
@@ -71,14 +41,48 @@ std::string suggest(std::string_view name, const std::vector<std::string>& known
 
 }  // namespace
 
+std::string join(const std::vector<std::string>& words, std::string_view separator) {
+  std::string text;
+  for (const std::string& word : words) {
+    if (&word != &words.front()) text += separator;
+    text += word;
+  }
+  return text;
+}
+
+std::string join_with_or(const std::vector<std::string>& words) {
+  std::string list = quote_if_split(words.front());
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    list += (i + 1 < words.size() ? ", " : " or ") + quote_if_split(words[i]);
+  }
+  return list;
+}
+
+Values name_of(std::string placeholder, ValueKind kind) {
+  // In the order of the enumerators.
+  static constexpr std::array<const char*, 8> expected = {"a value",
+                                                          "a catalog",
+                                                          "a script",
+                                                          "a catalog or a script",
+                                                          "the result of a shard",
+                                                          "a file",
+                                                          "a task",
+                                                          "a task or a behavior"};
+  Values values;
+  values.placeholder = std::move(placeholder);
+  values.expected = expected.at(static_cast<std::size_t>(kind));
+  values.kind = kind;
+  return values;
+}
+
 Values input(std::string placeholder, ValueKind kind) {
-  Values values = values_of_kind(std::move(placeholder), kind);
+  Values values = name_of(std::move(placeholder), kind);
   values.is_input = true;
   return values;
 }
 
 Values output(std::string placeholder) {
-  Values values = values_of_kind(std::move(placeholder), ValueKind::file);
+  Values values = name_of(std::move(placeholder), ValueKind::file);
   values.is_output = true;
   values.check = [](const std::string& text) {
     return std::string(text.empty() ? "expected the name of a file" : "");
@@ -92,10 +96,6 @@ Values further_output(std::string placeholder) {
     return text == "-" ? "expected a file, as standard output has the report" : is_name(text);
   };
   return values;
-}
-
-Values name_of(std::string placeholder, ValueKind kind) {
-  return values_of_kind(std::move(placeholder), kind);
 }
 
 Values one_of(std::string placeholder, std::vector<std::string> choices) {
@@ -195,10 +195,7 @@ Option& Command::flag(const char* names, bool& target, std::string help) {
 
 Option& Command::add(std::string_view names, Values values, std::string help) {
   Option& added = options_.emplace_back();
-  for (std::size_t begin = 0; begin <= names.size();) {
-    added.names.emplace_back(names.substr(begin, names.find(',', begin) - begin));
-    begin += added.names.back().size() + 1;
-  }
+  for (const std::string_view name : split(names, ',')) added.names.emplace_back(name);
   added.values = std::move(values);
   added.help = std::move(help);
   added.group = group_;
@@ -239,28 +236,23 @@ constexpr std::size_t column = 26;  ///< where the descriptions of options and c
 std::string wrap(std::string_view text, std::size_t indent) {
   std::string wrapped;
   std::size_t used = indent;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::string_view word = text.substr(begin, text.find(' ', begin) - begin);
-    if (begin > 0 && used + 1 + word.size() > line_width) {
-      wrapped += '\n' + std::string(indent, ' ');
-      used = indent;
-    } else if (begin > 0) {
-      wrapped += ' ';
-      ++used;
+  bool is_first = true;
+  for (const std::string_view word : split(text, ' ')) {
+    if (!std::exchange(is_first, false)) {
+      const bool fits = used + 1 + word.size() <= line_width;
+      wrapped += fits ? " " : '\n' + std::string(indent, ' ');
+      used = fits ? used + 1 : indent;
     }
     wrapped += word;
     used += word.size();
-    begin += word.size() + 1;
   }
   return wrapped;
 }
 
 std::string wrap_lines(std::string_view text) {
   std::string wrapped;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::string_view line = text.substr(begin, text.find('\n', begin) - begin);
+  for (const std::string_view line : split(text, '\n')) {
     wrapped += (line.starts_with(' ') ? std::string(line) : wrap(line, 0)) + '\n';
-    begin += line.size() + 1;
   }
   return wrapped;
 }
@@ -274,9 +266,9 @@ std::string entry(const std::string& name, const std::string& text) {
 
 std::string entry(const Option& option) {
   const std::string& placeholder = option.values.placeholder;
-  return entry(fmt::format("{}{}{}", fmt::join(option.names, ","), placeholder.empty() ? "" : " ",
-                           placeholder),
-               option.help);
+  return entry(
+      fmt::format("{}{}{}", join(option.names, ","), placeholder.empty() ? "" : " ", placeholder),
+      option.help);
 }
 
 /// The command as it is called: "cbc lint", or "cbc".
@@ -333,7 +325,7 @@ void declare(CLI::App& app, const Command& command,
   app.set_help_flag();  // it has one like all others
   app.allow_extras();
   for (const Option& option : command.options()) {
-    const std::string names = fmt::format("{}", fmt::join(option.names, ","));
+    const std::string names = join(option.names, ",");
     CLI::Option* const added = option.is_flag ? app.add_flag(names) : app.add_option(names);
     if (!option.is_flag) {
       added->expected(option.is_argument && option.is_repeatable ? any_number : 1);
@@ -341,18 +333,6 @@ void declare(CLI::App& app, const Command& command,
     }
     declared[&option] = added;
   }
-}
-
-std::vector<std::string> split(const std::vector<std::string>& lists, char separator) {
-  std::vector<std::string> items;
-  for (const std::string& list : lists) {
-    for (std::size_t begin = 0; begin <= list.size();) {
-      const std::size_t size = list.substr(begin).find(separator);
-      if (size > 0 && begin < list.size()) items.push_back(list.substr(begin, size));
-      begin = size == std::string::npos ? list.size() + 1 : begin + size + 1;
-    }
-  }
-  return items;
 }
 
 Parsed parse(const Program& program, const std::vector<std::string>& arguments) {
@@ -381,7 +361,13 @@ Parsed parse(const Program& program, const std::vector<std::string>& arguments) 
     if (as_declared->count() == 0) continue;
     const CLI::results_t& values = as_declared->results();
     std::vector<std::string>& given = parsed.given[option];
-    given = option->separator == '\0' ? values : split(values, option->separator);
+    if (option->separator == '\0') given = values;
+    for (const std::string& list : values) {
+      if (option->separator == '\0') break;
+      for (const std::string_view item : split(list, option->separator)) {
+        if (!item.empty()) given.emplace_back(item);
+      }
+    }
     if (!option->is_argument || !option->values.is_input) continue;
     for (std::string& path : given) {
       // It came after "--"; messages name it in a way that needs none.

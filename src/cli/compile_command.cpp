@@ -8,13 +8,12 @@
 #include <unistd.h>
 #include <utility>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/mapped_file.h"
 #include "base/text.h"
 #include "cbc/version.h"
 #include "cli/command_line.h"
-#include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/output.h"
 #include "compile/compile.h"
@@ -81,8 +80,7 @@ std::optional<Source> read_source(const std::string& path) {
     return std::nullopt;
   }
   if (file->document == nullptr) {
-    complain(fmt::format("{} is a compiled catalog already; expected one in YAML",
-                         quote(display_name(path))));
+    complain("{} is a compiled catalog already; expected one in YAML", quote(display_name(path)));
     return std::nullopt;
   }
   return understand(files, *file);
@@ -99,8 +97,8 @@ struct Compiled {
 std::optional<Compiled> compile_source(const Source& source) {
   std::string content = write_compiled(compile(source.catalog), source.digest);
   if (content.empty()) {
-    complain(fmt::format("cannot compile {}: the file would be larger than {} MiB",
-                         quote(source.catalog.file), largest_compiled_file >> 20));
+    complain("cannot compile {}: the file would be larger than {} MiB", quote(source.catalog.file),
+             largest_compiled_file >> 20);
     return std::nullopt;
   }
   CompiledFileResult result = read_compiled(content);
@@ -113,8 +111,7 @@ std::optional<Compiled> compile_source(const Source& source) {
 
 int write(const std::string& output, const std::string& content) {
   if (output == "-" && isatty(STDOUT_FILENO) != 0) {
-    complain("a compiled catalog is not written to a terminal; expected a file or a pipe");
-    return exit_unusable;
+    return complain("a compiled catalog is not written to a terminal; expected a file or a pipe");
   }
   return write_output(output, content);
 }
@@ -124,7 +121,7 @@ int compile_to_file(const CompileCommand& command) {
   if (!source) return exit_unusable;
   const std::string output = output_of(command);
   if (is_same_file(command.catalog, output)) {
-    return usage_error("compile", fmt::format(overwrites_input, quote(output)));
+    return usage_error("compile", overwrites_input, quote(output));
   }
   const std::optional<Compiled> compiled = compile_source(*source);
   return compiled ? write(output, compiled->content) : exit_unusable;
@@ -145,8 +142,7 @@ int check(const CompileCommand& command) {
   if (!fs::exists(output, error) && !error) return say_stale(output, "it does not exist");
   const MappedFile memory = map_file(output, largest_compiled_file);
   if (memory.memory == nullptr) {
-    complain(fmt::format("cannot read {}: {}", quote(output), memory.error));
-    return exit_unusable;
+    return complain("cannot read {}: {}", quote(output), memory.error);
   }
   const CompiledFileResult existing = read_compiled(memory.content);
   if (!existing.file) return say_stale(output, existing.error);

@@ -14,11 +14,10 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "cli/command_line.h"
-#include "cli/commands.h"
 #include "cli/input.h"
 
 namespace cbc::cli {
@@ -170,8 +169,7 @@ void offer_options(const Command& command, Completion& completion) {
   for (const Option& option : command.options()) {
     if (option.is_argument) continue;
     const std::vector<std::string>& choices = option.values.choices;
-    const std::string help =
-        choices.empty() ? first_words(option.help) : fmt::format("{}", fmt::join(choices, ", "));
+    const std::string help = choices.empty() ? first_words(option.help) : join(choices, ", ");
     for (auto name = option.names.rbegin(); name != option.names.rend(); ++name) {
       completion.candidates.push_back({*name, help});
     }

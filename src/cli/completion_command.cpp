@@ -6,10 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "cli/command_line.h"
-#include "cli/commands.h"
 #include "cli/output.h"
 
 // The scripts with which a shell asks the program for completions.

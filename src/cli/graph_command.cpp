@@ -14,11 +14,10 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "cli/command_line.h"
-#include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/solve.h"
@@ -69,8 +68,8 @@ std::optional<std::vector<std::uint32_t>> find_tasks(const draw::CatalogGraph& g
     const auto found = std::find_if(graph.tasks.begin(), graph.tasks.end(),
                                     [&](const auto& task) { return task.name == name; });
     if (found == graph.tasks.end()) {
-      complain(fmt::format("--task: catalog {} has no task {}{}", quote(graph.file), quote(name),
-                           suggest(graph, name)));
+      complain("--task: catalog {} has no task {}{}", quote(graph.file), quote(name),
+               suggest(graph, name));
       return std::nullopt;
     }
     tasks.push_back(static_cast<std::uint32_t>(found - graph.tasks.begin()));
@@ -140,10 +139,9 @@ std::optional<draw::Part> find_part(const draw::CatalogGraph& graph,
   if (options.group) {
     const std::uint32_t groups = group_count(graph);
     if (*options.group >= groups) {
-      complain(fmt::format(
-          "--group: catalog {} has no group {}; {}", quote(graph.file), *options.group,
-          groups == 0 ? "it has none"
-                      : fmt::format("the groups are numbered from 0 to {}", groups - 1)));
+      complain("--group: catalog {} has no group {}; {}", quote(graph.file), *options.group,
+               groups == 0 ? "it has none"
+                           : fmt::format("the groups are numbered from 0 to {}", groups - 1));
       return std::nullopt;
     }
     return part_of_group(graph, *options.group);
@@ -175,13 +173,13 @@ void remove_date(std::string& pdf) {
 std::optional<std::string> run_graphviz(const std::string& dot, std::string_view format) {
   Filtered picture = run_filter({"dot", fmt::format("-T{}", format)}, dot);
   if (!picture.is_found) {
-    complain(fmt::format("{} needs Graphviz (Debian: apt install graphviz): cannot run 'dot': {}",
-                         format, picture.error_output));
+    complain("{} needs Graphviz (Debian: apt install graphviz): cannot run 'dot': {}", format,
+             picture.error_output);
     return std::nullopt;
   }
   if (!picture.is_done || picture.output.empty()) {
-    complain(fmt::format("Graphviz cannot draw it as {}: {}", format,
-                         printable(first_line(picture.error_output))));
+    complain("Graphviz cannot draw it as {}: {}", format,
+             printable(first_line(picture.error_output)));
     return std::nullopt;
   }
   if (format == "pdf") remove_date(picture.output);
@@ -202,14 +200,14 @@ std::optional<Mission> load_mission(const std::string& catalog, const std::strin
   paths.push_back(script);
   for (const std::string& path : paths) {
     if (!is_folder(path)) continue;
-    complain(fmt::format("cannot read {}: it is a folder", quote(path)));
+    complain("cannot read {}: it is a folder", quote(path));
     return std::nullopt;
   }
   std::optional<std::vector<Mission>> missions = MissionLoader().load(paths);
   if (!missions) return std::nullopt;
   if (missions->size() > 1) {
-    complain(fmt::format("{} is a script; expected a catalog here (a script goes after --script)",
-                         quote(display_name(catalog))));
+    complain("{} is a script; expected a catalog here (a script goes after --script)",
+             quote(display_name(catalog)));
     return std::nullopt;
   }
   return std::move(missions->front());
@@ -352,33 +350,8 @@ struct GraphCommand {
   StateOptions state;
 };
 
-/// A format of pictures.
-struct GraphFormat {
-  std::string_view name;
-  std::array<std::string_view, 2> suffixes;    ///< of its files; the second one may be empty
-  std::string (*write)(const draw::Diagram&);  ///< for Graphviz: writes the input of `dot`
-  bool is_by_graphviz = false;                 ///< `dot -T<name>` makes it
-  bool is_binary = false;
-};
-
-/// The first one is the default.
-constexpr std::array<GraphFormat, 6> graph_formats = {{
-    {"dot", {".dot", ".gv"}, graph_dot},
-    {"mermaid", {".mmd", ".mermaid"}, graph_mermaid},
-    {"json", {".json"}, graph_json},
-    {"svg", {".svg"}, graph_dot, true},
-    {"png", {".png"}, graph_dot, true, true},
-    {"pdf", {".pdf"}, graph_dot, true, true},
-}};
-
 /// The format of differences for people.
 constexpr std::string_view text_format = "text";
-
-const GraphFormat* find_format(std::string_view name) {
-  const auto* const found = std::find_if(graph_formats.begin(), graph_formats.end(),
-                                         [&](const GraphFormat& one) { return one.name == name; });
-  return found == graph_formats.end() ? nullptr : found;
-}
 
 /// The name of the format, which the suffix of the output may tell; empty if it tells none.
 std::string format_of(const GraphCommand& command) {
@@ -387,9 +360,9 @@ std::string format_of(const GraphCommand& command) {
   std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
-  if (suffix.empty()) return std::string(graph_formats.front().name);
+  if (suffix.empty()) return std::string(graph_formats().front().name);
   if (suffix == ".txt") return std::string(text_format);
-  for (const GraphFormat& format : graph_formats) {
+  for (const GraphFormat& format : graph_formats()) {
     if (suffix == format.suffixes[0] || suffix == format.suffixes[1]) {
       return std::string(format.name);
     }
@@ -429,11 +402,11 @@ std::string output_of(const GraphCommand& command) { return command.output.value
 
 /// Whether the output can be written to its place. If not, prints why.
 bool can_write(const GraphCommand& command) {
-  const GraphFormat* const format = find_format(format_of(command));
+  const GraphFormat* const format = find_named(graph_formats(), format_of(command));
   if (format == nullptr || !format->is_binary || output_of(command) != "-" ||
       isatty(STDOUT_FILENO) == 0)
     return true;
-  complain(fmt::format("{} is not written to a terminal; expected -o OUT or a pipe", format->name));
+  complain("{} is not written to a terminal; expected -o OUT or a pipe", format->name);
   return false;
 }
 
@@ -444,12 +417,12 @@ int draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& mom
   draw::Diagram diagram = make_diagram(graph, *part, view_options(command.drawing));
   diagram.moment = moment;
   if (command.drawing.legend) add_legend(diagram);
-  const GraphFormat& format = *find_format(format_of(command));
+  const GraphFormat& format = *find_named(graph_formats(), format_of(command));
   if (format.name == "mermaid" && diagram.edges.size() > most_mermaid_edges) {
     complain(
-        fmt::format("the picture has {} lines; by default Mermaid draws at most {} "
-                    "(maxEdges); --task and --group draw less",
-                    diagram.edges.size(), most_mermaid_edges));
+        "the picture has {} lines; by default Mermaid draws at most {} "
+        "(maxEdges); --task and --group draw less",
+        diagram.edges.size(), most_mermaid_edges);
   }
   std::optional<std::string> content = format.write(diagram);
   if (format.is_by_graphviz) content = run_graphviz(*content, format.name);
@@ -463,7 +436,7 @@ int draw_catalog(const GraphCommand& command) {
       command.state.script ? read_state(catalog, command.state, status) : read_drawable(catalog);
   if (drawable == nullptr) return status;
   if (drawable->named_catalog && is_same_file(*drawable->named_catalog, output_of(command))) {
-    return usage_error("graph", fmt::format(overwrites_input, quote(*command.output)));
+    return usage_error("graph", overwrites_input, quote(*command.output));
   }
   return draw(drawable->graph, drawable->moment, command);
 }
@@ -480,8 +453,7 @@ int show_diff(const ComparedCatalogs& compared, const GraphCommand& command) {
                         diff_json(diff, compared.before->file, compared.after->file));
   }
   if (diff.further_exclusions > 0) {
-    complain(fmt::format("{} further differences of exclusions are not marked",
-                         diff.further_exclusions));
+    complain("{} further differences of exclusions are not marked", diff.further_exclusions);
   }
   return draw(compared.graph, std::nullopt, command);
 }
@@ -503,8 +475,10 @@ int run_graph(const GraphCommand& command) {
 }  // namespace
 
 void add_graph_command(Program& program) {
-  std::vector<std::string> formats;
-  for (const GraphFormat& format : graph_formats) formats.emplace_back(format.name);
+  std::vector<std::string> formats = names_in(graph_formats());
+  const std::string format_help =
+      fmt::format("{}, with --diff also {} (default: by the suffix of OUT; without one {})",
+                  join_with_or(formats), text_format, formats.front());
   formats.emplace_back(text_format);
   const auto options = std::make_shared<GraphCommand>();
   Command& command = program.add_command(
@@ -518,9 +492,7 @@ void add_graph_command(Program& program) {
                "1 if they differ");
   command.option("-o,--output", options->output, output("OUT"),
                  "The file to write, or - for standard output (default)");
-  command.option("--format", options->format, one_of("FORMAT", formats),
-                 "dot, mermaid, json, svg, png or pdf, with --diff also text (default: by the "
-                 "suffix of OUT; without one dot)");
+  command.option("--format", options->format, one_of("FORMAT", formats), format_help);
   add_drawing_options(command, options->drawing);
   add_state_options(command, options->state);
   command.action([options] { return run_graph(*options); });

@@ -9,18 +9,21 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <poll.h>
 #include <string_view>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "catalog/reader.h"
 #include "cli/output.h"
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
+#include "coordinator/record.h"
 #include "diagnostic/diagnostic.h"
 #include "lint/controls.h"
 #include "script/reader.h"
@@ -58,14 +61,15 @@ bool is_catalog(const yaml::Document& document) { return has_any(document.root()
 bool is_script(const yaml::Document& document) {
   constexpr std::array<std::string_view, 4> keys = {"events", "catalog", "reactive_delay",
                                                     "situation"};
-  constexpr std::array<std::string_view, 9> event_keys = {
-      "start", "stop", "finish", "situation", "fault", "repair", "expect", "at", "wait"};
+  const auto is_event = [](const yaml::Node* item) {
+    return std::any_of(verb_forms.begin(), verb_forms.end(),
+                       [&](const VerbForm& form) { return item->find(form.name) != nullptr; }) ||
+           item->find("expect") != nullptr || item->find("at") != nullptr;
+  };
   const yaml::Node& root = document.root();
   if (root.kind != yaml::Kind::sequence) return !is_catalog(document) && has_any(root, keys);
   // Another list is more likely a catalog that lacks a key.
-  return root.items.empty() ||
-         std::any_of(root.items.begin(), root.items.end(),
-                     [&event_keys](const yaml::Node* item) { return has_any(*item, event_keys); });
+  return root.items.empty() || std::any_of(root.items.begin(), root.items.end(), is_event);
 }
 
 bool looks_like_script(const yaml::Document& document) {
@@ -89,6 +93,10 @@ bool looks_like_catalog(std::string_view text) {
   });
 }
 
+namespace {
+
+/// Prints findings to standard error: all errors, and the first few warnings of each rule in each
+/// file, but no notes. `texts` has the files they are about, by their names in messages.
 void print_findings(const std::vector<Diagnostic>& findings,
                     const std::map<std::string, std::string>& texts) {
   constexpr std::size_t most_warnings = 3;
@@ -110,8 +118,6 @@ void print_findings(const std::vector<Diagnostic>& findings,
   }
 }
 
-namespace {
-
 namespace fs = std::filesystem;
 
 struct CloseFile {
@@ -119,9 +125,13 @@ struct CloseFile {
 };
 
 std::optional<std::string> fail(const std::string& path, const std::string& reason) {
-  complain(fmt::format("cannot read {}: {}", quote(display_name(path)), reason));
+  complain("cannot read {}: {}", quote(display_name(path)), reason);
   return std::nullopt;
 }
+
+/// Larger texts are refused, so that no input can exhaust the memory of the machine. Compiled
+/// catalogs have a limit of their own.
+constexpr std::size_t largest_file = std::size_t{256} << 20;
 
 std::optional<std::string> read_stream(std::FILE* stream, const std::string& path) {
   std::string text;
@@ -204,7 +214,7 @@ std::optional<InputFile> InputFiles::read(const std::string& path) {
 std::optional<InputFile> InputFiles::read_catalog(const std::string& path) {
   std::optional<InputFile> file = read(path);
   if (file && file->document != nullptr && is_script(*file->document)) {
-    complain(fmt::format("{} is a script; expected a catalog here", quote(display_name(path))));
+    complain("{} is a script; expected a catalog here", quote(display_name(path)));
     return std::nullopt;
   }
   return file;
@@ -292,7 +302,7 @@ std::optional<CompiledFile> load(const CatalogInput& input) {
   CompiledFileResult result =
       input.content.empty() ? load_compiled(input.path) : read_compiled(input.content);
   if (!result.file) {
-    complain(fmt::format("cannot read {}: {}", quote(display_name(input.path)), result.error));
+    complain("cannot read {}: {}", quote(display_name(input.path)), result.error);
   }
   return std::move(result.file);
 }
@@ -370,6 +380,53 @@ std::unique_ptr<Drawable> read_drawable(const std::string& path) {
   }
   files.print_findings();
   return drawable;
+}
+
+LineInput::Status LineInput::next() {
+  for (;;) {
+    const std::size_t end = buffer_.find('\n', scanned_);
+    const bool is_last = end == std::string::npos && has_ended_;
+    if (is_last && begin_ == buffer_.size() && !skips_) return Status::end;
+    if (end != std::string::npos || is_last) {
+      line_ = std::string_view(buffer_).substr(begin_, std::min(end, buffer_.size()) - begin_);
+      begin_ = scanned_ = is_last ? buffer_.size() : end + 1;
+      ++number_;
+      const bool is_too_long = skips_ || line_.size() > longest_line_;
+      skips_ = false;
+      return is_too_long ? Status::too_long : Status::line;
+    }
+    scanned_ = buffer_.size();
+    if (skips_ || scanned_ - begin_ > longest_line_) {
+      skips_ = true;
+      begin_ = scanned_;
+    }
+    if (const Status status = fill(); status != Status::line) return status;
+  }
+}
+
+/// Reads more input. Returns `line` if there may be one now.
+LineInput::Status LineInput::fill() {
+  buffer_.erase(0, begin_);
+  scanned_ -= begin_;
+  begin_ = 0;
+  constexpr std::size_t block_size = std::size_t{1} << 16;
+  for (;;) {
+    std::array<pollfd, 2> waiting{{{descriptor_, POLLIN, 0}, {stop_, POLLIN, 0}}};
+    if (::poll(waiting.data(), waiting.size(), -1) < 0 && errno == EINTR) continue;
+    if (waiting[1].revents != 0) return Status::stopped;
+    const std::size_t size = buffer_.size();
+    buffer_.resize(size + block_size);
+    const ssize_t count = ::read(descriptor_, buffer_.data() + size, block_size);
+    buffer_.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    if (count > 0) return Status::line;
+    if (count == 0) {
+      has_ended_ = true;
+      return Status::line;
+    }
+    if (errno == EINTR || errno == EAGAIN) continue;
+    error_ = std::strerror(errno);
+    return Status::failed;
+  }
 }
 
 }  // namespace cbc::cli

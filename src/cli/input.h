@@ -34,15 +34,6 @@ namespace cbc::cli {
 /// too.
 [[nodiscard]] bool looks_like_catalog(std::string_view text);
 
-/// Prints findings to standard error: all errors, and the first few warnings of each rule in each
-/// file, but no notes. `texts` has the files they are about, by their names in messages.
-void print_findings(const std::vector<Diagnostic>& findings,
-                    const std::map<std::string, std::string>& texts);
-
-/// Larger texts are refused, so that no input can exhaust the memory of the machine. Compiled
-/// catalogs have a limit of their own.
-inline constexpr std::size_t largest_file = std::size_t{256} << 20;
-
 /// The content of a file, or of standard input for "-". If it cannot be read, prints why to
 /// standard error.
 [[nodiscard]] std::optional<std::string> read_input(const std::string& path);
@@ -167,9 +158,6 @@ class CatalogLoader {
 [[nodiscard]] std::optional<std::string> path_of_catalog(const std::string& script_path,
                                                          const yaml::Document& script);
 
-struct InputFile;
-class InputFiles;
-
 /// The drawable part of a catalog, and its source.
 struct Drawable {
   std::shared_ptr<const CompiledCatalog> compiled;  ///< if the catalog has no errors
@@ -185,5 +173,44 @@ struct Drawable {
 
 /// The same for one of the files that were read; the findings are added to theirs.
 [[nodiscard]] std::unique_ptr<Drawable> to_drawable(InputFiles& files, const InputFile& file);
+
+/// Reads a file, a pipe or a terminal line by line, as soon as a line is complete.
+class LineInput {
+ public:
+  enum class Status : std::uint8_t {
+    line,      ///< see line() and number()
+    too_long,  ///< a line was skipped because it is too long; see number()
+    end,
+    stopped,  ///< a signal has come
+    failed    ///< see error()
+  };
+
+  /// `descriptor` is not closed. `stop`: a descriptor that becomes readable when it is time to
+  /// stop, or -1.
+  LineInput(int descriptor, int stop, std::size_t longest_line)
+      : descriptor_(descriptor), stop_(stop), longest_line_(longest_line) {}
+
+  [[nodiscard]] Status next();
+  /// Without its end; valid until the next call.
+  [[nodiscard]] std::string_view line() const { return line_; }
+  /// Counts lines from 1.
+  [[nodiscard]] std::uint64_t number() const { return number_; }
+  [[nodiscard]] const std::string& error() const { return error_; }
+
+ private:
+  [[nodiscard]] Status fill();
+
+  int descriptor_;
+  int stop_;
+  std::size_t longest_line_;
+  std::string buffer_;
+  std::size_t begin_ = 0;    ///< of the next line
+  std::size_t scanned_ = 0;  ///< there is no line end before this
+  bool has_ended_ = false;
+  bool skips_ = false;  ///< in a line that is too long
+  std::string_view line_;
+  std::uint64_t number_ = 0;
+  std::string error_;
+};
 
 }  // namespace cbc::cli

@@ -12,12 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "catalog/catalog.h"
 #include "cli/command_line.h"
-#include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/output.h"
 #include "compile/compile.h"
@@ -32,21 +31,29 @@
 #include "yaml/document.h"
 
 namespace cbc::cli {
+namespace {
+
+struct LintCommand {
+  std::vector<std::string> paths;
+  std::vector<std::string> scripts;
+  std::string format = "text";
+  SeverityOptions severities;
+  std::string stdin_filename;
+  std::uint64_t max_nodes = LintOptions{}.max_nodes;
+  std::string explain;
+  bool list_rules = false;
+  bool summary = false;
+  bool fix = false;
+  bool diff = false;  ///< what --fix would change, instead of changing it
+};
 
 /// Lints the files of a command line, with the settings that apply to each. Messages about
 /// unreadable files go to standard error.
 class Linter {
  public:
-  struct Options {
-    LintOptions lint;
-    SeveritySettings settings;   ///< of the command line; they override those of files
-    std::string stdin_filename;  ///< for "-"
-    bool is_to_fix = false;
-    bool is_to_show_fixes = false;  ///< as a diff, instead of writing the files
-    bool is_to_summarize = false;   ///< also compiled catalogs
-    bool has_scripts = false;       ///< which may use a compiled catalog
-  };
-  explicit Linter(Options options);
+  /// `settings` are those of the command line, which override those of files.
+  Linter(const LintCommand& command, SeveritySettings settings)
+      : command_(command), settings_(std::move(settings)) {}
 
   /// A catalog, or an event script that names its catalog.
   void lint_catalog(const std::string& path);
@@ -88,8 +95,9 @@ class Linter {
   void take_compiled(const CatalogInput& input);
   void add(LintedFile file, const SeveritySettings& settings);
   [[nodiscard]] std::string name_of(const std::string& path) const;
+  [[nodiscard]] bool is_to_fix() const { return command_.fix || command_.diff; }
 
-  const Options options_;
+  const LintCommand& command_;
   std::vector<LintedFile> files_;
   InputFiles unlinted_{InputFiles::Findings::dropped};
   CatalogLoader catalogs_{unlinted_};  ///< those that were linted, and others that scripts use
@@ -101,15 +109,9 @@ class Linter {
   bool has_mended_ = false;
 };
 
-namespace {
-
 void complain_of_catalog(const std::string& name) {
-  complain(fmt::format("{} is a catalog; expected an event script", quote(name)));
+  complain("{} is a catalog; expected an event script", quote(name));
 }
-
-}  // namespace
-
-Linter::Linter(Options options) : options_(std::move(options)), settings_(options_.settings) {}
 
 void Linter::lint_catalog(const std::string& path) {
   std::optional<CatalogInput> input = read_catalog_input(path);
@@ -125,11 +127,8 @@ void Linter::lint_catalog(const std::string& path) {
 
 bool Linter::lint_if_catalog(const std::string& path) {
   std::optional<CatalogInput> input = read_catalog_input(path);
-  if (!input) {
-    has_failed_ = true;
-    return false;
-  }
-  if (input->is_compiled || !looks_like_catalog(input->content)) return false;
+  has_failed_ |= !input;
+  if (!input || input->is_compiled || !looks_like_catalog(input->content)) return false;
   lint_catalog_text(path, std::move(input->content));
   return true;
 }
@@ -137,9 +136,9 @@ bool Linter::lint_if_catalog(const std::string& path) {
 /// A compiled catalog has no text to lint.
 void Linter::take_compiled(const CatalogInput& input) {
   std::optional<CompiledFile> file;
-  if (options_.is_to_fix || !(options_.is_to_summarize || options_.has_scripts)) {
-    complain(fmt::format("{} is a compiled catalog; expected YAML (--summary takes either)",
-                         quote(name_of(input.path))));
+  if (is_to_fix() || (!command_.summary && command_.scripts.empty())) {
+    complain("{} is a compiled catalog; expected YAML (--summary takes either)",
+             quote(name_of(input.path)));
   } else {
     file = load(input);
   }
@@ -150,7 +149,7 @@ void Linter::take_compiled(const CatalogInput& input) {
   }
   const auto catalog = std::make_shared<const CompiledCatalog>(std::move(file->catalog));
   catalogs_.keep(input.path, catalog);
-  if (options_.is_to_summarize) {
+  if (command_.summary) {
     files_.push_back({name_of(input.path), {}, {}, summarize(*catalog), false});
   }
 }
@@ -167,7 +166,7 @@ void Linter::lint_catalog_text(const std::string& path, std::string text) {
     lint_script_text(path, std::move(linted.file.text), "");
     return;
   }
-  if (options_.is_to_fix) fix(path, linted, *settings);
+  if (is_to_fix()) fix(path, linted, *settings);
   catalogs_.keep(path, linted.compiled);
   add(std::move(linted.file), *settings);
 }
@@ -183,7 +182,7 @@ Linter::Linted Linter::lint_text(const std::string& name, std::string text,
   if (document != nullptr) {
     linted.is_script = is_script(*document);
     if (linted.is_script) return linted;
-    LintResult result = cbc::lint_catalog(*document, options_.lint, diagnostics);
+    LintResult result = cbc::lint_catalog(*document, LintOptions{command_.max_nodes}, diagnostics);
     commented.document = document.get();
     commented.is_complete = result.compiled.has_value();
     if (result.compiled) {
@@ -213,21 +212,21 @@ void Linter::fix(const std::string& path, Linted& linted, const SeveritySettings
   if (mended == 0) return;
   if (!same_meaning(linted.catalog, fixed.catalog) || fixed.errors > linted.errors) {
     complain(
-        fmt::format("internal error: fixing {} would change its meaning, so nothing is "
-                    "written; please report it with the file",
-                    quote(linted.file.file)));
+        "internal error: fixing {} would change its meaning, so nothing is "
+        "written; please report it with the file",
+        quote(linted.file.file));
     has_internal_error_ = true;
     return;
   }
-  if (options_.is_to_show_fixes) {
+  if (command_.diff) {
     diff_ += unified_diff(linted.file.text, fixed.file.text, linted.file.file);
   } else if (!write_fixed(path, linted.file.text, fixed.file.text)) {
     has_failed_ = true;
     return;
   } else {
     has_mended_ = true;
-    complain(fmt::format("{}: {} {} fixed", printable(linted.file.file), mended,
-                         mended == 1 ? "finding" : "findings"));
+    complain("{}: {} {} fixed", printable(linted.file.file), mended,
+             mended == 1 ? "finding" : "findings");
   }
   linted = std::move(fixed);
 }
@@ -237,7 +236,7 @@ bool Linter::write_fixed(const std::string& path, const std::string& before,
   const std::optional<std::string> now = read_input(path);
   if (!now) return false;
   if (*now != before) {
-    complain(fmt::format("{} has changed in the meantime; it is not overwritten", quote(path)));
+    complain("{} has changed in the meantime; it is not overwritten", quote(path));
     return false;
   }
   return write_output(path, after) == exit_ok;
@@ -293,9 +292,9 @@ std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& 
       given.empty() ? path_of_catalog(script.file(), script).value_or("") : given;
   if (catalog.empty()) {
     complain(
-        fmt::format("{} is an event script that names no catalog; give one: "
-                    "cbc lint --script {} CATALOG",
-                    quote(script.file()), printable(script.file())));
+        "{} is an event script that names no catalog; give one: "
+        "cbc lint --script {} CATALOG",
+        quote(script.file()), printable(script.file()));
     has_failed_ = true;
     return nullptr;
   }
@@ -303,9 +302,9 @@ std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& 
   std::shared_ptr<const CompiledCatalog> compiled = catalogs_.load(catalog);
   if (compiled == nullptr) {
     complain(
-        fmt::format("script {} is not checked, as its catalog {} cannot be used; "
-                    "'cbc lint' says why",
-                    quote(script.file()), quote(catalog)));
+        "script {} is not checked, as its catalog {} cannot be used; "
+        "'cbc lint' says why",
+        quote(script.file()), quote(catalog));
     // If it was linted, its errors are findings.
     if (!is_linted) has_failed_ = true;
   }
@@ -319,11 +318,9 @@ void Linter::add(LintedFile file, const SeveritySettings& settings) {
 }
 
 std::string Linter::name_of(const std::string& path) const {
-  return path == "-" && !options_.stdin_filename.empty() ? options_.stdin_filename
+  return path == "-" && !command_.stdin_filename.empty() ? command_.stdin_filename
                                                          : display_name(path);
 }
-
-namespace {
 
 constexpr const char* lint_examples =
     "  cbc lint robot.yaml                       every mistake, with place and reason\n"
@@ -347,28 +344,14 @@ constexpr const char* lint_footer =
     "\n"
     "Read more: man cbc-lint, man cbc-rules (every rule, with examples)";
 
-struct LintCommand {
-  std::vector<std::string> paths;
-  std::vector<std::string> scripts;
-  std::string format = "text";
-  SeverityOptions severities;
-  std::string stdin_filename;
-  std::uint64_t max_nodes = LintOptions{}.max_nodes;
-  std::string explain;
-  bool list_rules = false;
-  bool summary = false;
-  bool fix = false;
-  bool diff = false;
-};
-
 int explain_rule(const std::string& name) {
   const Rule* rule = find_rule(name);
   if (rule == nullptr) {
     std::vector<std::string_view> names;
     for (const Rule& known : all_rules()) names.push_back(known.name);
     const std::string meant = did_you_mean(nearest(name, names));
-    return usage_error("lint", fmt::format("there is no rule {}{}", quote(name),
-                                           meant.empty() ? " (--list-rules lists them)" : meant));
+    return usage_error("lint", "there is no rule {}{}", quote(name),
+                       meant.empty() ? " (--list-rules lists them)" : meant);
   }
   fmt::print("{}", rule_text(*rule, style_for(stdout)));
   return exit_ok;
@@ -450,39 +433,13 @@ bool lint_all(const LintCommand& command, Linter& linter) {
   progress.clear();
   for (const std::string& path : command.paths) {
     if (!is_folder(path) || folders_with_catalogs.contains(path)) continue;
-    complain(fmt::format("found no catalog in {}{}", quote(path),
-                         folders_with_files.contains(path)
-                             ? "; to check an event script, name the file itself"
-                             : ""));
+    complain("found no catalog in {}{}", quote(path),
+             folders_with_files.contains(path) ? "; to check an event script, name the file itself"
+                                               : "");
     has_failed = true;
   }
   return !has_failed;
 }
-
-/// What a report depends on besides the files.
-struct LintRun {
-  std::string working_directory;  ///< absolute
-  bool is_complete = true;        ///< whether all files could be read
-  Style style = plain_style();    ///< of text for people
-};
-
-/// A format of reports.
-struct LintFormat {
-  std::string_view name;
-  std::string (*write)(const std::vector<LintedFile>& files, const LintRun& run);
-};
-
-/// The first one is the default.
-constexpr std::array<LintFormat, 5> lint_formats = {{
-    {"text", [](const auto& files, const LintRun& run) { return lint_text(files, run.style); }},
-    {"json", [](const auto& files, const LintRun& /*run*/) { return lint_json(files); }},
-    {"sarif",
-     [](const auto& files, const LintRun& run) {
-       return lint_sarif(files, run.working_directory, run.is_complete);
-     }},
-    {"github", [](const auto& files, const LintRun& /*run*/) { return lint_github(files); }},
-    {"gcc", [](const auto& files, const LintRun& /*run*/) { return lint_gcc(files); }},
-}};
 
 void print_report(const LintCommand& command, const Linter& linter, bool is_complete) {
   if (command.diff) {
@@ -496,10 +453,7 @@ void print_report(const LintCommand& command, const Linter& linter, bool is_comp
       if (!file.is_script) fmt::print("{}", lint_summary(file, run.style));
     }
   }
-  const auto* const format =
-      std::find_if(lint_formats.begin(), lint_formats.end(),
-                   [&](const LintFormat& known) { return known.name == command.format; });
-  fmt::print("{}", format->write(linter.files(), run));
+  fmt::print("{}", find_named(lint_formats(), command.format)->write(linter.files(), run));
 }
 
 bool has_faults(const std::vector<LintedFile>& files) {
@@ -518,18 +472,11 @@ int lint(const LintCommand& command) {
     return usage_error("lint", misuse);
   }
 
-  Linter::Options options;
-  options.lint.max_nodes = command.max_nodes;
-  options.stdin_filename = command.stdin_filename;
-  options.is_to_fix = command.fix || command.diff;
-  options.is_to_show_fixes = command.diff;
-  options.is_to_summarize = command.summary;
-  options.has_scripts = !command.scripts.empty();
   std::vector<std::string> errors;
-  options.settings = settings_of_options(command.severities, errors);
-  if (!errors.empty()) return usage_error("lint", fmt::format("{}", fmt::join(errors, "\ncbc: ")));
+  SeveritySettings settings = settings_of_options(command.severities, errors);
+  if (!errors.empty()) return usage_error("lint", join(errors, "\ncbc: "));
 
-  Linter linter(std::move(options));
+  Linter linter(command, std::move(settings));
   const bool has_all = lint_all(command, linter);
   if (!linter.files().empty()) print_report(command, linter, has_all && !linter.has_failed());
   if (command.fix && !command.diff && !linter.has_mended() && has_faults(linter.files())) {
@@ -543,8 +490,7 @@ int lint(const LintCommand& command) {
 }  // namespace
 
 void add_lint_command(Program& program) {
-  std::vector<std::string> formats;
-  for (const LintFormat& format : lint_formats) formats.emplace_back(format.name);
+  const std::vector<std::string> formats = names_in(lint_formats());
   const auto options = std::make_shared<LintCommand>();
   Command& command =
       program.add_command("lint", "Finds every mistake in catalogs, with its place and its reason.",
@@ -559,7 +505,7 @@ void add_lint_command(Program& program) {
   command.option("--script", options->scripts, input("FILE", ValueKind::script),
                  "Also check this event script against the catalog. May be repeated");
   command.option("--format", options->format, one_of("FORMAT", formats),
-                 "text (the default), json, sarif, github, or gcc");
+                 fmt::format("{} (default: {})", join_with_or(formats), formats.front()));
   command
       .flag("--summary", options->summary,
             "Show figures for each catalog: tasks, behaviors, constraints, groups, search space; "

@@ -11,7 +11,6 @@
 
 #include "cbc/version.h"
 #include "cli/command_line.h"
-#include "cli/commands.h"
 #include "cli/output.h"
 
 namespace {

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <fcntl.h>
 #include <initializer_list>
+#include <poll.h>
 #include <string_view>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
@@ -16,22 +18,22 @@
 #include <unistd.h>
 #include <utility>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "support/system.h"
 
 namespace cbc::cli {
 
-void complain(const std::string& message) {
+int complain(const std::string& message) {
   const std::string line = "cbc: " + message + "\n";
   // If it cannot be written, the exit status still tells; a stream goes on.
   static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
+  return exit_unusable;
 }
 
 int usage_error(std::string_view command, const std::string& message) {
-  complain(fmt::format("{}\nSee 'cbc{}{} --help'.", message, command.empty() ? "" : " ", command));
-  return exit_unusable;
+  return complain("{}\nSee 'cbc{}{} --help'.", message, command.empty() ? "" : " ", command);
 }
 
 bool is_terminal(std::FILE* stream) {
@@ -156,6 +158,26 @@ bool StopSignals::have_come() const { return stop != 0; }
 
 int StopSignals::descriptor() const { return ends[0]; }
 
+LineOutput::LineOutput() { std::signal(SIGPIPE, SIG_IGN); }
+
+LineOutput::~LineOutput() { std::signal(SIGPIPE, SIG_DFL); }
+
+void LineOutput::write(std::string_view line) {
+  while (!line.empty() && !has_failed_) {
+    const ssize_t count = ::write(STDOUT_FILENO, line.data(), line.size());
+    if (count >= 0) {
+      line.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EAGAIN) {
+      // Another process that shares the pipe may have made it non-blocking.
+      pollfd reader{STDOUT_FILENO, POLLOUT, 0};
+      static_cast<void>(::poll(&reader, 1, -1));
+    } else if (errno != EINTR) {
+      has_failed_ = true;
+      complain("cannot write the output: {}", std::strerror(errno));
+    }
+  }
+}
+
 void hold_standard_descriptors() {
   // In this order, as an opened file takes the lowest free descriptor.
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -172,8 +194,7 @@ int write_output(const std::string& path, std::string_view content) {
     return exit_ok;
   }
   if (const auto error = write_atomically(path, content)) {
-    complain(fmt::format("cannot write {}: {}", quote(path), *error));
-    return exit_unusable;
+    return complain("cannot write {}: {}", quote(path), *error);
   }
   return exit_ok;
 }

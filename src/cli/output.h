@@ -5,6 +5,9 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include <fmt/core.h>
 
 #include "coordinator/coordinator.h"
 #include "diagnostic/diagnostic.h"
@@ -20,12 +23,21 @@ enum ExitStatus : int {
   exit_internal = 3   ///< a fault of cbc
 };
 
-/// Prints a message to standard error.
-void complain(const std::string& message);
+/// Prints a message to standard error. Returns exit_unusable, which most messages lead to.
+int complain(const std::string& message);
+template <typename... Arguments>
+int complain(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  return complain(fmt::format(format, std::forward<Arguments>(arguments)...));
+}
 
 /// The same for a wrong command line, with a pointer to the help of the command, or of the program
-/// if the name is empty. Returns the exit status.
+/// if the name is empty.
 int usage_error(std::string_view command, const std::string& message);
+template <typename... Arguments>
+int usage_error(std::string_view command, fmt::format_string<Arguments...> format,
+                Arguments&&... arguments) {
+  return usage_error(command, fmt::format(format, std::forward<Arguments>(arguments)...));
+}
 
 /// Whether a stream is a terminal that understands escape sequences.
 [[nodiscard]] bool is_terminal(std::FILE* stream);
@@ -83,6 +95,23 @@ class StopSignals {
   [[nodiscard]] bool have_come() const;
   /// A descriptor for poll, which is readable once a signal has come.
   [[nodiscard]] int descriptor() const;
+};
+
+/// Writes lines to standard output, each immediately and as a whole. While this object lives, a
+/// closed pipe is an ordinary error.
+class LineOutput {
+ public:
+  LineOutput();
+  ~LineOutput();
+  LineOutput(const LineOutput&) = delete;
+  LineOutput& operator=(const LineOutput&) = delete;
+
+  /// Does nothing after an error, which is reported once.
+  void write(std::string_view line);
+  [[nodiscard]] bool has_failed() const { return has_failed_; }
+
+ private:
+  bool has_failed_ = false;
 };
 
 /// If the program was started with a closed standard stream, keeps the next opened file from taking

@@ -7,58 +7,61 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "cli/command_line.h"
-#include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/output.h"
 #include "diagnostic/diagnostic.h"
 #include "schema_files.h"
 #include "support/wording.h"
+#include "yaml/document.h"
+#include "yaml/json_value.h"
 
 namespace cbc::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+std::string member_of(const Schema& schema, std::string_view name) {
+  yaml::JsonReader reader;
+  return yaml::JsonValue(*reader.read(schema.text))[name].text();
+}
 
-std::string id_of(const Json& schema) { return schema.at("$id").get<std::string>(); }
+std::string id_of(const Schema& schema) { return member_of(schema, "$id"); }
 
-/// Adds all schemas to `definitions`, by their ids, that a part of a schema refers to, directly or
-/// through others.
-void add_referenced(const Json& part, const std::string& own_id, Json& definitions) {
-  if (part.is_object() && part.contains("$ref")) {
-    const auto reference = part["$ref"].get<std::string>();
-    const std::string id = reference.substr(0, reference.find('#'));
-    if (!id.empty() && id != own_id && !definitions.contains(id)) {
-      for (const Schema& schema : schema_files) {
-        const Json other = Json::parse(schema.text);
-        if (id_of(other) != id) continue;
-        definitions[id] = other;
-        add_referenced(other, own_id, definitions);
+/// A line that says what the schema describes.
+std::string title_of(const Schema& schema) { return member_of(schema, "title"); }
+
+/// The other schemas that this one refers to, directly or through others.
+std::vector<const Schema*> referenced_by(const Schema& schema) {
+  std::vector<const Schema*> found = {&schema};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (const Schema& other : schema_files) {
+      const std::string reference = "\"$ref\": \"" + id_of(other);
+      if (found[i]->text.find(reference) != std::string_view::npos &&
+          std::find(found.begin(), found.end(), &other) == found.end()) {
+        found.push_back(&other);
       }
     }
   }
-  for (const Json& member : part) {
-    if (member.is_structured()) add_referenced(member, own_id, definitions);
-  }
+  found.erase(found.begin());
+  return found;
 }
 
-/// A line that says what the schema describes.
-std::string title_of(const Schema& schema) {
-  return Json::parse(schema.text).at("title").get<std::string>();
-}
-
-/// The text of a schema, including the schemas that it refers to.
+/// The text of a schema, including the schemas that it refers to: they become the first of its
+/// "$defs", by their ids.
 std::string standalone(const Schema& schema) {
-  Json root = Json::parse(schema.text);
-  Json definitions = Json::object();
-  add_referenced(root, id_of(root), definitions);
-  if (definitions.empty()) return std::string(schema.text);
-  root["$defs"].update(definitions);
-  return root.dump(2) + "\n";
+  constexpr std::string_view definitions = "\n  \"$defs\": {";
+  std::string text(schema.text);
+  for (const Schema* other : referenced_by(schema)) {
+    std::string definition = fmt::format("\n\"{}\": {}", id_of(*other), other->text);
+    definition.back() = ',';  // in place of the last line end
+    for (std::size_t at = 0; (at = definition.find('\n', at)) != std::string::npos; ++at) {
+      definition.insert(at + 1, "    ");
+    }
+    text.insert(text.find(definitions) + definitions.size(), definition);
+  }
+  return text;
 }
 
 constexpr const char* schema_examples =
@@ -96,8 +99,8 @@ int print_schema(const std::string& name) {
     names.push_back(schema.name);
   }
   const std::string meant = did_you_mean(nearest(name, names));
-  return usage_error("schema", fmt::format("there is no schema {}{}", quote(name),
-                                           meant.empty() ? " ('cbc schema' lists them)" : meant));
+  return usage_error("schema", "there is no schema {}{}", quote(name),
+                     meant.empty() ? " ('cbc schema' lists them)" : meant);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -121,19 +120,6 @@ class MissionLoader {
 
 /// Runs scripts, and reports them in one of the formats for whole runs. Returns the exit status.
 [[nodiscard]] int solve_missions(const SolveOptions& options);
-
-/// Runs a mission, and reports it from begin to end. May be called on several threads at once, with
-/// a report for each.
-using RunMission = std::function<RunResult(const Mission& mission, SolveReport& report)>;
-
-/// Called after each run that was reported.
-using AfterRun = std::function<void(const Mission& mission, const RunResult& result)>;
-
-/// Runs all missions, up to `jobs` at once if the report supports it. The report and `after_run`
-/// see the missions in order, so the result does not depend on `jobs`. A terminal shows the
-/// progress.
-void run_all(const std::vector<Mission>& missions, std::size_t jobs, SolveReport& report,
-             const RunMission& run, const AfterRun& after_run);
 
 /// Runs one script, or events from standard input, and writes each event as a line. The paths are
 /// a catalog and a script, "-" for a stream; or a script that names its catalog. Returns the exit

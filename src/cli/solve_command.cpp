@@ -7,11 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "cli/command_line.h"
-#include "cli/commands.h"
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/solve.h"
@@ -73,8 +72,8 @@ std::size_t thread_count(const SolveOptions& options) {
 bool knows_names(const CompiledCatalog& catalog, const ExplainOptions& options) {
   for (const std::string& name : options.why) {
     if (catalog.find_task(name) || catalog.find_behavior(name)) continue;
-    complain(fmt::format("--why: catalog {} has no task or behavior {}{}", quote(catalog.file),
-                         quote(name), suggest(catalog, name)));
+    complain("--why: catalog {} has no task or behavior {}{}", quote(catalog.file), quote(name),
+             suggest(catalog, name));
     return false;
   }
   return true;
@@ -137,6 +136,8 @@ int solve(const SolveOptions& options) {
 void add_solve_command(Program& program) {
   constexpr std::uint32_t most_alternatives = 1000;
   const auto options = std::make_shared<SolveOptions>();
+  std::vector<std::string> formats = names_in(solve_formats());
+  formats.emplace_back("jsonl");
   Command& command = program.add_command(
       "solve", "Runs event scripts on a catalog and computes proven best answers.",
       {{"[OPTION...] [CATALOG] SCRIPT...", "--format jsonl [OPTION...] CATALOG SCRIPT|-",
@@ -147,11 +148,11 @@ void add_solve_command(Program& program) {
   command.argument("CATALOG SCRIPT", options->paths, input("...", ValueKind::catalog_or_script),
                    "The catalog (YAML or compiled), then event scripts: files, folders, or - for "
                    "standard input. Without a catalog each script names its own (catalog: FILE).");
-  command.option("--format", options->format,
-                 one_of("FORMAT", {"text", "json", "junit", "github", "jsonl"}),
-                 "text (the default), json, junit, github; or jsonl: each event as a line, as "
-                 "soon as it is solved; - is then a stream of events, one per line (JSON, or a "
-                 "mapping in braces)");
+  command.option("--format", options->format, one_of("FORMAT", formats),
+                 fmt::format("{} (default: {}); jsonl writes each event as a line, as soon as it "
+                             "is solved, and takes - for a stream of events, one per line (JSON, "
+                             "or a mapping in braces)",
+                             join_with_or(formats), formats.front()));
   command
       .option("--html", options->html, further_output("FILE"),
               "Also write an HTML page with a timeline of all runs to FILE, to step through in a "

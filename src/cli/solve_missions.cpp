@@ -2,15 +2,15 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "cli/input.h"
@@ -22,6 +22,7 @@
 #include "script/runner.h"
 
 namespace cbc::cli {
+
 std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::string>& paths) {
   std::size_t first_script = 0;
   if (!is_folder(paths.front())) {
@@ -77,8 +78,8 @@ void MissionLoader::add_folder(const std::string& path) {
 }
 
 void MissionLoader::complain_of_catalog(const std::string& path) {
-  complain(fmt::format("{} is a catalog; expected a script here (a catalog goes first)",
-                       quote(display_name(path))));
+  complain("{} is a catalog; expected a script here (a catalog goes first)",
+           quote(display_name(path)));
   has_failed_ = true;
 }
 
@@ -106,8 +107,7 @@ std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_of(const std::stri
   if (given_catalog_ != nullptr || is_given_catalog_bad_) return given_catalog_;
   const std::optional<std::string> named = path_of_catalog(script_path, script);
   if (!named) {
-    complain(fmt::format("script {} names no catalog, and none is given",
-                         quote(display_name(script_path))));
+    complain("script {} names no catalog, and none is given", quote(display_name(script_path)));
     return nullptr;
   }
   return catalogs_.load(*named);
@@ -116,6 +116,13 @@ std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_of(const std::stri
 namespace {
 
 constexpr const char* doing = "solving";
+
+/// Runs a mission, and reports it from begin to end. May be called on several threads at once, with
+/// a report for each.
+using RunMission = std::function<RunResult(const Mission& mission, SolveReport& report)>;
+
+/// Called after each run that was reported.
+using AfterRun = std::function<void(const Mission& mission, const RunResult& result)>;
 
 /// Forwards everything, and shows the progress of a run.
 class ProgressReport final : public SolveReport {
@@ -189,8 +196,9 @@ void run_at_once(const std::vector<Mission>& missions, std::size_t jobs, SolveRe
   }
 }
 
-}  // namespace
-
+/// Runs all missions, up to `jobs` at once if the report supports it. The report and `after_run`
+/// see the missions in order, so the result does not depend on `jobs`. A terminal shows the
+/// progress.
 void run_all(const std::vector<Mission>& missions, std::size_t jobs, SolveReport& report,
              const RunMission& run, const AfterRun& after_run) {
   const std::size_t threads = std::min(jobs, missions.size());
@@ -201,8 +209,6 @@ void run_all(const std::vector<Mission>& missions, std::size_t jobs, SolveReport
   }
   report.end();
 }
-
-namespace {
 
 /// Reports on standard error why a run ended early.
 void complain_of_run(const Mission& mission, const RunResult& result, const std::string& reason) {
@@ -243,13 +249,6 @@ int draw_missions(const std::vector<Mission>& missions, const SolveOptions& opti
   return std::max(status, write_output(*options.html, picture.page()));
 }
 
-const SolveFormat& format_of(const SolveOptions& options) {
-  const std::span<const SolveFormat> formats = solve_formats();
-  return *std::find_if(formats.begin(), formats.end(), [&options](const SolveFormat& format) {
-    return format.name == options.format;
-  });
-}
-
 /// Whether all catalogs have the names in the options.
 bool know_names(const std::vector<Mission>& missions, const ExplainOptions& options) {
   return std::all_of(missions.begin(), missions.end(), [&](const Mission& mission) {
@@ -269,7 +268,7 @@ bool is_read(const std::string& path, const std::vector<Mission>& missions) {
 }  // namespace
 
 int solve_missions(const SolveOptions& options) {
-  const SolveFormat& format = format_of(options);
+  const SolveFormat& format = *find_named(solve_formats(), options.format);
   MissionLoader loader;
   const std::optional<std::vector<Mission>> missions = loader.load(options.paths);
   if (!missions) {
@@ -279,13 +278,11 @@ int solve_missions(const SolveOptions& options) {
   }
   if (!know_names(*missions, options.explain)) return exit_unusable;
   if (options.html && is_read(*options.html, *missions)) {
-    complain(fmt::format("the output {} is a script of a folder, or a catalog that a script names",
-                         quote(*options.html)));
-    return exit_unusable;
+    return complain("the output {} is a script of a folder, or a catalog that a script names",
+                    quote(*options.html));
   }
-  const Style style = wants_color(stdout) ? color_style() : plain_style();
   const std::unique_ptr<SolveReport> report =
-      format.make({stdout, style, event_additions(options)});
+      format.make({stdout, style_for(stdout), event_additions(options)});
   return options.html ? draw_missions(*missions, options, *report)
                       : run_missions(*missions, options, *report);
 }

@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -9,13 +7,12 @@
 #include <fcntl.h>
 #include <memory>
 #include <optional>
-#include <poll.h>
 #include <string>
 #include <string_view>
 #include <unistd.h>
 #include <utility>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "cli/input.h"
@@ -33,138 +30,13 @@
 namespace cbc::cli {
 namespace {
 
-/// Reads a file, a pipe or a terminal line by line, as soon as a line is complete.
-class LineInput {
- public:
-  enum class Status : std::uint8_t {
-    line,      ///< see line() and number()
-    too_long,  ///< a line was skipped because it is too long; see number()
-    end,
-    stopped,  ///< a signal has come
-    failed    ///< see error()
-  };
-
-  /// `descriptor` is not closed. `stop`: a descriptor that becomes readable when it is time to
-  /// stop, or -1.
-  LineInput(int descriptor, int stop, std::size_t longest_line)
-      : descriptor_(descriptor), stop_(stop), longest_line_(longest_line) {}
-
-  [[nodiscard]] Status next();
-  /// Without its end; valid until the next call.
-  [[nodiscard]] std::string_view line() const { return line_; }
-  /// Counts lines from 1.
-  [[nodiscard]] std::uint64_t number() const { return number_; }
-  [[nodiscard]] const std::string& error() const { return error_; }
-
- private:
-  [[nodiscard]] Status fill();
-
-  int descriptor_;
-  int stop_;
-  std::size_t longest_line_;
-  std::string buffer_;
-  std::size_t begin_ = 0;    ///< of the next line
-  std::size_t scanned_ = 0;  ///< there is no line end before this
-  bool has_ended_ = false;
-  bool skips_ = false;  ///< in a line that is too long
-  std::string_view line_;
-  std::uint64_t number_ = 0;
-  std::string error_;
-};
-
-constexpr std::size_t block_size = std::size_t{1} << 16;
-
-LineInput::Status LineInput::next() {
-  for (;;) {
-    const std::size_t end = buffer_.find('\n', scanned_);
-    const bool is_last = end == std::string::npos && has_ended_;
-    if (is_last && begin_ == buffer_.size() && !skips_) return Status::end;
-    if (end != std::string::npos || is_last) {
-      line_ = std::string_view(buffer_).substr(begin_, std::min(end, buffer_.size()) - begin_);
-      begin_ = scanned_ = is_last ? buffer_.size() : end + 1;
-      ++number_;
-      const bool is_too_long = skips_ || line_.size() > longest_line_;
-      skips_ = false;
-      return is_too_long ? Status::too_long : Status::line;
-    }
-    scanned_ = buffer_.size();
-    if (skips_ || scanned_ - begin_ > longest_line_) {
-      skips_ = true;
-      begin_ = scanned_;
-    }
-    if (const Status status = fill(); status != Status::line) return status;
-  }
-}
-
-/// Reads more input. Returns `line` if there may be one now.
-LineInput::Status LineInput::fill() {
-  buffer_.erase(0, begin_);
-  scanned_ -= begin_;
-  begin_ = 0;
-  for (;;) {
-    std::array<pollfd, 2> waiting{{{descriptor_, POLLIN, 0}, {stop_, POLLIN, 0}}};
-    if (::poll(waiting.data(), waiting.size(), -1) < 0 && errno == EINTR) continue;
-    if (waiting[1].revents != 0) return Status::stopped;
-    const std::size_t size = buffer_.size();
-    buffer_.resize(size + block_size);
-    const ssize_t count = ::read(descriptor_, buffer_.data() + size, block_size);
-    buffer_.resize(size + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-    if (count > 0) return Status::line;
-    if (count == 0) {
-      has_ended_ = true;
-      return Status::line;
-    }
-    if (errno == EINTR || errno == EAGAIN) continue;
-    error_ = std::strerror(errno);
-    return Status::failed;
-  }
-}
-
-/// Writes lines to standard output, each immediately and as a whole. While this object lives, a
-/// closed pipe is an ordinary error.
-class LineOutput {
- public:
-  LineOutput();
-  ~LineOutput();
-  LineOutput(const LineOutput&) = delete;
-  LineOutput& operator=(const LineOutput&) = delete;
-
-  /// Does nothing after an error, which is reported once.
-  void write(std::string_view line);
-  [[nodiscard]] bool has_failed() const { return has_failed_; }
-
- private:
-  bool has_failed_ = false;
-};
-
-LineOutput::LineOutput() { std::signal(SIGPIPE, SIG_IGN); }
-
-LineOutput::~LineOutput() { std::signal(SIGPIPE, SIG_DFL); }
-
-void LineOutput::write(std::string_view line) {
-  while (!line.empty() && !has_failed_) {
-    const ssize_t count = ::write(STDOUT_FILENO, line.data(), line.size());
-    if (count >= 0) {
-      line.remove_prefix(static_cast<std::size_t>(count));
-    } else if (errno == EAGAIN) {
-      // Another process that shares the pipe may have made it non-blocking.
-      pollfd reader{STDOUT_FILENO, POLLOUT, 0};
-      static_cast<void>(::poll(&reader, 1, -1));
-    } else if (errno != EINTR) {
-      has_failed_ = true;
-      complain(fmt::format("cannot write the output: {}", std::strerror(errno)));
-    }
-  }
-}
-
 // The beginning and the end of streams and replays. Problems go to standard error.
 
-/// Whether the files of the options can be used together, and the state can be written.
-bool can_use_files(const SolveOptions& options) {
-  const StreamOptions& stream = options.stream;
-  if (!stream.state_out) return true;
-  const auto obstacle = find_obstacle(*stream.state_out);
-  if (obstacle) complain(fmt::format("cannot write {}: {}", quote(*stream.state_out), *obstacle));
+/// Whether the file of --state-out, if the option is given, can be written.
+bool can_save_state(const StreamOptions& options) {
+  if (!options.state_out) return true;
+  const auto obstacle = find_obstacle(*options.state_out);
+  if (obstacle) complain("cannot write {}: {}", quote(*options.state_out), *obstacle);
   return !obstacle;
 }
 
@@ -176,8 +48,7 @@ bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
   if (!text) return false;
   StateReading reading = read_state(*text, catalog);
   if (!reading.snapshot) {
-    complain(fmt::format("cannot use the state {}: {}", quote(display_name(*options.state_in)),
-                         reading.error));
+    complain("cannot use the state {}: {}", quote(display_name(*options.state_in)), reading.error);
     return false;
   }
   state = std::move(reading.snapshot);
@@ -308,7 +179,7 @@ class Stream {
   }
 
   void complain_of_line(std::uint64_t number, const std::string& message) const {
-    complain(fmt::format("{}:{}: {}", printable(script_), number, message));
+    complain("{}:{}: {}", printable(script_), number, message);
   }
 
   const CompiledCatalog& catalog_;
@@ -330,7 +201,7 @@ std::optional<Script> load_script(const std::string& path, const CompiledCatalog
   std::optional<Script> script;
   const std::optional<InputFile> file = files.read(path);
   if (file && file->document == nullptr) {
-    complain(fmt::format("{} is a catalog; expected a script here", quote(display_name(path))));
+    complain("{} is a catalog; expected a script here", quote(display_name(path)));
   } else if (file) {
     Diagnostics diagnostics;
     script = read_script(*file->document, catalog, Severity::warning, diagnostics,
@@ -348,9 +219,8 @@ int run_script_of(const Script& script, const CompiledCatalog& catalog, const So
   CoordinatorOptions coordinator = coordinator_options(options, catalog);
   coordinator.reactive_delay = state ? state->reactive_delay : script.reactive_delay;
   if (state && !script.situation.empty()) {
-    complain(fmt::format("script {} has a situation to begin with, but --state-in has one already",
-                         quote(script.file)));
-    return exit_unusable;
+    return complain("script {} has a situation to begin with, but --state-in has one already",
+                    quote(script.file));
   }
   Stream stream(catalog, options, coordinator, state, script.file);
   stream.run(script);
@@ -360,14 +230,12 @@ int run_script_of(const Script& script, const CompiledCatalog& catalog, const So
 /// A script that names its catalog.
 int solve_mission(const SolveOptions& options) {
   if (options.stream.state_in) {
-    complain("--state-in needs a catalog and a script: cbc solve CATALOG SCRIPT");
-    return exit_unusable;
+    return complain("--state-in needs a catalog and a script: cbc solve CATALOG SCRIPT");
   }
   const auto missions = MissionLoader().load(options.paths);
   if (!missions) return exit_unusable;
   if (missions->size() != 1) {
-    complain("--format jsonl runs one script at a time");
-    return exit_unusable;
+    return complain("--format jsonl runs one script at a time");
   }
   return run_script_of(missions->front().script, *missions->front().catalog, options, {});
 }
@@ -381,31 +249,6 @@ int run_standard_input(const CompiledCatalog& catalog, const SolveOptions& optio
   stream.run_standard_input();
   return stream.end();
 }
-
-}  // namespace
-
-int solve_stream(const SolveOptions& options) {
-  const std::vector<std::string>& paths = options.paths;
-  if (!can_use_files(options)) return exit_unusable;
-  if (paths.size() > 2) {
-    complain("--format jsonl runs one script at a time: cbc solve CATALOG SCRIPT");
-    return exit_unusable;
-  }
-  const bool is_stream = paths.back() == "-";
-  if (paths.size() == 1) {
-    if (!is_stream) return solve_mission(options);
-    complain("a stream of events needs a catalog: cbc solve CATALOG - --format jsonl");
-    return exit_unusable;
-  }
-  const auto catalog = load_catalog(paths.front());
-  std::optional<Snapshot> state;
-  if (catalog == nullptr || !load_state(options.stream, *catalog, state)) return exit_unusable;
-  if (is_stream) return run_standard_input(*catalog, options, state);
-  const auto script = load_script(paths.back(), *catalog, state);
-  return script ? run_script_of(*script, *catalog, options, state) : exit_unusable;
-}
-
-namespace {
 
 /// Event lines name all running tasks, so they may be long.
 constexpr std::size_t longest_line = std::size_t{64} << 20;
@@ -617,7 +460,7 @@ class Replay {
   [[nodiscard]] bool is_over() const { return status_ != exit_ok || output_.has_failed(); }
 
   int refuse(const std::string& reason) {
-    complain(fmt::format("cannot replay {}: {}", quote(name_), reason));
+    complain("cannot replay {}: {}", quote(name_), reason);
     return status_ = exit_unusable;
   }
 
@@ -644,12 +487,30 @@ class Replay {
 
 }  // namespace
 
+int solve_stream(const SolveOptions& options) {
+  const std::vector<std::string>& paths = options.paths;
+  if (!can_save_state(options.stream)) return exit_unusable;
+  if (paths.size() > 2) {
+    return complain("--format jsonl runs one script at a time: cbc solve CATALOG SCRIPT");
+  }
+  const bool is_stream = paths.back() == "-";
+  if (paths.size() == 1) {
+    if (!is_stream) return solve_mission(options);
+    return complain("a stream of events needs a catalog: cbc solve CATALOG - --format jsonl");
+  }
+  const auto catalog = load_catalog(paths.front());
+  std::optional<Snapshot> state;
+  if (catalog == nullptr || !load_state(options.stream, *catalog, state)) return exit_unusable;
+  if (is_stream) return run_standard_input(*catalog, options, state);
+  const auto script = load_script(paths.back(), *catalog, state);
+  return script ? run_script_of(*script, *catalog, options, state) : exit_unusable;
+}
+
 int replay_stream(const SolveOptions& options) {
   if (options.paths.size() != 1) {
-    complain("--replay needs a log and its catalog: cbc solve --replay LOG CATALOG");
-    return exit_unusable;
+    return complain("--replay needs a log and its catalog: cbc solve --replay LOG CATALOG");
   }
-  if (!can_use_files(options)) return exit_unusable;
+  if (!can_save_state(options.stream)) return exit_unusable;
   const std::string& path = *options.stream.replay;
   const auto catalog = load_catalog(options.paths.front());
   std::optional<Snapshot> state;
@@ -659,8 +520,7 @@ int replay_stream(const SolveOptions& options) {
   }
   const int file = path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {
-    complain(fmt::format("cannot read {}: {}", quote(path), std::strerror(errno)));
-    return exit_unusable;
+    return complain("cannot read {}: {}", quote(path), std::strerror(errno));
   }
   const int status = Replay(file, display_name(path), *catalog, options).run(state);
   if (file != STDIN_FILENO) ::close(file);

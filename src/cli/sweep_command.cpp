@@ -5,7 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "base/text.h"
 #include "cli/command_line.h"
@@ -66,7 +66,7 @@ Values shard_of_sweep() {
 }  // namespace
 
 void add_sweep_options(Command& command, SweepOptions& options) {
-  const std::vector<std::string> formats = {"text", "json"};
+  const std::vector<std::string> formats = names_in(sweep_formats());
   command
       .option("--sweep", options.sequences, whole_number("N", 1, most_sequences),
               "Run N random event sequences on the catalog instead of scripts, and report "
@@ -124,12 +124,12 @@ constexpr std::size_t largest_shard = std::size_t{64} << 20U;
 
 std::shared_ptr<const CompiledCatalog> load_swept(const std::vector<std::string>& paths) {
   if (paths.size() != 1) {
-    complain(fmt::format("a sweep takes one catalog and no script, found {} files", paths.size()));
+    complain("a sweep takes one catalog and no script, found {} files", paths.size());
     return nullptr;
   }
   std::shared_ptr<const CompiledCatalog> catalog = load_catalog(paths.front());
   if (catalog != nullptr && catalog->tasks.empty()) {
-    complain(fmt::format("catalog {} has no tasks to sweep", quote(display_name(paths.front()))));
+    complain("catalog {} has no tasks to sweep", quote(display_name(paths.front())));
     return nullptr;
   }
   return catalog;
@@ -137,8 +137,8 @@ std::shared_ptr<const CompiledCatalog> load_swept(const std::vector<std::string>
 
 int report_failure(const SweepFailure& failure, const SweepSettings& settings) {
   if (failure.status == Coordinator::Status::refused_answer) {
-    complain(fmt::format("sequence {}: the checker rejects an answer of the solver: {}",
-                         failure.sequence, failure.internal_error));
+    complain("sequence {}: the checker rejects an answer of the solver: {}", failure.sequence,
+             failure.internal_error);
     complain(
         "this is a fault of cbc, not of the catalog; please report it with the catalog and "
         "this script:");
@@ -146,9 +146,9 @@ int report_failure(const SweepFailure& failure, const SweepSettings& settings) {
     return exit_internal;
   }
   complain(
-      fmt::format("sequence {}: the clock made more than {} events (--max-clock-events) in "
-                  "this script:",
-                  failure.sequence, settings.search.max_clock_events));
+      "sequence {}: the clock made more than {} events (--max-clock-events) in "
+      "this script:",
+      failure.sequence, settings.search.max_clock_events);
   fmt::print(stderr, "{}", failure.script);
   return exit_unusable;
 }
@@ -157,8 +157,7 @@ int write_slowest(const std::optional<std::string>& path,
                   const std::optional<SlowestEvent>& slowest) {
   if (!path) return exit_ok;
   if (!slowest) {
-    complain(fmt::format("there is no script for {}: no event needed a search", quote(*path)));
-    return exit_unusable;
+    return complain("there is no script for {}: no event needed a search", quote(*path));
   }
   return write_output(*path, slowest->script);
 }
@@ -173,9 +172,8 @@ int report(SweepResult result, const SolveOptions& options) {
     status = std::max(status, write_slowest(of_sweep.slowest_by_time, result.times->slowest));
   }
   if (!options.stats && !of_sweep.merge) result.times.reset();
-  const std::string text =
-      options.format == "json" ? sweep_to_json(result) : sweep_to_text(result, style_for(stdout));
-  fmt::print("{}", text);
+  const SweepFormat& format = *find_named(sweep_formats(), options.format);
+  fmt::print("{}", format.write(result, style_for(stdout)));
   return status;
 }
 
@@ -186,23 +184,19 @@ int merge(const SolveOptions& options) {
     if (!text) return exit_unusable;
     const std::string name = display_name(path);
     if (text->size() > largest_shard) {
-      complain(fmt::format("cannot merge {}: it is larger than {} MiB", quote(name),
-                           largest_shard >> 20U));
-      return exit_unusable;
+      return complain("cannot merge {}: it is larger than {} MiB", quote(name),
+                      largest_shard >> 20U);
     }
     auto shard = sweep_from_json(*text);
     if (const auto* const fault = std::get_if<std::string>(&shard)) {
-      complain(fmt::format("cannot merge {}: {}", quote(name), *fault));
-      return exit_unusable;
+      return complain("cannot merge {}: {}", quote(name), *fault);
     }
     if (const auto error = merger.add(std::get<SweepResult>(std::move(shard)), name)) {
-      complain("cannot merge: " + *error);
-      return exit_unusable;
+      return complain("cannot merge: " + *error);
     }
   }
   if (const auto missing = merger.find_missing()) {
-    complain("cannot merge: " + *missing);
-    return exit_unusable;
+    return complain("cannot merge: " + *missing);
   }
   return report(merger.take(), options);
 }
