@@ -190,7 +190,7 @@ class JsonWriter {
   /// An array of plain values.
   template <typename Items>
   void write_list(std::string_view name, const Items& items) {
-    write_list(name, items, [this](const auto& item) { write(item); });
+    write_list(name, items, [this](const auto& item) { this->write(item); });
   }
 
  private:
