@@ -12,31 +12,19 @@ const Rule self_exclusion = {
         "another task is meant there, which can now run together with the tasks that it should "
         "exclude.",
     .example = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-- behavior: ROTATE_WITH_PID
-  task: ROTATE
-- behavior: LAND_WITH_PID
-  task: LAND
-tasks:
-- task: HOVER
-- task: ROTATE
-- task: LAND
+- {behavior: HOVER_WITH_PID, task: HOVER}
+- {behavior: ROTATE_WITH_PID, task: ROTATE}
+- {behavior: LAND_WITH_PID, task: LAND}
+tasks: [{task: HOVER}, {task: ROTATE}, {task: LAND}]
 exclusivity_constraints:
 - mutually_exclusive: [HOVER, ROTATE, HOVER]
 )",
     .mending = "Write the task that is meant, or remove the second one.",
     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-- behavior: ROTATE_WITH_PID
-  task: ROTATE
-- behavior: LAND_WITH_PID
-  task: LAND
-tasks:
-- task: HOVER
-- task: ROTATE
-- task: LAND
+- {behavior: HOVER_WITH_PID, task: HOVER}
+- {behavior: ROTATE_WITH_PID, task: ROTATE}
+- {behavior: LAND_WITH_PID, task: LAND}
+tasks: [{task: HOVER}, {task: ROTATE}, {task: LAND}]
 exclusivity_constraints:
 - mutually_exclusive: [HOVER, ROTATE, LAND]
 )",
@@ -50,25 +38,17 @@ const Rule trivial_exclusion = {
         "At most one task of a list runs at a time. A list with no task, or with only one, "
         "excludes nothing, and the coordinator ignores it. Perhaps a task is missing from it.",
     .example = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-- behavior: LAND_WITH_PID
-  task: LAND
-tasks:
-- task: HOVER
-- task: LAND
+- {behavior: HOVER_WITH_PID, task: HOVER}
+- {behavior: LAND_WITH_PID, task: LAND}
+tasks: [{task: HOVER}, {task: LAND}]
 exclusivity_constraints:
 - mutually_exclusive: [HOVER]
 )",
     .mending = "Add the task that is missing, or remove the list.",
     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-- behavior: LAND_WITH_PID
-  task: LAND
-tasks:
-- task: HOVER
-- task: LAND
+- {behavior: HOVER_WITH_PID, task: HOVER}
+- {behavior: LAND_WITH_PID, task: LAND}
+tasks: [{task: HOVER}, {task: LAND}]
 exclusivity_constraints:
 - mutually_exclusive: [HOVER, LAND]
 )",
@@ -84,32 +64,20 @@ const Rule duplicate_exclusion = {
         "removes a task from one of the lists will wonder why nothing changes. If two lists have "
         "the same tasks, the later one is reported.",
     .example = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-- behavior: ROTATE_WITH_PID
-  task: ROTATE
-- behavior: LAND_WITH_PID
-  task: LAND
-tasks:
-- task: HOVER
-- task: ROTATE
-- task: LAND
+- {behavior: HOVER_WITH_PID, task: HOVER}
+- {behavior: ROTATE_WITH_PID, task: ROTATE}
+- {behavior: LAND_WITH_PID, task: LAND}
+tasks: [{task: HOVER}, {task: ROTATE}, {task: LAND}]
 exclusivity_constraints:
 - mutually_exclusive: [HOVER, ROTATE, LAND]
 - mutually_exclusive: [LAND, HOVER]
 )",
     .mending = "Remove the list.",
     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-- behavior: ROTATE_WITH_PID
-  task: ROTATE
-- behavior: LAND_WITH_PID
-  task: LAND
-tasks:
-- task: HOVER
-- task: ROTATE
-- task: LAND
+- {behavior: HOVER_WITH_PID, task: HOVER}
+- {behavior: ROTATE_WITH_PID, task: ROTATE}
+- {behavior: LAND_WITH_PID, task: LAND}
+tasks: [{task: HOVER}, {task: ROTATE}, {task: LAND}]
 exclusivity_constraints:
 - mutually_exclusive: [HOVER, ROTATE, LAND]
 )",
@@ -129,39 +97,21 @@ const Rule requirement_cycle = {
         "could never be active at the same time. Of several connected cycles, only a shortest one "
         "is reported, with its behaviors.",
     .example = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-  requires:
-  - task: LOCALIZE
-- behavior: VISUAL_ODOMETRY
-  task: LOCALIZE
-  requires:
-  - task: HOVER
+- {behavior: HOVER_WITH_PID, task: HOVER, requires: [{task: LOCALIZE}]}
+- {behavior: VISUAL_ODOMETRY, task: LOCALIZE, requires: [{task: HOVER}]}
 tasks:
-- task: HOVER
-  execution_goal: keep_running
-  start_on_request: FALSE
-- task: LOCALIZE
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: HOVER, execution_goal: keep_running, start_on_request: FALSE}
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
 )",
     .mending =
         "Remove one of the requirements, or turn what two tasks need from one another into a task "
         "of its own.",
     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-  requires:
-  - task: LOCALIZE
-- behavior: VISUAL_ODOMETRY
-  task: LOCALIZE
+- {behavior: HOVER_WITH_PID, task: HOVER, requires: [{task: LOCALIZE}]}
+- {behavior: VISUAL_ODOMETRY, task: LOCALIZE}
 tasks:
-- task: HOVER
-  execution_goal: keep_running
-  start_on_request: FALSE
-- task: LOCALIZE
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: HOVER, execution_goal: keep_running, start_on_request: FALSE}
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
 )",
 };
 
@@ -181,8 +131,7 @@ const Rule exclusive_requirement = {
   task: MPC_CONTROL
   requires:
   - task: THRUST_CONTROL
-- behavior: THRUST_CONTROLLER
-  task: THRUST_CONTROL
+- {behavior: THRUST_CONTROLLER, task: THRUST_CONTROL}
 tasks:
 - task: MPC_CONTROL
 - task: THRUST_CONTROL
@@ -193,10 +142,8 @@ exclusivity_constraints:
 )",
     .mending = "Remove the requirement, or take one of the two tasks out of the list.",
     .mended = R"(behaviors:
-- behavior: MPC_CONTROLLER
-  task: MPC_CONTROL
-- behavior: THRUST_CONTROLLER
-  task: THRUST_CONTROL
+- {behavior: MPC_CONTROLLER, task: MPC_CONTROL}
+- {behavior: THRUST_CONTROLLER, task: THRUST_CONTROL}
 tasks:
 - task: MPC_CONTROL
 - task: THRUST_CONTROL
@@ -223,15 +170,11 @@ const Rule conflicting_requirements = {
   requires:
   - task: MPC_CONTROL
   - task: THRUST_CONTROL
-- behavior: MPC_CONTROLLER
-  task: MPC_CONTROL
-- behavior: THRUST_CONTROLLER
-  task: THRUST_CONTROL
+- {behavior: MPC_CONTROLLER, task: MPC_CONTROL}
+- {behavior: THRUST_CONTROLLER, task: THRUST_CONTROL}
 tasks:
 - task: FOLLOW_PATH
-- task: MPC_CONTROL
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: MPC_CONTROL, execution_goal: keep_running, start_on_request: FALSE}
 - task: THRUST_CONTROL
   execution_goal: keep_running
   start_on_request: FALSE
@@ -244,15 +187,11 @@ exclusivity_constraints:
   task: FOLLOW_PATH
   requires:
   - task: MPC_CONTROL
-- behavior: MPC_CONTROLLER
-  task: MPC_CONTROL
-- behavior: THRUST_CONTROLLER
-  task: THRUST_CONTROL
+- {behavior: MPC_CONTROLLER, task: MPC_CONTROL}
+- {behavior: THRUST_CONTROLLER, task: THRUST_CONTROL}
 tasks:
 - task: FOLLOW_PATH
-- task: MPC_CONTROL
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: MPC_CONTROL, execution_goal: keep_running, start_on_request: FALSE}
 - task: THRUST_CONTROL
   execution_goal: keep_running
   start_on_request: FALSE
@@ -282,16 +221,11 @@ const Rule redundant_requirement = {
   task: PID_CONTROL
   requires:
   - task: LOCALIZE
-- behavior: GPS
-  task: LOCALIZE
+- {behavior: GPS, task: LOCALIZE}
 tasks:
 - task: FOLLOW_PATH
-- task: PID_CONTROL
-  execution_goal: keep_running
-  start_on_request: FALSE
-- task: LOCALIZE
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: PID_CONTROL, execution_goal: keep_running, start_on_request: FALSE}
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
 )",
     .mending =
         "Remove the requirement. If the behavior needs the task itself, and not only by way of "
@@ -305,16 +239,11 @@ tasks:
   task: PID_CONTROL
   requires:
   - task: LOCALIZE
-- behavior: GPS
-  task: LOCALIZE
+- {behavior: GPS, task: LOCALIZE}
 tasks:
 - task: FOLLOW_PATH
-- task: PID_CONTROL
-  execution_goal: keep_running
-  start_on_request: FALSE
-- task: LOCALIZE
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: PID_CONTROL, execution_goal: keep_running, start_on_request: FALSE}
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
 )",
 };
 
@@ -333,12 +262,10 @@ const Rule requires_on_request = {
   task: PHOTOGRAPH
   requires:
   - task: HOVER
-- behavior: HOVER_WITH_PID
-  task: HOVER
+- {behavior: HOVER_WITH_PID, task: HOVER}
 tasks:
 - task: PHOTOGRAPH
-- task: HOVER
-  execution_goal: keep_running
+- {task: HOVER, execution_goal: keep_running}
 )",
     .mending =
         "Give the required task 'start_on_request: FALSE'; it can still be requested. If somebody "
@@ -348,13 +275,10 @@ tasks:
   task: PHOTOGRAPH
   requires:
   - task: HOVER
-- behavior: HOVER_WITH_PID
-  task: HOVER
+- {behavior: HOVER_WITH_PID, task: HOVER}
 tasks:
 - task: PHOTOGRAPH
-- task: HOVER
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: HOVER, execution_goal: keep_running, start_on_request: FALSE}
 )",
 };
 
@@ -369,30 +293,19 @@ const Rule required_goal = {
         "in the middle of a mission, and looks like a failure.\n\n"
         "A task that others rely on is nearly always one that runs as long as it is needed.",
     .example = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-  requires:
-  - task: LOCALIZE
-- behavior: GPS
-  task: LOCALIZE
+- {behavior: HOVER_WITH_PID, task: HOVER, requires: [{task: LOCALIZE}]}
+- {behavior: GPS, task: LOCALIZE}
 tasks:
 - task: HOVER
-- task: LOCALIZE
-  start_on_request: FALSE
+- {task: LOCALIZE, start_on_request: FALSE}
 )",
     .mending = "Give the required task 'execution_goal: keep_running'.",
     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-  requires:
-  - task: LOCALIZE
-- behavior: GPS
-  task: LOCALIZE
+- {behavior: HOVER_WITH_PID, task: HOVER, requires: [{task: LOCALIZE}]}
+- {behavior: GPS, task: LOCALIZE}
 tasks:
 - task: HOVER
-- task: LOCALIZE
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
 )",
 };
 

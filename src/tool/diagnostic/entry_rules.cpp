@@ -15,25 +15,16 @@ const Rule duplicate_behavior = {
         "compiled nor solved. This holds even if the two definitions are equal. A task and a "
         "behavior may have the same name.",
     .example = R"(behaviors:
-- behavior: PID_CONTROL
-  task: HOVER
-- behavior: PID_CONTROL
-  task: ROTATE
-tasks:
-- task: HOVER
-- task: ROTATE
+- {behavior: PID_CONTROL, task: HOVER}
+- {behavior: PID_CONTROL, task: ROTATE}
+tasks: [{task: HOVER}, {task: ROTATE}]
 )",
     .mending =
         "Remove one of the definitions, or give it another name. A behavior that performs several "
         "tasks is defined once, with 'tasks' in place of 'task'.",
     .mended = R"(behaviors:
-- behavior: PID_CONTROL
-  tasks:
-  - task: HOVER
-  - task: ROTATE
-tasks:
-- task: HOVER
-- task: ROTATE
+- {behavior: PID_CONTROL, tasks: [{task: HOVER}, {task: ROTATE}]}
+tasks: [{task: HOVER}, {task: ROTATE}]
 )",
 };
 
@@ -50,31 +41,19 @@ const Rule undefined_task = {
         "let tasks run together that are meant to exclude one another. So such a file is neither "
         "compiled nor solved.",
     .example = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-  requires:
-  - task: LOCALISE
-- behavior: GPS
-  task: LOCALIZE
+- {behavior: HOVER_WITH_PID, task: HOVER, requires: [{task: LOCALISE}]}
+- {behavior: GPS, task: LOCALIZE}
 tasks:
 - task: HOVER
-- task: LOCALIZE
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
 )",
     .mending = "Correct the name, or define the task.",
     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-  requires:
-  - task: LOCALIZE
-- behavior: GPS
-  task: LOCALIZE
+- {behavior: HOVER_WITH_PID, task: HOVER, requires: [{task: LOCALIZE}]}
+- {behavior: GPS, task: LOCALIZE}
 tasks:
 - task: HOVER
-- task: LOCALIZE
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
 )",
 };
 
@@ -87,23 +66,16 @@ const Rule task_without_behavior = {
         "never run. The coordinator rejects every request of it, and never chooses a behavior that "
         "requires it; such a behavior is not reported again.",
     .example = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-tasks:
-- task: HOVER
-- task: LAND
+- {behavior: HOVER_WITH_PID, task: HOVER}
+tasks: [{task: HOVER}, {task: LAND}]
 )",
     .mending =
         "Add a behavior that performs the task, correct the name that differs between the task and "
         "its behavior, or remove the task.",
     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-- behavior: LAND_WITH_PID
-  task: LAND
-tasks:
-- task: HOVER
-- task: LAND
+- {behavior: HOVER_WITH_PID, task: HOVER}
+- {behavior: LAND_WITH_PID, task: LAND}
+tasks: [{task: HOVER}, {task: LAND}]
 )",
 };
 
@@ -118,22 +90,15 @@ const Rule implicit_task = {
         "task that is meant has one behavior fewer. In a catalog without a section 'tasks' there "
         "is one finding for all of them, at the first.",
     .example = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-- behavior: LAND_WITH_PID
-  task: LAND
-tasks:
-- task: HOVER
+- {behavior: HOVER_WITH_PID, task: HOVER}
+- {behavior: LAND_WITH_PID, task: LAND}
+tasks: [{task: HOVER}]
 )",
     .mending = "List the task, or correct its name in the behavior.",
     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-- behavior: LAND_WITH_PID
-  task: LAND
-tasks:
-- task: HOVER
-- task: LAND
+- {behavior: HOVER_WITH_PID, task: HOVER}
+- {behavior: LAND_WITH_PID, task: LAND}
+tasks: [{task: HOVER}, {task: LAND}]
 )",
 };
 
@@ -147,11 +112,9 @@ const Rule duplicate_task = {
         "timeout or parameters of an earlier entry are lost silently. The message says which "
         "attributes the later entry changes.",
     .example = R"(behaviors:
-- behavior: ROTATE_WITH_PID
-  task: ROTATE
+- {behavior: ROTATE_WITH_PID, task: ROTATE}
 tasks:
-- task: ROTATE
-  timeout: 30
+- {task: ROTATE, timeout: 30}
 - task: ROTATE
   parameters:
   - parameter: angle
@@ -159,8 +122,7 @@ tasks:
 )",
     .mending = "Make one entry of the two, or correct the name of one of them.",
     .mended = R"(behaviors:
-- behavior: ROTATE_WITH_PID
-  task: ROTATE
+- {behavior: ROTATE_WITH_PID, task: ROTATE}
 tasks:
 - task: ROTATE
   timeout: 30
@@ -183,8 +145,7 @@ const Rule on_request_and_reactive = {
         "start_on_request FALSE, whatever default_values says. In all other cases in which both "
         "are TRUE, by the task itself or by default, the rule is broken.",
     .example = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
+- {behavior: HOVER_WITH_PID, task: HOVER}
 tasks:
 - task: HOVER
   execution_goal: keep_running
@@ -195,12 +156,9 @@ tasks:
         "Remove the one that is not meant, or set it to FALSE. A reactive task can still be "
         "requested.",
     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
+- {behavior: HOVER_WITH_PID, task: HOVER}
 tasks:
-- task: HOVER
-  execution_goal: keep_running
-  reactive_start: TRUE
+- {task: HOVER, execution_goal: keep_running, reactive_start: TRUE}
 )",
 };
 
@@ -217,21 +175,15 @@ const Rule reactive_timeout = {
         "It does not matter where the timeout comes from: the task, default_values, or a behavior "
         "that performs the task.",
     .example = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
+- {behavior: HOVER_WITH_PID, task: HOVER}
 tasks:
-- task: HOVER
-  reactive_start: TRUE
-  timeout: 60
+- {task: HOVER, reactive_start: TRUE, timeout: 60}
 )",
     .mending = "Give the task 'execution_goal: keep_running', and remove its timeout.",
     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
+- {behavior: HOVER_WITH_PID, task: HOVER}
 tasks:
-- task: HOVER
-  reactive_start: TRUE
-  execution_goal: keep_running
+- {task: HOVER, reactive_start: TRUE, execution_goal: keep_running}
 )",
 };
 
@@ -247,21 +199,16 @@ const Rule no_timeout_effect = {
         "all of whose tasks keep running. A timeout in default_values is meant for other tasks, "
         "and is not reported.",
     .example = R"(behaviors:
-- behavior: GPS
-  task: LOCALIZE
+- {behavior: GPS, task: LOCALIZE}
 tasks:
-- task: LOCALIZE
-  execution_goal: keep_running
-  timeout: 30
+- {task: LOCALIZE, execution_goal: keep_running, timeout: 30}
 )",
     .mending =
         "Remove the timeout, or, if the task is to end, give it 'execution_goal: achieve_goal'.",
     .mended = R"(behaviors:
-- behavior: GPS
-  task: LOCALIZE
+- {behavior: GPS, task: LOCALIZE}
 tasks:
-- task: LOCALIZE
-  execution_goal: keep_running
+- {task: LOCALIZE, execution_goal: keep_running}
 )",
 };
 
@@ -278,21 +225,15 @@ const Rule suspicious_suitability = {
         "A suitability of 0 makes the whole product 0, however suitable all other behaviors are, "
         "so that they no longer count.",
     .example = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-  suitability: 0.9
-tasks:
-- task: HOVER
+- {behavior: HOVER_WITH_PID, task: HOVER, suitability: 0.9}
+tasks: [{task: HOVER}]
 )",
     .mending =
         "Give the suitability in percent. If a last resort is meant, which is chosen only where "
         "nothing else will do, keep it and allow the rule there.",
     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-  suitability: 90
-tasks:
-- task: HOVER
+- {behavior: HOVER_WITH_PID, task: HOVER, suitability: 90}
+tasks: [{task: HOVER}]
 )",
 };
 
@@ -311,14 +252,10 @@ const Rule suspicious_minimum = {
   requires:
   - task: LOCALIZE
     minimum_performance: 0.8
-- behavior: GPS
-  task: LOCALIZE
-  suitability: 90
+- {behavior: GPS, task: LOCALIZE, suitability: 90}
 tasks:
 - task: HOVER
-- task: LOCALIZE
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
 )",
     .mending = "Give the minimum in percent.",
     .mended = R"(behaviors:
@@ -327,14 +264,10 @@ tasks:
   requires:
   - task: LOCALIZE
     minimum_performance: 80
-- behavior: GPS
-  task: LOCALIZE
-  suitability: 90
+- {behavior: GPS, task: LOCALIZE, suitability: 90}
 tasks:
 - task: HOVER
-- task: LOCALIZE
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
 )",
 };
 
@@ -347,8 +280,7 @@ const Rule duplicate_parameter = {
         "differently. Often the second one was copied and not renamed: then the parameter that was "
         "meant is not declared, and a request that gives it breaks undeclared-parameter.",
     .example = R"(behaviors:
-- behavior: ROTATE_WITH_PID
-  task: ROTATE
+- {behavior: ROTATE_WITH_PID, task: ROTATE}
 tasks:
 - task: ROTATE
   parameters:
@@ -359,8 +291,7 @@ tasks:
 )",
     .mending = "Give the second entry the name that is meant, or remove one of the two.",
     .mended = R"(behaviors:
-- behavior: ROTATE_WITH_PID
-  task: ROTATE
+- {behavior: ROTATE_WITH_PID, task: ROTATE}
 tasks:
 - task: ROTATE
   parameters:
@@ -380,8 +311,7 @@ const Rule empty_range = {
         "included. Here the first is greater than the second, so no value is allowed, and every "
         "request that gives the parameter breaks parameter-value.",
     .example = R"(behaviors:
-- behavior: ROTATE_WITH_PID
-  task: ROTATE
+- {behavior: ROTATE_WITH_PID, task: ROTATE}
 tasks:
 - task: ROTATE
   parameters:
@@ -390,8 +320,7 @@ tasks:
 )",
     .mending = "Give the lowest value first.",
     .mended = R"(behaviors:
-- behavior: ROTATE_WITH_PID
-  task: ROTATE
+- {behavior: ROTATE_WITH_PID, task: ROTATE}
 tasks:
 - task: ROTATE
   parameters:
@@ -411,8 +340,7 @@ const Rule unknown_type = {
         "value is accepted, as there is nothing to check it against; the robot may still refuse "
         "it.",
     .example = R"(behaviors:
-- behavior: SPEAK_WITH_LOUDSPEAKER
-  task: SPEAK
+- {behavior: SPEAK_WITH_LOUDSPEAKER, task: SPEAK}
 tasks:
 - task: SPEAK
   parameters:
@@ -423,8 +351,7 @@ tasks:
         "Name a known type. A single allowed word is written as a list, in brackets. If the type "
         "is one of your own, keep it and allow the rule there.",
     .mended = R"(behaviors:
-- behavior: SPEAK_WITH_LOUDSPEAKER
-  task: SPEAK
+- {behavior: SPEAK_WITH_LOUDSPEAKER, task: SPEAK}
 tasks:
 - task: SPEAK
   parameters:

@@ -26,21 +26,14 @@ behaviors:
   requires:
   - task: TRACK_MARKER
   - task: LOOK_AHEAD
-- behavior: LAND_SLOWLY
-  task: LAND
-  suitability: 60
+- {behavior: LAND_SLOWLY, task: LAND, suitability: 60}
 - behavior: MARKER_TRACKER
   task: TRACK_MARKER
   requires:
   - task: LOOK_DOWN
-- behavior: CAMERA
-  tasks:
-  - task: LOOK_AHEAD
-  - task: LOOK_DOWN
+- {behavior: CAMERA, tasks: [{task: LOOK_AHEAD}, {task: LOOK_DOWN}]}
 tasks:
-- task: LAND
-  execution_goal: achieve_goal
-  start_on_request: TRUE
+- {task: LAND, execution_goal: achieve_goal, start_on_request: TRUE}
 - task: TRACK_MARKER
 - task: LOOK_AHEAD
 - task: LOOK_DOWN
@@ -51,25 +44,15 @@ exclusivity_constraints:
     .mended = R"(default_values:
   tasks: {execution_goal: keep_running, start_on_request: FALSE}
 behaviors:
-- behavior: LAND_ON_MARKER
-  task: LAND
-  requires:
-  - task: TRACK_MARKER
-- behavior: LAND_SLOWLY
-  task: LAND
-  suitability: 60
+- {behavior: LAND_ON_MARKER, task: LAND, requires: [{task: TRACK_MARKER}]}
+- {behavior: LAND_SLOWLY, task: LAND, suitability: 60}
 - behavior: MARKER_TRACKER
   task: TRACK_MARKER
   requires:
   - task: LOOK_DOWN
-- behavior: CAMERA
-  tasks:
-  - task: LOOK_AHEAD
-  - task: LOOK_DOWN
+- {behavior: CAMERA, tasks: [{task: LOOK_AHEAD}, {task: LOOK_DOWN}]}
 tasks:
-- task: LAND
-  execution_goal: achieve_goal
-  start_on_request: TRUE
+- {task: LAND, execution_goal: achieve_goal, start_on_request: TRUE}
 - task: TRACK_MARKER
 - task: LOOK_AHEAD
 - task: LOOK_DOWN
@@ -100,14 +83,9 @@ behaviors:
   requires:
   - task: FOLLOW_PATH
   - task: DETECT_CRACKS
-- behavior: FOLLOW_PATH_WITH_PID
-  task: FOLLOW_PATH
-- behavior: CRACK_DETECTOR
-  task: DETECT_CRACKS
-  requires:
-  - task: HOVER
-- behavior: HOVER_WITH_PID
-  task: HOVER
+- {behavior: FOLLOW_PATH_WITH_PID, task: FOLLOW_PATH}
+- {behavior: CRACK_DETECTOR, task: DETECT_CRACKS, requires: [{task: HOVER}]}
+- {behavior: HOVER_WITH_PID, task: HOVER}
 tasks:
 - task: INSPECT_BRIDGE
   execution_goal: achieve_goal
@@ -128,14 +106,9 @@ behaviors:
   task: INSPECT_BRIDGE
   requires:
   - task: DETECT_CRACKS
-- behavior: FOLLOW_PATH_WITH_PID
-  task: FOLLOW_PATH
-- behavior: CRACK_DETECTOR
-  task: DETECT_CRACKS
-  requires:
-  - task: HOVER
-- behavior: HOVER_WITH_PID
-  task: HOVER
+- {behavior: FOLLOW_PATH_WITH_PID, task: FOLLOW_PATH}
+- {behavior: CRACK_DETECTOR, task: DETECT_CRACKS, requires: [{task: HOVER}]}
+- {behavior: HOVER_WITH_PID, task: HOVER}
 tasks:
 - task: INSPECT_BRIDGE
   execution_goal: achieve_goal
@@ -171,14 +144,10 @@ const Rule unreachable_performance = {
   suitability: 95
   requires:
   - task: PROVIDE_IMAGES
-- behavior: FRONT_CAMERA
-  task: PROVIDE_IMAGES
-  suitability: 80
+- {behavior: FRONT_CAMERA, task: PROVIDE_IMAGES, suitability: 80}
 tasks:
 - task: FOLLOW_PATH
-- task: LOCALIZE
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
 - task: PROVIDE_IMAGES
   execution_goal: keep_running
   start_on_request: FALSE
@@ -196,14 +165,10 @@ tasks:
   suitability: 95
   requires:
   - task: PROVIDE_IMAGES
-- behavior: FRONT_CAMERA
-  task: PROVIDE_IMAGES
-  suitability: 80
+- {behavior: FRONT_CAMERA, task: PROVIDE_IMAGES, suitability: 80}
 tasks:
 - task: FOLLOW_PATH
-- task: LOCALIZE
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
 - task: PROVIDE_IMAGES
   execution_goal: keep_running
   start_on_request: FALSE
@@ -231,33 +196,23 @@ behaviors:
 - behavior: LOCALIZE_BY_LIDAR
   task: LOCALIZE
   requires: [{task: LIDAR}]
-- behavior: LOCALIZE_BY_WHEELS
-  task: LOCALIZE
-  suitability: 60
+- {behavior: LOCALIZE_BY_WHEELS, task: LOCALIZE, suitability: 60}
 - behavior: AVOID_BY_SONAR
   task: AVOID
   requires: [{task: SONAR}]
-- behavior: AVOID_BY_BUMPER
-  task: AVOID
-  suitability: 60
+- {behavior: AVOID_BY_BUMPER, task: AVOID, suitability: 60}
 - behavior: MAP_BY_RADAR
   task: MAP
   requires: [{task: RADAR}]
-- behavior: MAP_BY_PLAN
-  task: MAP
-  suitability: 60
+- {behavior: MAP_BY_PLAN, task: MAP, suitability: 60}
 - behavior: TRACK_BY_CAMERA
   task: TRACK
   requires: [{task: CAMERA}]
-- behavior: TRACK_BY_SOUND
-  task: TRACK
-  suitability: 60
+- {behavior: TRACK_BY_SOUND, task: TRACK, suitability: 60}
 - behavior: SENSOR_DRIVER
   tasks: [{task: LIDAR}, {task: SONAR}, {task: RADAR}, {task: CAMERA}]
 tasks:
-- task: DELIVER
-  execution_goal: achieve_goal
-  start_on_request: TRUE
+- {task: DELIVER, execution_goal: achieve_goal, start_on_request: TRUE}
 - task: LOCALIZE
 - task: AVOID
 - task: MAP
@@ -281,18 +236,12 @@ behaviors:
 - behavior: DELIVERY
   task: DELIVER
   requires: [{task: LOCALIZE}, {task: AVOID}, {task: MAP}, {task: TRACK}]
-- behavior: LOCALIZE_BY_WHEELS
-  task: LOCALIZE
-- behavior: AVOID_BY_BUMPER
-  task: AVOID
-- behavior: MAP_BY_PLAN
-  task: MAP
-- behavior: TRACK_BY_SOUND
-  task: TRACK
+- {behavior: LOCALIZE_BY_WHEELS, task: LOCALIZE}
+- {behavior: AVOID_BY_BUMPER, task: AVOID}
+- {behavior: MAP_BY_PLAN, task: MAP}
+- {behavior: TRACK_BY_SOUND, task: TRACK}
 tasks:
-- task: DELIVER
-  execution_goal: achieve_goal
-  start_on_request: TRUE
+- {task: DELIVER, execution_goal: achieve_goal, start_on_request: TRUE}
 - task: LOCALIZE
 - task: AVOID
 - task: MAP

@@ -156,19 +156,13 @@ const Rule invalid_value = {
         "A value is never rounded or cut to an allowed one, since the file would then mean "
         "something that nobody wrote: it is neither compiled nor solved.",
     .example = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-  suitability: 120
-tasks:
-- task: HOVER
+- {behavior: HOVER_WITH_PID, task: HOVER, suitability: 120}
+tasks: [{task: HOVER}]
 )",
     .mending = "Give one of the values that the message names.",
     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-  suitability: 100
-tasks:
-- task: HOVER
+- {behavior: HOVER_WITH_PID, task: HOVER, suitability: 100}
+tasks: [{task: HOVER}]
 )",
 };
 
@@ -219,13 +213,10 @@ const Rule deprecated_key = {
   efficacy: 80
   requires:
   - task: LOCALIZE
-- behavior: GPS
-  task: LOCALIZE
+- {behavior: GPS, task: LOCALIZE}
 tasks:
 - task: HOVER
-- task: LOCALIZE
-  category: recurrent
-  automatic_activation: TRUE
+- {task: LOCALIZE, category: recurrent, automatic_activation: TRUE}
 )",
     .mending = "Write the present name, which the message gives; 'cbc lint --fix' does so.",
     .mended = R"(behaviors:
@@ -234,13 +225,10 @@ tasks:
   suitability: 80
   requires:
   - task: LOCALIZE
-- behavior: GPS
-  task: LOCALIZE
+- {behavior: GPS, task: LOCALIZE}
 tasks:
 - task: HOVER
-- task: LOCALIZE
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
 )",
 };
 
@@ -258,17 +246,13 @@ const Rule unused_allow = {
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 90  # cbc: allow suspicious-suitability -- a last resort
-tasks:
-- task: HOVER
+tasks: [{task: HOVER}]
 )",
     .mending =
         "Remove the comment, or the rule from it, or move the comment to the line of the finding.",
     .mended = R"(behaviors:
-- behavior: HOVER_WITH_PID
-  task: HOVER
-  suitability: 90
-tasks:
-- task: HOVER
+- {behavior: HOVER_WITH_PID, task: HOVER, suitability: 90}
+tasks: [{task: HOVER}]
 )",
 };
 
@@ -285,16 +269,14 @@ const Rule unknown_rule = {
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 1  # cbc: allow suspicious-suitability, last-resort
-tasks:
-- task: HOVER
+tasks: [{task: HOVER}]
 )",
     .mending = "Correct the name, or remove it.",
     .mended = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
   suitability: 1  # cbc: allow suspicious-suitability -- a last resort
-tasks:
-- task: HOVER
+tasks: [{task: HOVER}]
 )",
 };
 
