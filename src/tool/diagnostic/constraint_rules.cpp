@@ -171,7 +171,9 @@ const Rule conflicting_requirements = {
 tasks:
 - task: FOLLOW_PATH
 - {task: MPC_CONTROL, execution_goal: keep_running, start_on_request: FALSE}
-- {task: THRUST_CONTROL, execution_goal: keep_running, start_on_request: FALSE}
+- task: THRUST_CONTROL
+  execution_goal: keep_running
+  start_on_request: FALSE
 exclusivity_constraints:
 - mutually_exclusive: [MPC_CONTROL, THRUST_CONTROL]
 )",
@@ -186,7 +188,9 @@ exclusivity_constraints:
 tasks:
 - task: FOLLOW_PATH
 - {task: MPC_CONTROL, execution_goal: keep_running, start_on_request: FALSE}
-- {task: THRUST_CONTROL, execution_goal: keep_running, start_on_request: FALSE}
+- task: THRUST_CONTROL
+  execution_goal: keep_running
+  start_on_request: FALSE
 exclusivity_constraints:
 - mutually_exclusive: [MPC_CONTROL, THRUST_CONTROL]
 )",
@@ -209,7 +213,10 @@ const Rule redundant_requirement = {
   requires:
   - task: PID_CONTROL
   - task: LOCALIZE
-- {behavior: PID_CONTROLLER, task: PID_CONTROL, requires: [{task: LOCALIZE}]}
+- behavior: PID_CONTROLLER
+  task: PID_CONTROL
+  requires:
+  - task: LOCALIZE
 - {behavior: GPS, task: LOCALIZE}
 tasks:
 - task: FOLLOW_PATH
@@ -224,7 +231,10 @@ tasks:
   task: FOLLOW_PATH
   requires:
   - task: PID_CONTROL
-- {behavior: PID_CONTROLLER, task: PID_CONTROL, requires: [{task: LOCALIZE}]}
+- behavior: PID_CONTROLLER
+  task: PID_CONTROL
+  requires:
+  - task: LOCALIZE
 - {behavior: GPS, task: LOCALIZE}
 tasks:
 - task: FOLLOW_PATH

@@ -27,7 +27,10 @@ behaviors:
   - task: TRACK_MARKER
   - task: LOOK_AHEAD
 - {behavior: LAND_SLOWLY, task: LAND, suitability: 60}
-- {behavior: MARKER_TRACKER, task: TRACK_MARKER, requires: [{task: LOOK_DOWN}]}
+- behavior: MARKER_TRACKER
+  task: TRACK_MARKER
+  requires:
+  - task: LOOK_DOWN
 - {behavior: CAMERA, tasks: [{task: LOOK_AHEAD}, {task: LOOK_DOWN}]}
 tasks:
 - {task: LAND, execution_goal: achieve_goal, start_on_request: TRUE}
@@ -43,7 +46,10 @@ exclusivity_constraints:
 behaviors:
 - {behavior: LAND_ON_MARKER, task: LAND, requires: [{task: TRACK_MARKER}]}
 - {behavior: LAND_SLOWLY, task: LAND, suitability: 60}
-- {behavior: MARKER_TRACKER, task: TRACK_MARKER, requires: [{task: LOOK_DOWN}]}
+- behavior: MARKER_TRACKER
+  task: TRACK_MARKER
+  requires:
+  - task: LOOK_DOWN
 - {behavior: CAMERA, tasks: [{task: LOOK_AHEAD}, {task: LOOK_DOWN}]}
 tasks:
 - {task: LAND, execution_goal: achieve_goal, start_on_request: TRUE}
@@ -138,7 +144,9 @@ const Rule unreachable_performance = {
 tasks:
 - task: FOLLOW_PATH
 - {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
-- {task: PROVIDE_IMAGES, execution_goal: keep_running, start_on_request: FALSE}
+- task: PROVIDE_IMAGES
+  execution_goal: keep_running
+  start_on_request: FALSE
 )",
     .mending =
         "Lower the minimum to what can be reached, here 95 % times 80 %, or add a better behavior.",
@@ -157,7 +165,9 @@ tasks:
 tasks:
 - task: FOLLOW_PATH
 - {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
-- {task: PROVIDE_IMAGES, execution_goal: keep_running, start_on_request: FALSE}
+- task: PROVIDE_IMAGES
+  execution_goal: keep_running
+  start_on_request: FALSE
 )",
 };
 
