@@ -141,7 +141,7 @@ TEST(LintSchema, HasTheRules) {
         (names.empty() ? "" : ",\n") + std::string(12, ' ') + '"' + std::string(rule.name) + '"';
   }
   constexpr std::string_view first =
-      R"(          "description": "See `cbc lint --explain RULE`.",)";
+      R"(          "description": "The rule; see `cbc lint --explain RULE`.",)";
   const std::string expected = "          \"enum\": [\n" + names + '\n';
   if (check_or_update(schema, first, "          ]", expected)) std::ofstream(path) << schema;
 }

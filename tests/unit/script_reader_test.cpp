@@ -487,8 +487,8 @@ TEST(ScriptReader, ABehaviorThatDoesNotPerformTheExpectedTask) {
 TEST(ScriptReader, ATaskThatIsToRunAndNotToRun) {
   EXPECT_EQ(findings("- expect: {stopped: [LAND, HOVER], running: {HOVER: any, TAKE_OFF: any}}\n"
                      "- expect: {stopped: [TAKE_OFF]}\n"),
-            "1:28-33 warning impossible-expectation: this can never hold: task 'HOVER' is expected "
-            "to run, too\n  1:46-51 expected to run here\n");
+            "1:28-33 warning impossible-expectation: this can never hold: task 'HOVER' is also "
+            "expected to run\n  1:46-51 expected to run here\n");
   // The misspelt name is the only fault.
   EXPECT_EQ(findings("- expect: {running: {TAKE_OF: any}, stopped: [TAKE_OFF, LANDD]}\n"),
             "1:22-29 error undefined-task: there is no task 'TAKE_OF'; did you mean 'TAKE_OFF'?\n"

@@ -369,17 +369,17 @@ tasks:
 - {task: D, start_on_request: TRUE}
 - {task: E, start_on_request: TRUE}
 )"),
-            "3:44-45 warning requires-on-request: behavior 'a' requires 'B', which starts on "
-            "request only: request 'D', then 'B' first\n"
+            "3:44-45 warning requires-on-request: behavior 'a' requires 'B', which starts "
+            "only on request: request 'D', then 'B' first\n"
             "  11:10-11 'B' is defined here\n"
-            "5:45-46 warning requires-on-request: behavior 'b2' requires 'D', which starts on "
-            "request only: request 'D' first\n"
+            "5:45-46 warning requires-on-request: behavior 'b2' requires 'D', which starts "
+            "only on request: request 'D' first\n"
             "  13:10-11 'D' is defined here\n"
-            "5:56-57 warning requires-on-request: behavior 'b2' requires 'E', which starts on "
-            "request only: request 'E' first\n"
+            "5:56-57 warning requires-on-request: behavior 'b2' requires 'E', which starts "
+            "only on request: request 'E' first\n"
             "  14:10-11 'E' is defined here\n"
-            "6:44-45 warning requires-on-request: behavior 'c' requires 'D', which starts on "
-            "request only: request 'D' first\n"
+            "6:44-45 warning requires-on-request: behavior 'c' requires 'D', which starts "
+            "only on request: request 'D' first\n"
             "  13:10-11 'D' is defined here\n");
 }
 
