@@ -18,9 +18,11 @@
 
 #include "base/text.h"
 #include "catalog/reader.h"
+#include "cbc/event.h"
 #include "cli/output.h"
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
+#include "coordinator/record.h"
 #include "diagnostic/diagnostic.h"
 #include "lint/controls.h"
 #include "script/reader.h"
@@ -58,14 +60,14 @@ bool is_catalog(const yaml::Document& document) { return has_any(document.root()
 bool is_script(const yaml::Document& document) {
   constexpr std::array<std::string_view, 4> keys = {"events", "catalog", "reactive_delay",
                                                     "situation"};
-  constexpr std::array<std::string_view, 9> event_keys = {
-      "start", "stop", "finish", "situation", "fault", "repair", "expect", "at", "wait"};
+  constexpr std::array<std::string_view, 2> other_event_keys = {"expect", "at"};
   const yaml::Node& root = document.root();
   if (root.kind != yaml::Kind::sequence) return !is_catalog(document) && has_any(root, keys);
   // Another list is more likely a catalog that lacks a key.
   return root.items.empty() ||
-         std::any_of(root.items.begin(), root.items.end(),
-                     [&event_keys](const yaml::Node* item) { return has_any(*item, event_keys); });
+         std::any_of(root.items.begin(), root.items.end(), [&](const yaml::Node* item) {
+           return has_any(*item, words_of<Verb>()) || has_any(*item, other_event_keys);
+         });
 }
 
 bool looks_like_script(const yaml::Document& document) {
