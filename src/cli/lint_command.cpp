@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -458,31 +459,6 @@ bool lint_all(const LintCommand& command, Linter& linter) {
   return !has_failed;
 }
 
-/// What a report depends on besides the files.
-struct LintRun {
-  std::string working_directory;  ///< absolute
-  bool is_complete = true;        ///< whether all files could be read
-  Style style = plain_style();    ///< of text for people
-};
-
-/// A format of reports.
-struct LintFormat {
-  std::string_view name;
-  std::string (*write)(const std::vector<LintedFile>& files, const LintRun& run);
-};
-
-/// The first one is the default.
-constexpr std::array<LintFormat, 5> lint_formats = {{
-    {"text", [](const auto& files, const LintRun& run) { return lint_text(files, run.style); }},
-    {"json", [](const auto& files, const LintRun& /*run*/) { return lint_json(files); }},
-    {"sarif",
-     [](const auto& files, const LintRun& run) {
-       return lint_sarif(files, run.working_directory, run.is_complete);
-     }},
-    {"github", [](const auto& files, const LintRun& /*run*/) { return lint_github(files); }},
-    {"gcc", [](const auto& files, const LintRun& /*run*/) { return lint_gcc(files); }},
-}};
-
 void print_report(const LintCommand& command, const Linter& linter, bool is_complete) {
   if (command.diff) {
     fmt::print("{}", linter.diff());
@@ -495,9 +471,10 @@ void print_report(const LintCommand& command, const Linter& linter, bool is_comp
       if (!file.is_script) fmt::print("{}", lint_summary(file, run.style));
     }
   }
-  const auto* const format =
-      std::find_if(lint_formats.begin(), lint_formats.end(),
-                   [&](const LintFormat& known) { return known.name == command.format; });
+  const std::span<const LintFormat> formats = lint_formats();
+  const auto format = std::find_if(formats.begin(), formats.end(), [&](const LintFormat& known) {
+    return known.name == command.format;
+  });
   fmt::print("{}", format->write(linter.files(), run));
 }
 
@@ -543,7 +520,7 @@ int lint(const LintCommand& command) {
 
 void add_lint_command(Program& program) {
   std::vector<std::string> formats;
-  for (const LintFormat& format : lint_formats) formats.emplace_back(format.name);
+  for (const LintFormat& format : lint_formats()) formats.emplace_back(format.name);
   const auto options = std::make_shared<LintCommand>();
   Command& command =
       program.add_command("lint", "Finds every mistake in catalogs, with its place and its reason.",
