@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string>
 #include <thread>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "coordinator/coordinator.h"
+#include "coordinator/record.h"
 #include "unit/allocations.h"
 #include "unit/compiled_fixture.h"
 #include "unit/loaded_fixture.h"
@@ -263,7 +265,7 @@ TEST_F(LiveCoordinatorTest, PrioritiesAreRefusedBelowTheLeast) {
 
 TEST_F(LiveCoordinatorTest, EnumeratorsAreRefusedThatAreNone) {
   Event event;
-  for (const int verb : {7, 8, 255}) {
+  for (const std::size_t verb : {verb_forms.size(), std::size_t{255}}) {
     event.verb = static_cast<Verb>(verb);
     EXPECT_EQ(coordinator.handle(0, event), LiveStatus::invalid_verb) << verb;
   }
