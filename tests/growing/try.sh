@@ -73,7 +73,7 @@ try_patch rule lint_rule_long_name
 cd -- "$source/tests/golden/cases"
 expect 'long-name                 note' "$cbc" lint --list-rules
 expect '[long-name]' "$cbc" lint lint_rule_long_name/catalog.yaml
-expect 'no more findings' "$cbc" lint --allow long-name lint_rule_long_name/catalog.yaml
+expect 'no findings in 1 file' "$cbc" lint --allow long-name lint_rule_long_name/catalog.yaml
 cd -- "$folder"
 take_back rule
 
@@ -91,5 +91,5 @@ expect "did you mean 'HOVER'" "$cbc" lint --script <(echo '- {retry: HOVERR}') c
 printf '%s\n' '{"stop": "HOVER", "at": 1}' '{"retry": "HOVER", "at": 5}' '{"at": 6}' |
   "$cbc" solve --format jsonl catalog.yaml - >"$folder/log.jsonl"
 expect '"verb":"retry"' cat "$folder/log.jsonl"
-"$cbc" solve --replay "$folder/log.jsonl" catalog.yaml
-echo
+"$cbc" solve --replay "$folder/log.jsonl" catalog.yaml | diff "$folder/log.jsonl" -
+printf '\nThe examples work [%d s]\n' "$SECONDS"
