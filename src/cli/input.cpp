@@ -20,6 +20,7 @@
 
 #include "base/text.h"
 #include "catalog/reader.h"
+#include "cbc/event.h"
 #include "cli/output.h"
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
@@ -61,15 +62,14 @@ bool is_catalog(const yaml::Document& document) { return has_any(document.root()
 bool is_script(const yaml::Document& document) {
   constexpr std::array<std::string_view, 4> keys = {"events", "catalog", "reactive_delay",
                                                     "situation"};
-  const auto is_event = [](const yaml::Node* item) {
-    return std::any_of(verb_forms.begin(), verb_forms.end(),
-                       [&](const VerbForm& form) { return item->find(form.name) != nullptr; }) ||
-           item->find("expect") != nullptr || item->find("at") != nullptr;
-  };
+  constexpr std::array<std::string_view, 2> other_event_keys = {"expect", "at"};
   const yaml::Node& root = document.root();
   if (root.kind != yaml::Kind::sequence) return !is_catalog(document) && has_any(root, keys);
   // Another list is more likely a catalog that lacks a key.
-  return root.items.empty() || std::any_of(root.items.begin(), root.items.end(), is_event);
+  return root.items.empty() ||
+         std::any_of(root.items.begin(), root.items.end(), [&](const yaml::Node* item) {
+           return has_any(*item, words_of<Verb>()) || has_any(*item, other_event_keys);
+         });
 }
 
 bool looks_like_script(const yaml::Document& document) {

@@ -1,5 +1,5 @@
-// cbc-rules(7) and schemas/lint.json have the rules that 'cbc lint --explain' has. After a change
-// of the rules this writes both anew:
+// cbc-rules(7) has the rules that 'cbc lint --explain' has. After a change of the rules this writes
+// it anew:
 //
 //   CBC_UPDATE_GOLDEN=1 build/release/tests/cbc_manual_tests
 #include "diagnostic/rules.h"
@@ -130,20 +130,6 @@ bool check_or_update(std::string& text, std::string_view first, std::string_view
 TEST(ManualTest, HasTheRules) {
   std::string page = read_page(page_name);
   if (check_or_update(page, first_line, last_line, all_sections())) write_page(page_name, page);
-}
-
-TEST(LintSchema, HasTheRules) {
-  const std::string path = CBC_SOURCE_DIR "/schemas/lint.json";
-  std::string schema = test::read_file(path);
-  std::string names;
-  for (const Rule& rule : all_rules()) {
-    names +=
-        (names.empty() ? "" : ",\n") + std::string(12, ' ') + '"' + std::string(rule.name) + '"';
-  }
-  constexpr std::string_view first =
-      R"(          "description": "The rule; see `cbc lint --explain RULE`.",)";
-  const std::string expected = "          \"enum\": [\n" + names + '\n';
-  if (check_or_update(schema, first, "          ]", expected)) std::ofstream(path) << schema;
 }
 
 }  // namespace

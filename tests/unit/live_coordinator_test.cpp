@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string>
 #include <thread>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "coordinator/coordinator.h"
+#include "coordinator/record.h"
 #include "unit/allocations.h"
 #include "unit/compiled_fixture.h"
 #include "unit/loaded_fixture.h"
@@ -23,19 +25,16 @@ std::string to_text(std::optional<std::int32_t> number) {
   return number ? " " + std::to_string(*number) : "";
 }
 
-bool is_about_a_task(Verb verb) { return verb == Verb::start || verb == Verb::stop; }
-bool is_about_a_behavior(Verb verb) {
-  return verb == Verb::finish || verb == Verb::fault || verb == Verb::repair;
-}
+bool is_about(VerbForm::SubjectKind kind, Verb verb) { return form_of(verb).subject == kind; }
 
 /// "4080000 reactive start HOVER 0 accepted: +hover(HOVER) reactive 0, …; BLINK interrupted".
 std::string show(const LoadedCatalog& catalog, const HandledEvent& event) {
   std::string text = std::to_string(event.time) + " " + std::string(name_of(event.origin)) + " " +
                      std::string(name_of(event.verb));
-  if (is_about_a_task(event.verb)) {
+  if (is_about(VerbForm::SubjectKind::task, event.verb)) {
     text += " " + std::string(catalog.task_name(event.subject)) + to_text(event.priority);
   }
-  if (is_about_a_behavior(event.verb)) {
+  if (is_about(VerbForm::SubjectKind::behavior, event.verb)) {
     text += " " + std::string(catalog.behavior_name(event.subject));
   }
   if (event.verb == Verb::finish) text += " " + std::string(name_of(event.cause));
@@ -266,7 +265,7 @@ TEST_F(LiveCoordinatorTest, PrioritiesAreRefusedBelowTheLeast) {
 
 TEST_F(LiveCoordinatorTest, EnumeratorsAreRefusedThatAreNone) {
   Event event;
-  for (const int verb : {7, 8, 255}) {
+  for (const std::size_t verb : {verb_forms.size(), std::size_t{255}}) {
     event.verb = static_cast<Verb>(verb);
     EXPECT_EQ(coordinator.handle(0, event), LiveStatus::invalid_verb) << verb;
   }

@@ -56,6 +56,7 @@ inline constexpr std::array<VerbForm, 7> verb_forms{
      {.name = "fault", .subject = VerbForm::SubjectKind::behavior},
      {.name = "repair", .subject = VerbForm::SubjectKind::behavior},
      {.name = "wait"}}};
+static_assert(verb_forms.size() == static_cast<std::size_t>(Verb::wait) + 1);
 
 [[nodiscard]] constexpr const VerbForm& form_of(Verb verb) {
   return verb_forms[static_cast<std::size_t>(verb)];

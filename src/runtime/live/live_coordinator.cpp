@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "compiled/compiled_catalog.h"
 #include "compiled/compiled_file.h"
 #include "coordinator/coordinator.h"
+#include "coordinator/record.h"
 
 namespace cbc {
 
@@ -62,12 +64,6 @@ std::optional<std::uint32_t> LoadedCatalog::find_behavior(std::string_view name)
 
 namespace {
 
-LiveStatus check_task(const CompiledCatalog& catalog, const Event& event, std::int32_t least) {
-  if (event.subject >= catalog.tasks.size()) return LiveStatus::unknown_task;
-  if (event.priority && *event.priority < least) return LiveStatus::invalid_priority;
-  return LiveStatus::ok;
-}
-
 LiveStatus check_behavior(const CompiledCatalog& catalog, std::uint32_t behavior) {
   return behavior < catalog.behaviors.size() ? LiveStatus::ok : LiveStatus::unknown_behavior;
 }
@@ -88,28 +84,32 @@ LiveStatus check_situation(const CompiledCatalog& catalog,
   return LiveStatus::ok;
 }
 
+LiveStatus check_subject(const CompiledCatalog& catalog, const Event& event) {
+  switch (form_of(event.verb).subject) {
+    case VerbForm::SubjectKind::task:
+      return event.subject < catalog.tasks.size() ? LiveStatus::ok : LiveStatus::unknown_task;
+    case VerbForm::SubjectKind::behavior:
+      return check_behavior(catalog, event.subject);
+    case VerbForm::SubjectKind::situation:
+      return check_situation(catalog, event.situation);
+    case VerbForm::SubjectKind::nothing:
+      break;
+  }
+  return LiveStatus::ok;
+}
+
 /// The first error of an event with arbitrary content, or ok. Looks only at what its verb uses.
 LiveStatus check_event(const CompiledCatalog& catalog, const Event& event) {
-  LiveStatus status = LiveStatus::ok;
-  switch (event.verb) {
-    case Verb::start:
-      status = check_task(catalog, event, 1);
-      return status == LiveStatus::ok ? check_parameters(event) : status;
-    case Verb::stop:
-      return check_task(catalog, event, 0);
-    case Verb::finish:
-      status = check_behavior(catalog, event.subject);
-      if (status != LiveStatus::ok) return status;
-      return event.cause <= FinishCause::interrupted ? status : LiveStatus::invalid_cause;
-    case Verb::situation:
-      return check_situation(catalog, event.situation);
-    case Verb::fault:
-    case Verb::repair:
-      return check_behavior(catalog, event.subject);
-    case Verb::wait:
-      return LiveStatus::ok;
+  if (static_cast<std::size_t>(event.verb) >= verb_forms.size()) return LiveStatus::invalid_verb;
+  const VerbForm& form = form_of(event.verb);
+  const LiveStatus status = check_subject(catalog, event);
+  if (status != LiveStatus::ok) return status;
+  if (form.has_priority && event.priority && *event.priority < form.lowest_priority) {
+    return LiveStatus::invalid_priority;
   }
-  return LiveStatus::invalid_verb;
+  if (form.has_parameters) return check_parameters(event);
+  if (form.has_cause && event.cause > FinishCause::interrupted) return LiveStatus::invalid_cause;
+  return LiveStatus::ok;
 }
 
 /// Places spans of known sizes one after the other in an array.

@@ -205,12 +205,11 @@ class EventText {
     json_.write_seconds("time", record_.time);
     json_.write("origin", name_of(record_.origin));
     json_.write("verb", name_of(record_.verb));
-    if (record_.task != none) {
-      json_.write("name", catalog_.name_of_task(record_.task));
-      json_.write("priority", record_.priority);
-    }
+    const VerbForm& form = form_of(record_.verb);
+    if (record_.task != none) json_.write("name", catalog_.name_of_task(record_.task));
+    if (form.has_priority) json_.write("priority", record_.priority);
     if (record_.behavior != none) json_.write("name", catalog_.name_of_behavior(record_.behavior));
-    if (record_.verb == Verb::finish) json_.write("cause", name_of(record_.cause));
+    if (form.has_cause) json_.write("cause", name_of(record_.cause));
     if (step == nullptr) return;
     if (step->parameters) {
       json_.write_json("parameters", step->parameters->json);

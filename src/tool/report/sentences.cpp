@@ -145,13 +145,14 @@ std::string format_time(Microseconds time) {
 
 std::string describe_event(const CompiledCatalog& catalog, const EventRecord& record,
                            const Step* step) {
-  std::string text(name_of(record.verb));
+  const VerbForm& form = form_of(record.verb);
+  std::string text(form.name);
   if (record.task != none) {
     text += " " + printable(catalog.name_of_task(record.task));
-    text += fmt::format(", priority {}", record.priority);
+    if (form.has_priority) text += fmt::format(", priority {}", record.priority);
   }
   if (record.behavior != none) text += " " + printable(catalog.name_of_behavior(record.behavior));
-  if (record.verb == Verb::finish) text += fmt::format(", {}", name_of(record.cause));
+  if (form.has_cause) text += fmt::format(", {}", name_of(record.cause));
   if (step != nullptr && record.verb == Verb::situation) {
     text += describe_situation(catalog, step->situation);
   }

@@ -64,11 +64,9 @@ SweepKind kind_of(const EventRecord& record) {
       return SweepKind::fault;
     case Verb::repair:
       return SweepKind::repair;
-    case Verb::situation:
-    case Verb::wait:  // not in sweeps
-      break;
+    default:  // a sweep has no events with other verbs
+      return SweepKind::situation;
   }
-  return SweepKind::situation;
 }
 
 void count_outcome(OutcomeCounts& counts, const EventRecord& record) {
