@@ -196,5 +196,22 @@ TEST(Semantics, CommentsReferToSections) {
   }
 }
 
+/// Numbers of sections and rules are those of documents that are not here.
+TEST(Semantics, CommentsReferToNothingElse) {
+  const std::regex foreign(R"(//.*(\bsections? [0-9]|\brules? [0-9]|semantics:))");
+  int count = 0;
+  for (const char* folder : {"src", "include"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(CBC_SOURCE_DIR) / folder)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cpp") continue;
+      ++count;
+      for (const std::string& line : lines_of(test::read_file(entry.path()))) {
+        EXPECT_FALSE(std::regex_search(line, foreign)) << entry.path() << ": " << line;
+      }
+    }
+  }
+  EXPECT_GT(count, 100);
+}
+
 }  // namespace
 }  // namespace cbc::golden
