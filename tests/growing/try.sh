@@ -44,7 +44,7 @@ try_patch() {
 
   "$tests" --gtest_brief=1 --gtest_filter="*Golden.Matches/$2"
   CBC_UPDATE_GOLDEN=1 "$tests" --gtest_brief=1 --gtest_filter='*Golden.*' >/dev/null
-  diff -rq "$origin/tests/golden/cases" "$source/tests/golden/cases" |
+  { diff -rq "$origin/tests/golden/cases" "$source/tests/golden/cases" || true; } |
     sed -nE 's|^Files .*/cases/([^/]*)/.*|follows: \1|p'
   "$tests" --gtest_brief=1
   for check in form options; do
