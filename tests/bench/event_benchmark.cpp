@@ -8,9 +8,7 @@ namespace cbc::bench {
 namespace {
 
 double constraints_of(const CompiledCatalog& catalog) {
-  std::uint64_t total = 0;
-  for (const ConstraintCount& count : count_constraints(catalog)) total += count.total();
-  return static_cast<double>(total);
+  return static_cast<double>(summarize(catalog).total.constraints.total());
 }
 
 double search_space(const SearchRecord& search) {
