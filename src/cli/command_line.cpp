@@ -496,7 +496,9 @@ std::string find_bad_value(const Command& command, const Given& given) {
     for (const std::string& value : values) {
       const std::string fault = option.values.check ? option.values.check(value) : std::string();
       if (!fault.empty()) return fmt::format("{}: {}", option.name(), fault);
-      if (option.values.is_input) inputs.push_back(value);
+      if (option.values.is_input && (value == "-" || !option.values.is_replaceable)) {
+        inputs.push_back(value);
+      }
       if (option.values.is_output) outputs.push_back(value);
     }
   }

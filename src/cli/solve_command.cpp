@@ -215,8 +215,10 @@ void add_solve_command(Program& program) {
               "Save the state at the end of a stream (jsonl) to FILE; timeouts and starts due at "
               "its last instant are left to the stream that continues")
       .only_with({"--format jsonl", "--replay"});
+  Values state = input("FILE", ValueKind::file);
+  state.is_replaceable = true;
   command
-      .option("--state-in", options->stream.state_in, input("FILE", ValueKind::file),
+      .option("--state-in", options->stream.state_in, state,
               "Continue from a saved state of the same catalog, with its clock, situation and "
               "reactive delay")
       .only_with({"--format jsonl", "--replay"});

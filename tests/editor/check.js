@@ -94,7 +94,7 @@ async function checkHelp() {
   const file = 'target-following.yaml';
   const document = edit(file, read(file));
   const hover = await service.doHover(document, positionOf(document, '\n  start_on_req'));
-  assert.match(JSON.stringify(hover), /starts only if it is requested/);
+  assert.match(JSON.stringify(hover), /starts only when it is requested/);
 
   const offered = async (file, before, begun) => {
     const open = edit(file, replace(read(file), before, begun));

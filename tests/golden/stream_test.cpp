@@ -451,6 +451,13 @@ TEST_F(StreamTest, MissionInPiecesIsTheWholeMission) {
   EXPECT_EQ(pieces, whole);
 }
 
+TEST_F(StreamTest, NewStateReplacesTheOneThatWasRead) {
+  ASSERT_EQ(feed(many_events(2), {"--state-out", "state.json"}).status, 0);
+  const Result more = feed("", {"--state-in", "state.json", "--state-out", "state.json"});
+  EXPECT_EQ(more.status, 0) << more.err;
+  EXPECT_EQ(json::parse(folder_.read("state.json"))["events"], 2);
+}
+
 TEST_F(StreamTest, MissionThatSignalsCutIsTheWholeMission) {
   constexpr std::size_t count = 400;
   const std::vector<std::string> input = random_lines(1, count);
@@ -473,7 +480,10 @@ TEST_F(StreamTest, MissionThatSignalsCutIsTheWholeMission) {
       write_all(in, joined(std::span(input).subspan(done, size)));
       // The signal comes when some of them are answered, or all.
       const std::size_t enough = 1 + random() % size;
-      while (lines_of(folder_.read("log")).size() < enough) std::this_thread::yield();
+      siginfo_t ended{};  // it must not be waited for if it has ended already
+      while (lines_of(folder_.read("log")).size() < enough && ended.si_pid == 0) {
+        ::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT);
+      }
       ::kill(process, piece % 2 == 0 ? SIGTERM : SIGINT);
     });
     ::close(in);

@@ -16,7 +16,7 @@ function wrongValues(name, value) {
   const wrong = [typeof value === 'boolean' ? 7 : true];
   if (typeof value === 'number') wrong.push(-1);
   if (typeof value === 'string' && !mayBeEmpty.has(name)) wrong.push('');
-  if (words.has(name) || hasPattern.has(name)) wrong.push('odd');
+  if (words.has(name) || hasPattern.has(name)) wrong.push('odd one');
   return wrong;
 }
 

@@ -134,7 +134,9 @@ const Rule exclusive_requirement = {
 - {behavior: THRUST_CONTROLLER, task: THRUST_CONTROL}
 tasks:
 - task: MPC_CONTROL
-- {task: THRUST_CONTROL, execution_goal: keep_running, start_on_request: FALSE}
+- task: THRUST_CONTROL
+  execution_goal: keep_running
+  start_on_request: FALSE
 exclusivity_constraints:
 - mutually_exclusive: [MPC_CONTROL, THRUST_CONTROL]
 )",
@@ -144,7 +146,9 @@ exclusivity_constraints:
 - {behavior: THRUST_CONTROLLER, task: THRUST_CONTROL}
 tasks:
 - task: MPC_CONTROL
-- {task: THRUST_CONTROL, execution_goal: keep_running, start_on_request: FALSE}
+- task: THRUST_CONTROL
+  execution_goal: keep_running
+  start_on_request: FALSE
 exclusivity_constraints:
 - mutually_exclusive: [MPC_CONTROL, THRUST_CONTROL]
 )",

@@ -87,7 +87,9 @@ behaviors:
 - {behavior: CRACK_DETECTOR, task: DETECT_CRACKS, requires: [{task: HOVER}]}
 - {behavior: HOVER_WITH_PID, task: HOVER}
 tasks:
-- {task: INSPECT_BRIDGE, execution_goal: achieve_goal, start_on_request: TRUE}
+- task: INSPECT_BRIDGE
+  execution_goal: achieve_goal
+  start_on_request: TRUE
 - task: FOLLOW_PATH
 - task: DETECT_CRACKS
 - task: HOVER
@@ -108,7 +110,9 @@ behaviors:
 - {behavior: CRACK_DETECTOR, task: DETECT_CRACKS, requires: [{task: HOVER}]}
 - {behavior: HOVER_WITH_PID, task: HOVER}
 tasks:
-- {task: INSPECT_BRIDGE, execution_goal: achieve_goal, start_on_request: TRUE}
+- task: INSPECT_BRIDGE
+  execution_goal: achieve_goal
+  start_on_request: TRUE
 - task: FOLLOW_PATH
 - task: DETECT_CRACKS
 - task: HOVER
