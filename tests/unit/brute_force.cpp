@@ -80,8 +80,7 @@ oracle::Problem model_of(const CompiledCatalog& catalog, const Problem& problem,
 
 BruteForce::BruteForce(const CompiledCatalog& catalog, const Problem& problem,
                        const std::vector<std::uint32_t>& ranks)
-    : catalog_(catalog),
-      first_task_(catalog.group_tasks[problem.group]),
+    : first_task_(catalog.group_tasks[problem.group]),
       facts_(facts_of(catalog, problem.group)),
       problem_(model_of(catalog, problem, ranks)),
       evaluated_(oracle::enumerate(facts_, problem_)) {

@@ -27,7 +27,6 @@ class BruteForce {
   [[nodiscard]] bool is_solution(const Assignment& answer) const;
 
  private:
-  const CompiledCatalog& catalog_;
   const TaskId first_task_;
   const oracle::CatalogFacts facts_;
   const oracle::Problem problem_;
