@@ -93,8 +93,9 @@ TEST_F(CompileCheck, TellsThatAFileIsOfAnotherVersion) {
 TEST_F(CompileCheck, TellsThatAFileIsNotWhatItSeems) {
   compile_robot();
   folder.write("robot.cbc", forge(folder.read("robot.cbc"), "LAND_SOFTLY", "LAND_GENTLY"));
-  expect_result(cbc({"compile", "--check", "robot.yaml"}), 1,
-                "'robot.cbc' is not up to date: its bytes differ from what cbc compile would write\n", "");
+  expect_result(
+      cbc({"compile", "--check", "robot.yaml"}), 1,
+      "'robot.cbc' is not up to date: its bytes differ from what cbc compile would write\n", "");
 }
 
 TEST_F(CompileCheck, CannotCheckWhatIsNoFile) {

@@ -64,7 +64,8 @@ std::string color(const std::string& text) {
   return text == "white" ? "#ffffff" : lower(text);
 }
 
-/// "task:HOVER | HOVER1. activated | #000000 | #ffffff", of each node, edge and cluster; the caption.
+/// "task:HOVER | HOVER1. activated | #000000 | #ffffff", of each node, edge and cluster; the
+/// caption.
 Lines lines_of_dot(const std::string& dot) {
   Lines lines;
   std::istringstream text(dot);
@@ -73,10 +74,10 @@ Lines lines_of_dot(const std::string& dot) {
     if (line.starts_with("  labelloc")) lines.push_back(label);
     if (!line.starts_with("  \"") && !line.starts_with("  subgraph")) continue;
     const std::string to = find(line, R"re(^  "[^"]*" -> "([^"]*)")re");
-    lines.push_back(fmt::format("{}{} | {} | {} | {}", find(line, R"re(^  (?:subgraph )?"([^"]*)")re"),
-                                to.empty() ? "" : "->" + to, label,
-                                lower(find(line, R"re([ \[]color="([^"]*)")re")),
-                                lower(find(line, R"re(fillcolor="([^"]*)")re"))));
+    lines.push_back(fmt::format(
+        "{}{} | {} | {} | {}", find(line, R"re(^  (?:subgraph )?"([^"]*)")re"),
+        to.empty() ? "" : "->" + to, label, lower(find(line, R"re([ \[]color="([^"]*)")re")),
+        lower(find(line, R"re(fillcolor="([^"]*)")re"))));
   }
   std::sort(lines.begin(), lines.end());
   return lines;

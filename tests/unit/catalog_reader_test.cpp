@@ -551,7 +551,8 @@ TEST(CatalogReader, Percentages) {
 }
 
 TEST(CatalogReader, Timeouts) {
-  const std::string must = "'timeout' must be a number of seconds above 0, up to 1000000000, found ";
+  const std::string must =
+      "'timeout' must be a number of seconds above 0, up to 1000000000, found ";
   for (const std::string value : {"15", "0.000001", "1000000000"}) {
     EXPECT_EQ(value_finding("timeout: " + value), "") << value;
   }
@@ -792,7 +793,8 @@ TEST(CatalogReader, ARequirementMustExcludeAllTasksOfABehavior) {
 // All at once ----------------------------------------------------------------------------------
 
 TEST(CatalogReader, ReportsAllProblemsAtOnce) {
-  EXPECT_EQ(findings(R"(default_values: {tasks: {timeout: never}}
+  EXPECT_EQ(
+      findings(R"(default_values: {tasks: {timeout: never}}
 behaviors:
 - behavior: A
 - behavior: B
@@ -809,20 +811,20 @@ tasks:
   reactive_start: maybe
 - task: X
 )"),
-            "1:35-40 error wrong-type: 'timeout' must be a number of seconds above 0, up to 1000000000, "
-            "found 'never'\n"
-            "3:13-14 error missing-key: missing key 'task' in behavior 'A'\n"
-            "6:16-19 error invalid-value: 'suitability' must be a number from 0 to 100 (percent), "
-            "found '120'\n"
-            "8:11-15 error undefined-task: task 'MOON', required by behavior 'B', is not defined\n"
-            "9:11-14 error undefined-task: task 'SUN', required by behavior 'B', is not defined\n"
-            "10:11-12 error requirement-cycle: tasks require one another: 'X' -> 'X'\n"
-            "  10:11-12 behavior 'B', which performs 'X', requires 'X'\n"
-            "11:13-14 error duplicate-behavior: behavior 'B' is defined twice\n"
-            "  4:13-14 first defined here\n"
-            "15:19-24 error wrong-type: 'reactive_start' must be true or false, found 'maybe'\n"
-            "16:9-10 warning duplicate-task: task 'X' is listed twice, with the same attributes\n"
-            "  14:9-10 first listed here\n");
+      "1:35-40 error wrong-type: 'timeout' must be a number of seconds above 0, up to 1000000000, "
+      "found 'never'\n"
+      "3:13-14 error missing-key: missing key 'task' in behavior 'A'\n"
+      "6:16-19 error invalid-value: 'suitability' must be a number from 0 to 100 (percent), "
+      "found '120'\n"
+      "8:11-15 error undefined-task: task 'MOON', required by behavior 'B', is not defined\n"
+      "9:11-14 error undefined-task: task 'SUN', required by behavior 'B', is not defined\n"
+      "10:11-12 error requirement-cycle: tasks require one another: 'X' -> 'X'\n"
+      "  10:11-12 behavior 'B', which performs 'X', requires 'X'\n"
+      "11:13-14 error duplicate-behavior: behavior 'B' is defined twice\n"
+      "  4:13-14 first defined here\n"
+      "15:19-24 error wrong-type: 'reactive_start' must be true or false, found 'maybe'\n"
+      "16:9-10 warning duplicate-task: task 'X' is listed twice, with the same attributes\n"
+      "  14:9-10 first listed here\n");
 }
 
 TEST(CatalogReader, SyntaxErrorsAreFindings) {

@@ -84,8 +84,7 @@ TEST_F(ExpectationTest, OfActiveBehaviorsIsAboutAllOfThemInAnyOrder) {
   expectation.active = {0};
   EXPECT_EQ(mismatch(), "expected the active behaviors to be 'b', but found 'b', 'c2'");
   expectation.active = {0, 2, 3};
-  EXPECT_EQ(mismatch(),
-            "expected the active behaviors to be 'b', 'c2', 'a', but found 'b', 'c2'");
+  EXPECT_EQ(mismatch(), "expected the active behaviors to be 'b', 'c2', 'a', but found 'b', 'c2'");
   expectation.active = std::vector<std::uint32_t>{};
   EXPECT_EQ(mismatch(), "expected the active behaviors to be none, but found 'b', 'c2'");
 }

@@ -1,5 +1,3 @@
-#include "lint/lint.h"
-
 #include <algorithm>
 #include <string>
 #include <string_view>
@@ -9,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnostic/rules.h"
+#include "lint/lint.h"
 #include "unit/findings.h"
 
 namespace cbc {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "draw/diagram.h"
 #include "draw/catalog_graph.h"
+#include "draw/diagram.h"
 #include "report/solve_report.h"
 #include "script/reader.h"
 #include "script/runner.h"

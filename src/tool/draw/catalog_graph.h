@@ -13,8 +13,8 @@
 #include "diagnostic/diagnostic.h"
 #include "diff/catalog_diff.h"
 
-/// A catalog as a graph: what pictures of it are drawn from, with marks for what stands out (a state,
-/// or the differences between two catalogs).
+/// A catalog as a graph: what pictures of it are drawn from, with marks for what stands out (a
+/// state, or the differences between two catalogs).
 namespace cbc::draw {
 
 /// How something stands out.
