@@ -18,7 +18,7 @@ SearchOptions search_options(std::uint64_t max_nodes, bool any_solution) {
   SearchOptions options;
   options.max_nodes = max_nodes;
   options.any_solution = any_solution;
-  // The bounds of the lookahead are about the objective, which does not matter for any solution.
+  // The cost bound is about the objective, which does not matter for any solution.
   if (any_solution) options.easy_nodes = UINT64_MAX;
   return options;
 }

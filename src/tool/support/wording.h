@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-/// Words for people: suggestions for unknown names, plurals, line breaks in names; and texts for
-/// programs: URIs, fingerprints.
+/// Words for people: suggestions for unknown names, plurals, line breaks in names; and, for
+/// programs, URIs.
 namespace cbc {
 
 /// Suggests known names for unknown ones: the one at the smallest edit distance, where a
