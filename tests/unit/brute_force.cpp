@@ -57,7 +57,7 @@ oracle::Problem model_of(const CompiledCatalog& catalog, const Problem& problem,
       if (((problem.domains[word] >> (index % 64)) & 1) != 0) order.push_back(index);
     }
     if (!ranks.empty()) {
-      const std::uint32_t* const rank = &ranks[catalog.values.begin[id]];
+      const std::uint32_t* const rank = ranks.data() + catalog.values.begin[id];
       std::sort(order.begin(), order.end(),
                 [&](std::uint32_t a, std::uint32_t b) { return rank[a] < rank[b]; });
     }
