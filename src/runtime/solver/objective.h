@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/natural.h"
 #include "cbc/units.h"
 #include "compiled/compiled_catalog.h"
 #include "solver/components.h"
@@ -24,10 +25,8 @@ class ExactProduct {
   static std::strong_ordering compare(ExactProduct& a, ExactProduct& b);
 
  private:
-  void scale(std::uint32_t factor);
-
-  std::vector<std::uint32_t> limbs_{1};  ///< product of the numerators, lowest limb first
-  std::uint32_t factors_ = 0;            ///< the denominator is 10^6 to this power
+  Natural numerator_;
+  std::uint32_t factors_ = 0;  ///< the denominator is 10^6 to this power
 };
 
 /// The order of the values of each task that decides where all objectives are equal

@@ -6,9 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 #include "base/disjoint_sets.h"
+#include "base/natural.h"
 
 namespace cbc {
 namespace {
@@ -205,17 +204,11 @@ class Compiler {
 CompiledCatalog compile(const Catalog& catalog) { return Compiler(catalog).run(); }
 
 std::string search_space(const std::vector<std::uint32_t>& domain_sizes) {
-  // Most products fit in a machine word.
-  std::uint64_t word = 1;
-  std::size_t place = 0;
-  while (place < domain_sizes.size() && word <= UINT32_MAX) word *= domain_sizes[place++];
-  if (place == domain_sizes.size()) return std::to_string(word);
-
-  boost::multiprecision::cpp_int product = word;
-  for (; place < domain_sizes.size(); ++place) {
-    if (domain_sizes[place] != 1) product *= domain_sizes[place];
+  Natural product;
+  for (const std::uint32_t size : domain_sizes) {
+    if (size != 1) product.multiply(size);
   }
-  return product.str();
+  return product.digits();
 }
 
 namespace {

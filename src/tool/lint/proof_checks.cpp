@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
+#include "base/natural.h"
 #include "base/text.h"
 #include "catalog/catalog.h"
 #include "diagnostic/rules.h"
@@ -197,14 +196,13 @@ class DeadCheck {
 
 /// A product of degrees, rounded down to four places.
 std::string show_product(const std::vector<Millionths>& factors) {
-  using boost::multiprecision::cpp_int;
-  cpp_int product = 1;
-  cpp_int divisor = 1;
-  for (const Millionths factor : factors) {
-    product *= factor;
-    divisor *= one_million;
-  }
-  return format_percent(static_cast<Millionths>(product * one_million / divisor));
+  if (factors.empty()) return format_percent(one_million);
+  Natural product;
+  for (const Millionths factor : factors) product.multiply(factor);
+  std::string digits = product.digits();
+  const std::size_t dropped = 6 * (factors.size() - 1);
+  digits.resize(digits.size() > dropped ? digits.size() - dropped : 0);
+  return format_percent(digits.empty() ? 0 : std::stoll(digits));
 }
 
 bool is_below(const std::vector<Millionths>& factors, Millionths minimum) {

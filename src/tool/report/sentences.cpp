@@ -6,46 +6,49 @@
 #include <string_view>
 #include <utility>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <fmt/format.h>
 
+#include "base/natural.h"
 #include "base/text.h"
 
 namespace cbc {
 namespace {
 
-using boost::multiprecision::cpp_int;
-
 /// A product of suitabilities.
-struct Product {
-  cpp_int digits = 1;
-  int decimals = 0;
-
+class Product {
+ public:
   void multiply(Millionths suitability) {
     if (suitability == 0) {
-      digits = 0;
+      is_zero_ = true;
       return;
     }
-    decimals += 6;
-    for (; suitability % 10 == 0; suitability /= 10) --decimals;
-    if (suitability != 1) digits *= suitability;
+    decimals_ += 6;
+    for (; suitability % 10 == 0; suitability /= 10) --decimals_;
+    if (suitability != 1) numerator_.multiply(suitability);
   }
 
+  [[nodiscard]] bool is_zero() const { return is_zero_; }
+
   [[nodiscard]] double nearest_double() const {
-    if (digits == 0) return 0;
-    if (decimals == 0) return 1;
-    return std::strtod((digits.str() + "e-" + std::to_string(decimals)).c_str(), nullptr);
+    if (is_zero_) return 0;
+    if (decimals_ == 0) return 1;
+    return std::strtod((numerator_.digits() + "e-" + std::to_string(decimals_)).c_str(), nullptr);
   }
 
   /// The product is at most 1.
   [[nodiscard]] std::string exact() const {
-    if (digits == 0) return "0";
-    if (decimals == 0) return "1";
-    std::string text = digits.str();
-    text.insert(0, static_cast<std::size_t>(decimals) - text.size(), '0');
+    if (is_zero_) return "0";
+    if (decimals_ == 0) return "1";
+    std::string text = numerator_.digits();
+    text.insert(0, decimals_ - text.size(), '0');
     text.erase(text.find_last_not_of('0') + 1);
     return "0." + text;
   }
+
+ private:
+  bool is_zero_ = false;
+  Natural numerator_;
+  std::size_t decimals_ = 0;  ///< the denominator is 10 to this power
 };
 
 void multiply_elsewhere(const CompiledCatalog& catalog, const State& state, std::uint32_t group,
@@ -86,7 +89,7 @@ std::string exact_suitability(const CompiledCatalog& catalog, const State& state
                               std::uint32_t group, const Assignment& places) {
   Product product;
   multiply_elsewhere(catalog, state, group, product);
-  if (product.digits == 0) product = {};
+  if (product.is_zero()) product = {};
   multiply_group(catalog, group, places, product);
   return product.exact();
 }
