@@ -150,7 +150,7 @@ bool is_control(char32_t character) {
          (character >= 0x2066 && character <= 0x2069);
 }
 
-std::string quote(std::string_view text) { return "'" + escape_some(text, longest) + "'"; }
+std::string quote(std::string_view text) { return concat("'", escape_some(text, longest), "'"); }
 
 std::string printable(std::string_view text) { return escape_some(text, text.size()); }
 
@@ -277,10 +277,10 @@ std::string format_decimal(std::int64_t value, int decimals) {
   std::string text = std::to_string(value).substr(negative ? 1 : 0);
   const auto places = static_cast<std::size_t>(decimals);
   if (text.size() <= places) text.insert(0, places + 1 - text.size(), '0');
-  text.insert(text.size() - places, ".");
+  text.insert(text.end() - decimals, '.');
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
-  return negative ? "-" + text : text;
+  return negative ? concat("-", text) : text;
 }
 
 std::string format_percent(std::int64_t degree) { return format_decimal(degree, 4) + " %"; }
