@@ -53,7 +53,7 @@ class Natural {
         remainder /= 10;
       }
     }
-    if (reversed.empty()) reversed = "0";
+    if (reversed.empty()) reversed += '0';
     return {reversed.rbegin(), reversed.rend()};
   }
 
