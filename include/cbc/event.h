@@ -23,9 +23,9 @@ enum class FinishCause : std::uint8_t {
   interrupted
 };
 
-/// Where an event comes from: a script (or a program), a timeout, the start of a reactive task, or
-/// a failed rollback.
-enum class Origin : std::uint8_t { script, timeout, reactive, fault };
+/// Where an event comes from: a script (or a program), a timeout, the start of a reactive task, a
+/// failed rollback, or a situation that a behavior does not fit any more.
+enum class Origin : std::uint8_t { script, timeout, reactive, fault, situation };
 
 enum class Outcome : std::uint8_t { accepted, rejected, unchanged };
 
@@ -54,17 +54,32 @@ struct Availability {
   bool available = true;
 };
 
-/// One event for the coordinator. Tasks and behaviors are given as catalog indices (see
-/// LoadedCatalog).
+/// A value of a situation variable, both as the catalog counts them.
+struct VariableValue {
+  std::uint32_t variable = 0;
+  std::uint32_t value = 0;
+
+  bool operator==(const VariableValue&) const = default;
+};
+
+/// Stands for the subject of an event where there is none.
+inline constexpr std::uint32_t no_subject = UINT32_MAX;
+
+/// One event for the coordinator. Tasks, behaviors and situation variables are given as catalog
+/// indices (see LoadedCatalog).
 struct Event {
   Verb verb = Verb::wait;
   std::uint32_t subject = 0;  ///< the task of start and stop, the behavior of finish, fault, repair
+  /// Of finish: the subject is a task, and whatever performs it at this moment finishes.
+  bool is_by_task = false;
   std::optional<std::int32_t> priority;  ///< of start (default 1) and stop (default: its request's)
   /// Parameters of a start in canonical form: equal data have equal texts, and no other. The empty
   /// text means no parameters. Absent: the task keeps the ones it has.
   std::optional<std::string_view> parameters;
   FinishCause cause = FinishCause::goal_achieved;  ///< of finish
-  std::span<const Availability> situation;  ///< of situation; other behaviors stay as they were
+  // Of situation. What is not named stays as it was. All changes take effect at once.
+  std::span<const Availability> situation;
+  std::span<const VariableValue> variables;
 };
 
 }  // namespace cbc

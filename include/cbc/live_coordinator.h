@@ -36,6 +36,8 @@ enum class [[nodiscard]] LiveStatus : std::uint8_t{
     invalid_situation,   ///< a length without entries
     unknown_task,        ///< the catalog has no task of this index
     unknown_behavior,    ///< the same of a behavior, also in a situation
+    unknown_variable,    ///< the catalog has no situation variable of this index
+    unknown_value,       ///< the situation variable has no value of this index
     /// So many events fell due that the clock did not reach the time of the call, and its event was
     /// not handled: process events(), and repeat the call.
     too_many_events,
@@ -68,8 +70,10 @@ struct HandledEvent {
   Microseconds time = 0;
   Origin origin = Origin::script;  ///< script: the program itself
   Verb verb = Verb::wait;
-  std::uint32_t subject = 0;  ///< the task of start and stop, the behavior of finish, fault, repair
-  std::int32_t priority = 0;  ///< of start and stop
+  /// The task of start and stop, the behavior of finish, fault and repair; no_subject if a finish
+  /// named a task that nothing performed.
+  std::uint32_t subject = 0;
+  std::int32_t priority = 0;                       ///< of start and stop
   FinishCause cause = FinishCause::goal_achieved;  ///< of finish
   Outcome outcome = Outcome::unchanged;
   bool is_proven = true;                    ///< no limit stopped a search
@@ -80,15 +84,17 @@ struct HandledEvent {
 /// Decides which behaviors are active while a robot runs: on every event it finds the best
 /// consistent set of behaviors, and reports the changes.
 ///
-/// At first its clock stands at 0, nothing runs, and all behaviors are available and not faulty.
-/// Send a situation first if some are unavailable. Then the program
+/// At first its clock stands at 0, nothing runs, situation variables have their first values, and
+/// all behaviors that fit them are available; none is faulty. Send a situation first if this is not
+/// so. Then the program
 /// - reports what happens with handle(),
 /// - calls advance_to() when next_due() has come, as behaviors time out and reactive tasks start,
 /// - and after each call carries out the changes of events(), in order.
 ///
 /// A behavior that finished is inactive already, so the changes contain no deactivation of it. This
 /// includes a behavior that timed out: it is the subject of an event of origin timeout, and has to
-/// be stopped first. (If a finish is rejected at a search limit, its behavior stays active.)
+/// be stopped first, and a behavior that a new situation does not fit, of origin situation. (If a
+/// finish is rejected at a search limit, its behavior stays active.)
 ///
 /// An activation counts as done as soon as it is decided. If it fails on the robot, report a fault
 /// of the behavior, so that it is not tried again, and then its finish with process_failure.
@@ -127,6 +133,8 @@ class LiveCoordinator {
   [[nodiscard]] std::optional<Microseconds> next_due() const;
   /// The behavior that performs a task; none if the task does not run, or there is no such task.
   [[nodiscard]] std::optional<std::uint32_t> behavior_of(std::uint32_t task) const;
+  /// The present value of a situation variable; none if there is no such variable.
+  [[nodiscard]] std::optional<std::uint32_t> value_of(std::uint32_t variable) const;
   /// What to report to the authors of this library; empty if there was no internal error.
   [[nodiscard]] std::string_view internal_error() const;
 

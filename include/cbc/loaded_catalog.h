@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "cbc/event.h"
+
 namespace cbc {
 
 struct CatalogLoading;
@@ -42,6 +44,20 @@ class LoadedCatalog {
   /// logarithmic in the size of the catalog.
   [[nodiscard]] std::optional<std::uint32_t> find_task(std::string_view name) const;
   [[nodiscard]] std::optional<std::uint32_t> find_behavior(std::string_view name) const;
+
+  // Situation variables and their values are numbered in the order in which the source declares
+  // them. A variable declared without values has "true" and "false".
+
+  [[nodiscard]] std::size_t variable_count() const;
+  /// The number of values of a variable; 0 if there is no such variable.
+  [[nodiscard]] std::size_t value_count(std::uint32_t variable) const;
+  /// The names of a variable and of a value; empty if there is none.
+  [[nodiscard]] std::string_view variable_name(std::uint32_t variable) const;
+  [[nodiscard]] std::string_view value_name(VariableValue value) const;
+  /// Take time linear in the number of variables, of values.
+  [[nodiscard]] std::optional<std::uint32_t> find_variable(std::string_view name) const;
+  [[nodiscard]] std::optional<std::uint32_t> find_value(std::uint32_t variable,
+                                                        std::string_view name) const;
 
  private:
   friend class LiveCoordinator;

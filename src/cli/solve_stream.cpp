@@ -97,14 +97,14 @@ class Stream {
             }),
         runner_(catalog, of_coordinator, events_) {}
 
-  void begin(std::span<const Availability> situation) {
-    output_.write(
-        stream_header(catalog_, catalog_.file, of_coordinator_.reactive_delay, situation));
+  void begin(const Situation& situation) {
     if (state_) {
       runner_.resume(*state_);
     } else {
       runner_.begin(situation);
     }
+    output_.write(stream_header(catalog_, catalog_.file, of_coordinator_.reactive_delay, situation,
+                                runner_.coordinator().state().variables()));
   }
 
   void run(const Script& script) {
@@ -218,7 +218,7 @@ int run_script_of(const Script& script, const CompiledCatalog& catalog, const So
   if (!knows_names(catalog, options.explain)) return exit_unusable;
   CoordinatorOptions coordinator = coordinator_options(options, catalog);
   coordinator.reactive_delay = state ? state->reactive_delay : script.reactive_delay;
-  if (state && !script.situation.empty()) {
+  if (state && !script.situation.is_empty()) {
     return complain("script {} has a situation to begin with, but --state-in has one already",
                     quote(script.file));
   }
@@ -304,7 +304,7 @@ class Replay {
 
   int run(const std::optional<Snapshot>& state) {
     CoordinatorOptions of_coordinator = coordinator_options(options_, catalog_);
-    const auto header = read_header();
+    const auto header = read_header(state);
     if (!header) return exit_unusable;
     of_coordinator.reactive_delay = header->reactive_delay;
     catalog_.file = header->catalog;  // some messages name it
@@ -335,7 +335,7 @@ class Replay {
     EventLog::Entry entry;
   };
 
-  [[nodiscard]] std::optional<EventLog::Header> read_header() {
+  [[nodiscard]] std::optional<EventLog::Header> read_header(const std::optional<Snapshot>& state) {
     if (input_.next() != LineInput::Status::line) {
       refuse("it has no header");
       return std::nullopt;
@@ -345,8 +345,11 @@ class Replay {
       refuse(log_.error());
       return std::nullopt;
     }
+    State first(catalog_);
+    apply(header->situation, catalog_, first);
     std::string text =
-        stream_header(catalog_, header->catalog, header->reactive_delay, header->situation);
+        stream_header(catalog_, header->catalog, header->reactive_delay, header->situation,
+                      state ? state->variables : first.variables());
     output_.write(text);
     text.pop_back();
     if (text != input_.line()) {

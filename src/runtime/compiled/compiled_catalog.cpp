@@ -1,5 +1,6 @@
 #include "compiled/compiled_catalog.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace cbc {
@@ -72,6 +73,42 @@ std::optional<std::uint32_t> CompiledCatalog::find_task(std::string_view name) c
 
 std::optional<std::uint32_t> CompiledCatalog::find_behavior(std::string_view name) const {
   return find(behavior_names, behaviors_by_name, name);
+}
+
+std::optional<std::uint32_t> CompiledCatalog::find_variable(std::string_view name) const {
+  for (std::uint32_t variable = 0; variable < variables.size(); ++variable) {
+    if (name_of_variable(variable) == name) return variable;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> CompiledCatalog::find_value(std::uint32_t variable,
+                                                         std::string_view text) const {
+  for (std::uint32_t value = 0; value < variables[variable].value_count; ++value) {
+    if (name_of_value({variable, value}) == text) return value;
+  }
+  return std::nullopt;
+}
+
+std::span<const FittingValue> CompiledCatalog::fitting_values_of(BehaviorId behavior) const {
+  const auto [first, end] = std::equal_range(
+      fitting_values.begin(), fitting_values.end(), FittingValue{behavior, 0, 0},
+      [](const FittingValue& a, const FittingValue& b) { return a.behavior < b.behavior; });
+  return {first, end};
+}
+
+std::optional<std::uint32_t> CompiledCatalog::find_misfit(
+    BehaviorId behavior, std::span<const std::uint32_t> present) const {
+  const auto all = fitting_values_of(behavior);
+  for (auto next = all.begin(); next != all.end();) {
+    const std::uint32_t variable = next->variable;
+    bool is_fitting = false;
+    for (; next != all.end() && next->variable == variable; ++next) {
+      is_fitting |= next->value == present[variable];
+    }
+    if (!is_fitting) return variable;
+  }
+  return std::nullopt;
 }
 
 }  // namespace cbc

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <tuple>
 #include <type_traits>
 
+#include "cbc/event.h"
 #include "cbc/units.h"
 
 /// A catalog as the solver, the coordinator and all reports use it: flat arrays of numbers, which
@@ -140,6 +142,24 @@ struct CompiledParameter {
   std::uint32_t allowed_count = 0;
 };
 
+/// A situation variable. Its first value is the initial one.
+struct CompiledVariable {
+  TextId name = 0;
+  std::uint32_t is_boolean = 0;   ///< declared without values: they are "true" and "false"
+  std::uint32_t first_value = 0;  ///< in CompiledCatalog::variable_values
+  std::uint32_t value_count = 0;
+};
+
+/// That a behavior fits where a variable has a value. Values of the same variable are alternatives;
+/// a behavior fits if each variable that it names has one of them.
+struct FittingValue {
+  BehaviorId behavior = 0;
+  std::uint32_t variable = 0;
+  std::uint32_t value = 0;  ///< counts the values of the variable
+
+  [[nodiscard]] auto operator<=>(const FittingValue&) const = default;
+};
+
 /// The arrays of a catalog: views of arrays in CompiledCatalog, vectors in GrowingCatalog. Most of
 /// them follow from the others; see compiled/derive.h.
 template <template <typename> class List, template <typename> class ListOfRows>
@@ -183,6 +203,11 @@ struct CatalogArrays {
   ListOfRows<TaskId> cliques;        ///< distinct tasks of which at most one runs
   List<std::uint32_t> clique_lines;  ///< by clique: of its (first) list
   List<std::uint64_t> masks;
+
+  // Situation variables, in catalog order.
+  List<CompiledVariable> variables;
+  List<TextId> variable_values;
+  List<FittingValue> fitting_values;  ///< ascending
 };
 
 /// References to all arrays, in the order of compiled files: of rows the items, and then the
@@ -198,8 +223,8 @@ template <typename Catalog>
                   catalog.incoming.begin, catalog.task_cliques.items, catalog.task_cliques.begin,
                   catalog.behaviors, catalog.requirements.items, catalog.requirements.begin,
                   catalog.requirement_lines, catalog.performs.items, catalog.performs.begin,
-                  catalog.cliques.items, catalog.cliques.begin, catalog.clique_lines,
-                  catalog.masks);
+                  catalog.cliques.items, catalog.cliques.begin, catalog.clique_lines, catalog.masks,
+                  catalog.variables, catalog.variable_values, catalog.fitting_values);
 }
 
 template <typename T>
@@ -232,6 +257,24 @@ struct CompiledCatalog : CatalogArrays<View, Rows> {
   /// Place in the catalog of the task, the behavior with this name.
   [[nodiscard]] std::optional<std::uint32_t> find_task(std::string_view name) const;
   [[nodiscard]] std::optional<std::uint32_t> find_behavior(std::string_view name) const;
+
+  [[nodiscard]] std::string_view name_of_variable(std::uint32_t variable) const {
+    return texts[variables[variable].name];
+  }
+  [[nodiscard]] std::string_view name_of_value(VariableValue value) const {
+    return texts[variable_values[variables[value.variable].first_value + value.value]];
+  }
+  /// The situation variable with this name; its value with this text. They take time proportional
+  /// to the number of variables, of values.
+  [[nodiscard]] std::optional<std::uint32_t> find_variable(std::string_view name) const;
+  [[nodiscard]] std::optional<std::uint32_t> find_value(std::uint32_t variable,
+                                                        std::string_view text) const;
+  /// The values in which a behavior fits; those of one variable lie side by side.
+  [[nodiscard]] std::span<const FittingValue> fitting_values_of(BehaviorId behavior) const;
+  /// The first variable that a behavior names and whose value is none that it names; none if the
+  /// behavior fits. `present`: the values of the variables.
+  [[nodiscard]] std::optional<std::uint32_t> find_misfit(
+      BehaviorId behavior, std::span<const std::uint32_t> present) const;
 
   /// The task that a value is of.
   [[nodiscard]] TaskId task_of(ValueId value) const { return value_tasks[value]; }

@@ -83,6 +83,16 @@ Digest identity_of(const CompiledCatalog& catalog) {
   bytes.add(catalog.performs);
   bytes.add(catalog.cliques);
   bytes.add(catalog.clique_lines);
+  // Catalogs without situation variables keep the digests that they had before there were any.
+  if (!catalog.variables.empty()) {
+    for (const CompiledVariable& variable : catalog.variables) {
+      bytes.add_text(catalog.texts[variable.name]);
+      bytes.add_size(variable.is_boolean);
+      bytes.add_size(variable.value_count);
+    }
+    for (const TextId text : catalog.variable_values) bytes.add_text(catalog.texts[text]);
+    bytes.add(catalog.fitting_values);
+  }
   return digest_of(bytes.text());
 }
 

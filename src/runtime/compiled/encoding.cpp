@@ -55,6 +55,15 @@ struct Stored<CompiledParameter> {
   using Type = flat::Parameter;
 };
 
+template <>
+struct Stored<CompiledVariable> {
+  using Type = flat::Variable;
+};
+template <>
+struct Stored<FittingValue> {
+  using Type = flat::FittingValue;
+};
+
 template <typename T>
 constexpr bool is_stored_as_it_is =
     sizeof(T) == sizeof(typename Stored<T>::Type) &&
@@ -180,14 +189,15 @@ class Decoder {
   }
 
   /// False if the items are misaligned, which the verifier of FlatBuffers does not check. It checks
-  /// bounds, and that `required` fields are there, as all are in format 1.
+  /// bounds, and that the fields of format 1 are there; later ones may be missing, which means
+  /// empty.
   template <typename T, typename Items>
   [[nodiscard]] static bool take(const flatbuffers::Vector<Items>* items, std::span<const T>& to) {
     using Type = typename Stored<T>::Type;
     static_assert(is_stored_as_it_is<T>);
     static_assert(
         std::is_same_v<Items, std::conditional_t<std::is_scalar_v<Type>, Type, const Type*>>);
-    if (items->size() == 0) return true;
+    if (items == nullptr || items->size() == 0) return true;
     if (!is_aligned(items->Data(), alignof(T))) return false;
     to = {reinterpret_cast<const T*>(items->Data()), items->size()};
     return true;

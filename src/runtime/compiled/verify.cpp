@@ -314,6 +314,87 @@ Fault find_clique_fault(const CompiledCatalog& catalog) {
   return std::nullopt;
 }
 
+// Situation variables ----------------------------------------------------------------------------
+
+/// The values of one variable. Two values of a flag are "true" and "false".
+Fault find_values_fault(const CompiledCatalog& catalog, std::uint32_t number) {
+  const CompiledVariable& variable = catalog.variables[number];
+  if (variable.value_count < 2) {
+    return concat("variable ", number, " has ", variable.value_count,
+                  " values, expected 2 or more");
+  }
+  if (variable.is_boolean > 1) return concat("variable ", number, ": a flag is neither 0 nor 1");
+  std::vector<std::string_view> texts;
+  for (std::uint32_t value = 0; value < variable.value_count; ++value) {
+    texts.push_back(catalog.name_of_value({number, value}));
+  }
+  if (variable.is_boolean != 0 && texts != std::vector<std::string_view>{"true", "false"}) {
+    return concat("variable ", number, " is a flag, but its values are not true and false");
+  }
+  std::sort(texts.begin(), texts.end());
+  if (std::adjacent_find(texts.begin(), texts.end()) != texts.end()) {
+    return concat("variable ", number, " has a value twice");
+  }
+  return std::nullopt;
+}
+
+Fault find_fitting_fault(const CompiledCatalog& catalog) {
+  const FittingValue* before = nullptr;
+  for (const FittingValue& fitting : catalog.fitting_values) {
+    if (fitting.behavior >= catalog.behaviors.size() ||
+        fitting.variable >= catalog.variables.size() ||
+        fitting.value >= catalog.variables[fitting.variable].value_count) {
+      return concat("behavior ", fitting.behavior, " fits value ", fitting.value, " of variable ",
+                    fitting.variable, ", but there is no such behavior, variable or value");
+    }
+    if (before != nullptr && *before >= fitting) return "'fitting_values' do not ascend";
+    before = &fitting;
+  }
+  return std::nullopt;
+}
+
+/// The values stand in the order of the variables, without gaps. A variable and a behavior have
+/// different names, as events name both in the same place.
+Fault find_variable_fault(const CompiledCatalog& catalog) {
+  const std::size_t texts = catalog.texts.size();
+  if (auto fault = find_text_id_fault("variable_values", catalog.variable_values, texts)) {
+    return fault;
+  }
+  std::uint64_t next = 0;
+  std::vector<std::string_view> names;
+  for (std::uint32_t number = 0; number < catalog.variables.size(); ++number) {
+    const CompiledVariable& variable = catalog.variables[number];
+    if (variable.name >= texts || catalog.texts[variable.name].empty()) {
+      return concat("variable ", number, " has no name");
+    }
+    names.push_back(catalog.texts[variable.name]);
+    if (variable.first_value != next) {
+      return concat("the values of variable ", number, " begin at ", variable.first_value,
+                    ", expected ", next);
+    }
+    next += variable.value_count;
+  }
+  if (auto fault = find_count_fault("variable_values", catalog.variable_values.size(), next)) {
+    return fault;
+  }
+  for (std::uint32_t number = 0; number < catalog.variables.size(); ++number) {
+    if (auto fault = find_values_fault(catalog, number)) return fault;
+  }
+  const Texts behaviors(catalog.texts, catalog.tasks.size(), catalog.behaviors.size());
+  std::sort(names.begin(), names.end());
+  for (std::size_t place = 0; place < names.size(); ++place) {
+    const auto found = std::lower_bound(
+        catalog.behaviors_by_name.begin(), catalog.behaviors_by_name.end(), names[place],
+        [&](std::uint32_t index, std::string_view name) { return behaviors[index] < name; });
+    const bool is_behavior =
+        found != catalog.behaviors_by_name.end() && behaviors[*found] == names[place];
+    if (is_behavior || (place > 0 && names[place - 1] == names[place])) {
+      return concat("the name ", quote(names[place]), " of a variable is not unique");
+    }
+  }
+  return find_fitting_fault(catalog);
+}
+
 // What is derived --------------------------------------------------------------------------------
 
 template <typename T>
@@ -408,7 +489,7 @@ Fault find_derived_fault(const CompiledCatalog& catalog) {
 std::optional<std::string> find_fault(const CompiledCatalog& catalog) {
   for (const auto find_fault_of_part :
        {find_size_fault, find_text_fault, find_task_fault, find_value_fault, find_behavior_fault,
-        find_clique_fault, find_derived_fault}) {
+        find_clique_fault, find_variable_fault, find_derived_fault}) {
     if (auto fault = find_fault_of_part(catalog)) return fault;
   }
   return std::nullopt;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <functional>
 
 #include "base/text.h"
 #include "coordinator/explainer.h"
@@ -23,17 +24,22 @@ Coordinator::Coordinator(const CompiledCatalog& catalog, const CoordinatorOption
       solver_(catalog, options.search, ranks_),
       checker_(catalog) {}
 
-void Coordinator::begin(std::span<const Availability> situation) {
+void Coordinator::begin(std::span<const Availability> situation,
+                        std::span<const VariableValue> variables) {
   for (const Availability& entry : situation) {
-    state_.set_available(catalog_.behavior_ids[entry.behavior], entry.available);
+    state_.set_denied(catalog_.behavior_ids[entry.behavior], !entry.available);
   }
+  for (const VariableValue& value : variables) state_.set_variable(value);
   for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) enqueue_group(group);
 }
 
 void Coordinator::resume(const Snapshot& snapshot) {
   now_ = snapshot.now;
   record_.index = snapshot.events;
-  for (const BehaviorId behavior : snapshot.unavailable) state_.set_available(behavior, false);
+  for (const BehaviorId behavior : snapshot.denied) state_.set_denied(behavior, true);
+  for (std::uint32_t variable = 0; variable < snapshot.variables.size(); ++variable) {
+    state_.set_variable({variable, snapshot.variables[variable]});
+  }
   for (const BehaviorId behavior : snapshot.faulty) state_.set_faulty(behavior, true);
   for (const auto& [behavior, time] : snapshot.active) state_.set_active(behavior, time);
   for (const Snapshot::RunningTask& entry : snapshot.running) {
@@ -45,6 +51,7 @@ void Coordinator::resume(const Snapshot& snapshot) {
     if (entry.waits_for_timeout) state_.update_timeout(entry.task, -1);
   }
   for (const auto& [task, due] : snapshot.queue) state_.enqueue(task, due);
+  for (const TaskId task : snapshot.waiting) state_.set_waiting(task, true);
 }
 
 Snapshot Coordinator::snapshot() const {
@@ -63,8 +70,12 @@ Snapshot Coordinator::snapshot() const {
     if (state_.is_active(behavior)) {
       snapshot.active.emplace_back(behavior, state_.activated_at(behavior));
     }
-    if (!state_.is_available(behavior)) snapshot.unavailable.push_back(behavior);
+    if (state_.is_denied(behavior)) snapshot.denied.push_back(behavior);
     if (state_.is_faulty(behavior)) snapshot.faulty.push_back(behavior);
+  }
+  snapshot.variables = state_.variables();
+  for (const TaskId task : catalog_.task_ids) {
+    if (state_.is_waiting(task)) snapshot.waiting.push_back(task);
   }
   for (const auto& [due, index] : state_.queue().entries()) {
     snapshot.queue.emplace_back(catalog_.task_ids[index], due);
@@ -78,7 +89,7 @@ Snapshot Coordinator::snapshot() const {
 // The clock.
 
 Coordinator::Status Coordinator::advance_to(Microseconds time) {
-  if (const Status status = finish_lost(); status != Status::ok) return status;
+  if (const Status status = finish_pending(); status != Status::ok) return status;
   for (auto due = next_due(); due && *due < time; due = next_due()) {
     if (const Status status = process_next_due(); status != Status::ok) return status;
   }
@@ -87,7 +98,7 @@ Coordinator::Status Coordinator::advance_to(Microseconds time) {
 }
 
 Coordinator::Status Coordinator::settle() {
-  if (const Status status = finish_lost(); status != Status::ok) return status;
+  if (const Status status = finish_pending(); status != Status::ok) return status;
   for (auto due = next_due(); due && *due <= now_; due = next_due()) {
     if (const Status status = process_next_due(); status != Status::ok) return status;
   }
@@ -97,38 +108,39 @@ Coordinator::Status Coordinator::settle() {
 std::optional<Microseconds> Coordinator::next_due() const {
   const Timers& timeouts = state_.timeouts();
   const Timers& queue = state_.queue();
-  if (!lost_.empty()) return now_;
+  if (!lost_.empty() || !misfits_.empty()) return now_;
   if (timeouts.empty() && queue.empty()) return std::nullopt;
   if (timeouts.empty()) return queue.first_due();
   if (queue.empty()) return timeouts.first_due();
   return std::min(timeouts.first_due(), queue.first_due());
 }
 
-/// At one instant timeouts come before reactive starts.
+/// At one instant timeouts come before reactive starts. Each counts, whether it is an event or not.
 Coordinator::Status Coordinator::process_next_due() {
   const Timers& timeouts = state_.timeouts();
   const Timers& queue = state_.queue();
   now_ = *next_due();
   const bool is_timeout = !timeouts.empty() && timeouts.first_due() == now_;
   const TaskId task = catalog_.task_ids[is_timeout ? timeouts.first() : queue.first()];
-  if (!is_timeout && !may_start(task)) {
-    state_.dequeue(task);
-    return Status::ok;
-  }
   if (clock_events_ == options_.max_clock_events) return Status::too_many_clock_events;
+  ++clock_events_;
   const Status status = is_timeout ? time_out(task) : start_reactive(task);
-  return status == Status::ok ? finish_lost() : status;
+  return status == Status::ok ? finish_pending() : status;
 }
 
 Coordinator::Status Coordinator::time_out(TaskId task) {
   state_.drop_timeout(task);
-  open_clock_record(Origin::timeout, Verb::finish);
+  open_record(Origin::timeout, Verb::finish);
   return finish(state_.behavior(task), FinishCause::time_out);
 }
 
 Coordinator::Status Coordinator::start_reactive(TaskId task) {
   state_.dequeue(task);
-  open_clock_record(Origin::reactive, Verb::start);
+  if (!may_start(task)) {
+    state_.set_waiting(task, false);
+    return Status::ok;
+  }
+  open_record(Origin::reactive, Verb::start);
   return start(task, 0, std::string_view{}, true);
 }
 
@@ -138,14 +150,24 @@ bool Coordinator::may_start(TaskId task) const {
          state_.has_available_behavior(task);
 }
 
-/// Behaviors that a rollback could not activate again finish right after the rejected event.
-Coordinator::Status Coordinator::finish_lost() {
-  while (!lost_.empty()) {
-    if (clock_events_ == options_.max_clock_events) return Status::too_many_clock_events;
-    const BehaviorId behavior = lost_.back();
-    lost_.pop_back();
-    open_clock_record(Origin::fault, Verb::finish);
-    const Status status = finish(behavior, FinishCause::process_failure);
+/// What follows an event at the same instant: behaviors that a rollback could not activate again
+/// finish right after the rejected event, and then those that a new situation does not fit.
+Coordinator::Status Coordinator::finish_pending() {
+  while (!lost_.empty() || !misfits_.empty()) {
+    Status status = Status::ok;
+    if (!lost_.empty()) {
+      const BehaviorId behavior = lost_.back();
+      lost_.pop_back();
+      open_record(Origin::fault, Verb::finish);
+      status = finish(behavior, FinishCause::process_failure);
+    } else {
+      const BehaviorId behavior = catalog_.behavior_ids[misfits_.back()];
+      misfits_.pop_back();
+      // An earlier finish may have replaced it already.
+      if (!state_.is_active(behavior) || state_.fits(behavior)) continue;
+      open_record(Origin::situation, Verb::finish);
+      status = finish(behavior, FinishCause::situation_change);
+    }
     if (status != Status::ok) return status;
   }
   return Status::ok;
@@ -156,7 +178,7 @@ Coordinator::Status Coordinator::finish_lost() {
 Coordinator::Status Coordinator::handle(const Event& event) {
   open_record(Origin::script, event.verb);
   const Status status = take(event);
-  return status == Status::ok ? finish_lost() : status;
+  return status == Status::ok ? finish_pending() : status;
 }
 
 Coordinator::Status Coordinator::take(const Event& event) {
@@ -167,10 +189,11 @@ Coordinator::Status Coordinator::take(const Event& event) {
     case Verb::stop:
       return stop(catalog_.task_ids[event.subject], event.priority);
     case Verb::finish:
-      return finish(catalog_.behavior_ids[event.subject], event.cause);
+      if (!event.is_by_task) return finish(catalog_.behavior_ids[event.subject], event.cause);
+      record_.task = catalog_.task_ids[event.subject];
+      return finish(state_.behavior(record_.task), event.cause);
     case Verb::situation:
-      change_situation(event.situation);
-      return report();
+      return change_situation(event);
     case Verb::fault:
       record_.behavior = catalog_.behavior_ids[event.subject];
       state_.set_faulty(record_.behavior, true);
@@ -201,12 +224,6 @@ void Coordinator::open_record(Origin origin, Verb verb) {
   record_.behavior = none;
   record_.priority = 0;
   record_.outcome = Outcome::unchanged;
-}
-
-/// For an event of the clock; the caller has checked the limit.
-void Coordinator::open_clock_record(Origin origin, Verb verb) {
-  ++clock_events_;
-  open_record(origin, verb);
 }
 
 Coordinator::Status Coordinator::report() {
@@ -243,6 +260,7 @@ Coordinator::Status Coordinator::stop(TaskId task, std::optional<std::int32_t> p
   record_.priority = priority.value_or(request != nullptr ? request->priority : 0);
   if (!state_.is_running(task)) {
     state_.dequeue(task);
+    state_.set_waiting(task, false);
     return report();
   }
   if (request != nullptr && request->priority > record_.priority) {
@@ -269,7 +287,7 @@ Coordinator::Status Coordinator::reject_by_priority(TaskId task, std::int32_t pr
 Coordinator::Status Coordinator::finish(BehaviorId behavior, FinishCause cause) {
   record_.behavior = behavior;
   record_.cause = cause;
-  if (!state_.is_active(behavior)) return report();
+  if (behavior == none || !state_.is_active(behavior)) return report();
   Trigger trigger;
   trigger.kind = Trigger::Kind::finish;
   trigger.group = catalog_.group_of(behavior);
@@ -278,12 +296,31 @@ Coordinator::Status Coordinator::finish(BehaviorId behavior, FinishCause cause) 
   return coordinate(trigger);
 }
 
-void Coordinator::change_situation(std::span<const Availability> situation) {
-  for (const Availability& entry : situation) {
-    const BehaviorId behavior = catalog_.behavior_ids[entry.behavior];
-    const bool becomes_available = entry.available && !state_.is_available(behavior);
-    state_.set_available(behavior, entry.available);
-    if (becomes_available) enqueue_group(catalog_.group_of(behavior));
+/// Makes all changes at once. Then behaviors that become available let reactive tasks try, and
+/// active ones that do not fit any more finish, in catalog order.
+Coordinator::Status Coordinator::change_situation(const Event& event) {
+  find_affected(event);
+  for (const Availability& entry : event.situation) {
+    state_.set_denied(catalog_.behavior_ids[entry.behavior], !entry.available);
+  }
+  for (const VariableValue& value : event.variables) state_.set_variable(value);
+  for (const auto& [behavior, was_available] : affected_) {
+    if (!was_available && state_.is_available(behavior)) enqueue_group(catalog_.group_of(behavior));
+    if (!state_.is_active(behavior) || state_.fits(behavior)) continue;
+    misfits_.push_back(catalog_.behaviors[behavior].catalog_index);
+  }
+  std::sort(misfits_.begin(), misfits_.end(), std::greater());
+  return report();
+}
+
+void Coordinator::find_affected(const Event& event) {
+  affected_.clear();
+  const auto add = [&](BehaviorId behavior) {
+    affected_.emplace_back(behavior, state_.is_available(behavior));
+  };
+  for (const Availability& entry : event.situation) add(catalog_.behavior_ids[entry.behavior]);
+  for (const VariableValue& value : event.variables) {
+    for (const FittingValue& fitting : state_.fitting(value.variable)) add(fitting.behavior);
   }
 }
 
@@ -419,6 +456,7 @@ void Coordinator::accept(const Trigger& trigger, const Problem& problem) {
   objective.idle_running = state_.idle_running();
   update_timeouts(trigger.group);
   update_queue();
+  if (state_.waiting_count() > 0) retry_waiting(trigger.group);
 }
 
 /// Explains the solution as far as the options ask for it. Makes no explainer where the options ask
@@ -444,12 +482,24 @@ Coordinator::Status Coordinator::reject(const Trigger& trigger) {
     record_.conflict =
         find_conflict(catalog_, {state_, trigger, search_.protection, problem_builder_.excluded()});
   }
+  const bool is_silent = note_waiting(trigger);
   // In reverse, as the last one finishes next.
   const std::vector<BehaviorId>& lost = transition_.roll_back(now_);
   lost_.insert(lost_.end(), lost.rbegin(), lost.rend());
   if (trigger.kind == Trigger::Kind::finish) state_.leave_active(trigger.behavior);
   update_timeouts(trigger.group);
-  return report();
+  if (!is_silent) return report();
+  --record_.index;
+  return Status::ok;
+}
+
+/// A reactive task whose start had no solution waits for a change of its group. True if it waited
+/// before and nothing happened, which is no event.
+bool Coordinator::note_waiting(const Trigger& trigger) {
+  if (!trigger.is_reactive) return false;
+  const bool was_waiting = state_.is_waiting(trigger.task);
+  state_.set_waiting(trigger.task, true);
+  return was_waiting && record_.changes.empty();
 }
 
 /// Gives the tasks of the group the values of the solution.
@@ -468,7 +518,9 @@ void Coordinator::assign(const Trigger& trigger) {
     }
     record_.stopped_tasks.push_back(
         {task, has_finished ? trigger.cause : FinishCause::interrupted});
-    if (!has_finished && task != trigger.task) stopped_by_others_.push_back(task);
+    const bool is_own_end =
+        has_finished ? trigger.cause != FinishCause::situation_change : task == trigger.task;
+    if (!is_own_end) stopped_by_others_.push_back(task);
   }
   if (trigger.kind == Trigger::Kind::start) {
     state_.set_request(trigger.task, trigger.priority, record_.index, trigger.parameters);
@@ -487,6 +539,18 @@ void Coordinator::update_queue() {
   for (const StoppedTask& stopped : record_.stopped_tasks) enqueue_rivals(stopped.task);
   for (const TaskId task : stopped_by_others_) enqueue_if_reactive(task);
   for (const TaskId task : started_) dequeue_with_rivals(task);
+}
+
+/// The tasks of the group that wait try again after an accepted event.
+void Coordinator::retry_waiting(std::uint32_t group) {
+  for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
+    if (!state_.is_waiting(task)) continue;
+    if (state_.is_running(task) || state_.excludes_running_task(task)) {
+      state_.set_waiting(task, false);
+    } else {
+      enqueue_if_reactive(task);
+    }
+  }
 }
 
 void Coordinator::enqueue_if_reactive(TaskId task) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cbc/event.h"
@@ -22,7 +23,7 @@ namespace cbc {
 struct CoordinatorOptions {
   SearchOptions search;
   Microseconds reactive_delay = 80'000;        ///< over 0; see docs/semantics.md, "Reactive tasks"
-  std::uint64_t max_clock_events = 1'000'000;  ///< timeouts, reactive starts, lost behaviors
+  std::uint64_t max_clock_events = 1'000'000;  ///< timeouts and reactive starts, silent ones, too
   bool find_conflicts = true;                  ///< of rejected events
   ExplanationOptions explain;                  ///< what to explain of accepted events
   bool measure_time = false;                   ///< records the time of searches
@@ -59,7 +60,7 @@ class Coordinator {
   Coordinator& operator=(const Coordinator&) = delete;
 
   /// To be called before the first event: sets the situation and queues the reactive tasks.
-  void begin(std::span<const Availability> situation);
+  void begin(std::span<const Availability> situation, std::span<const VariableValue> variables);
 
   /// Instead of begin: continues from the state of another coordinator, which find_inconsistency
   /// accepts. The reactive delay is that of the options.
@@ -88,11 +89,10 @@ class Coordinator {
   Status process_next_due();
   Status time_out(TaskId task);
   Status start_reactive(TaskId task);
-  Status finish_lost();
+  Status finish_pending();
   [[nodiscard]] bool may_start(TaskId task) const;
 
   void open_record(Origin origin, Verb verb);
-  void open_clock_record(Origin origin, Verb verb);
   Status report();
 
   Status take(const Event& event);
@@ -101,7 +101,8 @@ class Coordinator {
   Status stop(TaskId task, std::optional<std::int32_t> priority);
   Status reject_by_priority(TaskId task, std::int32_t priority);
   Status finish(BehaviorId behavior, FinishCause cause);
-  void change_situation(std::span<const Availability> situation);
+  Status change_situation(const Event& event);
+  void find_affected(const Event& event);
   void repair(BehaviorId behavior);
 
   Status coordinate(const Trigger& trigger);
@@ -113,9 +114,11 @@ class Coordinator {
   void accept(const Trigger& trigger, const Problem& problem);
   void explain(const Trigger& trigger, const Problem& problem);
   Status reject(const Trigger& trigger);
+  bool note_waiting(const Trigger& trigger);
   void assign(const Trigger& trigger);
   void update_timeouts(std::uint32_t group);
   void update_queue();
+  void retry_waiting(std::uint32_t group);
   void enqueue_if_reactive(TaskId task);
   void enqueue_rivals(TaskId task);
   void dequeue_with_rivals(TaskId task);
@@ -135,8 +138,12 @@ class Coordinator {
   std::optional<Explainer> explainer_;
   Assignment solution_;
   std::vector<TaskId> started_;
-  std::vector<TaskId> stopped_by_others_;  ///< those that did not finish and were not asked to stop
-  std::vector<BehaviorId> lost_;           ///< of a failed rollback; the last one finishes next
+  std::vector<TaskId> stopped_by_others_;  ///< not by their own stop or end: see update_queue
+  /// The behaviors that a situation may affect, and whether they were available before it.
+  std::vector<std::pair<BehaviorId, bool>> affected_;
+  std::vector<BehaviorId> lost_;  ///< of a failed rollback; the last one finishes next
+  /// Active behaviors that may not fit any more, by catalog index; the last one is looked at next.
+  std::vector<std::uint32_t> misfits_;
   Microseconds now_ = 0;
   std::uint64_t clock_events_ = 0;
   std::string internal_error_;

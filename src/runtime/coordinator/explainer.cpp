@@ -79,7 +79,14 @@ class Candidates {
       reason.kind = behavior == trigger_.behavior ? Reason::Kind::finished : Reason::Kind::faulty;
       reasons_.push_back(reason);
     } else if (!state_.is_available(behavior)) {
-      reason.kind = Reason::Kind::unavailable;
+      // An active behavior that does not fit may not be kept, unlike one that is unavailable.
+      const bool is_denied =
+          state_.is_denied(behavior) && (state_.fits(behavior) || !state_.is_active(behavior));
+      reason.kind = is_denied ? Reason::Kind::unavailable : Reason::Kind::situation;
+      if (!is_denied) {
+        reason.variable = *catalog_.find_misfit(behavior, state_.variables());
+        reason.value = state_.value_of(reason.variable);
+      }
       reasons_.push_back(reason);
     }
   }

@@ -109,10 +109,10 @@ const Problem& ProblemBuilder::build(std::int32_t protection) {
   return problem_;
 }
 
-/// Available behaviors are in the domain already. The present one may be kept in any case, unless
-/// it has just finished.
+/// Available behaviors are in the domain already. The present one may be kept if it fits, unless it
+/// has just finished.
 void ProblemBuilder::add_present_value(TaskId task) {
-  if (state_.is_running(task) && !has_finished(task)) {
+  if (state_.is_running(task) && !has_finished(task) && state_.fits(state_.behavior(task))) {
     const std::uint32_t index = state_.value_index(task);
     word_of(task, index) |= std::uint64_t{1} << (index % 64);
   }

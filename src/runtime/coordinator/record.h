@@ -24,7 +24,8 @@ namespace cbc {
 
 /// What an event with a verb consists of, beside its time.
 struct VerbForm {
-  /// What the verb is about; a situation is a mapping of behaviors to booleans.
+  /// What the verb is about; a situation is a mapping of behaviors to booleans, and of situation
+  /// variables to their values. A behavior of a finish may be given by a task that it performs.
   enum class SubjectKind : std::uint8_t { nothing, task, behavior, situation };
 
   std::string_view name;
@@ -184,8 +185,8 @@ struct EventRecord {
   Microseconds time = 0;
   Origin origin = Origin::script;
   Verb verb = Verb::wait;
-  TaskId task = none;          ///< of start and stop
-  BehaviorId behavior = none;  ///< of finish, fault and repair
+  TaskId task = none;          ///< of start, stop, and a finish that names a task
+  BehaviorId behavior = none;  ///< of finish (none: nothing performs its task), fault and repair
   std::int32_t priority = 0;   ///< of start and stop
   FinishCause cause = FinishCause::goal_achieved;
 

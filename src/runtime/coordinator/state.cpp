@@ -80,18 +80,32 @@ State::State(const CompiledCatalog& catalog)
       has_request_(catalog.tasks.size(), 0),
       requests_(catalog.tasks.size()),
       running_((catalog.tasks.size() + 63) / 64, 0),
-      available_(catalog.behaviors.size(), 1),
+      denied_(catalog.behaviors.size(), 0),
+      misfits_(catalog.behaviors.size(), 0),
       available_words_(catalog.words.back(), 0),
+      values_(catalog.variables.size(), 0),
+      fitting_(catalog.variables.size()),
       faulty_(catalog.behaviors.size(), 0),
       active_(catalog.behaviors.size(), 0),
       activated_at_(catalog.behaviors.size(), 0),
       timeouts_(catalog.tasks.size()),
-      queue_(catalog.tasks.size()) {
+      queue_(catalog.tasks.size()),
+      waiting_(catalog.tasks.size(), 0) {
   for (const CompiledTask& task : catalog.tasks) {
     if (!task.start_on_request) ++idle_total_;
   }
+  const FittingValue* before = nullptr;
+  for (const FittingValue& fitting : catalog.fitting_values) {
+    const bool is_next = before != nullptr && before->behavior == fitting.behavior &&
+                         before->variable == fitting.variable;
+    if (!is_next) ++misfits_[fitting.behavior];
+    // All variables have their first value, which is the first of those in which a behavior fits.
+    if (fitting.value == 0) --misfits_[fitting.behavior];
+    fitting_[fitting.variable].push_back(fitting);
+    before = &fitting;
+  }
   for (BehaviorId behavior = 0; behavior < catalog.behaviors.size(); ++behavior) {
-    set_available(behavior, true);
+    update_available(behavior);
   }
 }
 
@@ -135,8 +149,30 @@ void State::set_request(TaskId task, std::int32_t priority, std::uint64_t event,
   requests_[task].parameters = parameters;
 }
 
-void State::set_available(BehaviorId behavior, bool available) {
-  available_[behavior] = available ? 1 : 0;
+void State::set_denied(BehaviorId behavior, bool denied) {
+  denied_[behavior] = denied ? 1 : 0;
+  update_available(behavior);
+}
+
+void State::set_variable(VariableValue value) {
+  const std::uint32_t before = std::exchange(values_[value.variable], value.value);
+  const std::vector<FittingValue>& all = fitting_[value.variable];
+  for (auto next = all.begin(); next != all.end();) {
+    const BehaviorId behavior = next->behavior;
+    bool was_fitting = false;
+    bool is_fitting = false;
+    for (; next != all.end() && next->behavior == behavior; ++next) {
+      was_fitting |= next->value == before;
+      is_fitting |= next->value == value.value;
+    }
+    if (was_fitting == is_fitting) continue;
+    is_fitting ? --misfits_[behavior] : ++misfits_[behavior];
+    update_available(behavior);
+  }
+}
+
+void State::update_available(BehaviorId behavior) {
+  const bool available = is_available(behavior);
   for (const ValueId value : catalog_.performs[behavior]) {
     const TaskId task = catalog_.task_of(value);
     const std::uint32_t index = value - catalog_.values.begin[task];
@@ -174,6 +210,12 @@ void State::enqueue(TaskId task, Microseconds due) {
   if (!is_running(task) && !queue_.has(item)) queue_.set(item, due);
 }
 
+void State::set_waiting(TaskId task, bool waiting) {
+  if (waiting == is_waiting(task)) return;
+  waiting_[task] = waiting ? 1 : 0;
+  waiting ? ++waiting_count_ : --waiting_count_;
+}
+
 bool State::excludes_running_task(TaskId task) const {
   for (const std::uint32_t clique : catalog_.task_cliques[task]) {
     for (const TaskId other : catalog_.cliques[clique]) {
@@ -195,10 +237,12 @@ class SnapshotCheck {
 
   std::optional<std::string> run() && {
     check_clock();
+    check_variables();
     for (const auto& [behavior, time] : snapshot_.active) check_activation(behavior, time);
     for (const Snapshot::RunningTask& entry : snapshot_.running) check_task(entry);
     check_active();
     for (const auto& [task, due] : snapshot_.queue) check_queued(task, due);
+    for (const TaskId task : snapshot_.waiting) check_waiting(task);
     if (problem_.empty()) check_constraints();
     if (problem_.empty()) return std::nullopt;
     return std::move(problem_);
@@ -227,6 +271,16 @@ class SnapshotCheck {
       refuse("its reactive delay is not above 0 and at most " + seconds(longest_time));
     }
     if (snapshot_.events > UINT64_MAX / 2) refuse("its number of events is too large");
+  }
+
+  void check_variables() {
+    const auto variables = catalog_.variables;
+    for (std::uint32_t variable = 0; variable < variables.size(); ++variable) {
+      if (snapshot_.variables[variable] >= variables[variable].value_count) {
+        refuse(
+            concat("variable ", quote(catalog_.name_of_variable(variable)), " has no such value"));
+      }
+    }
   }
 
   void check_activation(BehaviorId behavior, Microseconds time) {
@@ -286,6 +340,13 @@ class SnapshotCheck {
       refuse(concat("behavior ", quote(catalog_.name_of_behavior(behavior)),
                     " is active, but performs no task"));
     }
+    for (const auto& [behavior, time] : snapshot_.active) {
+      const auto variable = catalog_.find_misfit(behavior, snapshot_.variables);
+      if (!variable) continue;
+      refuse(concat("behavior ", quote(catalog_.name_of_behavior(behavior)),
+                    " is active, but does not fit the value of ",
+                    quote(catalog_.name_of_variable(*variable))));
+    }
   }
 
   void check_queued(TaskId task, Microseconds due) {
@@ -300,6 +361,15 @@ class SnapshotCheck {
     if (due < snapshot_.now || due - snapshot_.now > snapshot_.reactive_delay) {
       refuse(concat("task ", name, " is in the queue for an impossible time"));
     }
+  }
+
+  void check_waiting(TaskId task) {
+    const std::string name = quote(catalog_.name_of_task(task));
+    if (catalog_.tasks[task].reactive_start == 0) {
+      refuse(concat("task ", name, " waits, but does not start reactively"));
+    }
+    if (assignment_[task] != none) refuse(concat("task ", name, " waits, but runs"));
+    if (!waiting_.insert(task).second) refuse(concat("task ", name, " waits twice"));
   }
 
   /// Checks the constraints as for an answer of the solver.
@@ -323,6 +393,7 @@ class SnapshotCheck {
   std::vector<Microseconds> activated_at_;  ///< by behavior
   std::set<std::uint64_t> events_;          ///< those of the requests
   std::set<TaskId> queued_;
+  std::set<TaskId> waiting_;
   std::string problem_;
 };
 

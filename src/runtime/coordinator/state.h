@@ -90,13 +90,33 @@ class State {
 
   // Behaviors.
 
-  [[nodiscard]] bool is_available(BehaviorId behavior) const { return available_[behavior] != 0; }
-  void set_available(BehaviorId behavior, bool available);
+  /// Whether the behavior can be activated: a script has not denied it, and the behavior fits.
+  [[nodiscard]] bool is_available(BehaviorId behavior) const {
+    return !is_denied(behavior) && fits(behavior);
+  }
+  /// A script said that the behavior cannot be activated.
+  [[nodiscard]] bool is_denied(BehaviorId behavior) const { return denied_[behavior] != 0; }
+  void set_denied(BehaviorId behavior, bool denied);
+  /// Whether each variable that the behavior names has a value that it names.
+  [[nodiscard]] bool fits(BehaviorId behavior) const { return misfits_[behavior] == 0; }
   [[nodiscard]] bool has_available_behavior(TaskId task) const;
   /// The available values of all tasks, as domain words.
   [[nodiscard]] const std::vector<std::uint64_t>& available_words() const {
     return available_words_;
   }
+
+  // Situation variables.
+
+  [[nodiscard]] std::uint32_t value_of(std::uint32_t variable) const { return values_[variable]; }
+  [[nodiscard]] const std::vector<std::uint32_t>& variables() const { return values_; }
+  void set_variable(VariableValue value);
+  /// All values of a variable that behaviors name, by behavior.
+  [[nodiscard]] const std::vector<FittingValue>& fitting(std::uint32_t variable) const {
+    return fitting_[variable];
+  }
+
+  // Faults and activity.
+
   [[nodiscard]] bool is_faulty(BehaviorId behavior) const { return faulty_[behavior] != 0; }
   void set_faulty(BehaviorId behavior, bool faulty) { faulty_[behavior] = faulty ? 1 : 0; }
   [[nodiscard]] bool is_active(BehaviorId behavior) const { return active_[behavior] != 0; }
@@ -120,10 +140,16 @@ class State {
   [[nodiscard]] const Timers& queue() const { return queue_; }
   void enqueue(TaskId task, Microseconds due);
   void dequeue(TaskId task) { queue_.remove(catalog_.tasks[task].catalog_index); }
+  /// Whether the task waits for a change of its group, as its reactive start had no solution.
+  [[nodiscard]] bool is_waiting(TaskId task) const { return waiting_[task] != 0; }
+  void set_waiting(TaskId task, bool waiting);
+  [[nodiscard]] std::uint32_t waiting_count() const { return waiting_count_; }
 
   [[nodiscard]] bool excludes_running_task(TaskId task) const;
 
  private:
+  void update_available(BehaviorId behavior);
+
   const CompiledCatalog& catalog_;
   std::vector<std::uint32_t> assignment_;  ///< by task
   std::vector<Microseconds> taken_at_;     ///< by task: when it took its behavior
@@ -133,13 +159,18 @@ class State {
   std::uint32_t idle_running_ = 0;
   std::uint32_t idle_total_ = 0;
   std::uint32_t request_count_ = 0;
-  std::vector<std::uint8_t> available_;  ///< by behavior
+  std::vector<std::uint8_t> denied_;    ///< by behavior
+  std::vector<std::uint32_t> misfits_;  ///< by behavior: the variables that have no fitting value
   std::vector<std::uint64_t> available_words_;
-  std::vector<std::uint8_t> faulty_;        ///< by behavior
-  std::vector<std::uint8_t> active_;        ///< by behavior
-  std::vector<Microseconds> activated_at_;  ///< by behavior
+  std::vector<std::uint32_t> values_;               ///< by variable
+  std::vector<std::vector<FittingValue>> fitting_;  ///< by variable
+  std::vector<std::uint8_t> faulty_;                ///< by behavior
+  std::vector<std::uint8_t> active_;                ///< by behavior
+  std::vector<Microseconds> activated_at_;          ///< by behavior
   Timers timeouts_;
   Timers queue_;
+  std::vector<std::uint8_t> waiting_;  ///< by task
+  std::uint32_t waiting_count_ = 0;
 };
 
 /// The state of a coordinator, and of the runner of its script, between two events.
@@ -157,13 +188,16 @@ struct Snapshot {
   std::optional<Outcome> outcome;  ///< of the last scripted start, stop or finish; see Runner
   std::vector<RunningTask> running;
   std::vector<std::pair<BehaviorId, Microseconds>> active;  ///< with the time of the activation
-  std::vector<BehaviorId> unavailable;
+  std::vector<BehaviorId> denied;        ///< those that a script made unavailable
+  std::vector<std::uint32_t> variables;  ///< the value of each
   std::vector<BehaviorId> faulty;
   std::vector<std::pair<TaskId, Microseconds>> queue;  ///< with due times
+  std::vector<TaskId> waiting;                         ///< reactive tasks: see State
 };
 
 /// Why no coordinator can be in this state, or nothing. Tasks, behaviors and value indices must be
-/// those of the catalog; everything else may be anything.
+/// those of the catalog, and `variables` has as many items as the catalog; everything else may be
+/// anything.
 [[nodiscard]] std::optional<std::string> find_inconsistency(const CompiledCatalog& catalog,
                                                             const Snapshot& snapshot);
 

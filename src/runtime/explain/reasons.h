@@ -40,7 +40,8 @@ struct Reason {
     on_request,     ///< the task is not running, and starts on request only
     requires_task,  ///< if the behavior is assigned, the task runs
     performance,    ///< if it is (without a behavior: always), the task performs well enough
-    unavailable,    ///< the behavior cannot be activated in the present situation
+    unavailable,    ///< a script said that the behavior cannot be activated
+    situation,      ///< the behavior does not fit the present situation
     faulty,         ///< the activation of the behavior failed in this event
     finished        ///< the behavior of a failed finish; not where the event is rejected
   };
@@ -50,6 +51,8 @@ struct Reason {
   BehaviorId behavior = none;
   std::int32_t priority = 0;           ///< of priority and is_protected
   Millionths minimum_performance = 0;  ///< of performance
+  std::uint32_t variable = none;       ///< of situation: one that the behavior does not fit
+  std::uint32_t value = 0;             ///< of situation: its present value
   std::uint32_t line = 0;              ///< of the catalog; 0 if no line states the reason
 };
 

@@ -62,6 +62,33 @@ std::optional<std::uint32_t> LoadedCatalog::find_behavior(std::string_view name)
   return content_->catalog.find_behavior(name);
 }
 
+std::size_t LoadedCatalog::variable_count() const { return content_->catalog.variables.size(); }
+
+std::size_t LoadedCatalog::value_count(std::uint32_t variable) const {
+  const auto variables = content_->catalog.variables;
+  return variable < variables.size() ? variables[variable].value_count : 0;
+}
+
+std::string_view LoadedCatalog::variable_name(std::uint32_t variable) const {
+  return variable < variable_count() ? content_->catalog.name_of_variable(variable)
+                                     : std::string_view();
+}
+
+std::string_view LoadedCatalog::value_name(VariableValue value) const {
+  return value.value < value_count(value.variable) ? content_->catalog.name_of_value(value)
+                                                   : std::string_view();
+}
+
+std::optional<std::uint32_t> LoadedCatalog::find_variable(std::string_view name) const {
+  return content_->catalog.find_variable(name);
+}
+
+std::optional<std::uint32_t> LoadedCatalog::find_value(std::uint32_t variable,
+                                                       std::string_view name) const {
+  if (variable >= variable_count()) return std::nullopt;
+  return content_->catalog.find_value(variable, name);
+}
+
 namespace {
 
 LiveStatus check_behavior(const CompiledCatalog& catalog, std::uint32_t behavior) {
@@ -74,24 +101,39 @@ LiveStatus check_parameters(const Event& event) {
   return is_missing ? LiveStatus::invalid_parameters : LiveStatus::ok;
 }
 
-LiveStatus check_situation(const CompiledCatalog& catalog,
-                           std::span<const Availability> situation) {
-  if (situation.data() == nullptr && !situation.empty()) return LiveStatus::invalid_situation;
-  for (const Availability& entry : situation) {
+template <typename T>
+bool has_entries(std::span<const T> entries) {
+  return entries.data() != nullptr || entries.empty();
+}
+
+LiveStatus check_situation(const CompiledCatalog& catalog, const Event& event) {
+  if (!has_entries(event.situation) || !has_entries(event.variables)) {
+    return LiveStatus::invalid_situation;
+  }
+  for (const Availability& entry : event.situation) {
     const LiveStatus status = check_behavior(catalog, entry.behavior);
     if (status != LiveStatus::ok) return status;
+  }
+  for (const VariableValue& value : event.variables) {
+    if (value.variable >= catalog.variables.size()) return LiveStatus::unknown_variable;
+    if (value.value >= catalog.variables[value.variable].value_count) {
+      return LiveStatus::unknown_value;
+    }
   }
   return LiveStatus::ok;
 }
 
 LiveStatus check_subject(const CompiledCatalog& catalog, const Event& event) {
+  const LiveStatus of_task =
+      event.subject < catalog.tasks.size() ? LiveStatus::ok : LiveStatus::unknown_task;
   switch (form_of(event.verb).subject) {
     case VerbForm::SubjectKind::task:
-      return event.subject < catalog.tasks.size() ? LiveStatus::ok : LiveStatus::unknown_task;
+      return of_task;
     case VerbForm::SubjectKind::behavior:
+      if (event.verb == Verb::finish && event.is_by_task) return of_task;
       return check_behavior(catalog, event.subject);
     case VerbForm::SubjectKind::situation:
-      return check_situation(catalog, event.situation);
+      return check_situation(catalog, event);
     case VerbForm::SubjectKind::nothing:
       break;
   }
@@ -192,9 +234,9 @@ void HandledEvents::add_change(const EventRecord& record, const Change& change) 
 }
 
 std::uint32_t HandledEvents::subject_of(const EventRecord& record) const {
-  if (record.task != none) return catalog_.tasks[record.task].catalog_index;
   if (record.behavior != none) return catalog_.behaviors[record.behavior].catalog_index;
-  return 0;
+  if (record.verb == Verb::finish) return no_subject;
+  return record.task != none ? catalog_.tasks[record.task].catalog_index : 0;
 }
 
 std::span<const HandledEvent> HandledEvents::events() {
@@ -223,7 +265,7 @@ CoordinatorOptions to_internal(const LiveOptions& options) {
 }  // namespace
 
 std::string_view name_of(LiveStatus status) {
-  static constexpr std::array<std::string_view, 11> names{"ok",
+  static constexpr std::array<std::string_view, 13> names{"ok",
                                                           "invalid_time",
                                                           "invalid_verb",
                                                           "invalid_cause",
@@ -232,6 +274,8 @@ std::string_view name_of(LiveStatus status) {
                                                           "invalid_situation",
                                                           "unknown_task",
                                                           "unknown_behavior",
+                                                          "unknown_variable",
+                                                          "unknown_value",
                                                           "too_many_events",
                                                           "internal_error"};
   return names[static_cast<std::size_t>(status)];
@@ -243,7 +287,7 @@ class LiveCoordinator::Impl {
       : catalog_(std::move(catalog)),
         log_(catalog_),
         coordinator_(catalog_, to_internal(options), log_) {
-    coordinator_.begin({});
+    coordinator_.begin({}, {});
   }
 
   LiveStatus handle(Microseconds time, const Event& event) {
@@ -331,6 +375,12 @@ std::optional<Microseconds> LiveCoordinator::next_due() const {
 
 std::optional<std::uint32_t> LiveCoordinator::behavior_of(std::uint32_t task) const {
   return impl_->behavior_of(task);
+}
+
+std::optional<std::uint32_t> LiveCoordinator::value_of(std::uint32_t variable) const {
+  const std::vector<std::uint32_t>& values = impl_->coordinator().state().variables();
+  if (variable >= values.size()) return std::nullopt;
+  return values[variable];
 }
 
 std::string_view LiveCoordinator::internal_error() const {

@@ -298,6 +298,15 @@ std::map<TaskIndex, Millionths> requirements_of(const Behavior& behavior) {
   return requirements;
 }
 
+/// The values of each variable in which a behavior fits.
+std::map<std::uint32_t, std::vector<std::uint32_t>> conditions_of(const Behavior& behavior) {
+  std::map<std::uint32_t, std::vector<std::uint32_t>> conditions;
+  for (const Condition& condition : behavior.situation) {
+    conditions[condition.variable] = condition.values;
+  }
+  return conditions;
+}
+
 bool same_behavior(const Behavior& a, const Behavior& b) {
   const bool same_performs =
       std::equal(a.performs.begin(), a.performs.end(), b.performs.begin(), b.performs.end(),
@@ -305,7 +314,11 @@ bool same_behavior(const Behavior& a, const Behavior& b) {
                    return x.task == y.task && x.suitability == y.suitability;
                  });
   return same_performs && a.name == b.name && a.package == b.package && a.timeout == b.timeout &&
-         requirements_of(a) == requirements_of(b);
+         requirements_of(a) == requirements_of(b) && conditions_of(a) == conditions_of(b);
+}
+
+bool same_variable(const Variable& a, const Variable& b) {
+  return a.name == b.name && a.is_boolean == b.is_boolean && a.values == b.values;
 }
 
 /// The tasks of one list, ascending, each once.
@@ -346,7 +359,9 @@ bool same_meaning(const Catalog& a, const Catalog& b) {
     return false;
   }
   if (!std::equal(a.behaviors.begin(), a.behaviors.end(), b.behaviors.begin(), b.behaviors.end(),
-                  same_behavior)) {
+                  same_behavior) ||
+      !std::equal(a.variables.begin(), a.variables.end(), b.variables.begin(), b.variables.end(),
+                  same_variable)) {
     return false;
   }
   const std::set<Clique> of_a = cliques_of(a);

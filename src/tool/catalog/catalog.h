@@ -64,6 +64,21 @@ struct Requirement {
   std::optional<Range> entry;  ///< where its entry begins, if all of it was understood
 };
 
+/// A part of the situation that behaviors share; see docs/semantics.md, "Situation variables".
+struct Variable {
+  std::string name;
+  Range range;
+  bool is_boolean = false;          ///< declared without values: they are "true" and "false"
+  std::vector<std::string> values;  ///< at least two; the first one is the initial one
+};
+
+/// Values of a variable in which a behavior fits.
+struct Condition {
+  std::uint32_t variable = 0;         ///< place in Catalog::variables
+  std::vector<std::uint32_t> values;  ///< places in its values, ascending
+  Range range;                        ///< of the name of the variable
+};
+
 /// A value of the constraint problem: how something is done.
 struct Behavior {
   std::string name;
@@ -73,6 +88,7 @@ struct Behavior {
   Range timeout_range;
   std::vector<Performance> performs;      ///< at least one; tasks differ
   std::vector<Requirement> requirements;  ///< in the order of the file; a task may stand twice
+  std::vector<Condition> situation;       ///< one for each variable that it names
 };
 
 /// Tasks of which at most one runs at a time.
@@ -91,6 +107,7 @@ struct Catalog {
   std::vector<Task> tasks;
   std::vector<Behavior> behaviors;
   std::vector<ExclusivityList> exclusivity;
+  std::vector<Variable> variables;
 };
 
 /// What a behavior is called in messages; its name may be missing in the file.

@@ -25,7 +25,7 @@ std::optional<std::string_view> present_goal(const yaml::Node& category) {
 }
 
 constexpr Key catalog_keys[] = {
-    {"default_values"}, {"behaviors"}, {"tasks"}, {"exclusivity_constraints"}};
+    {"default_values"}, {"behaviors"}, {"tasks"}, {"exclusivity_constraints"}, {"situation"}};
 constexpr Key default_values_keys[] = {{"tasks"}, {"behaviors"}};
 constexpr Key task_defaults_keys[] = {{"execution_goal"},
                                       {"start_on_request"},
@@ -36,9 +36,9 @@ constexpr Key task_defaults_keys[] = {{"execution_goal"},
                                       {"default", "reactive_start"}};
 constexpr Key behavior_defaults_keys[] = {
     {"suitability"}, {"package"}, {"efficacy", "suitability"}};
-constexpr Key behavior_keys[] = {
-    {"behavior"}, {"package"}, {"task"},        {"tasks"},
-    {"requires"}, {"timeout"}, {"suitability"}, {"efficacy", "suitability"}};
+constexpr Key behavior_keys[] = {{"behavior"},  {"package"},     {"task"},
+                                 {"tasks"},     {"requires"},    {"timeout"},
+                                 {"situation"}, {"suitability"}, {"efficacy", "suitability"}};
 constexpr Key performance_keys[] = {{"task"}, {"suitability"}, {"efficacy", "suitability"}};
 constexpr Key requirement_keys[] = {{"task"}, {"minimum_performance"}};
 constexpr Key task_keys[] = {{"task"},
@@ -54,7 +54,9 @@ constexpr Key task_keys[] = {{"task"},
 constexpr Key parameter_keys[] = {{"parameter"}, {"allowed_values"}};
 constexpr Key exclusivity_list_keys[] = {{"mutually_exclusive"}};
 
-constexpr const Shape* in_catalog[] = {&behavior, &task, &exclusivity_list};
+constexpr Key variable_keys[] = {{"variable"}, {"values"}};
+
+constexpr const Shape* in_catalog[] = {&behavior, &task, &exclusivity_list, &variable};
 constexpr const Shape* in_default_values[] = {&task_defaults, &behavior_defaults};
 constexpr const Shape* in_behavior[] = {&requirement, &performance};
 constexpr const Shape* in_task[] = {&parameter};
@@ -71,6 +73,7 @@ const Shape requirement{"a requirement", requirement_keys, &behavior};
 const Shape task{"a task", task_keys, &catalog, in_task};
 const Shape parameter{"a parameter", parameter_keys, &task};
 const Shape exclusivity_list{"an exclusivity constraint", exclusivity_list_keys, &catalog};
+const Shape variable{"a situation variable", variable_keys, &catalog};
 
 }  // namespace cbc::shape
 
@@ -132,6 +135,7 @@ class Reader {
       read_entries(*node, "exclusivity_constraints", "a list of 'mutually_exclusive' lists",
                    &Reader::read_exclusivity_list);
     }
+    catalog_.situation = fields.find("situation");
     fields.report_unknown(Severity::warning);
   }
 
@@ -351,6 +355,7 @@ class Reader {
     if (const Node* list = fields.find("requires")) {
       read_requirements(*list, behavior.requirements);
     }
+    behavior.situation = fields.find("situation");
     fields.report_unknown(Severity::warning);
     catalog_.behaviors.push_back(std::move(behavior));
   }

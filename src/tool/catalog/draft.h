@@ -24,6 +24,7 @@ extern const yaml::Shape requirement;
 extern const yaml::Shape task;
 extern const yaml::Shape parameter;
 extern const yaml::Shape exclusivity_list;
+extern const yaml::Shape variable;
 
 }  // namespace cbc::shape
 
@@ -80,6 +81,7 @@ struct Behavior {
   std::optional<Percent> suitability;
   std::vector<Performance> performs;
   std::vector<Requirement> requirements;
+  const yaml::Node* situation = nullptr;  ///< null: it fits always
 };
 
 struct ExclusivityList {
@@ -97,6 +99,7 @@ struct Catalog {
   std::vector<Task> tasks;
   std::vector<Behavior> behaviors;
   std::vector<ExclusivityList> exclusivity;
+  const yaml::Node* situation = nullptr;  ///< the section; null: there is none
   /// A section that defines tasks could not be read completely, so a task without a definition is
   /// no finding.
   bool lacks_a_section = false;

@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "catalog/catalog.h"
 #include "catalog/draft.h"
+#include "catalog/situation.h"
 #include "diagnostic/diagnostic.h"
 #include "diagnostic/rules.h"
 #include "support/wording.h"
@@ -178,20 +179,27 @@ std::string TaskAttributes::describe_changes(const draft::Task& before,
 class Resolver {
  public:
   Resolver(const draft::Catalog& draft, Reporter& reporter)
-      : draft_(draft), reporter_(reporter), attributes_(draft.task_defaults, reporter) {}
+      : draft_(draft),
+        reporter_(reporter),
+        attributes_(draft.task_defaults, reporter),
+        situation_(reporter) {}
 
   Catalog resolve() {
     catalog_.has_task_section = draft_.has_task_section;
     define_listed_tasks();
     define_implicit_tasks();
+    read_situation([&] { catalog_.variables = situation_.read_variables(draft_.situation); });
     for (const draft::Behavior& behavior : draft_.behaviors) add_behavior(behavior);
     for (const draft::ExclusivityList& list : draft_.exclusivity) add_exclusivity_list(list);
     report_undefined();
+    read_situation([&] { situation_.check_names(catalog_.behaviors); });
     return std::move(catalog_);
   }
 
   /// The names that the catalog leaves out.
   std::vector<UndefinedTask> undefined_tasks() { return std::move(undefined_tasks_); }
+  /// The number of errors about the situation, on which no other entry depends.
+  [[nodiscard]] std::size_t situation_errors() const { return situation_errors_; }
 
  private:
   struct Undefined {
@@ -255,6 +263,13 @@ class Resolver {
     }
   }
 
+  template <typename Read>
+  void read_situation(const Read& read) {
+    const std::size_t errors = reporter_.errors();
+    read();
+    situation_errors_ += reporter_.errors() - errors;
+  }
+
   void add_behavior(const draft::Behavior& entry) {
     if (!entry.name.text.empty()) {
       const auto [known, is_new] = behaviors_.try_emplace(entry.name.text, entry.name.range);
@@ -287,6 +302,8 @@ class Resolver {
                                     requirement.minimum_performance.value, 0});
       }
     }
+    read_situation(
+        [&] { behavior.situation = situation_.read_conditions(entry.situation, entry.name.text); });
     catalog_.behaviors.push_back(std::move(behavior));
   }
 
@@ -367,6 +384,8 @@ class Resolver {
   const draft::Catalog& draft_;
   Reporter& reporter_;
   TaskAttributes attributes_;
+  SituationReader situation_;
+  std::size_t situation_errors_ = 0;
   Catalog catalog_;
   std::unordered_map<std::string_view, TaskIndex> tasks_;
   std::unordered_map<std::string_view, Range> behaviors_;
@@ -386,7 +405,7 @@ CatalogReading understand_catalog(const yaml::Document& document, Diagnostics& d
   reading.catalog.file = document.file();
   const std::size_t hiding = reporter.errors() - reporter.errors(rule::on_request_and_reactive);
   reading.is_complete = hiding == 0;
-  reading.has_all_names = hiding == draft.value_errors;
+  reading.has_all_names = hiding == draft.value_errors + resolver.situation_errors();
   const auto without_task = static_cast<std::size_t>(
       std::count_if(reading.catalog.behaviors.begin(), reading.catalog.behaviors.end(),
                     [](const Behavior& behavior) {

@@ -23,6 +23,7 @@ class Compiler {
     add_behaviors();
     add_values();
     add_cliques();
+    add_situation();
     derive_rest(out_);
     return to_catalog(std::move(out_));
   }
@@ -189,6 +190,26 @@ class Compiler {
       out_.cliques.add_row(clique.tasks);
       out_.clique_lines.push_back(clique.line);
     }
+  }
+
+  void add_situation() {
+    for (const Variable& from : catalog_.variables) {
+      CompiledVariable to;
+      to.name = add_text(from.name);
+      to.is_boolean = from.is_boolean ? 1 : 0;
+      to.first_value = static_cast<std::uint32_t>(out_.variable_values.size());
+      to.value_count = static_cast<std::uint32_t>(from.values.size());
+      for (const std::string& text : from.values) out_.variable_values.push_back(add_text(text));
+      out_.variables.push_back(to);
+    }
+    for (BehaviorId id = 0; id < behavior_count(); ++id) {
+      for (const Condition& condition : by_id_[id]->situation) {
+        for (const std::uint32_t value : condition.values) {
+          out_.fitting_values.push_back({id, condition.variable, value});
+        }
+      }
+    }
+    std::sort(out_.fitting_values.begin(), out_.fitting_values.end());
   }
 
   const Catalog& catalog_;

@@ -46,6 +46,7 @@ struct Rule {
   RULE(duplicate_exclusion)      \
   RULE(duplicate_key)            \
   RULE(duplicate_parameter)      \
+  RULE(duplicate_situation)      \
   RULE(duplicate_task)           \
   RULE(empty_range)              \
   RULE(exclusive_requirement)    \
@@ -62,6 +63,7 @@ struct Rule {
   RULE(requirement_cycle)        \
   RULE(requires_on_request)      \
   RULE(self_exclusion)           \
+  RULE(situation_value)          \
   RULE(still_available)          \
   RULE(suspicious_minimum)       \
   RULE(suspicious_suitability)   \
@@ -70,6 +72,7 @@ struct Rule {
   RULE(trivial_exclusion)        \
   RULE(undecided)                \
   RULE(undeclared_parameter)     \
+  RULE(undeclared_situation)     \
   RULE(undefined_behavior)       \
   RULE(undefined_task)           \
   RULE(unknown_key)              \
@@ -77,6 +80,7 @@ struct Rule {
   RULE(unknown_type)             \
   RULE(unreachable_performance)  \
   RULE(unused_allow)             \
+  RULE(unused_situation)         \
   RULE(wrong_type)               \
   RULE(yaml_syntax)
 

@@ -12,6 +12,7 @@
 #include "compiled/compiled_file.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
+#include "script/event_lines.h"
 #include "support/json.h"
 
 namespace cbc {
@@ -156,15 +157,6 @@ void write_why(JsonWriter& json, const CompiledCatalog& catalog, const EventReco
   json.close('}');
 }
 
-void write_situation(JsonWriter& json, const CompiledCatalog& catalog,
-                     std::span<const Availability> situation) {
-  json.open("situation", '{');
-  for (const Availability& entry : situation) {
-    json.write(catalog.behavior_names[entry.behavior], entry.available);
-  }
-  json.close('}');
-}
-
 class EventText {
  public:
   EventText(std::string& text, const CompiledCatalog& catalog, const EventRecord& record,
@@ -206,7 +198,12 @@ class EventText {
     json_.write("origin", name_of(record_.origin));
     json_.write("verb", name_of(record_.verb));
     const VerbForm& form = form_of(record_.verb);
-    if (record_.task != none) json_.write("name", catalog_.name_of_task(record_.task));
+    if (record_.verb == Verb::finish && record_.task != none) {
+      json_.write("task", catalog_.name_of_task(record_.task));
+      if (record_.behavior == none) json_.write("name", nullptr);
+    } else if (record_.task != none) {
+      json_.write("name", catalog_.name_of_task(record_.task));
+    }
     if (form.has_priority) json_.write("priority", record_.priority);
     if (record_.behavior != none) json_.write("name", catalog_.name_of_behavior(record_.behavior));
     if (form.has_cause) json_.write("cause", name_of(record_.cause));
@@ -214,7 +211,11 @@ class EventText {
     if (step->parameters) {
       json_.write_json("parameters", step->parameters->json);
     }
-    if (record_.verb == Verb::situation) write_situation(json_, catalog_, step->situation);
+    if (record_.verb != Verb::situation) return;
+    write_situation(json_, catalog_, step->situation);
+    if (!catalog_.variables.empty()) {
+      write_variables(json_, catalog_, "variables", state_.variables());
+    }
   }
 
   void write_changes() {
@@ -253,12 +254,13 @@ class EventText {
       json_.write(catalog_.task_names[index], state_.request(task).priority);
     }
     json_.close('}');
-    std::vector<std::pair<std::uint32_t, Microseconds>> due;
-    for (const auto& [time, index] : state_.queue().entries()) due.emplace_back(index, time);
-    std::sort(due.begin(), due.end());
     json_.open("queue", '{');
-    for (const auto& [index, time] : due) {
-      json_.write_seconds(catalog_.task_names[index], time);
+    for (const auto& [index, time] : queue_of(catalog_, state_)) {
+      if (time) {
+        json_.write_seconds(catalog_.task_names[index], *time);
+      } else {
+        json_.write(catalog_.task_names[index], nullptr);
+      }
     }
     json_.close('}');
   }
@@ -300,13 +302,17 @@ void append_event(std::string& text, const CompiledCatalog& catalog, const Event
 }
 
 std::string stream_header(const CompiledCatalog& catalog, std::string_view catalog_name,
-                          Microseconds reactive_delay, std::span<const Availability> situation) {
+                          Microseconds reactive_delay, const Situation& situation,
+                          std::span<const std::uint32_t> variables) {
   return json_line([&](JsonWriter& json) {
     json.write_members({{"schema", "cbc.events/1"},
                         {"catalog", catalog_name},
                         {"digest", to_hex(identity_of(catalog))}});
     json.write_seconds("reactive_delay", reactive_delay);
     write_situation(json, catalog, situation);
+    if (!catalog.variables.empty()) {
+      write_variables(json, catalog, "variables", variables);
+    }
   });
 }
 

@@ -131,15 +131,35 @@ std::string describe_active(const CompiledCatalog& catalog,
 
 }  // namespace
 
-std::string describe_situation(const CompiledCatalog& catalog,
-                               const std::vector<Availability>& situation) {
-  std::string text;
-  for (const Availability& entry : situation) {
-    text += fmt::format("{} {} {}", text.empty() ? "" : ",",
-                        printable(catalog.behavior_names[entry.behavior]),
-                        entry.available ? "available" : "unavailable");
+std::string describe_situation(const CompiledCatalog& catalog, const Situation& situation) {
+  List parts;
+  for (const Availability& entry : situation.availability) {
+    parts.add(fmt::format("{} {}", printable(catalog.behavior_names[entry.behavior]),
+                          entry.available ? "available" : "unavailable"));
   }
-  return text;
+  for (const VariableValue value : situation.variables) {
+    parts.add(describe_value(catalog, value));
+  }
+  return parts.text().empty() ? "" : " " + parts.text();
+}
+
+std::string describe_value(const CompiledCatalog& catalog, VariableValue value) {
+  return fmt::format("{} is {}", printable(catalog.name_of_variable(value.variable)),
+                     printable(catalog.name_of_value(value)));
+}
+
+std::vector<std::pair<std::uint32_t, std::optional<Microseconds>>> queue_of(
+    const CompiledCatalog& catalog, const State& state) {
+  std::vector<std::pair<std::uint32_t, std::optional<Microseconds>>> queue;
+  for (const auto& [time, index] : state.queue().entries()) queue.emplace_back(index, time);
+  for (TaskId task = 0; state.waiting_count() > 0 && task < catalog.tasks.size(); ++task) {
+    const std::uint32_t index = catalog.tasks[task].catalog_index;
+    if (state.is_waiting(task) && !state.queue().has(index)) {
+      queue.emplace_back(index, std::nullopt);
+    }
+  }
+  std::sort(queue.begin(), queue.end());
+  return queue;
 }
 
 std::string format_time(Microseconds time) {
@@ -150,11 +170,17 @@ std::string describe_event(const CompiledCatalog& catalog, const EventRecord& re
                            const Step* step) {
   const VerbForm& form = form_of(record.verb);
   std::string text(form.name);
-  if (record.task != none) {
+  if (record.task != none && record.verb == Verb::finish) {
+    text += " task " + printable(catalog.name_of_task(record.task));
+    if (record.behavior == none) text += ", which nothing performs";
+  } else if (record.task != none) {
     text += " " + printable(catalog.name_of_task(record.task));
     if (form.has_priority) text += fmt::format(", priority {}", record.priority);
   }
-  if (record.behavior != none) text += " " + printable(catalog.name_of_behavior(record.behavior));
+  if (record.behavior != none) {
+    if (record.task != none) text += ", performed by";
+    text += " " + printable(catalog.name_of_behavior(record.behavior));
+  }
   if (form.has_cause) text += fmt::format(", {}", name_of(record.cause));
   if (step != nullptr && record.verb == Verb::situation) {
     text += describe_situation(catalog, step->situation);
@@ -228,6 +254,11 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
              place(catalog, reason);
     case Reason::Kind::unavailable:
       return fmt::format("{} is unavailable in the current situation", behavior);
+    case Reason::Kind::situation:
+      return reason.variable == none
+                 ? fmt::format("{} does not fit the situation", behavior)
+                 : fmt::format("{} does not fit: {}", behavior,
+                               describe_value(catalog, {reason.variable, reason.value}));
     case Reason::Kind::faulty:
       return fmt::format("{} is faulty", behavior);
     case Reason::Kind::finished:

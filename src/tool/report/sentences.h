@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cbc/event.h"
@@ -42,9 +44,17 @@ namespace cbc {
 [[nodiscard]] std::string describe_event(const CompiledCatalog& catalog, const EventRecord& record,
                                          const Step* step);
 
-/// " GPS unavailable, RADAR available"
+/// " GPS unavailable, RADAR available, TARGET is near"
 [[nodiscard]] std::string describe_situation(const CompiledCatalog& catalog,
-                                             const std::vector<Availability>& situation);
+                                             const Situation& situation);
+
+/// "TARGET is near"
+[[nodiscard]] std::string describe_value(const CompiledCatalog& catalog, VariableValue value);
+
+/// The reactive tasks in the queue and those that wait, in catalog order, with their due times;
+/// those that only wait have none.
+[[nodiscard]] std::vector<std::pair<std::uint32_t, std::optional<Microseconds>>> queue_of(
+    const CompiledCatalog& catalog, const State& state);
 
 /// "outcome accepted, HOVER runs with HOVER_WITH_MPC, LAND does not run"
 [[nodiscard]] std::string describe_expectation(const CompiledCatalog& catalog,

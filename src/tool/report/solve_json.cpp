@@ -8,6 +8,7 @@
 #include "page_files.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
+#include "script/event_lines.h"
 #include "support/json.h"
 
 namespace cbc {
@@ -122,9 +123,7 @@ StateRecorder::StateRecorder(const CompiledCatalog& catalog, const Script& scrip
   moment_.script = script.file;
   has_passed_ = wanted.index == 0;
   State state(catalog);
-  for (const Availability& entry : script.situation) {
-    state.set_available(catalog.behavior_ids[entry.behavior], entry.available);
-  }
+  apply(script.situation, catalog, state);
   note_behaviors(state);
 }
 
@@ -227,11 +226,7 @@ void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   JsonWriter json(runs_json_);
   json.open('{');
   json.write("catalog", place - catalogs_.begin());
-  json.open("situation", '{');
-  for (const Availability& entry : script.situation) {
-    json.write(catalog.behavior_names[entry.behavior], entry.available);
-  }
-  json.close('}');
+  write_situation(json, catalog, script.situation);
   json.close('}');
   json_.begin_run(catalog, script);
 }

@@ -106,10 +106,12 @@ void append_event(std::string& text, const CompiledCatalog& catalog, const Event
 
 // The lines of an event stream (schema cbc.events/1), each with its line end.
 
-/// `catalog_name`: the path of the catalog as the user gave it.
+/// `catalog_name`: the path of the catalog as the user gave it. `variables`: the values of the
+/// situation variables.
 [[nodiscard]] std::string stream_header(const CompiledCatalog& catalog,
                                         std::string_view catalog_name, Microseconds reactive_delay,
-                                        std::span<const Availability> situation);
+                                        const Situation& situation,
+                                        std::span<const std::uint32_t> variables);
 /// The answer to an input line that is not an event.
 [[nodiscard]] std::string stream_error(std::string_view message, std::uint64_t line);
 

@@ -182,7 +182,7 @@ void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   fmt::print(out_, "{}  time [s]  event{}\n", style_.faint, style_.reset);
   fmt::print(out_, "{}{} P T S  {:<{}}  {:<{}}  cause{}\n", style_.faint, change_indent, "behavior",
              behavior_width_, "task", task_width_, style_.reset);
-  if (!script.situation.empty()) {
+  if (!script.situation.is_empty()) {
     fmt::print(out_, "{:>10}  {}situation{}{}\n", "before", style_.strong,
                describe_situation(catalog, script.situation), style_.reset);
   }
@@ -194,6 +194,10 @@ void TextReport::on_event(const EventRecord& record, const Step* step, const Sta
   if (record.outcome == Outcome::rejected) {
     for (const std::string& sentence : describe_rejection(*catalog_, record)) {
       fmt::print(out_, "{}{}\n", text_indent, sentence);
+    }
+    if (record.task != none && state.is_waiting(record.task)) {
+      fmt::print(out_, "{}{} waits, and tries again after each accepted event of its group\n",
+                 text_indent, printable(catalog_->name_of_task(record.task)));
     }
   }
   for (const Change& change : record.changes) write_change(record, change);
@@ -284,6 +288,13 @@ void TextReport::on_end(const State& state) {
                behavior_width_, lines[behavior]);
   }
   if (is_idle) fmt::print(out_, "  none\n");
+  if (state.waiting_count() == 0) return;
+  fmt::print(out_, "{}waiting reactive tasks{}\n", style_.strong, style_.reset);
+  for (const TaskId task : catalog_->task_ids) {
+    if (state.is_waiting(task)) {
+      fmt::print(out_, "  {}\n", printable(catalog_->name_of_task(task)));
+    }
+  }
 }
 
 void TextReport::end_run(const RunResult& result, const std::string& /*error*/) {

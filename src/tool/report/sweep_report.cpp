@@ -58,6 +58,8 @@ std::string describe_reason(const SweepResult& result, const RejectionReason& re
                          behavior.empty() ? "the catalog" : behavior, task);
     case Reason::Kind::unavailable:
       return behavior + " is unavailable in the current situation";
+    case Reason::Kind::situation:
+      return behavior + " does not fit the situation";
     case Reason::Kind::faulty:
       return behavior + " is faulty";
     case Reason::Kind::finished:
@@ -451,6 +453,7 @@ class SweepReader {
         is_right = has_task && has_behavior;
         break;
       case Reason::Kind::unavailable:
+      case Reason::Kind::situation:
       case Reason::Kind::faulty:
         is_right = has_behavior;
         break;

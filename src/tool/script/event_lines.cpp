@@ -159,7 +159,8 @@ Step EventLog::read_step(const Node& event, Reporter& reporter) {
   if (form.subject != VerbForm::SubjectKind::nothing) {
     const bool is_name = form.subject != VerbForm::SubjectKind::situation;
     parts.subject_key = is_name ? "name" : "situation";
-    parts.subject = require(event, parts.subject_key, reporter);
+    parts.task = event.find("task");
+    if (parts.task == nullptr) parts.subject = require(event, parts.subject_key, reporter);
   }
   if (form.has_priority) parts.priority = require(event, "priority", reporter);
   if (form.has_parameters) parts.parameters = event.find("parameters");
@@ -211,13 +212,20 @@ class StateReader {
       out_.active.emplace_back(behavior(time.name()), time.integer<Microseconds>());
     }
     for (const JsonValue& name : root_["unavailable"].items()) {
-      out_.unavailable.push_back(behavior(name.text()));
+      out_.denied.push_back(behavior(name.text()));
+    }
+    out_.variables.assign(catalog_.variables.size(), 0);
+    if (const auto variables = root_.find("variables")) {
+      for (const JsonValue& value : variables->members()) read_variable(value);
     }
     for (const JsonValue& name : root_["faulty"].items()) {
       out_.faulty.push_back(behavior(name.text()));
     }
     for (const JsonValue& due : root_["queue"].members()) {
       out_.queue.emplace_back(task(due.name()), due.integer<Microseconds>());
+    }
+    if (const auto waiting = root_.find("waiting")) {  // states of cbc 0.1 have none
+      for (const JsonValue& name : waiting->items()) out_.waiting.push_back(task(name.text()));
     }
     if (const auto problem = find_inconsistency(catalog_, out_)) throw JsonFault(*problem);
     return std::move(out_);
@@ -235,6 +243,18 @@ class StateReader {
     running.request =
         Request{request["priority"].integer<std::int32_t>(),
                 request["event"].integer<std::uint64_t>(), request["parameters"].text()};
+  }
+
+  void read_variable(const JsonValue& value) {
+    const auto variable = catalog_.find_variable(value.name());
+    if (!variable) throw JsonFault("there is no situation variable " + quote(value.name()));
+    const bool is_boolean = catalog_.variables[*variable].is_boolean != 0;
+    const std::string text = !is_boolean ? value.text() : value.truth() ? "true" : "false";
+    const auto place = catalog_.find_value(*variable, text);
+    if (!place) {
+      throw JsonFault("situation variable " + quote(value.name()) + " has no value " + quote(text));
+    }
+    out_.variables[*variable] = *place;
   }
 
   [[nodiscard]] TaskId task(std::string_view name) const {
@@ -279,6 +299,33 @@ void write_running(JsonWriter& json, const CompiledCatalog& catalog,
 
 }  // namespace
 
+void write_value(JsonWriter& json, const CompiledCatalog& catalog, VariableValue value) {
+  const std::string_view name = catalog.name_of_variable(value.variable);
+  if (catalog.variables[value.variable].is_boolean != 0) {
+    json.write(name, value.value == 0);
+  } else {
+    json.write(name, catalog.name_of_value(value));
+  }
+}
+
+void write_situation(JsonWriter& json, const CompiledCatalog& catalog, const Situation& situation) {
+  json.open("situation", '{');
+  for (const Availability& entry : situation.availability) {
+    json.write(catalog.behavior_names[entry.behavior], entry.available);
+  }
+  for (const VariableValue value : situation.variables) write_value(json, catalog, value);
+  json.close('}');
+}
+
+void write_variables(JsonWriter& json, const CompiledCatalog& catalog, std::string_view key,
+                     std::span<const std::uint32_t> values) {
+  json.open(key, '{');
+  for (std::uint32_t variable = 0; variable < values.size(); ++variable) {
+    write_value(json, catalog, {variable, values[variable]});
+  }
+  json.close('}');
+}
+
 std::string write_state(const CompiledCatalog& catalog, const Snapshot& snapshot) {
   const auto name_of_behavior = [&](BehaviorId id) { return catalog.name_of_behavior(id); };
   const auto write = [&](JsonWriter& json) {
@@ -295,13 +342,16 @@ std::string write_state(const CompiledCatalog& catalog, const Snapshot& snapshot
     json.open("active", '{');
     for (const auto& [id, time] : snapshot.active) json.write(name_of_behavior(id), time);
     json.close('}');
-    json.write_list("unavailable", snapshot.unavailable,
+    json.write_list("unavailable", snapshot.denied,
                     [&](BehaviorId id) { json.write(name_of_behavior(id)); });
     json.write_list("faulty", snapshot.faulty,
                     [&](BehaviorId id) { json.write(name_of_behavior(id)); });
+    write_variables(json, catalog, "variables", snapshot.variables);
     json.open("queue", '{');
     for (const auto& [task, due] : snapshot.queue) json.write(catalog.name_of_task(task), due);
     json.close('}');
+    json.write_list("waiting", snapshot.waiting,
+                    [&](TaskId task) { json.write(catalog.name_of_task(task)); });
   };
   return json_line(write, JsonWriter::Layout::indented);
 }

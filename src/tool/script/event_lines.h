@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "diagnostic/diagnostic.h"
 #include "script/reader.h"
 #include "script/script.h"
+#include "support/json.h"
 #include "yaml/document.h"
 
 namespace cbc {
@@ -46,7 +48,7 @@ class EventLog {
   struct Header {
     std::string catalog;  ///< its path, as the user gave it
     Microseconds reactive_delay = 0;
-    std::vector<Availability> situation;
+    Situation situation;  ///< with the values of all variables
   };
   struct Entry {
     bool is_event = false;     ///< false: the answer to a line that was not an event
@@ -87,9 +89,19 @@ class EventLog {
 ///                   "request": {"priority": 2, "event": 9, "parameters": "…"}}],   or null
 ///      "active": {"HOVER_WITH_MPC": 4000000},    and when it was activated
 ///      "unavailable": ["GPS"], "faulty": [],
-///      "queue": {"LAND": 4160000}}               reactive tasks, and when they are due
+///      "variables": {"LIGHT": "dark"},           all of them
+///      "queue": {"LAND": 4160000},               reactive tasks, and when they are due
+///      "waiting": ["LAND"]}                      those that wait for a change of their group
 ///
 /// Parameters are in canonical form (see Event::parameters).
+
+/// The value of a situation variable, as a member: true or false for one without values of its own.
+void write_value(JsonWriter& json, const CompiledCatalog& catalog, VariableValue value);
+/// A situation, as the member "situation".
+void write_situation(JsonWriter& json, const CompiledCatalog& catalog, const Situation& situation);
+/// The values of all variables, as an object.
+void write_variables(JsonWriter& json, const CompiledCatalog& catalog, std::string_view key,
+                     std::span<const std::uint32_t> values);
 
 [[nodiscard]] std::string write_state(const CompiledCatalog& catalog, const Snapshot& snapshot);
 

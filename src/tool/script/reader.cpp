@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/text.h"
+#include "catalog/situation.h"
 #include "cbc/event.h"
 #include "coordinator/record.h"
 #include "diagnostic/diagnostic.h"
@@ -34,13 +35,16 @@ constexpr auto event_keys = [] {
 }();
 constexpr Key expectation_keys[] = {{"outcome"}, {"running"}, {"stopped"}, {"active"}};
 
-constexpr const Shape* in_event[] = {&expectation};
+constexpr Key finished_task_keys[] = {{"task"}};
+
+constexpr const Shape* in_event[] = {&expectation, &finished_task};
 
 }  // namespace
 
 const Shape script{"a script", script_keys};
 const Shape event{"an event", event_keys, nullptr, in_event};
 const Shape expectation{"an expect", expectation_keys, &event};
+const Shape finished_task{"a finish", finished_task_keys, &event};
 
 }  // namespace cbc::shape
 
@@ -94,6 +98,28 @@ std::optional<std::uint32_t> NameIndex::find_behavior(const yaml::Node& node, st
                          suggestions_from(catalog_.behavior_names, behaviors_)));
   }
   return found;
+}
+
+std::optional<NameIndex::Part> NameIndex::find_part(const yaml::Node& node, Reporter& reporter) {
+  const auto name =
+      yaml::read_name(node, "situation", "the name of a behavior or a variable", reporter);
+  if (!name) return std::nullopt;
+  if (const auto variable = catalog_.find_variable(*name)) return Part{true, *variable};
+  if (const auto behavior = catalog_.find_behavior(*name)) return Part{false, *behavior};
+  if (!parts_) {
+    std::vector<std::string_view> names;
+    for (const std::string_view behavior : catalog_.behavior_names) names.push_back(behavior);
+    for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
+      names.push_back(catalog_.name_of_variable(variable));
+    }
+    parts_.emplace(std::move(names));
+  }
+  const bool has_variables = !catalog_.variables.empty();
+  reporter.report(
+      has_variables ? rule::undeclared_situation : rule::undefined_behavior, node.range,
+      describe_unknown(*name, has_variables ? "behavior or situation variable" : "behavior",
+                       catalog_.find_task(*name).has_value(), "task", *parts_));
+  return std::nullopt;
 }
 
 namespace {
@@ -302,9 +328,17 @@ Step StepReader::read(const Node& node, Reporter& reporter) {
     if (verb == expect) {
       step.expect = read_expectation(*fields.find(expect), names_, reporter);
     } else {
-      read_parts({*find_word<Verb>(verb), verb, fields.find(verb), fields.find("priority"),
-                  fields.find("parameters"), fields.find("cause")},
-                 step, reporter);
+      EventParts parts{*find_word<Verb>(verb),  verb,
+                       fields.find(verb),       nullptr,
+                       fields.find("priority"), fields.find("parameters"),
+                       fields.find("cause")};
+      if (parts.verb == Verb::finish && parts.subject->kind == Kind::mapping) {
+        Fields of_finish(*parts.subject, shape::finished_task, reporter);
+        parts.task = of_finish.require("task", parts.subject->range);
+        of_finish.report_unknown(Severity::error);
+        parts.subject = nullptr;
+      }
+      read_parts(parts, step, reporter);
     }
   }
   fields.report_unknown(Severity::error);
@@ -315,8 +349,9 @@ void StepReader::resume(Microseconds now, const State& state) {
   clock_ = now;
   const auto& ids = names_.catalog().behavior_ids;
   for (std::uint32_t behavior = 0; behavior < ids.size(); ++behavior) {
-    is_available_[behavior] = state.is_available(ids[behavior]);
+    is_denied_[behavior] = state.is_denied(ids[behavior]);
   }
+  variables_ = state.variables();
   knows_situation_ = true;
 }
 
@@ -359,16 +394,18 @@ void StepReader::read_time(const Fields& fields, Step& step, Reporter& reporter)
 void StepReader::read_parts(const EventParts& parts, Step& step, Reporter& reporter) {
   step.verb = parts.verb;
   const VerbForm& form = form_of(parts.verb);
-  if (parts.subject == nullptr) return;
+  step.is_by_task = parts.task != nullptr;
+  if (parts.subject == nullptr && !step.is_by_task) return;
   std::optional<std::uint32_t> subject;
-  switch (form.subject) {
+  switch (step.is_by_task ? VerbForm::SubjectKind::task : form.subject) {
     case VerbForm::SubjectKind::nothing:
       return;
     case VerbForm::SubjectKind::situation:
       step.situation = read_situation(*parts.subject, reporter);
       return;
     case VerbForm::SubjectKind::task:
-      subject = names_.find_task(*parts.subject, parts.subject_key, reporter);
+      subject = names_.find_task(step.is_by_task ? *parts.task : *parts.subject, parts.subject_key,
+                                 reporter);
       break;
     case VerbForm::SubjectKind::behavior:
       subject = names_.find_behavior(*parts.subject, parts.subject_key, reporter);
@@ -387,40 +424,68 @@ void StepReader::read_parts(const EventParts& parts, Step& step, Reporter& repor
   if (form.has_cause && parts.cause != nullptr) {
     const auto cause = read_word<FinishCause>(*parts.cause, "cause", reporter);
     if (cause) step.cause = *cause;
-    if (subject && cause == FinishCause::situation_change) {
+    if (subject && !step.is_by_task && cause == FinishCause::situation_change) {
       check_finish(*subject, parts.subject->range, reporter);
     }
   }
 }
 
 void StepReader::check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter) {
-  if (!knows_situation_ || !is_available_[behavior]) return;
-  const std::string_view name = names_.catalog().behavior_names[behavior];
+  const CompiledCatalog& catalog = names_.catalog();
+  if (!knows_situation_ || is_denied_[behavior] ||
+      catalog.find_misfit(catalog.behavior_ids[behavior], variables_)) {
+    return;
+  }
+  const std::string_view name = catalog.behavior_names[behavior];
   reporter.report(rule::still_available, range,
                   "behavior " + quote(name) +
                       " is still available here, so that it can be chosen again at once; add " +
                       quote("situation: {" + std::string(name) + ": false}") + " before it");
 }
 
-std::vector<Availability> StepReader::read_situation(const Node& node, Reporter& reporter) {
-  std::vector<Availability> situation;
-  constexpr std::string_view expected = "a mapping of behaviors to true or false";
+Situation StepReader::read_situation(const Node& node, Reporter& reporter) {
+  Situation situation;
+  constexpr std::string_view expected =
+      "a mapping of behaviors to true or false, or of situation variables to values";
   if (yaml::read_mapping(node, "situation", expected, reporter) == nullptr) {
     doubt_situation();
     return situation;
   }
   yaml::report_duplicate_keys(node, reporter);
   for (const auto& [key, value] : node.entries) {
-    const auto behavior = names_.find_behavior(*key, "situation", reporter);
+    if (value->kind == Kind::null) continue;
+    const auto part = names_.find_part(*key, reporter);
+    if (part && part->is_variable) {
+      read_value(part->place, *value, situation, reporter);
+      continue;
+    }
     const auto available = yaml::read_boolean(*value, key->text, reporter);
-    if (!behavior || !available) {
+    if (!part || !available) {
       doubt_situation();
       continue;
     }
-    situation.push_back({*behavior, *available});
-    is_available_[*behavior] = *available;
+    situation.availability.push_back({part->place, *available});
+    is_denied_[part->place] = !*available;
   }
   return situation;
+}
+
+void StepReader::read_value(std::uint32_t variable, const Node& node, Situation& situation,
+                            Reporter& reporter) {
+  const CompiledCatalog& catalog = names_.catalog();
+  const auto text = value_text(node, catalog.variables[variable].is_boolean != 0);
+  const auto value = text ? catalog.find_value(variable, *text) : std::nullopt;
+  if (value) {
+    situation.variables.push_back({variable, *value});
+    variables_[variable] = *value;
+    return;
+  }
+  doubt_situation();
+  std::vector<std::string_view> values;
+  for (std::uint32_t place = 0; place < catalog.variables[variable].value_count; ++place) {
+    values.push_back(catalog.name_of_value({variable, place}));
+  }
+  report_unknown_value(node, catalog.name_of_variable(variable), values, reporter);
 }
 
 namespace {
@@ -455,7 +520,10 @@ void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter
 
 void resume(StepReader& reader, const CompiledCatalog& catalog, const Snapshot& snapshot) {
   State state(catalog);
-  for (const BehaviorId behavior : snapshot.unavailable) state.set_available(behavior, false);
+  for (const BehaviorId behavior : snapshot.denied) state.set_denied(behavior, true);
+  for (std::uint32_t variable = 0; variable < snapshot.variables.size(); ++variable) {
+    state.set_variable({variable, snapshot.variables[variable]});
+  }
   reader.resume(snapshot.now, state);
 }
 

@@ -36,6 +36,13 @@ class NameIndex {
                                                            std::string_view what,
                                                            Reporter& reporter);
 
+  /// Of a situation: a behavior, or a variable.
+  struct Part {
+    bool is_variable = false;
+    std::uint32_t place = 0;
+  };
+  [[nodiscard]] std::optional<Part> find_part(const yaml::Node& node, Reporter& reporter);
+
   [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
 
  private:
@@ -43,6 +50,7 @@ class NameIndex {
   // Made when the first unknown name is met.
   std::optional<Suggestions> tasks_;
   std::optional<Suggestions> behaviors_;
+  std::optional<Suggestions> parts_;
 };
 
 /// Checks the parameters of starts against those that the tasks declare.
@@ -88,6 +96,7 @@ struct EventParts {
   Verb verb = Verb::wait;
   std::string_view subject_key;         ///< names the subject in messages
   const yaml::Node* subject = nullptr;  ///< null: none, or reported as missing
+  const yaml::Node* task = nullptr;     ///< of a finish that names a task in place of the subject
   const yaml::Node* priority = nullptr;
   const yaml::Node* parameters = nullptr;
   const yaml::Node* cause = nullptr;
@@ -100,7 +109,8 @@ class StepReader {
   StepReader(const CompiledCatalog& catalog, Severity of_parameters)
       : names_(catalog),
         parameter_checks_(catalog, of_parameters),
-        is_available_(catalog.behaviors.size(), true) {}
+        is_denied_(catalog.behaviors.size(), false),
+        variables_(catalog.variables.size(), 0) {}
 
   /// Reads the next entry. Mistakes are reported; the result may be used only if there was no
   /// error.
@@ -110,9 +120,8 @@ class StepReader {
   /// ignored.
   void read_parts(const EventParts& parts, Step& step, Reporter& reporter);
 
-  /// A mapping of behaviors to booleans.
-  [[nodiscard]] std::vector<Availability> read_situation(const yaml::Node& node,
-                                                         Reporter& reporter);
+  /// A mapping of behaviors to booleans, and of situation variables to their values.
+  [[nodiscard]] Situation read_situation(const yaml::Node& node, Reporter& reporter);
 
   /// Continues from the state of a coordinator, whatever was read before.
   void resume(Microseconds now, const State& state);
@@ -122,12 +131,16 @@ class StepReader {
 
  private:
   void read_time(const yaml::Fields& fields, Step& step, Reporter& reporter);
+  void read_value(std::uint32_t variable, const yaml::Node& node, Situation& situation,
+                  Reporter& reporter);
   void check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter);
 
   Microseconds clock_ = 0;
   NameIndex names_;
   ParameterChecks parameter_checks_;
-  std::vector<bool> is_available_;  ///< by behavior, at this place of the script
+  // At this place of the script.
+  std::vector<bool> is_denied_;  ///< by behavior
+  std::vector<std::uint32_t> variables_;
   bool knows_situation_ = true;
 };
 

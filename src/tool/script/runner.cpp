@@ -170,6 +170,13 @@ void Runner::check(const Step& step) {
   }
 }
 
+void apply(const Situation& situation, const CompiledCatalog& catalog, State& state) {
+  for (const Availability& entry : situation.availability) {
+    state.set_denied(catalog.behavior_ids[entry.behavior], !entry.available);
+  }
+  for (const VariableValue value : situation.variables) state.set_variable(value);
+}
+
 Event event_of(const Step& step) {
   Event event;
   event.verb = step.verb;
@@ -177,7 +184,9 @@ Event event_of(const Step& step) {
   event.priority = step.priority;
   if (step.parameters) event.parameters = step.parameters->canonical;
   event.cause = step.cause;
-  event.situation = step.situation;
+  event.is_by_task = step.is_by_task;
+  event.situation = step.situation.availability;
+  event.variables = step.situation.variables;
   return event;
 }
 

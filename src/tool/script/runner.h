@@ -51,11 +51,12 @@ class SearchTotals {
     Origin origin = Origin::script;
   };
   /// The kinds of events that may take a search.
-  static constexpr std::array<Kind, 6> kinds{{{Verb::start, Origin::script},
+  static constexpr std::array<Kind, 7> kinds{{{Verb::start, Origin::script},
                                               {Verb::stop, Origin::script},
                                               {Verb::finish, Origin::script},
                                               {Verb::finish, Origin::timeout},
                                               {Verb::finish, Origin::fault},
+                                              {Verb::finish, Origin::situation},
                                               {Verb::start, Origin::reactive}}};
 
   /// Counts an event if it took a search whose time was measured.
@@ -117,7 +118,9 @@ class Runner final : private EventListener {
   }
 
   /// Call one of the two first: see Coordinator.
-  void begin(std::span<const Availability> situation) { coordinator_.begin(situation); }
+  void begin(const Situation& situation) {
+    coordinator_.begin(situation.availability, situation.variables);
+  }
   void resume(const Snapshot& snapshot);
   /// The state to continue from. The last call must have returned true.
   [[nodiscard]] Snapshot snapshot() const;

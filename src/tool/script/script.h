@@ -7,6 +7,8 @@
 
 #include "cbc/event.h"
 #include "cbc/units.h"
+#include "compiled/compiled_catalog.h"
+#include "coordinator/state.h"
 #include "diagnostic/diagnostic.h"
 #include "yaml/values.h"
 
@@ -16,6 +18,7 @@ namespace cbc::shape {
 extern const yaml::Shape script;
 extern const yaml::Shape event;
 extern const yaml::Shape expectation;
+extern const yaml::Shape finished_task;
 
 }  // namespace cbc::shape
 
@@ -39,6 +42,14 @@ struct Expectation {
   std::optional<std::vector<std::uint32_t>> active;  ///< exactly these behaviors are active
 };
 
+/// What an event changes of the situation.
+struct Situation {
+  std::vector<Availability> availability;
+  std::vector<VariableValue> variables;
+
+  [[nodiscard]] bool is_empty() const { return availability.empty() && variables.empty(); }
+};
+
 /// One entry of a script: an event, or an expectation.
 struct Step {
   Range range;
@@ -48,15 +59,19 @@ struct Step {
   std::uint32_t subject = 0;
   std::optional<std::int32_t> priority;
   std::optional<Parameters> parameters;
+  bool is_by_task = false;  ///< see Event
   FinishCause cause = FinishCause::goal_achieved;
-  std::vector<Availability> situation;
+  Situation situation;
 };
+
+/// Makes the changes in a state.
+void apply(const Situation& situation, const CompiledCatalog& catalog, State& state);
 
 /// A scripted mission, checked against its catalog. Tasks and behaviors are in catalog order.
 struct Script {
   std::string file;
   Microseconds reactive_delay = 80'000;
-  std::vector<Availability> situation;  ///< before the first event
+  Situation situation;  ///< before the first event
   std::vector<Step> steps;
 };
 

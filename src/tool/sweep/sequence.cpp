@@ -49,6 +49,7 @@ SweepKind kind_of(const EventRecord& record) {
     case Origin::fault:
       return SweepKind::lost;
     case Origin::script:
+    case Origin::situation:
       break;
   }
   switch (record.verb) {
@@ -298,7 +299,7 @@ void EventGenerator::mend(Step& step) {
   }
   place -= static_cast<std::uint32_t>(faulty_.size());
   step.verb = Verb::situation;
-  step.situation = {{unavailable_[place], true}};
+  step.situation.availability = {{unavailable_[place], true}};
   take_out(unavailable_, place);
 }
 
@@ -315,9 +316,20 @@ void EventGenerator::break_something(const State& state, Step& step) {
     return;
   }
   step.verb = Verb::situation;
-  step.situation = {{behavior, false}};
+  if (!catalog_.variables.empty()) {
+    step.situation.variables = {draw_variable(state)};
+    return;
+  }
+  step.situation.availability = {{behavior, false}};
   put_in(unavailable_, behavior);
   if (state.is_active(catalog_.behavior_ids[behavior]) && below(4) != 0) lost_ = behavior;
+}
+
+/// Another value of some variable.
+VariableValue EventGenerator::draw_variable(const State& state) {
+  const std::uint32_t variable = below(catalog_.variables.size());
+  const std::uint32_t value = below(catalog_.variables[variable].value_count - 1);
+  return {variable, value < state.value_of(variable) ? value : value + 1};
 }
 
 std::uint32_t EventGenerator::any_active(const State& state) {
@@ -362,7 +374,7 @@ class Sequence final : public EventListener {
 
  private:
   [[nodiscard]] Coordinator::Status take_all(std::vector<Step>* record) {
-    coordinator_.begin({});
+    coordinator_.begin({}, {});
     for (std::uint32_t event = 0; event < shape_.events; ++event) {
       const auto status = take_next(record);
       if (status != Coordinator::Status::ok) return status;
@@ -417,9 +429,14 @@ std::string describe_step(const CompiledCatalog& catalog, const Step& step) {
     case VerbForm::SubjectKind::nothing:
       return {};
     case VerbForm::SubjectKind::situation:
-      for (const Availability& entry : step.situation) {
+      for (const Availability& entry : step.situation.availability) {
         text += fmt::format("{}{}: {}", text.empty() ? "" : ", ",
                             in_quotes(catalog.behavior_names[entry.behavior]), entry.available);
+      }
+      for (const VariableValue value : step.situation.variables) {
+        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ",
+                            in_quotes(catalog.name_of_variable(value.variable)),
+                            in_quotes(catalog.name_of_value(value)));
       }
       return fmt::format("{}: {{{}}}", form.name, text);
     case VerbForm::SubjectKind::task:

@@ -112,6 +112,7 @@ class EventGenerator {
   void mend(Step& step);
   void break_something(const State& state, Step& step);
   void draw_parameters(Step& step);
+  [[nodiscard]] VariableValue draw_variable(const State& state);
   [[nodiscard]] std::uint32_t any_active(const State& state);
   [[nodiscard]] std::int32_t draw_priority();
   [[nodiscard]] std::uint32_t below(std::size_t bound) {
