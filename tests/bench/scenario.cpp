@@ -61,7 +61,7 @@ class Planner final : public EventListener {
 
   void run() {
     const Script& script = scenario_.mission->script;
-    coordinator_.begin(script.situation);
+    coordinator_.begin(script.situation.availability);
     Microseconds now = 0;
     for (const Step& step : script.steps) {
       if (step.time) now = *step.time;
@@ -121,7 +121,7 @@ std::shared_ptr<const Scenario> plan(std::shared_ptr<const Mission> mission, std
 Batch::Batch(const Scenario& scenario, std::uint32_t size) {
   for (std::uint32_t i = 0; i < size; ++i) {
     coordinators_.emplace_back(*scenario.mission->catalog, scenario.options, listener_);
-    coordinators_.back().begin(scenario.mission->script.situation);
+    coordinators_.back().begin(scenario.mission->script.situation.availability);
   }
 }
 

@@ -22,10 +22,13 @@ behaviors:
 - {behavior: both, package: drive, tasks: [{task: LOOK, suitability: 50}, {task: MOVE}]}
 - {behavior: move, task: MOVE, suitability: 80.5, timeout: 9}
 - {behavior: rest, task: REST}
-- {behavior: talk, task: TALK, package: voice}
+- {behavior: talk, task: TALK, package: voice, situation: {PEOPLE: [few, many], NIGHT: false}}
 exclusivity_constraints:
 - mutually_exclusive: [REST, GO, TALK]
 - mutually_exclusive: [REST, LOOK]
+situation:
+- {variable: PEOPLE, values: [none, few, many]}
+- {variable: NIGHT}
 )";
 
 std::string compiled_bytes(std::string_view yaml) {

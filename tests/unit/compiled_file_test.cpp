@@ -105,15 +105,15 @@ TEST(CompiledFile, SaysWhyItCannotBeLoaded) {
   EXPECT_EQ(error_of(folder / "catalog.yaml"), "it is not a compiled catalog");
 }
 
-/// Where the format number, which is 1, lies in a file: right behind the content's offset and
+/// Where the format number lies in a file: right behind the content's offset and
 /// digest, so before the content.
 std::size_t place_of_format(const std::string& bytes, const test::ContentPlace& content) {
   for (std::size_t place = 8; place < content.begin; place += 4) {
     std::uint32_t number = 0;
     std::memcpy(&number, bytes.data() + place, sizeof number);
-    if (number != 1) continue;
+    if (number != newest_format) continue;
     std::string changed = bytes;
-    changed[place] = 2;
+    changed[place] = newest_format + 1;
     if (read_compiled(changed).error.find("format") != std::string::npos) return place;
   }
   ADD_FAILURE() << "the format is not found";
@@ -128,7 +128,7 @@ TEST(CompiledFile, OfANewerFormatIsRefusedByItsNumber) {
   // Whatever a newer format may hold.
   bytes.replace(content.begin, content.size, content.size, '\xFF');
   EXPECT_EQ(read_compiled(bytes).error, "its format is version 7, but cbc " + std::string(version) +
-                                            " knows none above 1; a newer cbc can read it");
+                                            " knows none above 2; a newer cbc can read it");
   bytes[place] = 0;
   EXPECT_EQ(read_compiled(bytes).error, "it is damaged or truncated");
 }

@@ -1054,35 +1054,16 @@ TEST(ClockEvents, GoOnAfterTheirLimitIfMoreAreAllowed) {
                                                       2'240'000, 3'240'000, 3'320'000}));
 }
 
-TEST(ClockEvents, WhatCouldNotBeTakenBackFinishesLaterIfItIsOneTooMany) {
+TEST(ClockEvents, DoNotCountWhatCouldNotBeTakenBack) {
   CoordinatorOptions options;
   options.max_clock_events = 1;
-  const CompiledCatalog catalog = test::compile_text(fragile);
-  Witness witness;
-  Coordinator coordinator(catalog, options, witness);
-  coordinator.begin({});
-  const auto handle = [&](Verb verb, std::uint32_t subject) {
-    Event event;
-    event.verb = verb;
-    event.subject = subject;
-    return coordinator.handle(event);
-  };
+  Stage stage(fragile, options);
   // The tasks are Y, X, Z, N, the behaviors z, y, x, n.
-  EXPECT_EQ(handle(Verb::start, 2), Coordinator::Status::ok);
-  EXPECT_EQ(handle(Verb::start, 1), Coordinator::Status::ok);
-  for (const std::uint32_t behavior : {0U, 2U, 3U}) {
-    EXPECT_EQ(handle(Verb::fault, behavior), Coordinator::Status::ok);
-  }
-  EXPECT_EQ(handle(Verb::start, 3), Coordinator::Status::too_many_clock_events);
-  EXPECT_EQ(witness.times.size(), 7U) << "the start, and one of two";
-  EXPECT_FALSE(coordinator.state().is_active(catalog.behavior_ids[0]));
-  EXPECT_TRUE(coordinator.state().is_active(catalog.behavior_ids[2])) << "until its finish";
-  EXPECT_EQ(coordinator.next_due(), 0);
-  coordinator.restart_count();
-  EXPECT_EQ(coordinator.advance_to(0), Coordinator::Status::ok);
-  EXPECT_EQ(witness.times.size(), 8U);
-  EXPECT_FALSE(coordinator.state().is_active(catalog.behavior_ids[2]));
-  EXPECT_EQ(coordinator.next_due(), std::nullopt);
+  stage.start("Z");
+  stage.start("X");
+  for (const char* behavior : {"z", "x", "n"}) stage.fault(behavior);
+  stage.start("N");
+  EXPECT_EQ(stage.status(), Coordinator::Status::ok) << "two behaviors finish after the start";
 }
 
 TEST(ClockEvents, DoNotCountWhatTheScriptDoes) {

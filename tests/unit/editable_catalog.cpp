@@ -138,6 +138,32 @@ std::vector<EditableCatalog::Number> EditableCatalog::numbers() {
   return std::move(numbers.list);
 }
 
+namespace {
+
+std::vector<Variable> variables_of(const CompiledCatalog& compiled) {
+  std::vector<Variable> variables;
+  for (std::uint32_t place = 0; place < compiled.variables.size(); ++place) {
+    Variable& variable = variables.emplace_back();
+    variable.name = compiled.name_of_variable(place);
+    variable.is_boolean = compiled.variables[place].is_boolean != 0;
+    for (std::uint32_t value = 0; value < compiled.variables[place].value_count; ++value) {
+      variable.values.emplace_back(compiled.name_of_value({place, value}));
+    }
+  }
+  return variables;
+}
+
+bool has_same_variables(const CompiledCatalog& a, const CompiledCatalog& b) {
+  const std::vector<Variable> of_a = variables_of(a);
+  const std::vector<Variable> of_b = variables_of(b);
+  return std::equal(
+      of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), [](const Variable& x, const Variable& y) {
+        return x.name == y.name && x.is_boolean == y.is_boolean && x.values == y.values;
+      });
+}
+
+}  // namespace
+
 Catalog describe_compiled(const CompiledCatalog& compiled) {
   Catalog catalog;
   catalog.file = compiled.file;
@@ -177,6 +203,15 @@ Catalog describe_compiled(const CompiledCatalog& compiled) {
     list.range.begin.line = compiled.clique_lines[clique];
     for (const TaskId task : compiled.cliques[clique]) list.tasks.push_back(index_of(task));
   }
+  catalog.variables = variables_of(compiled);
+  for (const FittingValue& fitting : compiled.fitting_values) {
+    std::vector<Condition>& conditions =
+        catalog.behaviors[compiled.behaviors[fitting.behavior].catalog_index].situation;
+    if (conditions.empty() || conditions.back().variable != fitting.variable) {
+      conditions.emplace_back().variable = fitting.variable;
+    }
+    conditions.back().values.push_back(fitting.value);
+  }
   return catalog;
 }
 
@@ -184,8 +219,9 @@ std::string difference(const CompiledCatalog& a, const CompiledCatalog& b) {
   if (a.file != b.file) return "file";
   if (!is_same(a.task_names, b.task_names)) return "task_names";
   if (!is_same(a.behavior_names, b.behavior_names)) return "behavior_names";
-  const std::set<std::string_view> with_texts{"texts", "texts_begin", "behavior_packages",
-                                              "parameters", "allowed_values"};
+  const std::set<std::string_view> with_texts{
+      "texts",          "texts_begin", "behavior_packages", "parameters",
+      "allowed_values", "variables",   "variable_values"};
   std::string_view different;
   auto name = first_array_name;
   const auto compare = [&](const auto& of_a, const auto& of_b) {
@@ -200,6 +236,7 @@ std::string difference(const CompiledCatalog& a, const CompiledCatalog& b) {
   if (!different.empty()) return std::string(different);
   if (!has_same_packages(a, b)) return "behavior_packages";
   if (!has_same_parameters(a, b)) return "parameters";
+  if (!has_same_variables(a, b)) return "variables";
   return {};
 }
 

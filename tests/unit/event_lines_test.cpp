@@ -44,7 +44,7 @@ TEST_F(EventLinesTest, KnowsTheSituationThatItGoesOnFrom) {
   constexpr std::string_view line = R"({"finish": "b", "cause": "situation_change"})";
   EXPECT_EQ(read(line).warnings.size(), 1U) << "it is still available";
   State state(catalog_);
-  state.set_available(catalog_.behavior_ids[1], false);
+  state.set_denied(catalog_.behavior_ids[1], true);
   lines_.resume(0, state);
   EXPECT_TRUE(read(line).warnings.empty());
 }

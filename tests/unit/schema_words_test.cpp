@@ -78,7 +78,7 @@ TEST(SchemaFiles, AreInTheirReadme) {
 TEST(SchemaWords, OfEvents) {
   const Json events = schema("events");
   const std::string event = "/$defs/event/properties/";
-  EXPECT_EQ(words_at(events, event + "origin"), names_up_to(Origin::fault));
+  EXPECT_EQ(words_at(events, event + "origin"), names_up_to(Origin::situation));
   EXPECT_EQ(words_at(events, event + "verb"), names_up_to(Verb::wait));
   EXPECT_EQ(words_at(events, event + "outcome"), names_up_to(Outcome::unchanged));
   EXPECT_EQ(words_at(events, "/$defs/finish_cause"), names_up_to(FinishCause::interrupted));
@@ -86,7 +86,7 @@ TEST(SchemaWords, OfEvents) {
   EXPECT_EQ(words_at(events, "/$defs/search/properties/status"),
             names_up_to(SearchStatus::unknown));
   EXPECT_EQ(words_in_list(events, "/$defs/reason/oneOf", "kind"),
-            names_up_to(Reason::Kind::finished));
+            names_up_to(Reason::Kind::stopped));
   EXPECT_EQ(words_in_list(events, "/$defs/loss/oneOf", "objective"),
             names_up_to(Criterion::canonical));
 }
@@ -162,6 +162,7 @@ TEST(SchemaWords, OfCatalogs) {
   const Json catalog = schema("catalog");
   expect_keys(catalog, "", shape::catalog);
   expect_keys(catalog, "/$defs/default_values", shape::default_values);
+  expect_keys(catalog, "/$defs/situation_variable", shape::variable);
   expect_keys(catalog, "/$defs/task_defaults", shape::task_defaults);
   expect_keys(catalog, "/$defs/behavior_defaults", shape::behavior_defaults);
   expect_keys(catalog, "/$defs/behavior", shape::behavior);

@@ -62,10 +62,13 @@ Script read(std::string_view text) {
   return result.script.value_or(Script{});
 }
 
-std::string describe(const std::vector<Availability>& situation) {
+std::string describe(const Situation& situation) {
   std::string text;
-  for (const Availability& entry : situation) {
+  for (const Availability& entry : situation.availability) {
     text += " " + std::to_string(entry.behavior) + (entry.available ? "+" : "-");
+  }
+  for (const VariableValue value : situation.variables) {
+    text += " " + std::to_string(value.variable) + "=" + std::to_string(value.value);
   }
   return text;
 }
@@ -88,7 +91,8 @@ std::string describe(const Expectation& expectation) {
 std::string describe(const Step& step) {
   std::string text = step.time ? "@" + std::to_string(*step.time) + " " : "";
   if (step.expect) return text + describe(*step.expect);
-  text += std::string(name_of(step.verb)) + " " + std::to_string(step.subject);
+  text += std::string(name_of(step.verb)) + (step.is_by_task ? " task " : " ") +
+          std::to_string(step.subject);
   if (step.priority) text += " priority " + std::to_string(*step.priority);
   if (step.parameters) text += " parameters " + step.parameters->json;
   if (step.verb == Verb::finish) text += " " + std::string(name_of(step.cause));
@@ -218,7 +222,7 @@ TEST(ScriptReader, WrongScripts) {
       "2:17-18 error invalid-value: 'reactive_delay' must be a number of seconds above 0, up to "
       "1000000000, found '0'\n"
       "3:12-17 error wrong-type: 'situation' must be a mapping of behaviors to true or false, "
-      "found 'HOVER'\n"
+      "or of situation variables to values, found 'HOVER'\n"
       "4:1-6 error unknown-key: unknown key 'delay' in a script; did you mean "
       "'reactive_delay'?\n");
 }
@@ -335,6 +339,64 @@ TEST(ScriptReader, Priorities) {
             "start 1 priority 2147483647\n");
 }
 
+constexpr const char* with_variables = R"(behaviors:
+- {behavior: CAMERA, task: LOOK, situation: {LIGHT: [day, dusk]}}
+- {behavior: LIDAR, task: LOOK, situation: {LIGHT: night, DRY: true}}
+situation:
+- {variable: LIGHT, values: [day, dusk, night]}
+- {variable: DRY}
+)";
+
+TEST(ScriptReader, ReadsSituationVariablesAndFinishesByTask) {
+  Diagnostics diagnostics;
+  const CompiledCatalog catalog = test::compile_text(with_variables);
+  const auto document = yaml::parse(R"(situation: {LIGHT: dusk, DRY: 'no', CAMERA: yes, LIDAR: }
+events:
+- situation: {LIDAR: false, DRY: on, LIGHT: "night"}
+- finish: {task: LOOK}
+  cause: interrupted
+)",
+                                    "script.yaml", diagnostics);
+  ASSERT_NE(document, nullptr);
+  const auto script = read_script(*document, catalog, Severity::warning, diagnostics);
+  ASSERT_TRUE(script);
+  EXPECT_EQ(describe(script->situation), " 0+ 0=1 1=1");
+  EXPECT_EQ(describe(*script),
+            "situation 0 1- 1=0 0=2\n"
+            "finish task 0 interrupted\n");
+}
+
+TEST(ScriptReader, WrongSituationVariables) {
+  Diagnostics diagnostics;
+  const CompiledCatalog catalog = test::compile_text(with_variables);
+  const auto document = yaml::parse(R"(- situation: {LIGTH: day}
+- situation: {LIGHT: nigth}
+- situation: {DRY: wet}
+- situation: {LIGHT: [day]}
+- finish: {task: CAMERA}
+- finish: {behavior: CAMERA}
+)",
+                                    "script.yaml", diagnostics);
+  ASSERT_NE(document, nullptr);
+  EXPECT_FALSE(read_script(*document, catalog, Severity::warning, diagnostics));
+  std::string messages;
+  for (const Diagnostic& finding : diagnostics.all()) {
+    messages += std::to_string(finding.range.begin.line) + " " + std::string(finding.rule) + ": " +
+                finding.message + "\n";
+  }
+  EXPECT_EQ(messages,
+            "1 undeclared-situation: there is no behavior or situation variable 'LIGTH'; did you "
+            "mean 'LIGHT'?\n"
+            "2 situation-value: situation variable 'LIGHT' has no value 'nigth'; did you mean "
+            "'night'?\n"
+            "3 situation-value: situation variable 'DRY' has no value 'wet'; its values are 'true' "
+            "and 'false'\n"
+            "4 wrong-type: 'LIGHT' must be a value of the situation variable, found a list\n"
+            "5 undefined-task: there is no task 'CAMERA': it is a behavior\n"
+            "6 missing-key: missing key 'task' in a finish\n"
+            "6 unknown-key: unknown key 'behavior' in a finish\n");
+}
+
 TEST(ScriptReader, OtherValues) {
   EXPECT_EQ(
       findings("- {finish: HOVER_PID, cause: timeout}\n- situation: [HOVER_PID]\n"
@@ -344,9 +406,8 @@ TEST(ScriptReader, OtherValues) {
       "situation_change, process_failure or interrupted, found 'timeout'; did you mean "
       "'time_out'?\n"
       "2:14-15 error wrong-type: 'situation' must be a mapping of behaviors to true or false, "
-      "found a list\n"
+      "or of situation variables to values, found a list\n"
       "3:26-32 error wrong-type: 'HOVER_PID' must be true or false, found 'true' in quotes\n"
-      "3:34-43 error wrong-type: 'HOVER_MPC' must be true or false, found nothing\n"
       "4:29-30 error wrong-type: 'parameters' must be a mapping, found '3'\n"
       "5:11-12 error wrong-type: 'start' must be the name of a task, found a list\n"
       "6:11-13 error invalid-value: 'start' must be the name of a task, found an empty text\n"

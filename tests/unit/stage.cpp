@@ -58,12 +58,39 @@ std::string Stage::finish(std::string_view behavior, FinishCause cause) {
   return handle(event);
 }
 
-std::string Stage::set(const Situation& situation) {
+std::string Stage::finish_task(std::string_view task, FinishCause cause) {
+  Event event;
+  event.verb = Verb::finish;
+  event.subject = task_index(task);
+  event.is_by_task = true;
+  event.cause = cause;
+  return handle(event);
+}
+
+std::string Stage::set(const Situation& situation) { return set_variables({}, situation); }
+
+std::string Stage::set_variables(
+    const std::vector<std::pair<std::string_view, std::string_view>>& variables,
+    const Situation& situation) {
   const std::vector<Availability> entries = availabilities_of(situation);
+  std::vector<VariableValue> values;
+  for (const auto& [name, value] : variables) {
+    const std::uint32_t variable = catalog_.find_variable(name).value();
+    values.push_back({variable, catalog_.find_value(variable, value).value()});
+  }
   Event event;
   event.verb = Verb::situation;
   event.situation = entries;
+  event.variables = values;
   return handle(event);
+}
+
+std::string Stage::waiting() const {
+  std::string text;
+  for (const TaskId task : catalog_.task_ids) {
+    if (state().is_waiting(task)) append(text, std::string(catalog_.name_of_task(task)), " ");
+  }
+  return text;
 }
 
 std::string Stage::fault(std::string_view behavior) {
@@ -118,7 +145,9 @@ void Stage::on_event(const EventRecord& record) {
   std::string text = record.time > 0 ? seconds_text(record.time) + " " : "";
   if (record.origin != Origin::script) text += std::string(name_of(record.origin)) + " ";
   text += name_of(record.verb);
-  if (record.task != none) {
+  if (record.task != none && record.verb == Verb::finish) {
+    text += " task " + std::string(catalog_.name_of_task(record.task));
+  } else if (record.task != none) {
     text += " " + std::string(catalog_.name_of_task(record.task)) + " " +
             std::to_string(record.priority);
   }

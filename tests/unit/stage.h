@@ -26,7 +26,13 @@ class Stage final : private EventListener {
                     std::optional<std::string_view> parameters = {});
   std::string stop(std::string_view task, std::optional<std::int32_t> priority = {});
   std::string finish(std::string_view behavior, FinishCause cause = FinishCause::goal_achieved);
+  /// Of whatever performs the task.
+  std::string finish_task(std::string_view task, FinishCause cause = FinishCause::goal_achieved);
   std::string set(const Situation& situation);
+  /// By the names of the variables and values, and availabilities of behaviors.
+  std::string set_variables(
+      const std::vector<std::pair<std::string_view, std::string_view>>& variables,
+      const Situation& situation = {});
   std::string fault(std::string_view behavior);
   std::string repair(std::string_view behavior);
   std::string wait();
@@ -59,6 +65,8 @@ class Stage final : private EventListener {
   [[nodiscard]] std::string requests() const;
   /// "HOVER@4.08"
   [[nodiscard]] std::string queue() const;
+  /// "HOVER LAND"
+  [[nodiscard]] std::string waiting() const;
   /// "A@15"
   [[nodiscard]] std::string timeouts() const;
   /// "a b"

@@ -360,7 +360,7 @@ Script script_of(const test::RandomMission& mission) {
     step.priority = from.event.priority;
     if (from.event.parameters) step.parameters = {std::string(*from.event.parameters), "{}"};
     step.cause = from.event.cause;
-    step.situation.assign(from.event.situation.begin(), from.event.situation.end());
+    step.situation.availability.assign(from.event.situation.begin(), from.event.situation.end());
   }
   return script;
 }

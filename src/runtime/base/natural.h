@@ -58,7 +58,8 @@ class Natural {
   }
 
  private:
-  std::vector<std::uint32_t> limbs_{1};  ///< lowest first; none of the highest is 0, but for 0 itself
+  std::vector<std::uint32_t> limbs_{
+      1};  ///< lowest first; none of the highest is 0, but for 0 itself
 };
 
 }  // namespace cbc

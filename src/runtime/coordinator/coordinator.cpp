@@ -348,6 +348,9 @@ Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
     if (!failed) {
       explain(trigger, *problem);
       accept(trigger, *problem);
+      if (!record_.explanation.why.empty()) {
+        explainer_->explain_queued(state_, record_.explanation);
+      }
       return report();
     }
     problem_builder_.exclude(*failed);

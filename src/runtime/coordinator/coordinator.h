@@ -60,7 +60,8 @@ class Coordinator {
   Coordinator& operator=(const Coordinator&) = delete;
 
   /// To be called before the first event: sets the situation and queues the reactive tasks.
-  void begin(std::span<const Availability> situation, std::span<const VariableValue> variables);
+  void begin(std::span<const Availability> situation,
+             std::span<const VariableValue> variables = {});
 
   /// Instead of begin: continues from the state of another coordinator, which find_inconsistency
   /// accepts. The reactive delay is that of the options.

@@ -64,6 +64,7 @@ class Candidates {
     if (is_protected(task)) {
       reason.kind = Reason::Kind::is_protected;
       reason.priority = state_.request(task).priority;
+      reason.is_from_any_request = trigger_.is_reactive;
       reasons_.push_back(reason);
     } else if (!state_.is_running(task) && catalog_.tasks[task].start_on_request) {
       reason.kind = Reason::Kind::on_request;
@@ -160,6 +161,20 @@ Demands demands_of(const CompiledCatalog& catalog, const State& state, const Tri
   return demands;
 }
 
+/// By task of the group, the value index that it may keep though its behavior is unavailable: the
+/// present one, unless that has just finished.
+std::vector<std::uint32_t> present_values(const CompiledCatalog& catalog,
+                                          const Circumstances& circumstances) {
+  const Trigger& trigger = circumstances.trigger;
+  std::vector<std::uint32_t> present;
+  for (TaskId task = catalog.group_tasks[trigger.group];
+       task < catalog.group_tasks[trigger.group + 1]; ++task) {
+    const bool is_kept = !has_finished(circumstances.state, trigger, task);
+    present.push_back(is_kept ? circumstances.state.value_index(task) : none);
+  }
+  return present;
+}
+
 /// A minimal conflict set of the event together with all of the `ways`. Empty if the event alone
 /// leaves no solution; nothing where that takes too long.
 std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
@@ -169,13 +184,7 @@ std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
   std::vector<Reason> candidates = Candidates(catalog, circumstances).collect(ways);
   if (candidates.size() > most_candidates) return std::nullopt;
 
-  // A behavior may be kept though it is unavailable, unless it has just finished.
-  std::vector<std::uint32_t> present;
-  for (TaskId task = catalog.group_tasks[trigger.group];
-       task < catalog.group_tasks[trigger.group + 1]; ++task) {
-    const bool is_kept = !has_finished(circumstances.state, trigger, task);
-    present.push_back(is_kept ? circumstances.state.value_index(task) : none);
-  }
+  const std::vector<std::uint32_t> present = present_values(catalog, circumstances);
   std::vector<ConflictSearch> searches;
   searches.reserve(ways.size());
   for (const Demands& way : ways) {
@@ -190,6 +199,30 @@ std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
       candidates, [&all](std::span<const Reason> some) { return all.has_solution(some); });
   if (all.is_exhausted()) return std::nullopt;
   return reasons;
+}
+
+/// Whether the reasons rule out all of the `ways` only because the event stops its tasks.
+bool needs_event(const CompiledCatalog& catalog, const Circumstances& circumstances,
+                 std::span<const Demands> ways, std::span<const Reason> reasons) {
+  const Trigger& trigger = circumstances.trigger;
+  const bool stops =
+      trigger.kind == Trigger::Kind::stop ||
+      (trigger.kind == Trigger::Kind::finish && trigger.cause == FinishCause::goal_achieved);
+  if (!stops || reasons.empty()) return false;
+  const std::vector<std::uint32_t> present = present_values(catalog, circumstances);
+  return std::any_of(ways.begin(), ways.end(), [&](const Demands& way) {
+    ConflictSearch search(catalog, trigger.group, present, way);
+    return search.solve(reasons) == Feasibility::yes;
+  });
+}
+
+Reason reason_of(const Trigger& trigger) {
+  Reason reason;
+  reason.kind =
+      trigger.kind == Trigger::Kind::stop ? Reason::Kind::stopped : Reason::Kind::finished;
+  reason.task = trigger.kind == Trigger::Kind::stop ? trigger.task : none;
+  reason.behavior = trigger.behavior;
+  return reason;
 }
 
 }  // namespace
@@ -228,6 +261,21 @@ void Explainer::explain(const Circumstances& circumstances, const Problem& probl
   if (options_.alternatives > 0) {
     explanation.alternatives = search_.list_best(solution, options_.alternatives);
     explanation.is_list_cut = search_.is_cut();
+  }
+}
+
+void Explainer::explain_queued(const State& state, Explanation& explanation) const {
+  for (Why& why : explanation.why) {
+    if (why.task == none || why.chosen != none) continue;
+    const std::uint32_t item = catalog_.tasks[why.task].catalog_index;
+    if (!state.queue().has(item)) continue;
+    Trigger start;
+    start.group = catalog_.tasks[why.task].group;
+    start.task = why.task;
+    start.is_reactive = true;
+    why.due = state.queue().due(item);
+    why.why_not = {};
+    why.why_not.conflict = find_conflict(catalog_, {state, start, 0, {}});
   }
 }
 
@@ -312,6 +360,9 @@ WhyNot Explainer::why_not(const Circumstances& circumstances, const Configuratio
     answer.difference = search_.comparison().compare(chosen, *answer.alternative);
   } else if (auto reasons = find_reasons(catalog_, circumstances, ways)) {
     answer.conflict = std::move(*reasons);
+    if (needs_event(catalog_, circumstances, ways, answer.conflict)) {
+      answer.conflict.push_back(reason_of(circumstances.trigger));
+    }
   } else {
     answer.is_cut = true;
   }

@@ -39,6 +39,10 @@ class Explainer {
   void explain(const Circumstances& circumstances, const Problem& problem,
                const Assignment& solution, Explanation& explanation);
 
+  /// Of tasks that do not run, but are in the queue after the event: replaces the explanation by
+  /// what hinders their start, if anything does. `state`: after the event.
+  void explain_queued(const State& state, Explanation& explanation) const;
+
  private:
   [[nodiscard]] bool is_in_group(const Subject& subject, std::uint32_t group) const;
   [[nodiscard]] ObjectiveValues elsewhere(const State& state, std::uint32_t group) const;

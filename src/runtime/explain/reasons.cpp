@@ -7,9 +7,9 @@
 namespace cbc {
 
 std::string_view name_of(Reason::Kind kind) {
-  static constexpr std::array<std::string_view, 11> names{
+  static constexpr std::array<std::string_view, 12> names{
       "priority",    "no_behavior", "protected", "exclusive", "on_request", "requires",
-      "performance", "unavailable", "situation", "faulty",    "finished"};
+      "performance", "unavailable", "situation", "faulty",    "finished",   "stopped"};
   return names[static_cast<std::size_t>(kind)];
 }
 

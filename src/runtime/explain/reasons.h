@@ -43,13 +43,17 @@ struct Reason {
     unavailable,    ///< a script said that the behavior cannot be activated
     situation,      ///< the behavior does not fit the present situation
     faulty,         ///< the activation of the behavior failed in this event
-    finished        ///< the behavior of a failed finish; not where the event is rejected
+    // Not where the event is rejected:
+    finished,  ///< the behavior has just finished
+    stopped    ///< the event stops the task
   };
   Kind kind = Kind::priority;
   TaskId task = none;
   TaskId other_task = none;  ///< of exclusive
   BehaviorId behavior = none;
-  std::int32_t priority = 0;           ///< of priority and is_protected
+  std::int32_t priority = 0;  ///< of priority and is_protected
+  bool is_from_any_request =
+      false;  ///< of is_protected: whatever the priority, at a reactive start
   Millionths minimum_performance = 0;  ///< of performance
   std::uint32_t variable = none;       ///< of situation: one that the behavior does not fit
   std::uint32_t value = 0;             ///< of situation: its present value

@@ -287,7 +287,7 @@ class LiveCoordinator::Impl {
       : catalog_(std::move(catalog)),
         log_(catalog_),
         coordinator_(catalog_, to_internal(options), log_) {
-    coordinator_.begin({}, {});
+    coordinator_.begin({});
   }
 
   LiveStatus handle(Microseconds time, const Event& event) {

@@ -172,13 +172,14 @@ std::string describe_event(const CompiledCatalog& catalog, const EventRecord& re
   std::string text(form.name);
   if (record.task != none && record.verb == Verb::finish) {
     text += " task " + printable(catalog.name_of_task(record.task));
-    if (record.behavior == none) text += ", which nothing performs";
+    text += record.behavior == none
+                ? ", which nothing performs"
+                : " (" + printable(catalog.name_of_behavior(record.behavior)) + ")";
   } else if (record.task != none) {
     text += " " + printable(catalog.name_of_task(record.task));
     if (form.has_priority) text += fmt::format(", priority {}", record.priority);
   }
-  if (record.behavior != none) {
-    if (record.task != none) text += ", performed by";
+  if (record.behavior != none && record.task == none) {
     text += " " + printable(catalog.name_of_behavior(record.behavior));
   }
   if (form.has_cause) text += fmt::format(", {}", name_of(record.cause));
@@ -207,12 +208,22 @@ std::string describe_expectation(const CompiledCatalog& catalog, const Expectati
 
 namespace {
 
+/// Names in sentences: a task and a behavior may have the same one.
+std::string task_name(const CompiledCatalog& catalog, TaskId task) {
+  const std::string_view name = catalog.name_of_task(task);
+  return (catalog.find_behavior(name) ? "task " : "") + printable(name);
+}
+std::string behavior_name(const CompiledCatalog& catalog, BehaviorId behavior) {
+  const std::string_view name = catalog.name_of_behavior(behavior);
+  return (catalog.find_task(name) ? "behavior " : "") + printable(name);
+}
+
 std::string place(const CompiledCatalog& catalog, const Reason& reason) {
   return fmt::format(" ({}:{})", printable(catalog.file), reason.line);
 }
 
 std::string describe_protection(const EventRecord& record, const Reason& reason) {
-  if (record.origin == Origin::reactive) {
+  if (reason.is_from_any_request) {
     return "runs on request, and a reactive start never stops such a task";
   }
   const std::int32_t level = record.search != nullptr ? record.search->protection : record.priority;
@@ -226,12 +237,9 @@ std::string describe_protection(const EventRecord& record, const Reason& reason)
 
 std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& record,
                             const Reason& reason) {
-  const auto task_name = [&](TaskId task) {
-    return task == none ? std::string() : printable(catalog.name_of_task(task));
-  };
-  const std::string task = task_name(reason.task);
+  const std::string task = reason.task == none ? "" : task_name(catalog, reason.task);
   const std::string behavior =
-      reason.behavior == none ? "" : printable(catalog.name_of_behavior(reason.behavior));
+      reason.behavior == none ? "" : behavior_name(catalog, reason.behavior);
   switch (reason.kind) {
     case Reason::Kind::priority:
       return fmt::format("{} has a request of priority {}, higher than {}", task, reason.priority,
@@ -241,7 +249,7 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
     case Reason::Kind::is_protected:
       return fmt::format("{} {}", task, describe_protection(record, reason));
     case Reason::Kind::exclusive:
-      return fmt::format("{} excludes {}", task, task_name(reason.other_task)) +
+      return fmt::format("{} excludes {}", task, task_name(catalog, reason.other_task)) +
              place(catalog, reason);
     case Reason::Kind::on_request:
       return fmt::format("{} is not running, and starts only on request", task);
@@ -263,6 +271,8 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
       return fmt::format("{} is faulty", behavior);
     case Reason::Kind::finished:
       return fmt::format("{} has just finished ({})", behavior, name_of(record.cause));
+    case Reason::Kind::stopped:
+      return fmt::format("{} is stopped by this event", task);
   }
   return {};
 }
@@ -286,8 +296,8 @@ std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const 
       std::swap(other, excluded);
     }
     const bool is_it = excluded == it;
-    std::string sentence = fmt::format("{} excludes {}", printable(catalog.name_of_task(other)),
-                                       is_it ? "it" : printable(catalog.name_of_task(excluded))) +
+    std::string sentence = fmt::format("{} excludes {}", task_name(catalog, other),
+                                       is_it ? "it" : task_name(catalog, excluded)) +
                            place(catalog, reason);
     const TaskId guarded = is_it ? other : excluded;
     if (const Reason* const protection = protection_of(guarded)) {
@@ -347,10 +357,6 @@ std::pair<std::string, std::string> shorten_both(const std::string& a, const std
 std::string shorten_alone(const std::string& number) {
   const std::size_t first = std::min(number.find_first_not_of("0."), number.size());
   return shorten(number, std::max<std::size_t>(first, 2) + digits_beyond);
-}
-
-std::string task_name(const CompiledCatalog& catalog, TaskId task) {
-  return printable(catalog.name_of_task(task));
 }
 
 /// The name of a value.
@@ -432,13 +438,21 @@ Sentences describe_displacement(const CompiledCatalog& catalog, const EventRecor
 Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record, const Why& why,
                        const State& state) {
   if (why.behavior != none) {
-    return describe(
-        catalog, record,
-        fmt::format("why {} is {}active", printable(catalog.name_of_behavior(why.behavior)),
-                    why.is_active ? "" : "not "),
-        why.is_active ? "without it" : "with it", why.why_not, none, state);
+    return describe(catalog, record,
+                    fmt::format("why {} is {}active", behavior_name(catalog, why.behavior),
+                                why.is_active ? "" : "not "),
+                    why.is_active ? "without it" : "with it", why.why_not, none, state);
   }
   const std::string name = task_name(catalog, why.task);
+  if (why.due) {
+    const std::string time = format_time(*why.due);
+    const std::string subject = fmt::format("why {} does not run", name);
+    if (why.why_not.conflict.empty()) {
+      return {fmt::format("{}: it starts by itself at {} s", subject, time), {}};
+    }
+    return {fmt::format("{}: it tries to start at {} s, but", subject, time),
+            describe_reasons(catalog, record, why.why_not.conflict, none)};
+  }
   std::string condition;
   if (why.why_not.alternative) {
     const TaskId first = catalog.group_tasks[record.search->group];

@@ -63,7 +63,8 @@ std::string describe_reason(const SweepResult& result, const RejectionReason& re
     case Reason::Kind::faulty:
       return behavior + " is faulty";
     case Reason::Kind::finished:
-      break;  // not a reason of rejections
+    case Reason::Kind::stopped:
+      break;  // not reasons of rejections
   }
   return {};
 }
@@ -458,7 +459,8 @@ class SweepReader {
         is_right = has_behavior;
         break;
       case Reason::Kind::finished:
-        break;  // not a reason of rejections
+      case Reason::Kind::stopped:
+        break;  // not reasons of rejections
     }
     if (!is_right) throw JsonFault("a reason lacks a task or a behavior");
   }

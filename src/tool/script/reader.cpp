@@ -459,7 +459,10 @@ Situation StepReader::read_situation(const Node& node, Reporter& reporter) {
       read_value(part->place, *value, situation, reporter);
       continue;
     }
-    const auto available = yaml::read_boolean(*value, key->text, reporter);
+    // The value of an unknown name may be one of a variable.
+    const bool is_behavior = part || names_.catalog().variables.empty();
+    const auto available =
+        is_behavior ? yaml::read_boolean(*value, key->text, reporter) : std::nullopt;
     if (!part || !available) {
       doubt_situation();
       continue;

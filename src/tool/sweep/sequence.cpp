@@ -374,7 +374,7 @@ class Sequence final : public EventListener {
 
  private:
   [[nodiscard]] Coordinator::Status take_all(std::vector<Step>* record) {
-    coordinator_.begin({}, {});
+    coordinator_.begin({});
     for (std::uint32_t event = 0; event < shape_.events; ++event) {
       const auto status = take_next(record);
       if (status != Coordinator::Status::ok) return status;
