@@ -54,6 +54,7 @@ struct Rule {
   RULE(impossible_expectation)   \
   RULE(invalid_value)            \
   RULE(missing_key)              \
+  RULE(never_started)            \
   RULE(no_timeout_effect)        \
   RULE(on_request_and_reactive)  \
   RULE(parameter_value)          \
