@@ -25,8 +25,10 @@
 #include "diff/catalog_diff.h"
 #include "draw/catalog_graph.h"
 #include "draw/diagram.h"
+#include "lint/together.h"
 #include "report/catalog_report.h"
 #include "report/solve_report.h"
+#include "report/together_report.h"
 #include "script/runner.h"
 #include "support/system.h"
 #include "support/wording.h"
@@ -88,10 +90,11 @@ std::uint32_t group_count(const draw::CatalogGraph& graph) {
 void add_drawing_options(Command& command, DrawingOptions& options) {
   constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
   command.option("--view", options.view,
-                 one_of("VIEW", {"full", "tasks", "constraints", "behaviors"}),
+                 one_of("VIEW", {"full", "tasks", "constraints", "behaviors", "together"}),
                  "What is drawn: full (default: tasks and behaviors), tasks (what each requires), "
                  "constraints (between tasks, one color per group), behaviors (what each "
-                 "requires)");
+                 "requires), together (a table of the tasks on request: which can run at the same "
+                 "time)");
   command.option("--exclusivity", options.exclusivity, one_of("STYLE", {"pairs", "hubs", "none"}),
                  "Draw lists of exclusive tasks as pairs, as hubs (a dot with a line to each "
                  "task), or none (default: up to three tasks as pairs, more as hubs; in the views "
@@ -321,6 +324,7 @@ constexpr const char* graph_footer =
     "  cbc graph robot.yaml | dot -Tx11          in a window\n"
     "  cbc graph robot.yaml --view tasks --reduce  which tasks require which\n"
     "  cbc graph robot.cbc --view constraints    which tasks constraints connect\n"
+    "  cbc graph robot.yaml --view together      which tasks can run at the same time\n"
     "  cbc graph robot.yaml --format mermaid     for a README file, a pull request\n"
     "  cbc graph robot.yaml --script mission.yaml --after 5\n"
     "                                            what runs after the 5th event\n"
@@ -332,6 +336,11 @@ constexpr const char* graph_footer =
     "\n"
     "With --diff, added is green (+), removed is red and dashed (-), changed is orange; the format "
     "text has one line per difference; json is for programs (schema cbc.diff/1).\n"
+    "\n"
+    "--view together is a table, as text by default, of the pairs of tasks that start on "
+    "request: + they can run together, - a list excludes them, x what they require excludes them, "
+    "with the reasons, s they fit in no common situation. A search decides it. It is not drawn as "
+    "mermaid; json is of the schema cbc.together/1.\n"
     "\n"
     "Exit status: 0 success, or the catalog has errors but was drawn, 1 the catalogs of "
     "--diff differ, 2 nothing could be drawn, a file could not be read or written, or the usage "
@@ -350,8 +359,10 @@ struct GraphCommand {
   StateOptions state;
 };
 
-/// The format of differences for people.
+/// The format of differences, and of the table of tasks that can run together, for people.
 constexpr std::string_view text_format = "text";
+
+bool is_together(const GraphCommand& command) { return command.drawing.view == "together"; }
 
 /// The name of the format, which the suffix of the output may tell; empty if it tells none.
 std::string format_of(const GraphCommand& command) {
@@ -360,7 +371,9 @@ std::string format_of(const GraphCommand& command) {
   std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
-  if (suffix.empty()) return std::string(graph_formats().front().name);
+  if (suffix.empty()) {
+    return std::string(is_together(command) ? text_format : graph_formats().front().name);
+  }
   if (suffix == ".txt") return std::string(text_format);
   for (const GraphFormat& format : graph_formats()) {
     if (suffix == format.suffixes[0] || suffix == format.suffixes[1]) {
@@ -368,6 +381,21 @@ std::string format_of(const GraphCommand& command) {
     }
   }
   return {};
+}
+
+/// The same for the table of tasks that can run together.
+std::string find_misuse_of_together(const GraphCommand& command) {
+  if (command.is_diff) return "--view together cannot be used with --diff";
+  if (command.state.script) return "--view together cannot be used with --script";
+  DrawingOptions drawing;
+  drawing.view = command.drawing.view;
+  if (command.drawing != drawing) {
+    return "other options of the drawing cannot be used with --view together";
+  }
+  const std::string format = format_of(command);
+  if (find_named(together_formats(), format) != nullptr) return {};
+  return fmt::format("--view together cannot be written as {}; expected {}", format,
+                     join_with_or(names_in(together_formats())));
 }
 
 /// Says what is wrong with the format or the number of catalogs; empty if nothing is.
@@ -386,8 +414,9 @@ std::string find_misuse(const GraphCommand& command) {
     return fmt::format("expected one catalog, found {}; --diff compares two", catalogs);
   }
   if (catalogs == 0 && !command.state.script) return "expected a catalog";
+  if (is_together(command)) return find_misuse_of_together(command);
   if (!command.is_diff && format == text_format)
-    return "--format text can only be used with --diff";
+    return "--format text can only be used with --diff or --view together";
   if (format == text_format || (command.is_diff && format == "json")) {
     if (command.drawing != DrawingOptions()) {
       return fmt::format("options of the drawing cannot be used with --diff --format {}", format);
@@ -426,6 +455,25 @@ int draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& mom
   }
   std::optional<std::string> content = format.write(diagram);
   if (format.is_by_graphviz) content = run_graphviz(*content, format.name);
+  return content ? write_output(output_of(command), *content) : exit_unusable;
+}
+
+int write_together(const GraphCommand& command) {
+  const std::unique_ptr<Drawable> drawable = read_drawable(command.catalogs.front());
+  if (drawable == nullptr) return exit_unusable;
+  if (drawable->compiled == nullptr) {
+    complain("catalog {} has errors, so it is not known which tasks can run together",
+             quote(drawable->graph.file));
+    return exit_unusable;
+  }
+  const CompiledCatalog& catalog = *drawable->compiled;
+  const std::string format = format_of(command);
+  const Style style = output_of(command) == "-" ? style_for(stdout) : plain_style();
+  std::optional<std::string> content =
+      find_named(together_formats(), format)
+          ->write(catalog, make_together_table(catalog, {}), style);
+  const GraphFormat* const drawn = find_named(graph_formats(), format);
+  if (drawn != nullptr && drawn->is_by_graphviz) content = run_graphviz(*content, format);
   return content ? write_output(output_of(command), *content) : exit_unusable;
 }
 
@@ -469,6 +517,7 @@ int run_graph(const GraphCommand& command) {
   if (const std::string misuse = find_misuse(command); !misuse.empty())
     return usage_error("graph", misuse);
   if (!can_write(command)) return exit_unusable;
+  if (is_together(command)) return write_together(command);
   return command.is_diff ? draw_diff(command) : draw_catalog(command);
 }
 
@@ -476,9 +525,10 @@ int run_graph(const GraphCommand& command) {
 
 void add_graph_command(Program& program) {
   std::vector<std::string> formats = names_in(graph_formats());
-  const std::string format_help =
-      fmt::format("{}, with --diff also {} (default: by the suffix of OUT; without one {})",
-                  join_with_or(formats), text_format, formats.front());
+  const std::string format_help = fmt::format(
+      "{}, with --diff and --view together also {} (default: by the suffix of OUT; "
+      "without one {})",
+      join_with_or(formats), text_format, formats.front());
   formats.emplace_back(text_format);
   const auto options = std::make_shared<GraphCommand>();
   Command& command = program.add_command(

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -62,6 +63,8 @@ class Linter {
   bool lint_if_catalog(const std::string& path);
   /// `catalog`: path of the catalog that it runs on; if empty, the one that the script names.
   void lint_script(const std::string& path, const std::string& catalog);
+  /// Checks the settings by what the catalogs are that they apply to. Comes last.
+  void check_settings();
 
   [[nodiscard]] const std::vector<LintedFile>& files() const { return files_; }
   /// Whether a file could not be read, or not be written.
@@ -94,6 +97,7 @@ class Linter {
   void lint_script_text(const std::string& path, std::string text, const std::string& catalog);
   void lint_catalog_text(const std::string& path, std::string text);
   void take_compiled(const CatalogInput& input);
+  void note_tasks(const Catalog& catalog, bool is_known, const SeveritySettings& settings);
   void add(LintedFile file, const SeveritySettings& settings);
   [[nodiscard]] std::string name_of(const std::string& path) const;
   [[nodiscard]] bool is_to_fix() const { return command_.fix || command_.diff; }
@@ -103,6 +107,13 @@ class Linter {
   InputFiles unlinted_{InputFiles::Findings::dropped};
   CatalogLoader catalogs_{unlinted_};  ///< those that were linted, and others that scripts use
   SettingsFinder settings_;
+  /// By settings file, what the names of tasks in it are checked against.
+  struct NamedTasks {
+    SeveritySettings settings;
+    std::set<std::string> tasks;
+    bool has_all = true;  ///< all catalogs could be read
+  };
+  std::map<std::string, NamedTasks> named_tasks_;
   std::string diff_;
   bool has_failed_ = false;
   bool has_internal_error_ = false;
@@ -151,7 +162,11 @@ void Linter::take_compiled(const CatalogInput& input) {
   const auto catalog = std::make_shared<const CompiledCatalog>(std::move(file->catalog));
   catalogs_.keep(input.path, catalog);
   if (command_.summary) {
-    files_.push_back({name_of(input.path), {}, {}, summarize(*catalog), false});
+    files_.push_back({name_of(input.path),
+                      {},
+                      {},
+                      summarize(*catalog),
+                      summarize_together(*catalog, command_.max_nodes)});
   }
 }
 
@@ -168,6 +183,7 @@ void Linter::lint_catalog_text(const std::string& path, std::string text) {
     return;
   }
   if (is_to_fix()) fix(path, linted, *settings);
+  note_tasks(linted.catalog, !linted.catalog.tasks.empty(), *settings);
   catalogs_.keep(path, linted.compiled);
   add(std::move(linted.file), *settings);
 }
@@ -183,11 +199,15 @@ Linter::Linted Linter::lint_text(const std::string& name, std::string text,
   if (document != nullptr) {
     linted.is_script = is_script(*document);
     if (linted.is_script) return linted;
-    LintResult result = cbc::lint_catalog(*document, LintOptions{command_.max_nodes}, diagnostics);
+    LintResult result = cbc::lint_catalog(
+        *document, LintOptions{command_.max_nodes, settings.never_together()}, diagnostics);
     commented.document = document.get();
     commented.is_complete = result.compiled.has_value();
     if (result.compiled) {
       linted.file.summary = summarize(*result.compiled);
+      if (command_.summary) {
+        linted.file.together = summarize_together(*result.compiled, command_.max_nodes);
+      }
       linted.compiled = std::make_shared<const CompiledCatalog>(std::move(*result.compiled));
     }
     linted.catalog = std::move(result.reading.catalog);
@@ -258,7 +278,7 @@ void Linter::lint_script(const std::string& path, const std::string& catalog) {
 void Linter::lint_script_text(const std::string& path, std::string text,
                               const std::string& catalog) {
   LintedFile file;
-  file.is_script = true;
+  file.is_catalog = false;
   file.file = name_of(path);
   file.text = std::move(text);
   const std::optional<SeveritySettings> settings = settings_.find(path == "-" ? file.file : path);
@@ -318,6 +338,31 @@ void Linter::add(LintedFile file, const SeveritySettings& settings) {
   files_.push_back(std::move(file));
 }
 
+void Linter::note_tasks(const Catalog& catalog, bool is_known, const SeveritySettings& settings) {
+  if (settings.never_together().empty()) return;
+  NamedTasks& named = named_tasks_[settings.never_together().front().file];
+  named.settings = settings;
+  named.has_all = named.has_all && is_known;
+  for (const Task& task : catalog.tasks) named.tasks.insert(task.name);
+}
+
+void Linter::check_settings() {
+  for (const auto& [file, named] : named_tasks_) {
+    if (!named.has_all) continue;
+    Diagnostics diagnostics;
+    check_never_together_names(named.settings.never_together(),
+                               {named.tasks.begin(), named.tasks.end()}, diagnostics);
+    if (diagnostics.all().empty()) continue;
+    LintedFile settings;
+    settings.is_catalog = false;
+    settings.file = file;
+    settings.text = read_input(file).value_or("");
+    diagnostics.sort();
+    settings.findings = diagnostics.release();
+    add(std::move(settings), named.settings);
+  }
+}
+
 std::string Linter::name_of(const std::string& path) const {
   return path == "-" && !command_.stdin_filename.empty() ? command_.stdin_filename
                                                          : display_name(path);
@@ -339,6 +384,7 @@ constexpr const char* lint_footer =
     "there. A file .cbc.yaml in the folder of a catalog, or above it, has settings for all of "
     "them:\n"
     "  error: [RULE, ...]   warn: [RULE, ...]   allow: [RULE, ...]   strict: true\n"
+    "  never_together: [[TASK, TASK, ...], ...]   no two of them can run together\n"
     "\n"
     "Exit status: 0 no errors, 1 errors (with --strict, also warnings), 2 a file could not be "
     "read or written, or the usage is wrong, 3 an internal error.\n"
@@ -412,7 +458,7 @@ bool lint_target(const Target& target, Linter& linter) {
   if (!target.is_named) return linter.lint_if_catalog(target.path);
   const std::size_t before = linter.files().size();
   linter.lint_catalog(target.path);
-  return linter.files().size() > before && !linter.files().back().is_script;
+  return linter.files().size() > before && linter.files().back().is_catalog;
 }
 
 /// Lints everything. Returns whether each path had something to lint.
@@ -432,6 +478,7 @@ bool lint_all(const LintCommand& command, Linter& linter) {
     linter.lint_script(script, command.paths.empty() ? "" : command.paths[0]);
   }
   progress.clear();
+  linter.check_settings();
   for (const std::string& path : command.paths) {
     if (!is_folder(path) || folders_with_catalogs.contains(path)) continue;
     complain("found no catalog in {}{}", quote(path),
@@ -451,7 +498,7 @@ void print_report(const LintCommand& command, const Linter& linter, bool is_comp
   const LintRun run{std::filesystem::current_path().string(), is_complete, style_for(stdout)};
   if (command.summary && command.format == "text") {
     for (const LintedFile& file : linter.files()) {
-      if (!file.is_script) fmt::print("{}", lint_summary(file, run.style));
+      if (file.is_catalog) fmt::print("{}", lint_summary(file, run.style));
     }
   }
   fmt::print("{}", find_named(lint_formats(), command.format)->write(linter.files(), run));
@@ -509,8 +556,8 @@ void add_lint_command(Program& program) {
                  fmt::format("{} (default: {})", join_with_or(formats), formats.front()));
   command
       .flag("--summary", options->summary,
-            "Show figures for each catalog: tasks, behaviors, constraints, groups, search space; "
-            "also for compiled catalogs")
+            "Show figures for each catalog: tasks, behaviors, constraints, groups, search space, "
+            "tasks that can run together; also for compiled catalogs")
       .only_with_values("--format", {"text", "json"});
   command.flag("--fix", options->fix,
                "Fix in place what can be fixed without changing the meaning");

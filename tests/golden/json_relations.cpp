@@ -27,6 +27,8 @@ class Relations {
       check_graph(report);
     } else if (schema == "cbc.diff/1") {
       check_diff(report);
+    } else if (schema == "cbc.together/1") {
+      check_together(report);
     } else {
       faults_.push_back("the schema is '" + schema + "'");
     }
@@ -37,6 +39,31 @@ class Relations {
  private:
   void expect(bool holds, const std::string& otherwise) {
     if (!holds) faults_.push_back(otherwise);
+  }
+
+  void check_together(const Json& report) {
+    std::map<std::string, std::size_t> counts;
+    std::size_t place = 0;
+    const Json& tasks = report.at("tasks");
+    const Json& pairs = report.at("pairs");
+    for (std::size_t a = 0; a < tasks.size(); ++a) {
+      for (std::size_t b = a + 1; b < tasks.size() && place < pairs.size(); ++b, ++place) {
+        const Json& pair = pairs[place];
+        expect(pair.at("tasks") == Json::array({tasks[a], tasks[b]}), "the pairs are in order");
+        const bool is_excluded = pair.at("together").get<std::string>().starts_with("excluded");
+        // A situation is no constraint.
+        const bool has_reasons = is_excluded && pair.at("together") != "excluded_by_situation";
+        expect(has_reasons != pair.at("reasons").empty(), "only excluded pairs have reasons");
+        ++counts[pair.at("together")];
+      }
+    }
+    expect(place == pairs.size() && place == tasks.size() * (tasks.size() - 1) / 2,
+           "there are all pairs");
+    for (const char* together :
+         {"possible", "excluded", "excluded_indirectly", "excluded_by_situation", "undecided"}) {
+      expect(report.at(together) == counts[together],
+             std::string(together) + " is not their number");
+    }
   }
 
   void check_graph(const Json& report) {

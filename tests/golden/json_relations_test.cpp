@@ -90,6 +90,15 @@ TEST(JsonRelations, OfGraph) {
                  {R"("mark":"active")", R"("mark":"faulty")"}});
 }
 
+TEST(JsonRelations, OfTogether) {
+  expect_faults(R"({"schema":"cbc.together/1","tasks":["A","B"],"possible":0,"excluded":1,)"
+                R"("excluded_indirectly":0,"excluded_by_situation":0,"undecided":0,"pairs":[)"
+                R"({"tasks":["A","B"],"together":"excluded","reasons":[{"kind":"exclusive"}]}]})",
+                {{R"("tasks":["A","B"],"possible")", R"("tasks":["A","C"],"possible")"},
+                 {R"("excluded":1)", R"("excluded":2)"},
+                 {R"([{"kind":"exclusive"}])", "[]"}});
+}
+
 TEST(JsonRelations, OfDiff) {
   expect_faults(R"({"schema":"cbc.diff/1","changes":[)"
                 R"({"kind":"added","subject":"task","task":"A",)"

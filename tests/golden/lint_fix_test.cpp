@@ -45,7 +45,7 @@ tasks:
   automatic_activation: no
 - task: LOCALIZE
 - task: LOCALIZE
-- task: MELT
+- {task: MELT, start_on_request: yes}
 exclusivity_constraints:
 - mutually_exclusive: [PLOW, MELT, PLOW]
 - mutually_exclusive: [MELT, PLOW]
@@ -76,7 +76,7 @@ tasks:
   execution_goal: achieve_goal
   start_on_request: yes
 - task: LOCALIZE
-- task: MELT
+- {task: MELT, start_on_request: yes}
 exclusivity_constraints:
 - mutually_exclusive: [PLOW, MELT]
 # the end

@@ -1,13 +1,24 @@
 // Has Graphviz read every picture, and looks at what it found in it.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "catalog/reader.h"
+#include "compile/compile.h"
+#include "compiled/compiled_catalog.h"
+#include "diagnostic/diagnostic.h"
+#include "draw/diagram.h"
+#include "graph/hostile_catalog.h"
 #include "graph/samples.h"
+#include "lint/together.h"
+#include "report/together_report.h"
 #include "support/system.h"
+#include "yaml/document.h"
 
 namespace cbc::graph_test {
 namespace {
@@ -75,6 +86,32 @@ TEST(Dot, ReadsPicturesOfDifferencesWithHostileNames) {
     }
   }
   EXPECT_GT(samples, 100U);
+}
+
+TEST(Dot, ReadsTablesOfHostileNames) {
+  if (!has_graphviz()) GTEST_SKIP() << "there is no Graphviz (Debian: apt install graphviz)";
+  std::size_t names = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Diagnostics diagnostics;
+    const auto document = yaml::parse(hostile_catalog(seed).text, "a<b>&.yaml", diagnostics);
+    ASSERT_NE(document, nullptr);
+    const CatalogReading reading = understand_catalog(*document, diagnostics);
+    if (diagnostics.has_errors()) continue;
+    const CompiledCatalog catalog = compile(reading.catalog);
+    const TogetherTable table = make_together_table(catalog, {});
+    if (table.tasks.size() < 2) continue;
+    const Filtered picture = run_filter({"dot", "-Tjson"}, together_dot(catalog, table));
+    ASSERT_TRUE(picture.is_done) << picture.error_output;
+    EXPECT_EQ(picture.error_output, "");
+    const std::string text = text_of(json::parse(picture.output).at("objects").at(0));
+    for (const TaskId task : table.tasks) {
+      const std::string label = draw::label_of(catalog.name_of_task(task));
+      EXPECT_NE(text.find(label), std::string::npos) << label << " in " << text;
+      ++names;
+    }
+  }
+  EXPECT_GT(names, 20U);
 }
 
 TEST(Dot, OutputIsAPicture) {

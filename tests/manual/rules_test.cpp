@@ -101,6 +101,7 @@ std::string section_of(const Rule& rule) {
   for (std::string_view rest = rule.explanation; !rest.empty();) {
     text += ".Pp\n" + prose(take_until("\n\n", rest));
   }
+  if (!rule.settings.empty()) text += ".Pp\n.Sy The settings .\n" + literal(rule.settings);
   text += ".Pp\n.Sy Example .\n" + literal(rule.example);
   text += ".Pp\n.Sy How to fix it .\n" + prose(rule.mending) + literal(rule.mended);
   return text;

@@ -144,6 +144,7 @@ const least = {
   solve: 60,
   state: 40,
   sweep: 10,
+  together: 3,
 };
 for (const name of written) {
   const found = documents.filter((item) => item.schema === name).length;

@@ -60,6 +60,8 @@ class Runs {
       yield* this.labelled(...graph);
       yield* this.labelled(...graph, '--exclusivity', 'hubs');
     }
+    yield* this.labelled('graph', catalog, '--format', 'json', '--view', 'together');
+    yield* this.labelled('lint', catalog, '--format', 'json', '--summary');
   }
 
   /** A state of a mission, and what the catalog has in common with another one. */

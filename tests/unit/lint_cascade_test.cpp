@@ -135,7 +135,7 @@ TEST(LintCascade, WrongValuesMakeNothingDead) {
 behaviors:
 - {behavior: A, task: A, requires: [{task: B, minimum_performance: 90}]}
 - {behavior: B, task: B, suitability: 120}
-tasks: [{task: A}, {task: B}]
+tasks: [{task: A, start_on_request: TRUE}, {task: B}]
 )"),
             "6:39-42 error invalid-value: 'suitability' must be a number from 0 to 100 (percent), "
             "found '120'\n");

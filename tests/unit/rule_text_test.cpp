@@ -138,7 +138,7 @@ TEST(RuleList, BeginsWithTheErrors) {
     ASSERT_NE(rule, nullptr) << line;
     ranks.push_back(-static_cast<int>(rule->severity));
   }
-  EXPECT_EQ(names.front(), "duplicate-behavior");
+  EXPECT_EQ(names.front(), "can-run-together");
   EXPECT_TRUE(std::is_sorted(ranks.begin(), ranks.end()));
   for (std::size_t i = 1; i < names.size(); ++i) {
     EXPECT_TRUE(ranks[i - 1] < ranks[i] || names[i - 1] < names[i]) << names[i];

@@ -40,7 +40,11 @@ Names rules_found(const Rule& rule, std::string_view text, const LintOptions& op
     if (rule.is_of_scripts) {
       lint_script(*document, diagnostics);
     } else {
-      is_complete = lint_catalog(*document, options, diagnostics).compiled.has_value();
+      const SeveritySettings settings =
+          read_settings(rule.settings, ".cbc.yaml", diagnostics).value_or(SeveritySettings());
+      LintOptions with_settings = options;
+      with_settings.never_together = settings.never_together();
+      is_complete = lint_catalog(*document, with_settings, diagnostics).compiled.has_value();
     }
   }
   const CommentedFile file{"example.yaml", text, document.get(), is_complete};
@@ -148,6 +152,9 @@ TEST_P(EveryRule, HasTexts) {
   EXPECT_EQ(find_fault_of_prose(rule().explanation), "");
   EXPECT_EQ(find_fault_of_prose(rule().mending), "");
   EXPECT_EQ(find_fault_of_example(rule().example), "");
+  if (!rule().settings.empty()) {
+    EXPECT_EQ(find_fault_of_example(rule().settings), "");
+  }
   EXPECT_EQ(find_fault_of_example(rule().mended), "");
 }
 

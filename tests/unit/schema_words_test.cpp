@@ -17,6 +17,8 @@
 #include "draw/catalog_graph.h"
 #include "explain/alternatives.h"
 #include "explain/reasons.h"
+#include "lint/controls.h"
+#include "lint/together.h"
 #include "script/runner.h"
 #include "script/script.h"
 #include "support/read_file.h"
@@ -72,6 +74,26 @@ TEST(SchemaFiles, AreInTheirReadme) {
     if (file.path().extension() != ".json") continue;
     const std::string name = file.path().filename().string();
     EXPECT_NE(readme.find("| `" + name + "` |"), std::string::npos) << name;
+  }
+}
+
+TEST(SchemaWords, OfTogether) {
+  EXPECT_EQ(words_at(schema("together"), "/$defs/pair/properties/together"),
+            names_up_to(Together::undecided));
+}
+
+TEST(SchemaWords, OfSettings) {
+  const Json settings = schema("settings");
+  for (const auto& [key, value] : settings["properties"].items()) {
+    Diagnostics diagnostics;
+    EXPECT_TRUE(read_settings(key + ":", ".cbc.yaml", diagnostics)) << key;
+  }
+  for (const RuleSetting setting : rule_settings) {
+    EXPECT_TRUE(settings["properties"].contains(name_of(setting)));
+  }
+  for (const Json& example : settings["examples"]) {
+    Diagnostics diagnostics;
+    EXPECT_TRUE(read_settings(example.dump(), ".cbc.yaml", diagnostics)) << example;
   }
 }
 

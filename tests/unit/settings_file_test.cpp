@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <unistd.h>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -48,6 +49,46 @@ TEST(SettingsFile, IsRead) {
   EXPECT_EQ(severity(settings, rule::required_goal), "none");
   EXPECT_EQ(severity(settings, rule::dead_task), "note");
   EXPECT_TRUE(settings.is_strict());
+}
+
+TEST(SettingsFile, ListsTasksThatNeverRunTogether) {
+  const SeveritySettings settings =
+      read("never_together:\n- [LAND, FOLLOW_PATH]\n- [HOVER, LAND, ROTATE]\n");
+  ASSERT_EQ(settings.never_together().size(), 2U);
+  const NeverTogether& list = settings.never_together()[1];
+  EXPECT_EQ(list.file, ".cbc.yaml");
+  EXPECT_EQ(show(list.range), "3:4-23");
+  EXPECT_EQ(list.tasks, (std::vector<std::string>{"HOVER", "LAND", "ROTATE"}));
+  EXPECT_EQ(show(list.ranges[1]), "3:11-15");
+}
+
+TEST(SettingsFile, ReportsWhatIsWrongWithListsOfTasks) {
+  EXPECT_EQ(errors_of("never_together: [[LAND], [A, B, A], C, [{}, D]]\n"),
+            "1:18-19 error invalid-value: a list of 'never_together' must have at least two tasks\n"
+            "1:33-34 error invalid-value: task 'A' is given twice\n"
+            "  1:27-28 first given here\n"
+            "1:37-38 error wrong-type: 'never_together' must be a list of lists of names of tasks, "
+            "found 'C'\n"
+            "1:41-42 error wrong-type: 'never_together' must be a list of lists of names of tasks, "
+            "found an empty mapping\n");
+}
+
+std::string unknown_names(std::string_view settings, const std::vector<std::string_view>& known) {
+  Diagnostics diagnostics;
+  check_never_together_names(read(settings).never_together(), known, diagnostics);
+  return show(diagnostics);
+}
+
+TEST(SettingsFile, NamesTasksOfItsCatalogs) {
+  const std::vector<std::string_view> known{"FOLLOW_PATH", "HOVER", "LAND"};
+  EXPECT_EQ(unknown_names("never_together: [[LAND, FOLLOW_PATH]]", known), "");
+  EXPECT_EQ(unknown_names("never_together: [[LAND, FOLOW_PATH]]", known),
+            "1:25-35 error undefined-task: no catalog has task 'FOLOW_PATH'; did you mean "
+            "'FOLLOW_PATH'?\n");
+  EXPECT_EQ(unknown_names("never_together: [[LAND, DOCK]]", known),
+            "1:25-29 warning undefined-task: no catalog has task 'DOCK'\n");
+  // These are the tasks of another catalog.
+  EXPECT_EQ(unknown_names("never_together: [[DIVE, DOCK]]", known), "");
 }
 
 TEST(SettingsFile, MayBeEmpty) {
@@ -103,10 +144,10 @@ TEST(SettingsFile, ARuleIsGivenOnce) {
 TEST(SettingsFile, MustBeAMapping) {
   EXPECT_EQ(errors_of("- error\n"),
             "1:1-2 error wrong-type: settings must be a mapping with the keys 'error', 'warn', "
-            "'allow' and 'strict', found a list\n");
+            "'allow', 'strict' and 'never_together', found a list\n");
   EXPECT_EQ(errors_of("strict"),
             "1:1-7 error wrong-type: settings must be a mapping with the keys 'error', 'warn', "
-            "'allow' and 'strict', found 'strict'\n");
+            "'allow', 'strict' and 'never_together', found 'strict'\n");
   for (const std::string_view text :
        {"error: [", "a: b: c", "\xFF", "a: 1\n---\nb: 2\n", "error: *a"}) {
     EXPECT_NE(errors_of(text).find("error yaml-syntax"), std::string::npos) << text;

@@ -110,7 +110,7 @@ tasks:
 - {behavior: HOVER_WITH_PID, task: HOVER, requires: [{task: LOCALIZE}]}
 - {behavior: VISUAL_ODOMETRY, task: LOCALIZE}
 tasks:
-- {task: HOVER, execution_goal: keep_running, start_on_request: FALSE}
+- {task: HOVER, execution_goal: keep_running}
 - {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
 )",
 };
@@ -146,9 +146,7 @@ exclusivity_constraints:
 - {behavior: THRUST_CONTROLLER, task: THRUST_CONTROL}
 tasks:
 - task: MPC_CONTROL
-- task: THRUST_CONTROL
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: THRUST_CONTROL, execution_goal: keep_running}
 exclusivity_constraints:
 - mutually_exclusive: [MPC_CONTROL, THRUST_CONTROL]
 )",
@@ -192,9 +190,7 @@ exclusivity_constraints:
 tasks:
 - task: FOLLOW_PATH
 - {task: MPC_CONTROL, execution_goal: keep_running, start_on_request: FALSE}
-- task: THRUST_CONTROL
-  execution_goal: keep_running
-  start_on_request: FALSE
+- {task: THRUST_CONTROL, execution_goal: keep_running}
 exclusivity_constraints:
 - mutually_exclusive: [MPC_CONTROL, THRUST_CONTROL]
 )",

@@ -162,6 +162,44 @@ tasks:
 )",
 };
 
+const Rule never_started = {
+    .name = "never-started",
+    .severity = Severity::warning,
+    .summary = "Only a request starts a task, though its start_on_request is false.",
+    .explanation =
+        "A task with start_on_request false is one that may start without a request: because a "
+        "behavior requires it, or by itself if it has reactive_start. This task has no "
+        "reactive_start, and no behavior requires it. So it runs only if somebody requests it, "
+        "like "
+        "a task with start_on_request true.\n\n"
+        "Catalogs that were upgraded by hand have lost reactive_start in this way: the older key "
+        "'default: TRUE' says the same. 'cbc graph --diff OLD NEW' shows what an upgrade has "
+        "changed.\n\n"
+        "In a catalog in which no task starts on request or by itself, one finding stands for all "
+        "such tasks.",
+    .example = R"(behaviors:
+- {behavior: HOVER_WITH_PID, task: HOVER}
+- {behavior: LAND_WITH_PID, task: LAND}
+tasks:
+- {task: HOVER, execution_goal: keep_running, start_on_request: FALSE}
+- task: LAND
+exclusivity_constraints:
+- mutually_exclusive: [HOVER, LAND]
+)",
+    .mending =
+        "Add 'reactive_start: TRUE' if the task is to start by itself, or let a behavior require "
+        "it. If it is meant to be requested, write 'start_on_request: TRUE'.",
+    .mended = R"(behaviors:
+- {behavior: HOVER_WITH_PID, task: HOVER}
+- {behavior: LAND_WITH_PID, task: LAND}
+tasks:
+- {task: HOVER, execution_goal: keep_running, reactive_start: TRUE}
+- task: LAND
+exclusivity_constraints:
+- mutually_exclusive: [HOVER, LAND]
+)",
+};
+
 const Rule reactive_timeout = {
     .name = "reactive-timeout",
     .severity = Severity::warning,

@@ -54,7 +54,7 @@ behaviors:
 tasks:
 - {task: LAND, execution_goal: achieve_goal, start_on_request: TRUE}
 - task: TRACK_MARKER
-- task: LOOK_AHEAD
+- {task: LOOK_AHEAD, start_on_request: TRUE}
 - task: LOOK_DOWN
 exclusivity_constraints:
 - mutually_exclusive: [LOOK_AHEAD, LOOK_DOWN]
@@ -113,7 +113,7 @@ tasks:
 - task: INSPECT_BRIDGE
   execution_goal: achieve_goal
   start_on_request: TRUE
-- task: FOLLOW_PATH
+- {task: FOLLOW_PATH, start_on_request: TRUE}
 - task: DETECT_CRACKS
 - task: HOVER
 exclusivity_constraints:
@@ -172,6 +172,95 @@ tasks:
 - task: PROVIDE_IMAGES
   execution_goal: keep_running
   start_on_request: FALSE
+)",
+};
+
+const Rule blocked_reactive = {
+    .name = "blocked-reactive",
+    .severity = Severity::note,
+    .summary = "A reactive task cannot run beside a task on request, though no list has both.",
+    .explanation =
+        "A reactive task starts by itself whenever the constraints allow it. While the task that "
+        "the message names is running, they do not, and it waits: what the two tasks require is "
+        "mutually exclusive, or not as good as it must be. The exclusivity lists do not show this, "
+        "as none of them has both tasks.\n\n"
+        "That may be intended. But a robot that is to hover whenever it does nothing else will not "
+        "hover then.\n\n"
+        "The finding is proven by a search through all assignments, with every behavior available. "
+        "It gives the chain of requirements and exclusions between the tasks; of many tasks it "
+        "names the first five. Only tasks with start_on_request count. 'cbc graph --view "
+        "together' shows which of these can run together.",
+    .example = R"(default_values:
+  tasks: {execution_goal: keep_running, start_on_request: FALSE}
+behaviors:
+- {behavior: HOVER_WITH_PID, task: HOVER, requires: [{task: PID_CONTROL}]}
+- {behavior: TAKE_OFF_BY_MODE, task: TAKE_OFF, requires: [{task: MODE}]}
+- {behavior: PID_CONTROLLER, task: PID_CONTROL}
+- {behavior: MODE_SWITCH, task: MODE}
+tasks:
+- {task: HOVER, reactive_start: TRUE}
+- {task: TAKE_OFF, start_on_request: TRUE, execution_goal: achieve_goal}
+- task: PID_CONTROL
+- task: MODE
+exclusivity_constraints:
+- mutually_exclusive: [PID_CONTROL, MODE]
+)",
+    .mending =
+        "If it is intended, list the two tasks as mutually exclusive, or allow the finding. "
+        "Otherwise add a behavior that does without what is excluded, or relax a constraint of the "
+        "chain.",
+    .mended = R"(default_values:
+  tasks: {execution_goal: keep_running, start_on_request: FALSE}
+behaviors:
+- {behavior: HOVER_WITH_PID, task: HOVER, requires: [{task: PID_CONTROL}]}
+- {behavior: TAKE_OFF_BY_MODE, task: TAKE_OFF, requires: [{task: MODE}]}
+- {behavior: PID_CONTROLLER, task: PID_CONTROL}
+- {behavior: MODE_SWITCH, task: MODE}
+tasks:
+- {task: HOVER, reactive_start: TRUE}
+- {task: TAKE_OFF, start_on_request: TRUE, execution_goal: achieve_goal}
+- task: PID_CONTROL
+- task: MODE
+exclusivity_constraints:
+- mutually_exclusive: [PID_CONTROL, MODE]
+- mutually_exclusive: [HOVER, TAKE_OFF]
+)",
+};
+
+const Rule can_run_together = {
+    .name = "can-run-together",
+    .severity = Severity::error,
+    .summary = "Two tasks can run at the same time, but the settings say that they never do.",
+    .explanation =
+        "The key 'never_together' of the settings file, .cbc.yaml, has lists of tasks of which no "
+        "two may run at the same time. Some assignment that satisfies all constraints runs both of "
+        "these tasks; the message names behaviors with which they run. So the constraints of the "
+        "catalog do not say what the settings demand.\n\n"
+        "If there is no finding, this is proven by search: the tasks exclude one another, or what "
+        "they require does, whatever behaviors are available. A list may have names that only "
+        "another catalog with the same settings has.",
+    .settings = R"(never_together:
+- [LAND, FOLLOW_PATH]
+)",
+    .example = R"(behaviors:
+- {behavior: HOVER_WITH_PID, task: HOVER}
+- {behavior: LAND_WITH_PID, task: LAND}
+- {behavior: FOLLOW_PATH_WITH_PID, task: FOLLOW_PATH}
+tasks: [{task: HOVER}, {task: LAND}, {task: FOLLOW_PATH}]
+exclusivity_constraints:
+- mutually_exclusive: [HOVER, LAND]
+- mutually_exclusive: [HOVER, FOLLOW_PATH]
+)",
+    .mending =
+        "Add the missing exclusion to the catalog, or remove the tasks from the settings if they "
+        "may run together.",
+    .mended = R"(behaviors:
+- {behavior: HOVER_WITH_PID, task: HOVER}
+- {behavior: LAND_WITH_PID, task: LAND}
+- {behavior: FOLLOW_PATH_WITH_PID, task: FOLLOW_PATH}
+tasks: [{task: HOVER}, {task: LAND}, {task: FOLLOW_PATH}]
+exclusivity_constraints:
+- mutually_exclusive: [HOVER, LAND, FOLLOW_PATH]
 )",
 };
 

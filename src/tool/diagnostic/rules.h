@@ -18,6 +18,7 @@ struct Rule {
   // The texts are ASCII. A paragraph is one line.
   std::string_view summary = {};      ///< one sentence: what is wrong
   std::string_view explanation = {};  ///< why it matters: paragraphs, separated by empty lines
+  std::string_view settings = {};     ///< the settings file of the examples, if they need one
   std::string_view example = {};      ///< a whole file that breaks this rule, and no other
   std::string_view mending = {};      ///< what to do about it: a paragraph
   std::string_view mended = {};       ///< the example as it should be
@@ -38,6 +39,8 @@ struct Rule {
 /// All rules, in the order of their names. One of the files *_rules.cpp, or rules.cpp, defines
 /// each; a rule that is listed but not defined does not link.
 #define CBC_RULES(RULE)          \
+  RULE(blocked_reactive)         \
+  RULE(can_run_together)         \
   RULE(conflicting_requirements) \
   RULE(dead_behavior)            \
   RULE(dead_task)                \
@@ -54,6 +57,7 @@ struct Rule {
   RULE(impossible_expectation)   \
   RULE(invalid_value)            \
   RULE(missing_key)              \
+  RULE(never_started)            \
   RULE(no_timeout_effect)        \
   RULE(on_request_and_reactive)  \
   RULE(parameter_value)          \

@@ -7,6 +7,7 @@
 #include <optional>
 #include <system_error>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -90,6 +91,8 @@ void SeveritySettings::set(const Rule& rule, RuleSetting setting) {
 void SeveritySettings::override_with(const SeveritySettings& stronger) {
   for (const auto& [rule, setting] : stronger.settings_) settings_[rule] = setting;
   is_strict_ = is_strict_ || stronger.is_strict_;
+  never_together_.insert(never_together_.end(), stronger.never_together_.begin(),
+                         stronger.never_together_.end());
 }
 
 std::optional<Severity> SeveritySettings::severity_of(const Diagnostic& finding) const {
@@ -139,7 +142,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr yaml::Key settings_keys[] = {{"error"}, {"warn"}, {"allow"}, {"strict"}};
+constexpr yaml::Key settings_keys[] = {
+    {"error"}, {"warn"}, {"allow"}, {"strict"}, {"never_together"}};
 constexpr yaml::Shape settings_shape{"the settings", settings_keys};
 
 /// The folder of a file, where the search begins: without links and "..", where possible.
@@ -153,7 +157,8 @@ fs::path folder_of(const fs::path& file) {
 /// Reads one settings file.
 class SettingsReader {
  public:
-  explicit SettingsReader(Reporter& reporter) : reporter_(reporter) {}
+  SettingsReader(std::string file, Reporter& reporter)
+      : file_(std::move(file)), reporter_(reporter) {}
 
   SeveritySettings read(const yaml::Node& root) {
     yaml::Fields fields(root, settings_shape, reporter_);
@@ -163,11 +168,45 @@ class SettingsReader {
     if (const yaml::Node* strict = fields.find("strict")) {
       if (yaml::read_boolean(*strict, "strict", reporter_).value_or(false)) settings_.make_strict();
     }
+    if (const yaml::Node* lists = fields.find(never_together)) read_never_together(*lists);
     fields.report_unknown(Severity::error);
     return settings_;
   }
 
  private:
+  static constexpr std::string_view never_together = "never_together";
+
+  void read_never_together(const yaml::Node& lists) {
+    constexpr std::string_view expected = "a list of lists of names of tasks";
+    if (yaml::read_list(lists, never_together, expected, reporter_) == nullptr) return;
+    for (const yaml::Node* list : lists.items) {
+      if (yaml::read_list(*list, never_together, expected, reporter_) == nullptr) continue;
+      NeverTogether tasks{file_, list->range, {}, {}};
+      for (const yaml::Node* item : list->items) {
+        const auto name = yaml::read_name(*item, never_together, expected, reporter_);
+        if (!name) continue;
+        const auto known = std::find(tasks.tasks.begin(), tasks.tasks.end(), *name);
+        if (known != tasks.tasks.end()) {
+          const Range& first = tasks.ranges[static_cast<std::size_t>(known - tasks.tasks.begin())];
+          reporter_.report(rule::invalid_value, item->range,
+                           "task " + quote(*name) + " is given twice",
+                           {reporter_.note(first, "first given here")});
+          continue;
+        }
+        tasks.tasks.emplace_back(*name);
+        tasks.ranges.push_back(item->range);
+      }
+      if (!tasks.ranges.empty()) {
+        tasks.range = {tasks.ranges.front().begin, tasks.ranges.back().end};
+      }
+      if (list->items.size() < 2) {
+        reporter_.report(rule::invalid_value, list->range,
+                         "a list of 'never_together' must have at least two tasks");
+      }
+      settings_.add_never_together(std::move(tasks));
+    }
+  }
+
   void read_rules(const yaml::Node& rules, RuleSetting setting) {
     constexpr std::string_view expected = "a list of names of rules";
     const std::string_view key = name_of(setting);
@@ -201,6 +240,7 @@ class SettingsReader {
     }
   }
 
+  std::string file_;
   Reporter& reporter_;
   RuleNames names_;
   std::unordered_map<std::string_view, Range> given_;
@@ -232,17 +272,37 @@ std::optional<SeveritySettings> read_settings(std::string_view text, std::string
   if (document == nullptr) return std::nullopt;
   const yaml::Node& root = document->root();
   if (root.kind == yaml::Kind::null) return SeveritySettings{};
-  Reporter reporter(std::move(file), diagnostics);
+  Reporter reporter(file, diagnostics);
   if (root.kind != yaml::Kind::mapping) {
     reporter.report(rule::wrong_type, root.range,
-                    "settings must be a mapping with the keys 'error', 'warn', 'allow' and "
-                    "'strict', found " +
+                    "settings must be a mapping with the keys 'error', 'warn', 'allow', 'strict' "
+                    "and 'never_together', found " +
                         yaml::describe(root));
     return std::nullopt;
   }
-  SeveritySettings settings = SettingsReader(reporter).read(root);
+  SeveritySettings settings = SettingsReader(std::move(file), reporter).read(root);
   if (reporter.errors() > 0) return std::nullopt;
   return settings;
+}
+
+void check_never_together_names(const std::vector<NeverTogether>& lists,
+                                const std::vector<std::string_view>& known,
+                                Diagnostics& diagnostics) {
+  const std::unordered_set<std::string_view> names(known.begin(), known.end());
+  Suggestions suggestions(known);
+  const auto is_known = [&](const std::string& name) { return names.contains(name); };
+  for (const NeverTogether& list : lists) {
+    Reporter reporter(list.file, diagnostics);
+    const bool has_known = std::any_of(list.tasks.begin(), list.tasks.end(), is_known);
+    for (std::size_t i = 0; i < list.tasks.size(); ++i) {
+      if (is_known(list.tasks[i])) continue;
+      const auto meant = suggestions.nearest(list.tasks[i]);
+      if (!meant && !has_known) continue;
+      reporter.report_as(meant ? Severity::error : Severity::warning, rule::undefined_task,
+                         list.ranges[i],
+                         "no catalog has task " + quote(list.tasks[i]) + did_you_mean(meant));
+    }
+  }
 }
 
 namespace {

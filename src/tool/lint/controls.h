@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "diagnostic/diagnostic.h"
@@ -29,13 +30,23 @@ inline constexpr std::array rule_settings = {RuleSetting::error, RuleSetting::wa
 /// the rule's severity is not (an unknown key in a script).
 [[nodiscard]] bool is_fixed(const Diagnostic& finding);
 
-/// The severities that people set for findings, by rule.
+/// Tasks of which no two may be able to run at the same time, as a settings file lists them.
+struct NeverTogether {
+  std::string file;  ///< the settings file
+  Range range;       ///< of all names
+  std::vector<std::string> tasks;
+  std::vector<Range> ranges;  ///< of each name
+};
+
+/// The severities that people set for findings, by rule; and what else a settings file demands.
 class SeveritySettings {
  public:
   /// A fixed rule can only be set to error.
   void set(const Rule& rule, RuleSetting setting);
   /// Lets warnings count as failure.
   void make_strict() { is_strict_ = true; }
+  /// Adds tasks of which no two may run together.
+  void add_never_together(NeverTogether tasks) { never_together_.push_back(std::move(tasks)); }
 
   /// Takes over what `stronger` says; where it says nothing, all stays as it is.
   void override_with(const SeveritySettings& stronger);
@@ -44,10 +55,12 @@ class SeveritySettings {
   [[nodiscard]] std::optional<Severity> severity_of(const Diagnostic& finding) const;
   /// Whether warnings count as failure.
   [[nodiscard]] bool is_strict() const { return is_strict_; }
+  [[nodiscard]] const std::vector<NeverTogether>& never_together() const { return never_together_; }
 
  private:
   std::map<std::string_view, RuleSetting> settings_;  // by name of the rule
   bool is_strict_ = false;
+  std::vector<NeverTogether> never_together_;
 };
 
 /// Names of rules, as they were given on the command line.
@@ -78,10 +91,20 @@ inline constexpr std::string_view settings_file_name = ".cbc.yaml";
 ///     warn: [exclusive-requirement]
 ///     allow: [required-goal]
 ///     strict: true
+///     never_together:
+///     - [LAND, FOLLOW_PATH]
 ///
 /// Everything that is wrong with it is reported as an error, and there are no settings then.
 [[nodiscard]] std::optional<SeveritySettings> read_settings(std::string_view text, std::string file,
                                                             Diagnostics& diagnostics);
+
+/// Reports the names in `lists`, all of one settings file, that no catalog has: as an error if a
+/// task with a similar name exists, so that it must be misspelt; as a warning if another task of
+/// its list exists. Otherwise the list is about other catalogs. `known`: the tasks of the catalogs
+/// that the settings apply to.
+void check_never_together_names(const std::vector<NeverTogether>& lists,
+                                const std::vector<std::string_view>& known,
+                                Diagnostics& diagnostics);
 
 /// A file with comments that control its findings.
 struct CommentedFile {

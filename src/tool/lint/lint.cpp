@@ -132,6 +132,32 @@ void check_required_goal(const Task& task, const Use& use, Reporter& reporter) {
                   {reporter.note(use.required_at, std::move(who))});
 }
 
+/// Reports tasks that nothing starts but a request, though start_on_request is false. In a catalog
+/// in which all tasks are like that, one finding says so for all of them.
+void check_started(const Catalog& catalog, const std::vector<Use>& uses, Reporter& reporter) {
+  std::vector<const Task*> never_started;
+  bool has_other_starts = false;
+  for (std::size_t index = 0; index < catalog.tasks.size(); ++index) {
+    const Task& task = catalog.tasks[index];
+    const bool starts = task.is_unclear || task.start_on_request || task.reactive_start;
+    has_other_starts |= starts;
+    if (starts || uses[index].requirements > 0 || uses[index].behaviors == 0) continue;
+    never_started.push_back(&task);
+  }
+  const std::size_t findings =
+      has_other_starts ? never_started.size() : std::min<std::size_t>(never_started.size(), 1);
+  for (std::size_t i = 0; i < findings; ++i) {
+    const Task& task = *never_started[i];
+    std::string message = "task " + quote(task.name) +
+                          " never starts without a request: start_on_request is false, but it has "
+                          "no reactive_start, and no behavior requires it";
+    if (!has_other_starts && never_started.size() > 1) {
+      message += "; the same is true of " + quantity(never_started.size() - 1, "other task");
+    }
+    reporter.report(rule::never_started, task.range, std::move(message));
+  }
+}
+
 void check_timeout(const Task& task, const Use& use, Reporter& reporter) {
   if (task.execution_goal == ExecutionGoal::keep_running) {
     if (task.own_timeout_range) {
@@ -254,6 +280,8 @@ void check_tasks(const CatalogReading& reading, Reporter& reporter) {
     check_parameters(task, reporter);
   }
   check_performed(reading, uses, reporter);
+  // What could not be read may require the task.
+  if (reading.has_all_names && reading.has_all_behaviors) check_started(catalog, uses, reporter);
   if (reading.has_all_names) check_implicit_tasks(catalog, reporter);
 }
 

@@ -12,6 +12,8 @@
 #include "compile/compile.h"
 #include "compiled/compiled_catalog.h"
 #include "diagnostic/diagnostic.h"
+#include "lint/controls.h"
+#include "lint/together.h"
 #include "yaml/document.h"
 
 /// Checks catalogs by all rules, mends texts by the edits of findings, and shows what that changes.
@@ -20,6 +22,8 @@ namespace cbc {
 struct LintOptions {
   /// Decisions that the search for one answer may take; past them there is a finding `undecided`.
   std::uint64_t max_nodes = 100'000;
+  /// What the rule `can-run-together` checks; must outlive the check.
+  std::span<const NeverTogether> never_together = {};
 };
 
 /// What lint knows about a catalog, besides its findings.
@@ -34,11 +38,12 @@ struct LintResult {
 
 /// What lint has to say about one file.
 struct LintedFile {
-  std::string file;                       ///< name in messages
-  std::string text;                       ///< as it was read
-  std::vector<Diagnostic> findings;       ///< in the order of Diagnostics::sort
-  std::optional<CatalogSummary> summary;  ///< of a catalog that was understood
-  bool is_script = false;                 ///< an event script, which has no summary
+  std::string file;                              ///< name in messages
+  std::string text;                              ///< as it was read
+  std::vector<Diagnostic> findings;              ///< in the order of Diagnostics::sort
+  std::optional<CatalogSummary> summary;         ///< of a catalog that was understood
+  std::optional<TogetherSummary> together = {};  ///< the same, if it was asked for
+  bool is_catalog = true;  ///< not an event script or settings, which have no summary
 };
 
 /// Number of findings of a severity in a file, in all files.

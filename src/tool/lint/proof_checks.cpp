@@ -560,6 +560,7 @@ void check_by_proof(const CatalogReading& reading, const CompiledCatalog& compil
   OnRequestCheck(proof).check();
   // A value that could not be read excludes nothing, so more requirements may seem redundant.
   if (reading.is_complete) RedundancyCheck(proof).check();
+  check_together(proof, options, reading.is_complete);
 }
 
 }  // namespace cbc

@@ -61,6 +61,15 @@ Feasibility AssignmentSearch::find(ValueId value, std::span<const TaskId> closed
   return solve(any_, solution);
 }
 
+Feasibility AssignmentSearch::find_running(std::span<const TaskId> tasks,
+                                           std::span<const std::uint32_t> situation,
+                                           Assignment& solution) {
+  open_group(catalog_.tasks[tasks.front()].group);
+  if (!situation.empty()) close_misfits(situation);
+  for (const TaskId task : tasks) must_run(task);
+  return solve(any_, solution);
+}
+
 /// The assignments with the best product of all suitabilities run nothing that lowers it beside the
 /// task and what it requires, so their product is the best performance.
 AssignmentSearch::Best AssignmentSearch::best_performance(TaskId task, bool ignore_minimum) {
@@ -112,6 +121,16 @@ void AssignmentSearch::close(TaskId task) {
   const std::uint32_t first = first_word();
   std::fill(problem_.domains.begin() + (catalog_.words[task] - first),
             problem_.domains.begin() + (catalog_.words[task + 1] - first), 0);
+}
+
+void AssignmentSearch::close_misfits(std::span<const std::uint32_t> situation) {
+  const TaskId first = catalog_.group_tasks[problem_.group];
+  const TaskId end = catalog_.group_tasks[problem_.group + 1];
+  for (ValueId value = catalog_.values.begin[first]; value < catalog_.values.begin[end]; ++value) {
+    if (!catalog_.find_misfit(catalog_.values.items[value].behavior, situation)) continue;
+    const Bit bit = bit_of(value);
+    problem_.domains[bit.word - first_word()] &= ~bit.mask;
+  }
 }
 
 /// A solution that a limit left unproven is no answer where the best one is sought.

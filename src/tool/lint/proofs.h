@@ -59,6 +59,13 @@ class AssignmentSearch {
   [[nodiscard]] Feasibility find(ValueId value, std::span<const TaskId> closed,
                                  Assignment& solution);
 
+  /// Whether there is an assignment in which all of some tasks, which are of one group, run. If so,
+  /// it is in `solution`, by task of the group. `situation`: values of all situation variables, in
+  /// which its behaviors have to fit; empty: any behavior will do.
+  [[nodiscard]] Feasibility find_running(std::span<const TaskId> tasks,
+                                         std::span<const std::uint32_t> situation,
+                                         Assignment& solution);
+
   /// The best performance of a task.
   struct Best {
     Feasibility exists = Feasibility::no;  ///< whether the task can run at all
@@ -81,6 +88,7 @@ class AssignmentSearch {
   void allow(ValueId value);
   void must_run(TaskId task);
   void close(TaskId task);
+  void close_misfits(std::span<const std::uint32_t> situation);
   [[nodiscard]] Feasibility solve(Solver& solver, Assignment& solution);
   [[nodiscard]] std::vector<Millionths> factors_of(TaskId task, const Assignment& solution) const;
 
@@ -124,6 +132,12 @@ class Liveness {
   std::vector<bool> is_dead_;
   Assignment solution_;
 };
+
+class ProofContext;
+
+/// The checks about tasks that run at the same time. `is_complete`: all of the catalog was
+/// understood.
+void check_together(ProofContext& proof, const LintOptions& options, bool is_complete);
 
 /// What the proof checks of one catalog share.
 class ProofContext {

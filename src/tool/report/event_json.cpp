@@ -16,7 +16,6 @@
 #include "support/json.h"
 
 namespace cbc {
-namespace {
 
 void write_reason(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
                   const Reason& reason) {
@@ -38,6 +37,8 @@ void write_reason(JsonWriter& json, const CompiledCatalog& catalog, const EventR
   json.write("message", describe_reason(catalog, record, reason));
   json.close('}');
 }
+
+namespace {
 
 /// A set of reasons, as a member.
 void write_conflict(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,

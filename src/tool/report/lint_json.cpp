@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -108,7 +109,26 @@ void write_finding(JsonWriter& json, const Diagnostic& finding) {
   json.close('}');
 }
 
-void write_summary(JsonWriter& json, const CatalogSummary& summary) {
+/// The tasks that start on request, and which of them can run together.
+void write_together(JsonWriter& json, const TogetherSummary& together) {
+  json.open("together", '{');
+  json.write_list("tasks", together.tasks);
+  json.write_list("never_run", together.never_run);
+  json.write_list("possible", together.possible, [&](const auto& pair) {
+    json.open('[');
+    json.write(pair.first);
+    json.write(pair.second);
+    json.close(']');
+  });
+  json.write_members({{"excluded", together.excluded},
+                      {"excluded_indirectly", together.excluded_indirectly},
+                      {"excluded_by_situation", together.excluded_by_situation},
+                      {"undecided", together.undecided}});
+  json.close('}');
+}
+
+void write_summary(JsonWriter& json, const CatalogSummary& summary,
+                   const std::optional<TogetherSummary>& together) {
   json.open("summary", '{');
   json.write_members({{"tasks", summary.total.tasks}, {"behaviors", summary.total.behaviors}});
   write_constraints(json, summary.total.constraints);
@@ -119,6 +139,7 @@ void write_summary(JsonWriter& json, const CatalogSummary& summary) {
     json.close('}');
   });
   json.write("search_space", summary.total.search_space);
+  if (together) write_together(json, *together);
   json.close('}');
 }
 
@@ -128,7 +149,7 @@ void write_file(JsonWriter& json, const LintedFile& file) {
   json.write_list("diagnostics", file.findings,
                   [&](const Diagnostic& finding) { write_finding(json, finding); });
   if (file.summary) {
-    write_summary(json, *file.summary);
+    write_summary(json, *file.summary, file.together);
   } else {
     json.write("summary", nullptr);
   }
@@ -152,6 +173,9 @@ std::string rule_markdown(const Rule& rule) {
   std::string text =
       fmt::format("{}\n\n## Example\n\n{}\n## How to fix it\n\n{}\n\n{}", rule.explanation,
                   code(rule.example), rule.mending, code(rule.mended));
+  if (!rule.settings.empty()) {
+    text += fmt::format("\n## The settings of the example\n\n{}", code(rule.settings));
+  }
   if (rule.is_of_scripts) {
     text += fmt::format("\n## The catalog of these scripts\n\n{}", code(example_catalog()));
   }

@@ -67,6 +67,7 @@ std::string rule_text(const Rule& rule, const Style& style) {
   for (std::string_view rest = rule.explanation; !rest.empty();) {
     text += '\n' + wrap(take_until("\n\n", rest));
   }
+  if (!rule.settings.empty()) text += example_text("The settings", rule.settings, style);
   text += example_text(rule.is_of_scripts ? "Example, a script for the catalog below" : "Example",
                        rule.example, style);
   text += fmt::format("\n{}How to fix it:{}\n\n{}", style.strong, style.reset, wrap(rule.mending));
@@ -144,10 +145,9 @@ Cut cut_name(std::string_view name) {
   return {whole, columns};
 }
 
-/// As many names as fit.
-std::string list_names(const std::vector<std::string>& names) {
+/// As many names as fit. `columns`: those that are taken already.
+std::string list_names(const std::vector<std::string>& names, std::size_t columns = 0) {
   std::string text;
-  std::size_t columns = 0;
   for (const std::string& name : names) {
     const Cut cut = cut_name(name);
     columns += cut.columns + 2;
@@ -212,6 +212,39 @@ void add_groups(Table& table, const std::vector<CatalogNumbers>& groups) {
   }
 }
 
+/// The pairs of tasks on request, and which of them can run together: for each task the later ones
+/// that it can run with.
+void add_together(Table& table, const TogetherSummary& together) {
+  constexpr std::size_t most_tasks = 10;
+  const std::size_t excluded =
+      together.excluded + together.excluded_indirectly + together.excluded_by_situation;
+  const std::size_t pairs = together.possible.size() + excluded + together.undecided;
+  if (pairs == 0) return;
+  table.add("pairs on request", pairs);
+  table.add("  excluded by lists", together.excluded);
+  table.add("  excluded otherwise", together.excluded_indirectly);
+  if (together.excluded_by_situation > 0) {
+    table.add("  by their situation", together.excluded_by_situation);
+  }
+  if (together.undecided > 0) table.add("  undecided", together.undecided);
+  table.add("  can run together", together.possible.size());
+  std::size_t tasks = 0;
+  for (auto pair = together.possible.begin(); pair != together.possible.end();) {
+    const std::string& first = pair->first;
+    std::vector<std::string> others;
+    for (; pair != together.possible.end() && pair->first == first; ++pair) {
+      others.push_back(pair->second);
+    }
+    if (++tasks > most_tasks) continue;
+    const Cut name = cut_name(first);
+    table.add_line(fmt::format("{} with {}", name.text, list_names(others, name.columns)));
+  }
+  if (tasks > most_tasks) {
+    table.add_line(fmt::format("and {} ('cbc graph --view together' shows all)",
+                               quantity(tasks - most_tasks, "more task")));
+  }
+}
+
 }  // namespace
 
 std::string lint_summary(const LintedFile& file, const Style& style) {
@@ -227,6 +260,7 @@ std::string lint_summary(const LintedFile& file, const Style& style) {
   table.add("  task minimums", total.constraints.task_minimums);
   add_groups(table, file.summary->groups);
   table.add("search space", describe_search_space(total.search_space));
+  if (file.together) add_together(table, *file.together);
   return name + "\n" + table.text();
 }
 

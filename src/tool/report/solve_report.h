@@ -81,6 +81,10 @@ struct ProcessUsage {
 /// The effort of one search, in one line.
 [[nodiscard]] std::string stats_line(const SearchRecord& search);
 
+/// Writes one of the reasons of a conflict set, as an object.
+void write_reason(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
+                  const Reason& reason);
+
 /// Writes the member "totals", the same numbers as the table: {"events", "solutions", "nodes",
 /// "propagations", "elapsed_us", "kinds"}. Each measure is {"sum", "mean", "min", "max"}, the last
 /// three null if there was no event. Each kind that occurred has "verb", "origin" and the same

@@ -1,0 +1,284 @@
+#include "lint/together.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "lint/together_search.h"
+
+namespace cbc {
+namespace {
+
+/// Reasons are not sought among more constraints than this: it would take too long.
+constexpr std::size_t most_constraints = 20'000;
+
+/// Reasons that may be examined in total.
+constexpr std::uint64_t most_effort_of_reasons = 400'000'000;
+
+std::uint64_t key_of(TaskId a, TaskId b) {
+  return (std::uint64_t{std::min(a, b)} << 32U) | std::max(a, b);
+}
+
+/// Takes the requirements that lead down from a task out of `reasons`, each after what leads to
+/// it.
+std::vector<Reason> take_requirements_below(const CompiledCatalog& catalog, TaskId task,
+                                            std::vector<Reason>& reasons) {
+  std::vector<Reason> taken;
+  std::vector<TaskId> open{task};
+  for (std::size_t next = 0; next < open.size(); ++next) {
+    const TaskId above = open[next];
+    const auto is_of_it = [&](const Reason& reason) {
+      if (reason.kind != Reason::Kind::requires_task) return false;
+      const auto values = catalog.performs[reason.behavior];
+      return std::any_of(values.begin(), values.end(),
+                         [&](ValueId value) { return catalog.task_of(value) == above; });
+    };
+    const auto rest = std::stable_partition(
+        reasons.begin(), reasons.end(), [&](const Reason& reason) { return !is_of_it(reason); });
+    for (auto reason = rest; reason != reasons.end(); ++reason) {
+      open.push_back(reason->task);
+      taken.push_back(*reason);
+    }
+    reasons.erase(rest, reasons.end());
+  }
+  return taken;
+}
+
+}  // namespace
+
+std::string_view name_of(Together together) {
+  static constexpr std::array<std::string_view, 5> names{
+      "possible", "excluded", "excluded_indirectly", "excluded_by_situation", "undecided"};
+  return names[static_cast<std::size_t>(together)];
+}
+
+TogetherSearch::TogetherSearch(AssignmentSearch& search, const Liveness& liveness)
+    : search_(search),
+      liveness_(liveness),
+      catalog_(search.catalog()),
+      nothing_present_(most_in_a_group(catalog_.group_tasks), none),
+      effort_left_(most_effort_of_reasons) {}
+
+std::optional<std::uint32_t> TogetherSearch::find_list(TaskId a, TaskId b) const {
+  const auto of_b = catalog_.task_cliques[b];
+  for (const std::uint32_t clique : catalog_.task_cliques[a]) {
+    if (std::find(of_b.begin(), of_b.end(), clique) != of_b.end()) return clique;
+  }
+  return std::nullopt;
+}
+
+Together TogetherSearch::decide(TaskId a, TaskId b) {
+  if (find_list(a, b)) return Together::excluded;
+  if (is_dead(a) || is_dead(b)) return Together::excluded_indirectly;
+  Feasibility answer = decide_by_constraints(a, b);
+  if (answer == Feasibility::no) return Together::excluded_indirectly;
+  if (answer == Feasibility::yes) {
+    const std::vector<std::uint32_t> variables = variables_of(a, b);
+    if (!variables.empty()) answer = decide_by_situations(a, b, variables);
+  }
+  if (answer == Feasibility::no) return Together::excluded_by_situation;
+  return answer == Feasibility::yes ? Together::possible : Together::undecided;
+}
+
+Feasibility TogetherSearch::decide_by_constraints(TaskId a, TaskId b) {
+  const std::uint32_t group = catalog_.tasks[a].group;
+  if (group != catalog_.tasks[b].group) {
+    const bool is_certain = liveness_.of_task(a) == Liveness::State::live &&
+                            liveness_.of_task(b) == Liveness::State::live;
+    return is_certain ? Feasibility::yes : Feasibility::unknown;
+  }
+  if (compatible_.contains(key_of(a, b))) return Feasibility::yes;
+  const Feasibility answer = find(a, b, {});
+  if (answer == Feasibility::yes) note_running(catalog_.group_tasks[group]);
+  return answer;
+}
+
+/// Looks at all situations. `variables`: those that matter.
+Feasibility TogetherSearch::decide_by_situations(TaskId a, TaskId b,
+                                                 const std::vector<std::uint32_t>& variables) {
+  constexpr std::size_t most_situations = 10'000;
+  std::vector<std::uint32_t> situation(catalog_.variables.size(), 0);
+  for (std::size_t tried = 0; tried < most_situations; ++tried) {
+    const Feasibility answer = find(a, b, situation);
+    if (answer != Feasibility::no) return answer;
+    std::size_t place = 0;
+    while (place < variables.size() &&
+           ++situation[variables[place]] == catalog_.variables[variables[place]].value_count) {
+      situation[variables[place++]] = 0;
+    }
+    if (place == variables.size()) return Feasibility::no;
+  }
+  return Feasibility::unknown;
+}
+
+/// The situation variables that behaviors name with which the tasks, and what these require, run.
+std::vector<std::uint32_t> TogetherSearch::variables_of(TaskId a, TaskId b) const {
+  if (catalog_.variables.empty()) return {};
+  std::vector<std::uint32_t> variables;
+  for (const TaskId task : {a, b}) {
+    RelevantTasks relevant(catalog_, catalog_.tasks[task].group);
+    relevant.add(task);
+    relevant.close();
+    for (const BehaviorId behavior : relevant.behaviors()) {
+      for (const FittingValue& value : catalog_.fitting_values_of(behavior)) {
+        variables.push_back(value.variable);
+      }
+    }
+  }
+  std::sort(variables.begin(), variables.end());
+  variables.erase(std::unique(variables.begin(), variables.end()), variables.end());
+  return variables;
+}
+
+/// Whether both tasks run in an assignment. If so, its behaviors are the witness.
+Feasibility TogetherSearch::find(TaskId a, TaskId b, std::span<const std::uint32_t> situation) {
+  const auto behavior_of = [this](TaskId task) {
+    const TaskId first = catalog_.group_tasks[catalog_.tasks[task].group];
+    return catalog_.values[task][solution_[task - first]].behavior;
+  };
+  const std::array<TaskId, 2> both{a, b};
+  if (catalog_.tasks[a].group == catalog_.tasks[b].group) {
+    const Feasibility answer = search_.find_running(both, situation, solution_);
+    if (answer == Feasibility::yes) witness_ = {behavior_of(a), behavior_of(b)};
+    return answer;
+  }
+  Witness witness;
+  for (const TaskId& task : both) {
+    const Feasibility answer = search_.find_running({&task, 1}, situation, solution_);
+    if (answer != Feasibility::yes) return answer;
+    (task == a ? witness.a : witness.b) = behavior_of(task);
+  }
+  witness_ = witness;
+  return Feasibility::yes;
+}
+
+/// All tasks of a solution run together, not only those that were asked for.
+void TogetherSearch::note_running(TaskId first_of_group) {
+  std::vector<TaskId> running;
+  for (std::uint32_t task = 0; task < solution_.size(); ++task) {
+    if (solution_[task] != none) running.push_back(first_of_group + task);
+  }
+  for (std::size_t a = 0; a < running.size(); ++a) {
+    for (std::size_t b = a + 1; b < running.size(); ++b) {
+      compatible_.insert(key_of(running[a], running[b]));
+    }
+  }
+}
+
+TogetherSearch::Witness TogetherSearch::find_witness(TaskId a, TaskId b) {
+  const std::vector<std::uint32_t> variables = variables_of(a, b);
+  witness_ = {};
+  static_cast<void>(variables.empty() ? find(a, b, {}) : decide_by_situations(a, b, variables));
+  return witness_;
+}
+
+Feasibility TogetherSearch::solve(ConflictSearch& problem, std::span<const Reason> reasons) {
+  if (effort_left_ == 0) return Feasibility::unknown;
+  const std::uint64_t before = problem.effort();
+  const Feasibility answer = problem.solve(reasons);
+  effort_left_ -= std::min(problem.effort() - before, effort_left_);
+  return answer;
+}
+
+std::vector<Reason> TogetherSearch::find_reasons(TaskId a, TaskId b) {
+  const std::uint32_t group = catalog_.tasks[a].group;
+  if (group != catalog_.tasks[b].group) return {};
+  RelevantTasks relevant(catalog_, group);
+  relevant.add(a);
+  relevant.add(b);
+  relevant.close();
+  std::vector<Reason> reasons;
+  for (const TaskId task : relevant.tasks()) {
+    add_exclusions(catalog_, task, relevant, most_constraints + 1, reasons);
+    add_minimum(catalog_, task, reasons);
+  }
+  for (const BehaviorId behavior : relevant.behaviors()) {
+    add_requirements(catalog_, behavior, reasons);
+  }
+  if (reasons.size() > most_constraints) return {};
+
+  ConflictSearch problem(catalog_, group, nothing_present_,
+                         {{Demand::Kind::run, a, none}, {Demand::Kind::run, b, none}});
+  if (solve(problem, reasons) != Feasibility::no) return {};
+  // Most constraints have no part in the proof, so it need not be found which of them are needed.
+  std::vector<Reason> used;
+  for (std::size_t i = 0; i < reasons.size(); ++i) {
+    if (problem.is_used()[i] != 0) used.push_back(reasons[i]);
+  }
+  std::vector<Reason> minimal = minimal_conflict_set(
+      used, [&](std::span<const Reason> some) { return solve(problem, some) != Feasibility::no; });
+  if (effort_left_ == 0) return {};
+  std::vector<Reason> chain = take_requirements_below(catalog_, a, minimal);
+  const std::vector<Reason> end = take_requirements_below(catalog_, b, minimal);
+  chain.insert(chain.end(), minimal.begin(), minimal.end());
+  chain.insert(chain.end(), end.begin(), end.end());
+  return chain;
+}
+
+std::size_t TogetherTable::count(Together together) const {
+  return static_cast<std::size_t>(
+      std::count_if(pairs.begin(), pairs.end(),
+                    [together](const TaskPair& pair) { return pair.together == together; }));
+}
+
+namespace {
+
+std::vector<Reason> reasons_of(const TaskPair& pair, const CompiledCatalog& catalog,
+                               TogetherSearch& together) {
+  if (pair.together == Together::excluded_indirectly) {
+    return together.find_reasons(pair.first, pair.second);
+  }
+  if (pair.together != Together::excluded) return {};
+  Reason reason;
+  reason.kind = Reason::Kind::exclusive;
+  reason.task = pair.first;
+  reason.other_task = pair.second;
+  reason.line = catalog.clique_lines[*together.find_list(pair.first, pair.second)];
+  return {reason};
+}
+
+}  // namespace
+
+TogetherTable make_together_table(const CompiledCatalog& catalog, const TogetherOptions& options) {
+  AssignmentSearch search(catalog, options.max_nodes);
+  const Liveness liveness(search);
+  TogetherSearch together(search, liveness);
+  TogetherTable table;
+  for (const TaskId task : catalog.task_ids) {
+    if (catalog.tasks[task].start_on_request == 0) continue;
+    const bool is_dead = liveness.of_task(task) == Liveness::State::dead;
+    (is_dead ? table.never_run : table.tasks).push_back(task);
+  }
+  for (std::size_t a = 0; a < table.tasks.size(); ++a) {
+    for (std::size_t b = a + 1; b < table.tasks.size(); ++b) {
+      TaskPair pair{table.tasks[a], table.tasks[b], {}, {}};
+      pair.together = together.decide(pair.first, pair.second);
+      if (options.with_reasons) pair.reasons = reasons_of(pair, catalog, together);
+      table.pairs.push_back(std::move(pair));
+    }
+  }
+  return table;
+}
+
+TogetherSummary summarize_together(const CompiledCatalog& catalog, std::uint64_t max_nodes) {
+  const TogetherTable table = make_together_table(catalog, {max_nodes, false});
+  TogetherSummary summary;
+  for (const TaskId task : table.tasks) summary.tasks.emplace_back(catalog.name_of_task(task));
+  for (const TaskId task : table.never_run) {
+    summary.never_run.emplace_back(catalog.name_of_task(task));
+  }
+  for (const TaskPair& pair : table.pairs) {
+    if (pair.together != Together::possible) continue;
+    summary.possible.emplace_back(catalog.name_of_task(pair.first),
+                                  catalog.name_of_task(pair.second));
+  }
+  summary.excluded = table.count(Together::excluded);
+  summary.excluded_indirectly = table.count(Together::excluded_indirectly);
+  summary.excluded_by_situation = table.count(Together::excluded_by_situation);
+  summary.undecided = table.count(Together::undecided);
+  return summary;
+}
+
+}  // namespace cbc

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "explain/reasons.h"
+
+/// Which tasks can run at the same time. A search decides, since exclusivity lists alone do not
+/// tell: what two tasks require may exclude one another.
+namespace cbc {
+
+/// Whether two tasks can run at the same time.
+enum class Together : std::uint8_t {
+  possible,               ///< some assignment that satisfies all constraints runs both
+  excluded,               ///< an exclusivity list has both
+  excluded_indirectly,    ///< no assignment runs both, though no list has both
+  excluded_by_situation,  ///< none whose behaviors all fit in one situation does
+  undecided               ///< the search reached its limit
+};
+
+/// "possible", "excluded", "excluded_indirectly", "excluded_by_situation", "undecided".
+[[nodiscard]] std::string_view name_of(Together together);
+
+/// Two tasks, and whether they can run at the same time.
+struct TaskPair {
+  TaskId first = 0;  ///< the earlier one in the catalog
+  TaskId second = 0;
+  Together together = Together::possible;
+  /// Why not: of two tasks in a list this exclusion; otherwise a minimal set of constraints, in the
+  /// order of the chain that they form, or nothing if it takes too long to find.
+  std::vector<Reason> reasons;
+};
+
+/// All pairs of the tasks that start on request.
+struct TogetherTable {
+  std::vector<TaskId> tasks;      ///< those that can run, in catalog order
+  std::vector<TaskId> never_run;  ///< those that cannot, in catalog order
+  std::vector<TaskPair> pairs;    ///< of `tasks`: by the first one, then by the second one
+
+  [[nodiscard]] std::size_t count(Together together) const;
+};
+
+/// How the pairs are decided.
+struct TogetherOptions {
+  std::uint64_t max_nodes = 100'000;  ///< decisions that the search for one answer may take
+  bool with_reasons = true;           ///< also find the reasons of exclusions
+};
+
+[[nodiscard]] TogetherTable make_together_table(const CompiledCatalog& catalog,
+                                                const TogetherOptions& options);
+
+/// The same in short, by names.
+struct TogetherSummary {
+  std::vector<std::string> tasks;
+  std::vector<std::string> never_run;
+  std::vector<std::pair<std::string, std::string>> possible;  ///< the pairs that can run together
+  std::size_t excluded = 0;                                   ///< numbers of the other pairs
+  std::size_t excluded_indirectly = 0;
+  std::size_t excluded_by_situation = 0;
+  std::size_t undecided = 0;
+};
+
+[[nodiscard]] TogetherSummary summarize_together(const CompiledCatalog& catalog,
+                                                 std::uint64_t max_nodes);
+
+}  // namespace cbc

@@ -1,0 +1,169 @@
+// See proofs.h, check_together.
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "base/text.h"
+#include "diagnostic/rules.h"
+#include "lint/proofs.h"
+#include "lint/together_search.h"
+#include "support/wording.h"
+
+namespace cbc {
+namespace {
+
+/// Reactive tasks that must wait while a task runs that no exclusivity list names with them.
+class BlockedReactiveCheck {
+ public:
+  BlockedReactiveCheck(ProofContext& proof, TogetherSearch& together)
+      : proof_(proof), catalog_(proof.compiled()), together_(together) {}
+
+  void check() {
+    for (const TaskId task : catalog_.task_ids) {
+      if (catalog_.tasks[task].reactive_start == 0 || !is_of_interest(task)) continue;
+      check_task(task);
+    }
+    report_undecided();
+  }
+
+ private:
+  [[nodiscard]] bool is_of_interest(TaskId task) const {
+    return !proof_.task(task).is_unclear &&
+           proof_.liveness().of_task(task) != Liveness::State::dead;
+  }
+
+  void check_task(TaskId reactive) {
+    std::vector<TaskId> blocking;
+    const std::uint32_t group = catalog_.tasks[reactive].group;
+    for (TaskId other = catalog_.group_tasks[group]; other < catalog_.group_tasks[group + 1];
+         ++other) {
+      if (catalog_.tasks[other].start_on_request == 0 || !is_of_interest(other)) continue;
+      if (together_.find_list(reactive, other)) continue;
+      const Feasibility answer = together_.decide_by_constraints(reactive, other);
+      if (answer == Feasibility::no) blocking.push_back(other);
+      if (answer == Feasibility::unknown && undecided_++ == 0) {
+        first_undecided_ = {reactive, other};
+      }
+    }
+    std::sort(blocking.begin(), blocking.end(), [this](TaskId a, TaskId b) {
+      return catalog_.tasks[a].catalog_index < catalog_.tasks[b].catalog_index;
+    });
+    if (!blocking.empty()) report(reactive, blocking);
+  }
+
+  void report(TaskId reactive, const std::vector<TaskId>& blocking) {
+    constexpr std::size_t most_names = 5;
+    const std::size_t named = std::min(blocking.size(), most_names);
+    std::string names;
+    std::vector<Reason> reasons;
+    for (std::size_t i = 0; i < named; ++i) {
+      const bool is_last = i + 1 == blocking.size();
+      if (i > 0) names += is_last ? " or " : ", ";
+      names += quote(proof_.task(blocking[i]).name);
+      for (const Reason& reason : together_.find_reasons(reactive, blocking[i])) {
+        if (!contains(reasons, reason)) reasons.push_back(reason);
+      }
+    }
+    if (blocking.size() > named) {
+      names += " or " + std::to_string(blocking.size() - named) + " more";
+    }
+    const Task& task = proof_.task(reactive);
+    proof_.reporter().report(rule::blocked_reactive, task.range,
+                             "reactive task " + quote(task.name) + " cannot run beside " + names +
+                                 ", though no exclusivity list says so: what they require does",
+                             proof_.notes_of(reasons));
+  }
+
+  static bool contains(const std::vector<Reason>& reasons, const Reason& reason) {
+    return std::any_of(reasons.begin(), reasons.end(), [&reason](const Reason& other) {
+      return other.kind == reason.kind && other.task == reason.task &&
+             other.other_task == reason.other_task && other.behavior == reason.behavior;
+    });
+  }
+
+  /// One finding for all: such catalogs are large.
+  void report_undecided() {
+    if (undecided_ == 0) return;
+    const Task& reactive = proof_.task(first_undecided_.first);
+    std::string question = "whether reactive task " + quote(reactive.name) + " can run beside " +
+                           quote(proof_.task(first_undecided_.second).name);
+    if (undecided_ > 1)
+      question += ", and the same of " + quantity(undecided_ - 1, "other pair") + ",";
+    proof_.report_undecided(reactive.range, question);
+  }
+
+  ProofContext& proof_;
+  const CompiledCatalog& catalog_;
+  TogetherSearch& together_;
+  std::size_t undecided_ = 0;  ///< pairs
+  std::pair<TaskId, TaskId> first_undecided_;
+};
+
+/// Tasks that the settings say never run together, but can.
+class NeverTogetherCheck {
+ public:
+  NeverTogetherCheck(ProofContext& proof, TogetherSearch& together)
+      : proof_(proof), together_(together) {
+    const std::vector<Task>& tasks = proof.catalog().tasks;
+    for (std::size_t index = 0; index < tasks.size(); ++index) {
+      tasks_.emplace(tasks[index].name, proof.compiled().task_ids[index]);
+    }
+  }
+
+  /// Names that the catalog does not have may be those of another one.
+  void check(const NeverTogether& list) {
+    std::vector<TaskId> known;
+    for (const std::string& name : list.tasks) {
+      if (const auto found = tasks_.find(name); found != tasks_.end()) {
+        known.push_back(found->second);
+      }
+    }
+    for (std::size_t a = 0; a < known.size(); ++a) {
+      for (std::size_t b = a + 1; b < known.size(); ++b) check_pair(known[a], known[b], list);
+    }
+  }
+
+ private:
+  void check_pair(TaskId a, TaskId b, const NeverTogether& list) {
+    const Task& first = proof_.task(a);
+    const Task& second = proof_.task(b);
+    const Together answer = together_.decide(a, b);
+    if (answer == Together::undecided) {
+      proof_.report_undecided(
+          first.range, "whether " + quote(first.name) + " can run beside " + quote(second.name));
+    }
+    if (answer != Together::possible) return;
+    const TogetherSearch::Witness witness = together_.find_witness(a, b);
+    const auto with = [this](const Task& task, BehaviorId behavior) {
+      return quote(task.name) + " with " + quote(proof_.behavior(behavior).name);
+    };
+    std::string message = quote(first.name) + " can run beside " + quote(second.name);
+    if (witness.a != none && witness.b != none) {
+      message += ": " + with(first, witness.a) + ", " + with(second, witness.b);
+    }
+    proof_.reporter().report(
+        rule::can_run_together, first.range, std::move(message),
+        {proof_.reporter().note(second.range, quote(second.name) + " is defined here"),
+         {list.file, list.range, "these tasks must never run together"}});
+  }
+
+  ProofContext& proof_;
+  TogetherSearch& together_;
+  std::unordered_map<std::string_view, TaskId> tasks_;
+};
+
+}  // namespace
+
+void check_together(ProofContext& proof, const LintOptions& options, bool is_complete) {
+  TogetherSearch together(proof.search(), proof.liveness());
+  BlockedReactiveCheck(proof, together).check();
+  // A value that could not be read excludes nothing, so more tasks may seem to go together.
+  if (!is_complete) return;
+  NeverTogetherCheck never(proof, together);
+  for (const NeverTogether& list : options.never_together) never.check(list);
+}
+
+}  // namespace cbc

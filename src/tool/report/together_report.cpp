@@ -1,0 +1,358 @@
+#include "report/together_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "coordinator/record.h"
+#include "draw/diagram.h"
+#include "report/catalog_report.h"
+#include "report/sentences.h"
+#include "report/solve_report.h"
+#include "support/json.h"
+#include "support/wording.h"
+
+namespace cbc {
+namespace {
+
+constexpr std::array answers = {Together::possible, Together::excluded,
+                                Together::excluded_indirectly, Together::excluded_by_situation,
+                                Together::undecided};
+
+char sign_of(Together together) {
+  constexpr char signs[] = {'+', '-', 'x', 's', '?'};
+  return signs[static_cast<std::size_t>(together)];
+}
+
+std::string_view meaning_of(Together together) {
+  switch (together) {
+    case Together::possible:
+      return "can run together";
+    case Together::excluded:
+      return "excluded by a list";
+    case Together::excluded_indirectly:
+      return "excluded by what they require";
+    case Together::excluded_by_situation:
+      return "fit in no common situation";
+    case Together::undecided:
+      break;
+  }
+  return "not decided: there is too much to search";
+}
+
+/// The answer for two tasks, by their places in the table; `row` is greater than `column`.
+class Matrix {
+ public:
+  explicit Matrix(const TogetherTable& table) : table_(table) {}
+
+  [[nodiscard]] std::size_t size() const { return table_.tasks.size(); }
+  [[nodiscard]] Together at(std::size_t row, std::size_t column) const {
+    // Before the pairs of a column come those of all columns before.
+    const std::size_t before = column * (2 * size() - column - 1) / 2;
+    return table_.pairs[before + row - column - 1].together;
+  }
+
+ private:
+  const TogetherTable& table_;
+};
+
+/// Why a pair does not run together: sentences that lead from one task to the other.
+std::vector<std::string> reasons_of(const CompiledCatalog& catalog, const TaskPair& pair) {
+  if (pair.reasons.empty()) return {"the reasons would have taken too long to find"};
+  std::vector<std::string> sentences;
+  for (const Reason& reason : pair.reasons) {
+    sentences.push_back(describe_reason(catalog, EventRecord(), reason));
+  }
+  return sentences;
+}
+
+template <typename Action>
+void for_each_indirect(const TogetherTable& table, const Action& action) {
+  for (const TaskPair& pair : table.pairs) {
+    if (pair.together == Together::excluded_indirectly) action(pair);
+  }
+}
+
+std::string list_names(const CompiledCatalog& catalog, const std::vector<TaskId>& tasks) {
+  std::string text;
+  for (const TaskId task : tasks) {
+    if (!text.empty()) text += ", ";
+    text += draw::label_of(catalog.name_of_task(task));
+  }
+  return text;
+}
+
+constexpr std::size_t text_width = 80;
+constexpr std::size_t longest_name = 28;
+constexpr std::size_t columns_in_a_block = 5;
+
+/// The matrix as text, in as many parts as it takes for its columns to fit.
+class TextMatrix {
+ public:
+  TextMatrix(const CompiledCatalog& catalog, const TogetherTable& table, const Style& style)
+      : matrix_(table), style_(style), digits_(std::to_string(table.tasks.size()).size()) {
+    for (const TaskId task : table.tasks) {
+      names_.push_back(cut(draw::label_of(catalog.name_of_task(task))));
+      name_width_ = std::max(name_width_, width_of(names_.back()));
+    }
+  }
+
+  std::string write() && {
+    const std::size_t left = 2 + digits_ + 1 + name_width_ + 1;
+    const std::size_t width = text_width - left;
+    const std::size_t columns = matrix_.size() - 1;
+    // A blank stands between each two blocks.
+    std::size_t most = (width + 1) / (columns_in_a_block + 1) * columns_in_a_block;
+    if (columns + (columns - 1) / columns_in_a_block <= width) most = columns;
+    for (std::size_t first = 0; first + 1 < matrix_.size(); first += most) {
+      add_part(first, std::min(first + most, matrix_.size() - 1), left);
+    }
+    return std::move(text_);
+  }
+
+ private:
+  static std::size_t width_of(std::string_view text) {
+    std::size_t columns = 0;
+    for (std::size_t offset = 0; offset < text.size();) {
+      const utf8::Decoded decoded = utf8::decode(text, offset);
+      columns += utf8::display_width(decoded.character);
+      offset += decoded.bytes;
+    }
+    return columns;
+  }
+
+  static std::string cut(std::string name) {
+    if (width_of(name) <= longest_name) return name;
+    while (width_of(name) > longest_name - 3) {
+      name.pop_back();
+      while (!name.empty() && (static_cast<unsigned char>(name.back()) & 0xC0U) == 0x80U) {
+        name.pop_back();
+      }
+    }
+    return name + "...";
+  }
+
+  void add_part(std::size_t first, std::size_t end, std::size_t left) {
+    text_ += '\n';
+    for (std::size_t digit = 0; digit < digits_; ++digit) {
+      std::string line(left, ' ');
+      for (std::size_t column = first; column < end; ++column) {
+        add_gap(line, column, first);
+        line += fmt::format("{:>{}}", column + 1, digits_)[digit];
+      }
+      text_ += style_.paint(style_.faint, line.substr(0, line.find_last_not_of(' ') + 1)) + "\n";
+    }
+    for (std::size_t row = first; row < matrix_.size(); ++row) {
+      text_ += fmt::format("  {:>{}} {}", row + 1, digits_, names_[row]);
+      std::string cells(name_width_ - width_of(names_[row]) + 1, ' ');
+      for (std::size_t column = first; column < std::min(row, end); ++column) {
+        add_gap(cells, column, first);
+        cells += cell(matrix_.at(row, column));
+      }
+      text_ += row == first ? "\n" : cells + "\n";
+    }
+  }
+
+  static void add_gap(std::string& line, std::size_t column, std::size_t first) {
+    if (column > first && (column - first) % columns_in_a_block == 0) line += ' ';
+  }
+
+  [[nodiscard]] std::string cell(Together together) const {
+    const std::string sign(1, sign_of(together));
+    if (together == Together::possible) return style_.paint(style_.good, sign);
+    if (together == Together::undecided) return style_.paint(style_.warning, sign);
+    return together == Together::excluded ? style_.paint(style_.faint, sign) : sign;
+  }
+
+  const Matrix matrix_;
+  const Style& style_;
+  std::vector<std::string> names_;
+  std::size_t name_width_ = 0;
+  std::size_t digits_;
+  std::string text_;
+};
+
+std::string legend_of(const TogetherTable& table, Together together) {
+  return fmt::format("{} {}", sign_of(together), meaning_of(together)) +
+         fmt::format(": {}", table.count(together));
+}
+
+}  // namespace
+
+std::string together_text(const CompiledCatalog& catalog, const TogetherTable& table,
+                          const Style& style) {
+  std::string text = style.paint(style.strong, printable(catalog.file)) + "\n";
+  text += fmt::format("  {}, {}\n", quantity(table.tasks.size(), "task") + " on request",
+                      quantity(table.pairs.size(), "pair"));
+  for (const Together together : answers) {
+    if (table.count(together) > 0) text += "    " + legend_of(table, together) + "\n";
+  }
+  if (!table.never_run.empty()) {
+    text += "  left out, since they can never run: " + list_names(catalog, table.never_run) + "\n";
+  }
+  if (table.tasks.size() > 1) text += TextMatrix(catalog, table, style).write();
+  for_each_indirect(table, [&](const TaskPair& pair) {
+    text += "\n" + style.paint(style.strong, list_names(catalog, {pair.first, pair.second})) + "\n";
+    for (const std::string& reason : reasons_of(catalog, pair)) text += "  " + reason + "\n";
+  });
+  return text;
+}
+
+std::string together_json(const CompiledCatalog& catalog, const TogetherTable& table) {
+  const auto write_names = [&](JsonWriter& json, std::string_view name, const auto& tasks) {
+    json.write_list(name, tasks, [&](TaskId task) { json.write(catalog.name_of_task(task)); });
+  };
+  return json_line([&](JsonWriter& json) {
+    json.write_members({{"schema", "cbc.together/1"}, {"catalog", catalog.file}});
+    write_names(json, "tasks", table.tasks);
+    write_names(json, "never_run", table.never_run);
+    for (const Together together : answers) json.write(name_of(together), table.count(together));
+    json.write_list("pairs", table.pairs, [&](const TaskPair& pair) {
+      json.on_new_line().open('{');
+      write_names(json, "tasks", std::array{pair.first, pair.second});
+      json.write("together", name_of(pair.together));
+      json.write_list("reasons", pair.reasons, [&](const Reason& reason) {
+        write_reason(json, catalog, EventRecord(), reason);
+      });
+      json.close('}');
+    });
+  });
+}
+
+namespace {
+
+/// Text in a label of Graphviz that is like HTML.
+std::string escape_html(std::string_view text) {
+  std::string escaped;
+  for (const char byte : text) {
+    switch (byte) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += byte;
+    }
+  }
+  return escaped;
+}
+
+std::string_view color_of(Together together) {
+  switch (together) {
+    case Together::possible:
+      return palette::groups[1].fill;  // bluish green
+    case Together::excluded:
+      return "#EEEEEE";
+    case Together::excluded_indirectly:
+      return palette::groups[0].fill;  // orange
+    case Together::excluded_by_situation:
+      return palette::groups[3].fill;  // yellow
+    case Together::undecided:
+      break;
+  }
+  return palette::paper;
+}
+
+class DotTable {
+ public:
+  DotTable(const CompiledCatalog& catalog, const TogetherTable& table)
+      : catalog_(catalog), table_(table), matrix_(table) {}
+
+  std::string write() && {
+    text_ = fmt::format(
+        "graph together {{\n"
+        "  graph [bgcolor=\"{0}\", pad=0.2, fontname=\"Helvetica,Arial,sans-serif\"];\n"
+        "  node [shape=plain, fontname=\"Helvetica,Arial,sans-serif\", fontsize=11];\n"
+        "  table [label=<\n<TABLE BORDER=\"0\" CELLBORDER=\"0\" CELLSPACING=\"0\" "
+        "CELLPADDING=\"3\">\n",
+        palette::paper);
+    add_line(fmt::format("<B>{}</B>: {}", escape_html(draw::label_of(catalog_.file)),
+                         "which tasks can run together"));
+    if (matrix_.size() > 1) add_matrix();
+    for (const Together together : answers) {
+      if (table_.count(together) > 0) add_line(escape_html(legend_of(table_, together)));
+    }
+    if (!table_.never_run.empty()) {
+      add_line(escape_html("can never run: " + list_names(catalog_, table_.never_run)));
+    }
+    for_each_indirect(table_, [this](const TaskPair& pair) {
+      std::string line =
+          fmt::format("<B>{}</B>", escape_html(list_names(catalog_, {pair.first, pair.second})));
+      for (const std::string& reason : reasons_of(catalog_, pair)) {
+        line += "<BR ALIGN=\"LEFT\"/>   " + escape_html(reason);
+      }
+      add_line(line + "<BR ALIGN=\"LEFT\"/>");
+    });
+    return std::move(text_) + "</TABLE>>];\n}\n";
+  }
+
+ private:
+  void add_line(const std::string& line) {
+    text_ += fmt::format("<TR><TD ALIGN=\"LEFT\" BALIGN=\"LEFT\">{}</TD></TR>\n", line);
+  }
+
+  void add_matrix() {
+    text_ +=
+        "<TR><TD ALIGN=\"LEFT\"><TABLE BORDER=\"0\" CELLBORDER=\"0\" CELLSPACING=\"1\" "
+        "CELLPADDING=\"2\">\n<TR><TD></TD>";
+    for (std::size_t column = 0; column + 1 < matrix_.size(); ++column) {
+      text_ += fmt::format("<TD>{}</TD>", column + 1);
+    }
+    text_ += "</TR>\n";
+    for (std::size_t row = 0; row < matrix_.size(); ++row) {
+      text_ += fmt::format("<TR><TD ALIGN=\"LEFT\">{} {}</TD>", row + 1,
+                           escape_html(draw::label_of(catalog_.name_of_task(table_.tasks[row]))));
+      for (std::size_t column = 0; column < row; ++column) {
+        const Together together = matrix_.at(row, column);
+        text_ += fmt::format("<TD BGCOLOR=\"{}\">{}</TD>", color_of(together), sign_of(together));
+      }
+      text_ += "</TR>\n";
+    }
+    text_ += "</TABLE></TD></TR>\n";
+  }
+
+  const CompiledCatalog& catalog_;
+  const TogetherTable& table_;
+  const Matrix matrix_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string together_dot(const CompiledCatalog& catalog, const TogetherTable& table) {
+  return DotTable(catalog, table).write();
+}
+
+std::span<const TogetherFormat> together_formats() {
+  using Compiled = const CompiledCatalog&;
+  using Table = const TogetherTable&;
+  constexpr auto as_dot = [](Compiled catalog, Table table, const Style& /*style*/) {
+    return together_dot(catalog, table);
+  };
+  static constexpr TogetherFormat formats[] = {
+      {"text", together_text},
+      {"json", [](Compiled catalog, Table table,
+                  const Style& /*style*/) { return together_json(catalog, table); }},
+      {"dot", as_dot},
+      {"svg", as_dot},
+      {"png", as_dot},
+      {"pdf", as_dot},
+  };
+  return formats;
+}
+
+}  // namespace cbc
