@@ -50,6 +50,24 @@ class System {
   std::vector<Names> exclusivity;
 };
 
+TEST(Suave, HasTheFunctionDesignsOfItsSource) {
+  const System system("suave.yaml");
+  std::map<std::string, std::map<std::string, double>> performances;
+  for (const std::string task : {"GENERATE_SEARCH_PATH", "FOLLOW_PIPELINE", "MAINTAIN_MOTION"}) {
+    for (const nlohmann::json& entry : system.tasks.at(task)["behaviors"]) {
+      performances[task][entry["behavior"]] = entry["suitability"];
+    }
+  }
+  EXPECT_EQ(performances,
+            (std::map<std::string, std::map<std::string, double>>{
+                {"GENERATE_SEARCH_PATH",
+                 {{"SPIRAL_HIGH", 100}, {"SPIRAL_MEDIUM", 50}, {"SPIRAL_LOW", 25}}},
+                {"FOLLOW_PIPELINE", {{"FOLLOW_PIPELINE", 100}}},
+                {"MAINTAIN_MOTION", {{"ALL_THRUSTERS", 100}, {"RECOVER_THRUSTERS", 75}}}}));
+  EXPECT_EQ(system.requires_of.at("ALL_THRUSTERS").size(), 6U);
+  EXPECT_TRUE(system.requires_of.at("RECOVER_THRUSTERS").empty());
+}
+
 TEST(Px4, HasTheModesAndTheirRequirements) {
   const System system("px4.yaml");
   ASSERT_EQ(system.exclusivity.size(), 1U);
