@@ -145,7 +145,8 @@ std::vector<std::string> names_of_published_catalogs() {
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(CBC_SOURCE_DIR "/catalogs")) {
     const std::string file = entry.path().filename();
-    if (!file.ends_with(".mission.yaml")) names.push_back(entry.path().stem());
+    if (!file.ends_with(".yaml") || file.ends_with(".mission.yaml")) continue;
+    names.push_back(entry.path().stem());
   }
   return names;
 }
