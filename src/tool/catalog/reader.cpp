@@ -304,6 +304,7 @@ class Resolver {
     }
     read_situation(
         [&] { behavior.situation = situation_.read_conditions(entry.situation, entry.name.text); });
+    if (entry.situation != nullptr) behavior.situation_range = entry.situation->range;
     catalog_.behaviors.push_back(std::move(behavior));
   }
 

@@ -129,11 +129,22 @@ StateRecorder::StateRecorder(const CompiledCatalog& catalog, const Script& scrip
 
 void StateRecorder::note_behaviors(const State& state) {
   state_.unavailable.clear();
+  state_.misfits.clear();
   state_.faulty.clear();
   for (std::uint32_t index = 0; index < catalog_.behavior_ids.size(); ++index) {
     const BehaviorId behavior = catalog_.behavior_ids[index];
-    if (!state.is_available(behavior)) state_.unavailable.push_back(index);
+    if (state.is_denied(behavior)) {
+      state_.unavailable.push_back(index);
+    } else if (const auto variable = catalog_.find_misfit(behavior, state.variables())) {
+      const VariableValue value{*variable, state.value_of(*variable)};
+      state_.misfits.push_back({index, describe_value(catalog_, value)});
+    }
     if (state.is_faulty(behavior)) state_.faulty.push_back(index);
+  }
+  moment_.situation.clear();
+  for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
+    if (variable > 0) moment_.situation += ", ";
+    moment_.situation += describe_value(catalog_, {variable, state.value_of(variable)});
   }
 }
 
