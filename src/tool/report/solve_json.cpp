@@ -5,7 +5,9 @@
 #include <string_view>
 #include <utility>
 
+#include "catalog/conditions.h"
 #include "page_files.h"
+#include "report/catalog_report.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
 #include "script/event_lines.h"
@@ -179,12 +181,17 @@ namespace {
 
 constexpr double one_percent = one_million / 100.0;
 
-/// What the picture needs of a catalog: tasks and behaviors in catalog order, suitabilities in
-/// percent.
+/// What the picture needs of a catalog: tasks, situation variables and behaviors in catalog order,
+/// suitabilities in percent.
 void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
   const auto write_task = [&](TaskId task) { json.write(catalog.name_of_task(task)); };
   json.open('{');
   json.write_list("tasks", catalog.task_names);
+  json.open("variables", '[');
+  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+    write_variable(json, catalog, variable);
+  }
+  json.close(']');
   json.write_list("behaviors", catalog.behavior_ids, [&](BehaviorId behavior) {
     json.open('{');
     json.write("name", catalog.name_of_behavior(behavior));
@@ -194,6 +201,7 @@ void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
     });
     json.write_list("requires", catalog.requirements[behavior],
                     [&](const CompiledRequirement& required) { write_task(required.task); });
+    write_conditions(json, conditions_of(catalog, behavior));
     json.close('}');
   });
   json.open("exclusive", '[');
