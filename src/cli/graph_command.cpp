@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -26,6 +27,7 @@
 #include "draw/catalog_graph.h"
 #include "draw/diagram.h"
 #include "report/catalog_report.h"
+#include "report/situation_report.h"
 #include "report/solve_report.h"
 #include "script/runner.h"
 #include "support/system.h"
@@ -88,10 +90,11 @@ std::uint32_t group_count(const draw::CatalogGraph& graph) {
 void add_drawing_options(Command& command, DrawingOptions& options) {
   constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
   command.option("--view", options.view,
-                 one_of("VIEW", {"full", "tasks", "constraints", "behaviors"}),
+                 one_of("VIEW", {"full", "tasks", "constraints", "behaviors", "situation"}),
                  "What is drawn: full (default: tasks and behaviors), tasks (what each requires), "
                  "constraints (between tasks, one color per group), behaviors (what each "
-                 "requires)");
+                 "requires), situation (a table: which behaviors fit in which values of the "
+                 "situation variables)");
   command.option("--exclusivity", options.exclusivity, one_of("STYLE", {"pairs", "hubs", "none"}),
                  "Draw lists of exclusive tasks as pairs, as hubs (a dot with a line to each "
                  "task), or none (default: up to three tasks as pairs, more as hubs; in the views "
@@ -321,6 +324,7 @@ constexpr const char* graph_footer =
     "  cbc graph robot.yaml | dot -Tx11          in a window\n"
     "  cbc graph robot.yaml --view tasks --reduce  which tasks require which\n"
     "  cbc graph robot.cbc --view constraints    which tasks constraints connect\n"
+    "  cbc graph robot.yaml --view situation     which behaviors fit in which situation\n"
     "  cbc graph robot.yaml --format mermaid     for a README file, a pull request\n"
     "  cbc graph robot.yaml --script mission.yaml --after 5\n"
     "                                            what runs after the 5th event\n"
@@ -332,6 +336,11 @@ constexpr const char* graph_footer =
     "\n"
     "With --diff, added is green (+), removed is red and dashed (-), changed is orange; the format "
     "text has one line per difference; json is for programs (schema cbc.diff/1).\n"
+    "\n"
+    "--view situation is a table, as text by default: + a behavior fits in a value, - it does not, "
+    ". it does not name the variable; then the tasks without a behavior that fits. It "
+    "is "
+    "not drawn as mermaid; json is of the schema cbc.situation/1.\n"
     "\n"
     "Exit status: 0 success, or the catalog has errors but was drawn, 1 the catalogs of "
     "--diff differ, 2 nothing could be drawn, a file could not be read or written, or the usage "
@@ -350,8 +359,32 @@ struct GraphCommand {
   StateOptions state;
 };
 
-/// The format of differences for people.
+/// The format of differences and tables for people.
 constexpr std::string_view text_format = "text";
+
+/// A view that is a table, not a drawing.
+struct TableView {
+  std::string_view name;
+  std::string_view answer;  ///< what it shows, after "it is not known"
+  std::vector<std::string> (*formats)();
+  /// `format` is one of these; of one by Graphviz, the input of `dot`.
+  std::string (*write)(const CompiledCatalog& catalog, std::string_view format, const Style& style);
+};
+
+std::string write_situation_table(const CompiledCatalog& catalog, std::string_view format,
+                                  const Style& style) {
+  return find_named(situation_formats(), format)->write(catalog, style);
+}
+
+constexpr TableView table_views[] = {
+    {"situation", "which behaviors fit", [] { return names_in(situation_formats()); },
+     write_situation_table},
+};
+
+/// Null if it is a drawing.
+const TableView* find_table(const GraphCommand& command) {
+  return find_named(std::span(table_views), command.drawing.view);
+}
 
 /// The name of the format, which the suffix of the output may tell; empty if it tells none.
 std::string format_of(const GraphCommand& command) {
@@ -360,7 +393,10 @@ std::string format_of(const GraphCommand& command) {
   std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
-  if (suffix.empty()) return std::string(graph_formats().front().name);
+  if (suffix.empty()) {
+    const bool is_table = find_table(command) != nullptr;
+    return std::string(is_table ? text_format : graph_formats().front().name);
+  }
   if (suffix == ".txt") return std::string(text_format);
   for (const GraphFormat& format : graph_formats()) {
     if (suffix == format.suffixes[0] || suffix == format.suffixes[1]) {
@@ -368,6 +404,24 @@ std::string format_of(const GraphCommand& command) {
     }
   }
   return {};
+}
+
+/// The same for a table.
+std::string find_misuse_of_table(const TableView& table, const GraphCommand& command) {
+  if (command.is_diff) return fmt::format("--view {} cannot be used with --diff", table.name);
+  if (command.state.script) {
+    return fmt::format("--view {} cannot be used with --script", table.name);
+  }
+  DrawingOptions drawing;
+  drawing.view = command.drawing.view;
+  if (command.drawing != drawing) {
+    return fmt::format("other options of the drawing cannot be used with --view {}", table.name);
+  }
+  const std::string format = format_of(command);
+  const std::vector<std::string> formats = table.formats();
+  if (std::find(formats.begin(), formats.end(), format) != formats.end()) return {};
+  return fmt::format("--view {} cannot be written as {}; expected {}", table.name, format,
+                     join_with_or(formats));
 }
 
 /// Says what is wrong with the format or the number of catalogs; empty if nothing is.
@@ -386,8 +440,12 @@ std::string find_misuse(const GraphCommand& command) {
     return fmt::format("expected one catalog, found {}; --diff compares two", catalogs);
   }
   if (catalogs == 0 && !command.state.script) return "expected a catalog";
-  if (!command.is_diff && format == text_format)
-    return "--format text can only be used with --diff";
+  if (const TableView* const table = find_table(command)) {
+    return find_misuse_of_table(*table, command);
+  }
+  if (!command.is_diff && format == text_format) {
+    return "--format text can only be used with --diff or a --view that is a table";
+  }
   if (format == text_format || (command.is_diff && format == "json")) {
     if (command.drawing != DrawingOptions()) {
       return fmt::format("options of the drawing cannot be used with --diff --format {}", format);
@@ -426,6 +484,22 @@ int draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& mom
   }
   std::optional<std::string> content = format.write(diagram);
   if (format.is_by_graphviz) content = run_graphviz(*content, format.name);
+  return content ? write_output(output_of(command), *content) : exit_unusable;
+}
+
+int write_table(const TableView& table, const GraphCommand& command) {
+  const std::unique_ptr<Drawable> drawable = read_drawable(command.catalogs.front());
+  if (drawable == nullptr) return exit_unusable;
+  if (drawable->compiled == nullptr) {
+    complain("catalog {} has errors, so it is not known {}", quote(drawable->graph.file),
+             table.answer);
+    return exit_unusable;
+  }
+  const std::string format = format_of(command);
+  const Style style = output_of(command) == "-" ? style_for(stdout) : plain_style();
+  std::optional<std::string> content = table.write(*drawable->compiled, format, style);
+  const GraphFormat* const drawn = find_named(graph_formats(), format);
+  if (drawn != nullptr && drawn->is_by_graphviz) content = run_graphviz(*content, format);
   return content ? write_output(output_of(command), *content) : exit_unusable;
 }
 
@@ -469,6 +543,7 @@ int run_graph(const GraphCommand& command) {
   if (const std::string misuse = find_misuse(command); !misuse.empty())
     return usage_error("graph", misuse);
   if (!can_write(command)) return exit_unusable;
+  if (const TableView* const table = find_table(command)) return write_table(*table, command);
   return command.is_diff ? draw_diff(command) : draw_catalog(command);
 }
 
@@ -476,9 +551,10 @@ int run_graph(const GraphCommand& command) {
 
 void add_graph_command(Program& program) {
   std::vector<std::string> formats = names_in(graph_formats());
-  const std::string format_help =
-      fmt::format("{}, with --diff also {} (default: by the suffix of OUT; without one {})",
-                  join_with_or(formats), text_format, formats.front());
+  const std::string format_help = fmt::format(
+      "{}, with --diff and tables also {} (default: by the suffix of OUT; without "
+      "one {}, of a table {})",
+      join_with_or(formats), text_format, formats.front(), text_format);
   formats.emplace_back(text_format);
   const auto options = std::make_shared<GraphCommand>();
   Command& command = program.add_command(

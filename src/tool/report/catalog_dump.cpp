@@ -263,17 +263,21 @@ void write_group(JsonWriter& json, const CompiledCatalog& catalog, std::size_t g
 
 }  // namespace
 
+void write_plain_value(JsonWriter& json, const CompiledCatalog& catalog, VariableValue value) {
+  if (catalog.variables[value.variable].is_boolean != 0) {
+    json.write(value.value == 0);
+  } else {
+    json.write(catalog.name_of_value(value));
+  }
+}
+
 void write_variable(JsonWriter& json, const CompiledCatalog& catalog, std::uint32_t index) {
   const CompiledVariable& variable = catalog.variables[index];
   json.open('{');
   json.write("variable", catalog.name_of_variable(index));
   json.open("values", '[');
   for (std::uint32_t value = 0; value < variable.value_count; ++value) {
-    if (variable.is_boolean != 0) {
-      json.write(value == 0);
-    } else {
-      json.write(catalog.name_of_value({index, value}));
-    }
+    write_plain_value(json, catalog, {index, value});
   }
   json.close(']');
   json.close('}');

@@ -142,6 +142,10 @@ namespace cbc {
 /// are replaced.
 [[nodiscard]] std::string catalog_json(const CompiledFile& file);
 
+/// Writes a value of a situation variable: a text, or true or false if the variable was declared
+/// without values.
+void write_plain_value(JsonWriter& json, const CompiledCatalog& catalog, VariableValue value);
+
 /// Writes a situation variable: {"variable": "TARGET", "values": ["far", "near"]}. The values of
 /// one without values of its own are true and false.
 void write_variable(JsonWriter& json, const CompiledCatalog& catalog, std::uint32_t index);
