@@ -324,7 +324,7 @@ constexpr const char* graph_footer =
     "  cbc graph robot.yaml | dot -Tx11          in a window\n"
     "  cbc graph robot.yaml --view tasks --reduce  which tasks require which\n"
     "  cbc graph robot.cbc --view constraints    which tasks constraints connect\n"
-    "  cbc graph robot.yaml --view situation     which behaviors fit in which situation\n"
+    "  cbc graph robot.yaml --view situation     which behaviors fit when\n"
     "  cbc graph robot.yaml --format mermaid     for a README file, a pull request\n"
     "  cbc graph robot.yaml --script mission.yaml --after 5\n"
     "                                            what runs after the 5th event\n"

@@ -60,6 +60,7 @@ class Runs {
       yield* this.labelled(...graph);
       yield* this.labelled(...graph, '--exclusivity', 'hubs');
     }
+    yield* this.labelled('graph', catalog, '--format', 'json', '--view', 'situation');
   }
 
   /** A state of a mission, and what the catalog has in common with another one. */

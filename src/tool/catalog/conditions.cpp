@@ -44,6 +44,7 @@ std::string describe(const NamedCondition& condition) {
   if (condition.is_boolean && condition.values.size() == 1) {
     return condition.values.front() == "true" ? variable : "not " + variable;
   }
+  if (condition.values.empty()) return variable + ": no value";
   std::string text = variable + ":";
   for (const std::string_view value : condition.values) {
     text += text.back() == ':' ? " " : ", ";

@@ -148,7 +148,7 @@ class Legend {
 
   /// Empty if a mark needs no explanation.
   [[nodiscard]] std::string describe(Mark mark) const {
-    if (mark == Mark::unavailable) return "unavailable, unfit or faulty";
+    if (mark == Mark::unavailable) return "cannot be activated";
     if (mark == Mark::faint && diagram_.moment) return "inactive";
     return std::string(draw::name_of(mark));
   }

@@ -102,6 +102,7 @@ class SituationTable {
 };
 
 std::string describe_size(const CompiledCatalog& catalog, const SituationTable& table) {
+  if (catalog.variables.empty()) return "no situation variables";
   const std::size_t behaviors = table.behaviors().size();
   return fmt::format("{}, named by {} of {}",
                      quantity(catalog.variables.size(), "situation variable"), behaviors,
@@ -128,7 +129,8 @@ constexpr std::size_t text_width = 80;
 constexpr std::size_t longest_name = 28;
 constexpr std::string_view gap = "  ";
 
-/// The rows and columns as text, in as many parts as it takes for the columns to fit.
+/// The rows and columns as text, in as many parts as it takes for the columns to fit. A part has
+/// the rows of the behaviors that name one of its variables.
 class TextTable {
  public:
   TextTable(const CompiledCatalog& catalog, const SituationTable& table, const Style& style)
@@ -146,6 +148,7 @@ class TextTable {
       const std::vector<VariableValue> values = table_.values_of(variable);
       std::size_t together = 0;
       for (const VariableValue value : values) together += gap.size() + width_of(title_of(value));
+      together = std::max(together, gap.size() + width_of(name_of(variable)));
       // A variable stays in one part if it can.
       if (width + together > text_width) flush(width);
       for (const VariableValue value : values) {
@@ -210,7 +213,13 @@ class TextTable {
     }
     add_line(variables, style_.strong);
     add_line(titles, style_.faint);
-    for (std::size_t row = 0; row < names_.size(); ++row) add_row(row);
+    for (std::size_t row = 0; row < names_.size(); ++row) {
+      const BehaviorId behavior = table_.behaviors()[row];
+      const bool names_any = std::any_of(values_.begin(), values_.end(), [&](VariableValue value) {
+        return table_.fit(behavior, value) != Fit::in_any;
+      });
+      if (names_any) add_row(row);
+    }
   }
 
   void add_row(std::size_t row) {
