@@ -36,8 +36,7 @@ constexpr const char* head =
     R"("content_digest":"01010101010101010101010101010101","size":4321,)";
 
 TEST(CatalogJson, HasTheKeysOfTheSchema) {
-  EXPECT_EQ(
-      report(test::compile_text(R"(
+  EXPECT_EQ(report(test::compile_text(R"(
 behaviors:
 - {behavior: PID, task: HOVER, suitability: 70, timeout: 2.5}
 - behavior: MPC
@@ -63,33 +62,36 @@ tasks:
 exclusivity_constraints:
 - mutually_exclusive: [LAND, HOVER]
 )")),
-      std::string(head) +
-          R"("tasks":3,"behaviors":3,"levels":2,)"
-          R"("constraints":{"exclusive_pairs":1,"requirements":1,"task_minimums":1,)"
-          R"("total":3},"search_space":"6","variables":[],"groups":[{"group":0,"levels":2,)"
-          R"("constraints":{"exclusive_pairs":1,"requirements":1,"task_minimums":1,)"
-          R"("total":3},"search_space":"6","tasks":[)"
-          R"({"task":"HOVER","level":1,"execution_goal":"achieve_goal",)"
-          R"("start_on_request":true,"reactive_start":false,"timeout":12,)"
-          R"("minimum_performance":null,"line":null,"parameters":[)"
-          R"({"parameter":"way","allowed_values":["UP","DOWN"]},)"
-          R"({"parameter":"height","allowed_values":"number"},)"
-          R"({"parameter":"why","allowed_values":null}],)"
-          R"("behaviors":[{"behavior":"MPC","suitability":99.5},)"
-          R"({"behavior":"PID","suitability":70}]},)"
-          R"({"task":"LOCALIZE","level":0,"execution_goal":"keep_running",)"
-          R"("start_on_request":false,"reactive_start":true,"timeout":null,)"
-          R"("minimum_performance":50,"line":22,"parameters":[],)"
-          R"("behaviors":[{"behavior":"GPS","suitability":100}]},)"
-          R"({"task":"LAND","level":0,"execution_goal":"achieve_goal",)"
-          R"("start_on_request":true,"reactive_start":false,"timeout":null,)"
-          R"("minimum_performance":null,"line":null,"parameters":[],"behaviors":[]}],)"
-          R"("behaviors":[{"behavior":"PID","level":0,"package":"","timeout":2.5,"situation":{},)"
-          R"("requires":[]},{"behavior":"MPC","level":1,"package":"control",)"
-          R"("timeout":null,"situation":{},"requires":[{"task":"LOCALIZE",)"
-          R"("minimum_performance":80.25,"line":9}]},)"
-          R"({"behavior":"GPS","level":0,"package":"","timeout":null,"situation":{},"requires":[]}],)"
-          R"("exclusivity":[{"tasks":["HOVER","LAND"],"line":25}]}]})");
+            std::string(head) +
+                R"("tasks":3,"behaviors":3,"levels":2,)"
+                R"("constraints":{"exclusive_pairs":1,"requirements":1,"task_minimums":1,)"
+                R"("total":3},"search_space":"6","variables":[],)"
+                R"("groups":[{"group":0,"levels":2,)"
+                R"("constraints":{"exclusive_pairs":1,"requirements":1,"task_minimums":1,)"
+                R"("total":3},"search_space":"6","tasks":[)"
+                R"({"task":"HOVER","level":1,"execution_goal":"achieve_goal",)"
+                R"("start_on_request":true,"reactive_start":false,"timeout":12,)"
+                R"("minimum_performance":null,"line":null,"parameters":[)"
+                R"({"parameter":"way","allowed_values":["UP","DOWN"]},)"
+                R"({"parameter":"height","allowed_values":"number"},)"
+                R"({"parameter":"why","allowed_values":null}],)"
+                R"("behaviors":[{"behavior":"MPC","suitability":99.5},)"
+                R"({"behavior":"PID","suitability":70}]},)"
+                R"({"task":"LOCALIZE","level":0,"execution_goal":"keep_running",)"
+                R"("start_on_request":false,"reactive_start":true,"timeout":null,)"
+                R"("minimum_performance":50,"line":22,"parameters":[],)"
+                R"("behaviors":[{"behavior":"GPS","suitability":100}]},)"
+                R"({"task":"LAND","level":0,"execution_goal":"achieve_goal",)"
+                R"("start_on_request":true,"reactive_start":false,"timeout":null,)"
+                R"("minimum_performance":null,"line":null,"parameters":[],"behaviors":[]}],)"
+                R"("behaviors":[{"behavior":"PID","level":0,"package":"","timeout":2.5,)"
+                R"("situation":{},)"
+                R"("requires":[]},{"behavior":"MPC","level":1,"package":"control",)"
+                R"("timeout":null,"situation":{},"requires":[{"task":"LOCALIZE",)"
+                R"("minimum_performance":80.25,"line":9}]},)"
+                R"({"behavior":"GPS","level":0,"package":"","timeout":null,)"
+                R"("situation":{},"requires":[]}],)"
+                R"("exclusivity":[{"tasks":["HOVER","LAND"],"line":25}]}]})");
 }
 
 TEST(CatalogJson, HasSituationVariablesAndConditions) {
