@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -27,6 +28,7 @@
 #include "draw/diagram.h"
 #include "lint/together.h"
 #include "report/catalog_report.h"
+#include "report/situation_report.h"
 #include "report/solve_report.h"
 #include "report/together_report.h"
 #include "script/runner.h"
@@ -89,12 +91,14 @@ std::uint32_t group_count(const draw::CatalogGraph& graph) {
 
 void add_drawing_options(Command& command, DrawingOptions& options) {
   constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
-  command.option("--view", options.view,
-                 one_of("VIEW", {"full", "tasks", "constraints", "behaviors", "together"}),
-                 "What is drawn: full (default: tasks and behaviors), tasks (what each requires), "
-                 "constraints (between tasks, one color per group), behaviors (what each "
-                 "requires), together (a table of the tasks on request: which can run at the same "
-                 "time)");
+  command.option(
+      "--view", options.view,
+      one_of("VIEW", {"full", "tasks", "constraints", "behaviors", "together", "situation"}),
+      "What is drawn: full (default: tasks and behaviors), tasks (what each requires), "
+      "constraints (between tasks, one color per group), behaviors (what each "
+      "requires), together (a table of the tasks on request: which can run at the same "
+      "time), situation (a table: which behaviors fit in which values of the "
+      "situation variables)");
   command.option("--exclusivity", options.exclusivity, one_of("STYLE", {"pairs", "hubs", "none"}),
                  "Draw lists of exclusive tasks as pairs, as hubs (a dot with a line to each "
                  "task), or none (default: up to three tasks as pairs, more as hubs; in the views "
@@ -325,6 +329,7 @@ constexpr const char* graph_footer =
     "  cbc graph robot.yaml --view tasks --reduce  which tasks require which\n"
     "  cbc graph robot.cbc --view constraints    which tasks constraints connect\n"
     "  cbc graph robot.yaml --view together      which tasks can run at the same time\n"
+    "  cbc graph robot.yaml --view situation     which behaviors fit when\n"
     "  cbc graph robot.yaml --format mermaid     for a README file, a pull request\n"
     "  cbc graph robot.yaml --script mission.yaml --after 5\n"
     "                                            what runs after the 5th event\n"
@@ -341,6 +346,10 @@ constexpr const char* graph_footer =
     "request: + they can run together, - a list excludes them, x what they require excludes them, "
     "with the reasons, s they fit in no common situation. A search decides it. It is not drawn as "
     "mermaid; json is of the schema cbc.together/1.\n"
+    "\n"
+    "--view situation is a table, as text by default: + a behavior fits in a value, - it does not, "
+    ". it does not name the variable; then the tasks without a behavior that fits. It "
+    "is not drawn as mermaid; json is of the schema cbc.situation/1.\n"
     "\n"
     "Exit status: 0 success, or the catalog has errors but was drawn, 1 the catalogs of "
     "--diff differ, 2 nothing could be drawn, a file could not be read or written, or the usage "
@@ -359,10 +368,40 @@ struct GraphCommand {
   StateOptions state;
 };
 
-/// The format of differences, and of the table of tasks that can run together, for people.
+/// The format of differences and tables for people.
 constexpr std::string_view text_format = "text";
 
-bool is_together(const GraphCommand& command) { return command.drawing.view == "together"; }
+/// A view that is a table, not a drawing.
+struct TableView {
+  std::string_view name;
+  std::string_view answer;  ///< what it shows, after "it is not known"
+  std::vector<std::string> (*formats)();
+  /// `format` is one of these; of one by Graphviz, the input of `dot`.
+  std::string (*write)(const CompiledCatalog& catalog, std::string_view format, const Style& style);
+};
+
+std::string write_situation_table(const CompiledCatalog& catalog, std::string_view format,
+                                  const Style& style) {
+  return find_named(situation_formats(), format)->write(catalog, style);
+}
+
+std::string write_table_of_pairs(const CompiledCatalog& catalog, std::string_view format,
+                                 const Style& style) {
+  return find_named(together_formats(), format)
+      ->write(catalog, make_together_table(catalog, {}), style);
+}
+
+constexpr TableView table_views[] = {
+    {"together", "which tasks can run together", [] { return names_in(together_formats()); },
+     write_table_of_pairs},
+    {"situation", "which behaviors fit", [] { return names_in(situation_formats()); },
+     write_situation_table},
+};
+
+/// Null if it is a drawing.
+const TableView* find_table(const GraphCommand& command) {
+  return find_named(std::span(table_views), command.drawing.view);
+}
 
 /// The name of the format, which the suffix of the output may tell; empty if it tells none.
 std::string format_of(const GraphCommand& command) {
@@ -372,7 +411,8 @@ std::string format_of(const GraphCommand& command) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
   if (suffix.empty()) {
-    return std::string(is_together(command) ? text_format : graph_formats().front().name);
+    const bool is_table = find_table(command) != nullptr;
+    return std::string(is_table ? text_format : graph_formats().front().name);
   }
   if (suffix == ".txt") return std::string(text_format);
   for (const GraphFormat& format : graph_formats()) {
@@ -383,19 +423,22 @@ std::string format_of(const GraphCommand& command) {
   return {};
 }
 
-/// The same for the table of tasks that can run together.
-std::string find_misuse_of_together(const GraphCommand& command) {
-  if (command.is_diff) return "--view together cannot be used with --diff";
-  if (command.state.script) return "--view together cannot be used with --script";
+/// The same for a table.
+std::string find_misuse_of_table(const TableView& table, const GraphCommand& command) {
+  if (command.is_diff) return fmt::format("--view {} cannot be used with --diff", table.name);
+  if (command.state.script) {
+    return fmt::format("--view {} cannot be used with --script", table.name);
+  }
   DrawingOptions drawing;
   drawing.view = command.drawing.view;
   if (command.drawing != drawing) {
-    return "other options of the drawing cannot be used with --view together";
+    return fmt::format("other options of the drawing cannot be used with --view {}", table.name);
   }
   const std::string format = format_of(command);
-  if (find_named(together_formats(), format) != nullptr) return {};
-  return fmt::format("--view together cannot be written as {}; expected {}", format,
-                     join_with_or(names_in(together_formats())));
+  const std::vector<std::string> formats = table.formats();
+  if (std::find(formats.begin(), formats.end(), format) != formats.end()) return {};
+  return fmt::format("--view {} cannot be written as {}; expected {}", table.name, format,
+                     join_with_or(formats));
 }
 
 /// Says what is wrong with the format or the number of catalogs; empty if nothing is.
@@ -414,9 +457,12 @@ std::string find_misuse(const GraphCommand& command) {
     return fmt::format("expected one catalog, found {}; --diff compares two", catalogs);
   }
   if (catalogs == 0 && !command.state.script) return "expected a catalog";
-  if (is_together(command)) return find_misuse_of_together(command);
-  if (!command.is_diff && format == text_format)
-    return "--format text can only be used with --diff or --view together";
+  if (const TableView* const table = find_table(command)) {
+    return find_misuse_of_table(*table, command);
+  }
+  if (!command.is_diff && format == text_format) {
+    return "--format text can only be used with --diff or a --view that is a table";
+  }
   if (format == text_format || (command.is_diff && format == "json")) {
     if (command.drawing != DrawingOptions()) {
       return fmt::format("options of the drawing cannot be used with --diff --format {}", format);
@@ -458,20 +504,17 @@ int draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& mom
   return content ? write_output(output_of(command), *content) : exit_unusable;
 }
 
-int write_together(const GraphCommand& command) {
+int write_table(const TableView& table, const GraphCommand& command) {
   const std::unique_ptr<Drawable> drawable = read_drawable(command.catalogs.front());
   if (drawable == nullptr) return exit_unusable;
   if (drawable->compiled == nullptr) {
-    complain("catalog {} has errors, so it is not known which tasks can run together",
-             quote(drawable->graph.file));
+    complain("catalog {} has errors, so it is not known {}", quote(drawable->graph.file),
+             table.answer);
     return exit_unusable;
   }
-  const CompiledCatalog& catalog = *drawable->compiled;
   const std::string format = format_of(command);
   const Style style = output_of(command) == "-" ? style_for(stdout) : plain_style();
-  std::optional<std::string> content =
-      find_named(together_formats(), format)
-          ->write(catalog, make_together_table(catalog, {}), style);
+  std::optional<std::string> content = table.write(*drawable->compiled, format, style);
   const GraphFormat* const drawn = find_named(graph_formats(), format);
   if (drawn != nullptr && drawn->is_by_graphviz) content = run_graphviz(*content, format);
   return content ? write_output(output_of(command), *content) : exit_unusable;
@@ -517,7 +560,7 @@ int run_graph(const GraphCommand& command) {
   if (const std::string misuse = find_misuse(command); !misuse.empty())
     return usage_error("graph", misuse);
   if (!can_write(command)) return exit_unusable;
-  if (is_together(command)) return write_together(command);
+  if (const TableView* const table = find_table(command)) return write_table(*table, command);
   return command.is_diff ? draw_diff(command) : draw_catalog(command);
 }
 
@@ -526,9 +569,9 @@ int run_graph(const GraphCommand& command) {
 void add_graph_command(Program& program) {
   std::vector<std::string> formats = names_in(graph_formats());
   const std::string format_help = fmt::format(
-      "{}, with --diff and --view together also {} (default: by the suffix of OUT; "
-      "without one {})",
-      join_with_or(formats), text_format, formats.front());
+      "{}, with --diff and tables also {} (default: by the suffix of OUT; without "
+      "one {}, of a table {})",
+      join_with_or(formats), text_format, formats.front(), text_format);
   formats.emplace_back(text_format);
   const auto options = std::make_shared<GraphCommand>();
   Command& command = program.add_command(

@@ -479,6 +479,66 @@ class Page(unittest.TestCase):
             self.assertIn("restarts \u2013 its parameters changed", row)
         self.browser.screenshot(OUT / "restart.png")
 
+    def test_situations_and_waiting_tasks(self):
+        catalog = "tests/golden/cases/graph_situation/catalog.yaml"
+        script = write("situations.mission.yaml", {
+            "situation": {"GPS_SIGNAL": False},
+            "events": [
+                {"start": "TAKE_OFF", "priority": 2},
+                {"start": "FOLLOW_TARGET", "priority": 2, "at": 1},
+                {"situation": {"TARGET": "near"}, "at": 2},
+                {"finish": {"task": "TAKE_OFF"}, "at": 5},
+                {"situation": {"GPS_SIGNAL": True, "PID_CONTROL": False}, "at": 6},
+                {"finish": {"task": "TAKE_OFF"}},
+                {"situation": {"TARGET": "lost"}, "at": 7},
+                {"wait": 3}]})
+        made = solve("situations", catalog, script)
+        self.open(made)
+        self.events = self.run_of(made)["events"]
+        values = {"TARGET": "far", "GPS_SIGNAL": False}
+        lanes = self.browser.ask("[...document.querySelectorAll('.value-text')]"
+                                 ".map((text) => text.textContent)")
+        self.assertEqual(sorted(lanes), ["false", "far", "lost", "near", "true"])
+        labels = self.browser.ask("[...document.querySelectorAll('#labels .variable')]"
+                                  ".map((label) => label.textContent)")
+        self.assertEqual(labels, ["TARGET", "GPS_SIGNAL"])
+        waited = []
+        for number, event in enumerate(self.events, 1):
+            self.assert_shows(number)
+            values.update(event.get("variables", {}))
+            state = self.text("#state-body")
+            shown = f"TARGET is {values['TARGET']}, GPS_SIGNAL is {str(values['GPS_SIGNAL']).lower()}"
+            self.assertIn(shown, state)
+            is_waiting = "waiting reactive tasks" in state
+            self.assertEqual(is_waiting, event["outcome"] == "rejected" or
+                             (len(waited) > 0 and "HOVER" in event["queue"]), number)
+            if event["queue"].get("HOVER", 0) is None:
+                self.assertTrue(is_waiting, number)
+            self.assertEqual("RECOGNIZE_FAR" in state.partition("do not fit")[2],
+                             values["TARGET"] != "far", number)
+            row = self.text(f"#events > tbody > tr:nth-child({number})")
+            if "waits, and tries again" in row:
+                waited.append(number)
+                for reason in event["conflict"]:
+                    self.assertIn(reason["message"], row)
+            if event["origin"] == "situation":
+                self.assertEqual(self.text(f".mark[data-event='{number}'] text"), f"{number} s")
+                self.assertIn(f"{event['name']} does not fit: ", row)
+            if event.get("name", "") is None:
+                self.assertIn("finish task TAKE_OFF, which nothing performs", row)
+            self.browser.key("ArrowRight")
+        self.assertEqual(len(waited), 1)
+        self.assertEqual(self.events[waited[0] - 1]["origin"], "reactive")
+        self.assertEqual(self.browser.ask("document.querySelectorAll('#svg .waiting').length"), 1)
+        self.assertEqual(self.browser.ask("[...document.querySelectorAll('.off-text')]"
+                                          ".filter((text) => text.textContent === 'does not fit')"
+                                          ".length > 1"), True)
+        self.assertIn("reactive task that waits", self.text("#legend"))
+        self.browser.screenshot(OUT / "situations.png")
+        self.open(self.target)
+        self.assertNotIn("reactive task that waits", self.text("#legend"))
+        self.events = self.run_of(self.target)["events"]
+
     def choose_run(self, place):
         self.browser.ask(f"(() => {{ const run = document.querySelector('#run'); run.value = {place};"
                          "run.dispatchEvent(new Event('change')); })()")

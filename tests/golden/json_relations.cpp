@@ -1,5 +1,6 @@
 #include "golden/json_relations.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -29,6 +30,8 @@ class Relations {
       check_diff(report);
     } else if (schema == "cbc.together/1") {
       check_together(report);
+    } else if (schema == "cbc.situation/1") {
+      check_situation(report);
     } else {
       faults_.push_back("the schema is '" + schema + "'");
     }
@@ -63,6 +66,27 @@ class Relations {
          {"possible", "excluded", "excluded_indirectly", "excluded_by_situation", "undecided"}) {
       expect(report.at(together) == counts[together],
              std::string(together) + " is not their number");
+    }
+  }
+
+  /// The table by values and the conditions of the behaviors say the same.
+  void check_situation(const Json& report) {
+    for (const Json& variable : report.at("variables")) {
+      const std::string& name = variable.at("variable").get_ref<const std::string&>();
+      for (const Json& value : variable.at("values")) {
+        Json fit = Json::array();
+        Json do_not_fit = Json::array();
+        for (const Json& behavior : report.at("behaviors")) {
+          const Json& situation = behavior.at("situation");
+          if (!situation.contains(name)) continue;
+          const Json& values = situation.at(name);
+          const bool fits =
+              std::find(values.begin(), values.end(), value.at("value")) != values.end();
+          (fits ? fit : do_not_fit).push_back(behavior.at("behavior"));
+        }
+        expect(value.at("fit") == fit, "other behaviors fit in a value of " + name);
+        expect(value.at("do_not_fit") == do_not_fit, "others do not fit in a value of " + name);
+      }
     }
   }
 

@@ -99,6 +99,19 @@ TEST(JsonRelations, OfTogether) {
                  {R"([{"kind":"exclusive"}])", "[]"}});
 }
 
+TEST(JsonRelations, OfSituation) {
+  expect_faults(R"({"schema":"cbc.situation/1","variables":[{"variable":"V","values":[)"
+                R"({"value":"x","fit":["a"],"do_not_fit":["b"]},)"
+                R"({"value":true,"fit":["b"],"do_not_fit":["a"]}]}],"behaviors":[)"
+                R"({"behavior":"a","situation":{"V":["x"]}},)"
+                R"({"behavior":"b","situation":{"V":[true]}}]})",
+                {{R"("value":"x")", R"("value":"y")"},
+                 {R"("fit":["a"])", R"("fit":[])"},
+                 {R"("do_not_fit":["a"])", R"("do_not_fit":["c"])"},
+                 {R"([true])", "[false]"},
+                 {R"({"V":["x"]})", "{}"}});
+}
+
 TEST(JsonRelations, OfDiff) {
   expect_faults(R"({"schema":"cbc.diff/1","changes":[)"
                 R"({"kind":"added","subject":"task","task":"A",)"

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,6 +17,7 @@
 #include "graph/hostile_catalog.h"
 #include "graph/samples.h"
 #include "lint/together.h"
+#include "report/situation_report.h"
 #include "report/together_report.h"
 #include "support/system.h"
 #include "yaml/document.h"
@@ -119,6 +121,40 @@ TEST(Dot, OutputIsAPicture) {
   const Filtered picture = run_filter({"dot", "-Tsvg"}, random_samples(1).front().dot);
   ASSERT_TRUE(picture.is_done) << picture.error_output;
   EXPECT_NE(picture.output.find("<svg"), std::string::npos);
+}
+
+TEST(Dot, ReadsTablesOfSituationsWithHostileNames) {
+  if (!has_graphviz()) GTEST_SKIP() << "there is no Graphviz (Debian: apt install graphviz)";
+  std::size_t names = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Diagnostics diagnostics;
+    const auto document = yaml::parse(hostile_catalog(seed).text, "a<b>&.yaml", diagnostics);
+    ASSERT_NE(document, nullptr);
+    const CatalogReading reading = understand_catalog(*document, diagnostics);
+    if (diagnostics.has_errors()) continue;
+    const CompiledCatalog catalog = compile(reading.catalog);
+    const Filtered picture = run_filter({"dot", "-Tjson"}, situation_dot(catalog));
+    ASSERT_TRUE(picture.is_done) << picture.error_output;
+    EXPECT_EQ(picture.error_output, "");
+    const std::string text = text_of(json::parse(picture.output).at("objects").at(0));
+    const auto expect = [&](std::string_view name) {
+      const std::string label = draw::label_of(name);
+      EXPECT_NE(text.find(label), std::string::npos) << label << " in " << text;
+      ++names;
+    };
+    const bool has_table = !catalog.fitting_values.empty();
+    for (std::uint32_t variable = 0; has_table && variable < catalog.variables.size(); ++variable) {
+      expect(catalog.name_of_variable(variable));
+      for (std::uint32_t value = 0; value < catalog.variables[variable].value_count; ++value) {
+        expect(catalog.name_of_value({variable, value}));
+      }
+    }
+    for (const FittingValue& fitting : catalog.fitting_values) {
+      expect(catalog.name_of_behavior(fitting.behavior));
+    }
+  }
+  EXPECT_GT(names, 100U);
 }
 
 }  // namespace

@@ -153,6 +153,11 @@ const std::vector<Name>& hostile_names() {
 }
 
 class Generator {
+  struct Variable {
+    Name name;
+    std::vector<Name> values;  // empty: declared without values
+  };
+
  public:
   explicit Generator(std::uint64_t seed)
       : random_(seed), is_bad_(random_.percent(50)), names_(hostile_names()) {
@@ -162,12 +167,14 @@ class Generator {
   HostileCatalog run() && {
     const std::size_t tasks = 1 + random_.below(7);
     for (std::size_t i = 0; i < tasks; ++i) add_task();
+    for (std::size_t more = random_.below(3); more > 0; --more) add_variable();
     for (std::size_t i = 0; i < tasks; ++i) add_behavior(i);
     for (std::size_t more = random_.below(5); more > 0; --more) add_behavior(random_.below(tasks));
     add_exclusivity();
     if (is_bad_) add_undefined_task();
     catalog_.edges += pairs_.size();
     catalog_.text = nlohmann::ordered_json{
+        {"situation", situation_},
         {"tasks", tasks_},
         {"behaviors", behaviors_},
         {"exclusivity_constraints",
@@ -180,6 +187,43 @@ class Generator {
     Name name = names_.back();
     names_.pop_back();
     return name;
+  }
+
+  /// One that a condition can be read with.
+  Name draw_visible_name() {
+    Name name = draw_name();
+    while (name.shown.starts_with("' ")) name = draw_name();
+    return name;
+  }
+
+  void add_variable() {
+    Variable variable{draw_visible_name(), {}};
+    nlohmann::ordered_json entry{{"variable", variable.name.text}};
+    if (random_.percent(70)) {
+      for (int i = 0; i < 3; ++i) {
+        variable.values.push_back(draw_visible_name());
+        entry["values"].push_back(variable.values.back().text);
+      }
+    }
+    situation_.push_back(std::move(entry));
+    variables_.push_back(std::move(variable));
+  }
+
+  /// Adds a condition on a variable to a behavior, and returns what is shown of it.
+  std::string add_condition(const Variable& variable, nlohmann::ordered_json& behavior) {
+    nlohmann::ordered_json& condition = behavior["situation"][variable.name.text];
+    if (variable.values.empty()) {
+      condition = random_.percent(50);
+      return (condition.get<bool>() ? "" : "not ") + variable.name.shown;
+    }
+    const std::size_t first = random_.below(3);
+    condition.push_back(variable.values[first].text);
+    std::string shown = variable.name.shown + ": " + variable.values[first].shown;
+    if (first < 2 && random_.percent(50)) {
+      condition.push_back(variable.values[2].text);
+      shown += ", " + variable.values[2].shown;
+    }
+    return shown;
   }
 
   void add_task() {
@@ -211,8 +255,12 @@ class Generator {
       ++catalog_.edges;
     }
     behavior["requires"] = std::move(required);
+    std::string label = name.shown;
+    for (const Variable& variable : variables_) {
+      if (random_.percent(50)) label += add_condition(variable, behavior);
+    }
     behaviors_.push_back(std::move(behavior));
-    catalog_.labels.push_back(name.shown);
+    catalog_.labels.push_back(std::move(label));
     ++catalog_.edges;
   }
 
@@ -242,6 +290,8 @@ class Generator {
   bool is_bad_;
   std::vector<Name> names_;
   std::vector<std::string> task_names_;
+  std::vector<Variable> variables_;
+  nlohmann::ordered_json situation_ = nlohmann::ordered_json::array();
   nlohmann::ordered_json tasks_ = nlohmann::ordered_json::array();
   nlohmann::ordered_json behaviors_ = nlohmann::ordered_json::array();
   nlohmann::ordered_json exclusivity_ = nlohmann::ordered_json::array();

@@ -141,6 +141,7 @@ const least = {
   events: 500,
   graph: 20,
   lint: 5,
+  situation: 3,
   solve: 60,
   state: 40,
   sweep: 10,

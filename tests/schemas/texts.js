@@ -62,6 +62,7 @@ class Runs {
     }
     yield* this.labelled('graph', catalog, '--format', 'json', '--view', 'together');
     yield* this.labelled('lint', catalog, '--format', 'json', '--summary');
+    yield* this.labelled('graph', catalog, '--format', 'json', '--view', 'situation');
   }
 
   /** A state of a mission, and what the catalog has in common with another one. */

@@ -69,6 +69,37 @@ TEST(CatalogDiff, NamesWhatChanged) {
       "+ LAND excludes SEE\n");
 }
 
+TEST(CatalogDiff, HasSituationVariablesAndConditions) {
+  const std::string before =
+      "situation:\n"
+      "- {variable: TARGET, values: [far, near, 'by, the way']}\n"
+      "- {variable: GPS}\n"
+      "behaviors:\n"
+      "- {behavior: SEE, task: SEE, situation: {TARGET: [far, near], GPS: true}}\n"
+      "- {behavior: HEAR, task: HEAR, situation: {TARGET: near, GPS: false}}\n";
+  const auto text_after = [&](std::string_view old, std::string_view by) {
+    std::string after = before;
+    after.replace(after.find(old), old.size(), by);
+    return text_of(before, after);
+  };
+  EXPECT_EQ(text_after("[far, near],", "[near, far],"), "");
+  EXPECT_EQ(text_after("[far, near, 'by, the way']", "[far, 'by, the way', near]"), "");
+  EXPECT_EQ(text_after("[far, near, 'by, the way']", "[near, far, 'by, the way']"),
+            "~ situation variable TARGET: initial value far -> near\n");
+  EXPECT_EQ(text_after(", 'by, the way'", ""),
+            "~ situation variable TARGET: values ['by, the way', far, near] -> [far, near]\n");
+  EXPECT_EQ(text_after("variable: GPS", "variable: GPS, values: ['true', 'false']"),
+            "~ behavior HEAR: situation GPS false -> [false]\n"
+            "~ behavior SEE: situation GPS true -> [true]\n"
+            "~ situation variable GPS: values none -> [false, true]\n");
+  EXPECT_EQ(text_after("- {variable: GPS}\n", "- {variable: GPS}\n- {variable: WIND}\n"),
+            "+ situation variable WIND\n");
+  EXPECT_EQ(text_after("[far, near],", "far,"),
+            "~ behavior SEE: situation TARGET [far, near] -> [far]\n");
+  EXPECT_EQ(text_after(", situation: {TARGET: near, GPS: false}", ""),
+            "~ behavior HEAR: situation GPS false -> none, situation TARGET [near] -> none\n");
+}
+
 TEST(CatalogDiff, WordsAreASetAndTwoNumbersARange) {
   const std::string before = replaced("[0, 30]", "[LEFT, RIGHT]");
   EXPECT_EQ(text_of(before, replaced("[0, 30]", "[RIGHT, LEFT]")), "");

@@ -65,7 +65,8 @@ exclusivity_constraints:
             std::string(head) +
                 R"("tasks":3,"behaviors":3,"levels":2,)"
                 R"("constraints":{"exclusive_pairs":1,"requirements":1,"task_minimums":1,)"
-                R"("total":3},"search_space":"6","groups":[{"group":0,"levels":2,)"
+                R"("total":3},"search_space":"6","variables":[],)"
+                R"("groups":[{"group":0,"levels":2,)"
                 R"("constraints":{"exclusive_pairs":1,"requirements":1,"task_minimums":1,)"
                 R"("total":3},"search_space":"6","tasks":[)"
                 R"({"task":"HOVER","level":1,"execution_goal":"achieve_goal",)"
@@ -84,11 +85,28 @@ exclusivity_constraints:
                 R"("start_on_request":true,"reactive_start":false,"timeout":null,)"
                 R"("minimum_performance":null,"line":null,"parameters":[],"behaviors":[]}],)"
                 R"("behaviors":[{"behavior":"PID","level":0,"package":"","timeout":2.5,)"
+                R"("situation":{},)"
                 R"("requires":[]},{"behavior":"MPC","level":1,"package":"control",)"
-                R"("timeout":null,"requires":[{"task":"LOCALIZE",)"
+                R"("timeout":null,"situation":{},"requires":[{"task":"LOCALIZE",)"
                 R"("minimum_performance":80.25,"line":9}]},)"
-                R"({"behavior":"GPS","level":0,"package":"","timeout":null,"requires":[]}],)"
+                R"({"behavior":"GPS","level":0,"package":"","timeout":null,)"
+                R"("situation":{},"requires":[]}],)"
                 R"("exclusivity":[{"tasks":["HOVER","LAND"],"line":25}]}]})");
+}
+
+TEST(CatalogJson, HasSituationVariablesAndConditions) {
+  const Json dump = Json::parse(report(test::compile_text(R"(
+situation:
+- {variable: TARGET, values: [far, near, lost]}
+- {variable: GPS}
+behaviors:
+- {behavior: SEE, task: LOOK, situation: {GPS: false, TARGET: [near, far]}}
+)")));
+  EXPECT_EQ(dump["variables"], Json::parse(R"([
+    {"variable": "TARGET", "values": ["far", "near", "lost"]},
+    {"variable": "GPS", "values": [true, false]}])"));
+  EXPECT_EQ(dump["groups"][0]["behaviors"][0]["situation"],
+            Json::parse(R"({"TARGET": ["far", "near"], "GPS": [false]})"));
 }
 
 TEST(CatalogJson, ReportsAnEmptyCatalog) {
@@ -96,7 +114,7 @@ TEST(CatalogJson, ReportsAnEmptyCatalog) {
             std::string(head) +
                 R"("tasks":0,"behaviors":0,"levels":0,)"
                 R"("constraints":{"exclusive_pairs":0,"requirements":0,"task_minimums":0,)"
-                R"("total":0},"search_space":"1","groups":[]})");
+                R"("total":0},"search_space":"1","variables":[],"groups":[]})");
 }
 
 /// All that the catalog says, found in the report, by name.

@@ -67,6 +67,7 @@ exclusivity_constraints:
                 "task minimums: 1\n"
                 "constraints: 5\n"
                 "search space: 48\n"
+                "situation variables: 0\n"
                 "groups: 2\n"
                 "\n"
                 "group 0\n"
@@ -144,6 +145,28 @@ exclusivity_constraints:
                 "  mutually_exclusive: LAND, BLINK\n");
 }
 
+TEST(CatalogText, ListsSituationVariablesAndConditions) {
+  const std::string text = list(R"(
+situation:
+- {variable: TARGET, values: [far, near, lost]}
+- {variable: GPS}
+behaviors:
+- {behavior: SEE, task: LOOK, situation: {GPS: false, TARGET: [near, far]}}
+)");
+  EXPECT_NE(text.find("situation variables: 2\n"
+                      "  variable TARGET: far, near, lost\n"
+                      "  variable GPS\n"
+                      "groups: 1\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("  behavior SEE\n"
+                      "    level: 0\n"
+                      "    situation: TARGET: far, near\n"
+                      "    situation: not GPS\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(CatalogText, ListsABehaviorOfSeveralTasksOnce) {
   const std::string text = list(R"(
 behaviors:
@@ -166,6 +189,7 @@ TEST(CatalogText, ListsAnEmptyCatalog) {
                                        "task minimums: 0\n"
                                        "constraints: 0\n"
                                        "search space: 1\n"
+                                       "situation variables: 0\n"
                                        "groups: 0\n");
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -161,11 +162,14 @@ TEST(CatalogGraph, IsTheSameFromBothForms) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     oracle::Random random(seed);
     const std::size_t tasks = 1 + random.below(9);
-    std::string text = "behaviors:\n";
+    std::string text =
+        "situation:\n- {variable: V, values: [x, y, z]}\n- {variable: W}\nbehaviors:\n";
+    const char* const conditions[] = {"", "V: z", "W: true, V: [y, x]", "W: [false, true]"};
     for (std::size_t i = 0; i < tasks + random.below(6); ++i) {
       const std::size_t task = i < tasks ? i : random.below(tasks);
       text += "- {behavior: b" + std::to_string(i) + ", tasks: [{task: t" + std::to_string(task) +
-              "}], suitability: " + std::to_string(random.below(101)) + ", requires: [";
+              "}], suitability: " + std::to_string(random.below(101)) + ", situation: {" +
+              conditions[random.below(std::size(conditions))] + "}, requires: [";
       for (std::size_t more = random.below(4); more > 0 && task + 1 < tasks; --more) {
         text += "{task: t" + std::to_string(task + 1 + random.below(tasks - task - 1)) +
                 ", minimum_performance: " + std::to_string(random.below(60)) + "}, ";
@@ -214,6 +218,23 @@ TEST(CatalogGraph, CyclesAreFaultyAndWhatHangsOnThemIsNot) {
   EXPECT_EQ(faults(graph_of_reading(*subject)),
             (Faults{"task:A", "task:B", "behavior:a", "behavior:b", "task:A -> behavior:a",
                     "task:B -> behavior:b", "behavior:a -> task:B", "behavior:b -> task:A"}));
+}
+
+TEST(CatalogGraph, BadConditionsAreFaulty) {
+  const auto subject = understand(
+      "situation:\n"
+      "- {variable: V, values: [x, y]}\n"
+      "behaviors:\n"
+      "- {behavior: a, task: A, situation: {U: x}}\n"
+      "- behavior: b\n"
+      "  task: A\n"
+      "  situation:\n"
+      "    V:\n"
+      "    - x\n"
+      "    - z\n"
+      "- {behavior: c, task: A, situation: {V: []}}\n"
+      "- {behavior: d, task: A, situation: {V: y}}\n");
+  EXPECT_EQ(faults(graph_of_reading(*subject)), (Faults{"behavior:a", "behavior:b", "behavior:c"}));
 }
 
 TEST(CatalogGraph, UndefinedTasksAreDrawn) {

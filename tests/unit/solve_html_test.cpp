@@ -106,12 +106,30 @@ TEST(SolveHtml, HasTheCatalogInItsOrder) {
   EXPECT_EQ(catalog["tasks"], json::parse(R"(["GO", "LOCATE", "STAY"])"));
   EXPECT_EQ(catalog["behaviors"],
             json::parse(R"([{"name": "go", "performs": [{"task": "GO", "suitability": 62.5}],
-                             "requires": ["LOCATE"]},
+                             "requires": ["LOCATE"], "situation": {}},
                             {"name": "gps", "performs": [{"task": "LOCATE", "suitability": 80.0},
                                                          {"task": "STAY", "suitability": 100.0}],
-                             "requires": []}])"));
+                             "requires": [], "situation": {}}])"));
+  EXPECT_EQ(catalog["variables"], json::array());
   EXPECT_EQ(catalog["exclusive"], json::parse(R"([["GO", "STAY"]])"));
   EXPECT_EQ(made.data["runs"], json::parse(R"([{"catalog": 0, "situation": {"gps": true}}])"));
+}
+
+TEST(SolveHtml, HasSituationVariablesAndConditions) {
+  const Made made = make(R"(
+situation:
+- {variable: TARGET, values: [far, near]}
+- {variable: LIGHT}
+behaviors:
+- {behavior: see, task: LOOK, situation: {TARGET: near, LIGHT: true}}
+)",
+                         "{situation: {TARGET: near, see: false}, events: [start: LOOK]}");
+  const json& catalog = made.data["catalogs"][0];
+  EXPECT_EQ(catalog["variables"], json::parse(R"([{"variable": "TARGET", "values": ["far", "near"]},
+                                                  {"variable": "LIGHT", "values": [true, false]}])"));
+  EXPECT_EQ(catalog["behaviors"][0]["situation"],
+            json::parse(R"({"TARGET": ["near"], "LIGHT": [true]})"));
+  EXPECT_EQ(made.data["runs"][0]["situation"], json::parse(R"({"see": false, "TARGET": "near"})"));
 }
 
 TEST(SolveHtml, KeepsHostileNamesInTheData) {

@@ -49,8 +49,8 @@ Script read(std::string_view text, const CompiledCatalog& catalog) {
 /// A run, up to the state that is wanted.
 class Subject {
  public:
-  Subject(std::string_view script, const WantedState& wanted)
-      : catalog_(test::compile_text(catalog_text)),
+  Subject(std::string_view script, const WantedState& wanted, const char* catalog = catalog_text)
+      : catalog_(test::compile_text(catalog)),
         script_(read(script, catalog_)),
         recorder_(catalog_, script_, wanted),
         graph_(draw::to_graph(catalog_)) {
@@ -206,6 +206,40 @@ TEST(StateMarks, ActiveBehaviorsMayBeUnavailableAndFaulty) {
             "go1: active, unavailable, faulty\n"
             "battery: active\n"
             "watch: unavailable, unavailable\n");
+}
+
+TEST(StateMarks, BehaviorsThatDoNotFitSayWhy) {
+  constexpr const char* with_variables = R"(
+situation:
+- {variable: TARGET, values: [far, near]}
+- {variable: LIGHT}
+behaviors:
+- {behavior: see, task: LOOK, situation: {LIGHT: true}}
+- {behavior: reach, task: TOUCH, situation: {TARGET: near}}
+- {behavior: hear, task: LISTEN, situation: {TARGET: near}}
+)";
+  constexpr const char* script = R"(
+situation: {hear: false}
+events:
+- start: LOOK
+- situation: {LIGHT: false}
+- situation: {TARGET: near}
+)";
+  const Subject before(script, {0, {}}, with_variables);
+  EXPECT_EQ(before.nodes(),
+            "reach: unavailable, does not fit: TARGET is far\n"
+            "hear: unavailable, unavailable\n");
+  EXPECT_EQ(before.caption(), "s.yaml, before the first event\nTARGET is far, LIGHT is true\n");
+  const Subject after(script, {3, {}}, with_variables);  // the automatic finish
+  EXPECT_EQ(after.nodes(),
+            "LOOK: stopped, stopped\n"
+            "see: stopped, finished, does not fit: LIGHT is false\n"
+            "reach: unavailable, does not fit: TARGET is far\n"
+            "hear: unavailable, unavailable\n");
+  const Subject last(script, {4, {}}, with_variables);
+  EXPECT_EQ(last.nodes(),
+            "see: unavailable, does not fit: LIGHT is false\n"
+            "hear: unavailable, unavailable\n");
 }
 
 TEST(StateMarks, FailedActivationsAreNumberedToo) {

@@ -89,6 +89,7 @@ struct Behavior {
   std::vector<Performance> performs;      ///< at least one; tasks differ
   std::vector<Requirement> requirements;  ///< in the order of the file; a task may stand twice
   std::vector<Condition> situation;       ///< one for each variable that it names
+  std::optional<Range> situation_range;   ///< from the first to the last, if there are any
 };
 
 /// Tasks of which at most one runs at a time.

@@ -22,6 +22,20 @@
 namespace cbc {
 namespace {
 
+/// From the beginning of the conditions of a behavior to the end of the last one.
+Range range_of_conditions(const yaml::Node& conditions) {
+  Range range = conditions.range;
+  const auto extend = [&range](const yaml::Node& part) {
+    range.end = std::max(range.end, part.range.end);
+  };
+  for (const auto& [key, value] : conditions.entries) {
+    extend(*key);
+    extend(*value);
+    for (const yaml::Node* item : value->items) extend(*item);
+  }
+  return range;
+}
+
 struct Flags {
   bool start_on_request = true;
   bool reactive_start = false;
@@ -304,6 +318,8 @@ class Resolver {
     }
     read_situation(
         [&] { behavior.situation = situation_.read_conditions(entry.situation, entry.name.text); });
+    if (entry.situation != nullptr)
+      behavior.situation_range = range_of_conditions(*entry.situation);
     catalog_.behaviors.push_back(std::move(behavior));
   }
 

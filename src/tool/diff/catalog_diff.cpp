@@ -14,6 +14,7 @@
 
 #include "base/text.h"
 #include "catalog/allowed_values.h"
+#include "catalog/conditions.h"
 
 namespace cbc {
 namespace {
@@ -271,10 +272,48 @@ Attributes attributes_of_task(const CompiledCatalog& catalog, std::uint32_t inde
   return attributes;
 }
 
+/// Values of a situation variable, whose order does not count: "[far, near]".
+std::string list_values(std::vector<std::string_view> values) {
+  std::sort(values.begin(), values.end());
+  std::string text;
+  for (const std::string_view value : values) {
+    text += (text.empty() ? "" : ", ") + spell(std::string(value));
+  }
+  return "[" + text + "]";
+}
+
+/// True or false for a variable without values of its own.
+AttributeValue value_of(const NamedCondition& condition) {
+  const bool is_truth = condition.is_boolean && condition.values.size() == 1;
+  if (is_truth) return condition.values.front() == "true";
+  return list_values(condition.values);
+}
+
 Attributes attributes_of_behavior(const CompiledCatalog& catalog, std::uint32_t index) {
   const std::string_view package = catalog.texts[catalog.behavior_packages[index]];
-  return {{"package", package.empty() ? AttributeValue() : AttributeValue(std::string(package))},
-          {"timeout", unless_zero(catalog.behaviors[catalog.behavior_ids[index]].timeout)}};
+  const BehaviorId id = catalog.behavior_ids[index];
+  Attributes attributes{
+      {"package", package.empty() ? AttributeValue() : AttributeValue(std::string(package))},
+      {"timeout", unless_zero(catalog.behaviors[id].timeout)}};
+  for (const NamedCondition& condition : conditions_of(catalog, id)) {
+    attributes.push_back({"situation " + std::string(condition.variable), value_of(condition)});
+  }
+  std::sort(attributes.begin(), attributes.end(),
+            [](const Attribute& a, const Attribute& b) { return a.name < b.name; });
+  return attributes;
+}
+
+/// The order of the values does not count, apart from the first one.
+Attributes attributes_of_variable(const CompiledCatalog& catalog, std::uint32_t index) {
+  const CompiledVariable& variable = catalog.variables[index];
+  std::vector<std::string_view> values;
+  for (std::uint32_t value = 0; value < variable.value_count; ++value) {
+    values.push_back(catalog.name_of_value({index, value}));
+  }
+  const std::string initial(values.front());
+  const bool has_own = variable.is_boolean == 0;
+  return {{"initial value", initial},
+          {"values", has_own ? AttributeValue(list_values(std::move(values))) : AttributeValue()}};
 }
 
 std::vector<Fact> facts(const CompiledCatalog& catalog, ChangeSubject subject) {
@@ -310,6 +349,12 @@ std::vector<Fact> facts(const CompiledCatalog& catalog, ChangeSubject subject) {
                catalog.name_of_task(requirement.task),
                {{"minimum_performance", unless_zero(requirement.minimum_performance)}}});
         }
+      }
+      break;
+    case ChangeSubject::variable:
+      for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+        result.push_back(
+            {catalog.name_of_variable(variable), {}, attributes_of_variable(catalog, variable)});
       }
       break;
     case ChangeSubject::exclusion:
@@ -357,8 +402,17 @@ CatalogChange to_change(ChangeKind kind, ChangeSubject subject, const Fact& fact
   CatalogChange change;
   change.kind = kind;
   change.subject = subject;
-  (subject == ChangeSubject::task ? change.task : change.behavior) = fact.first;
-  if (subject != ChangeSubject::task) change.task = fact.second;
+  switch (subject) {
+    case ChangeSubject::task:
+      change.task = fact.first;
+      break;
+    case ChangeSubject::variable:
+      change.variable = fact.first;
+      break;
+    default:
+      change.behavior = fact.first;
+      change.task = fact.second;
+  }
   change.attributes = std::move(attributes);
   return change;
 }
@@ -389,15 +443,16 @@ std::string_view name_of(ChangeKind kind) {
 }
 
 std::string_view name_of(ChangeSubject subject) {
-  constexpr std::array<std::string_view, 5> names{"task", "behavior", "performs", "requirement",
-                                                  "exclusion"};
+  constexpr std::array<std::string_view, 6> names{"task",        "behavior", "performs",
+                                                  "requirement", "variable", "exclusion"};
   return names[static_cast<std::size_t>(subject)];
 }
 
 CatalogDiff compare_catalogs(const CompiledCatalog& before, const CompiledCatalog& after) {
   CatalogDiff diff;
-  for (const ChangeSubject subject : {ChangeSubject::task, ChangeSubject::behavior,
-                                      ChangeSubject::performs, ChangeSubject::requirement}) {
+  for (const ChangeSubject subject :
+       {ChangeSubject::task, ChangeSubject::behavior, ChangeSubject::performs,
+        ChangeSubject::requirement, ChangeSubject::variable}) {
     compare_facts(subject, facts(before, subject), facts(after, subject), diff.changes);
   }
   ExclusionDiff(before, after).run(diff);

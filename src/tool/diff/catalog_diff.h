@@ -17,7 +17,9 @@ using AttributeValue = std::variant<std::monostate, bool, Millionths, Microsecon
 
 /// An attribute that differs between the catalogs, or that only one of them has.
 struct AttributeChange {
-  std::string name;  ///< as the catalog spells it; "parameter NAME" for one of a task
+  /// As the catalog spells it; "parameter NAME" for one of a task, "situation NAME" for the values
+  /// of a situation variable in which a behavior fits.
+  std::string name;
   AttributeValue before;
   AttributeValue after;
 };
@@ -30,6 +32,7 @@ struct CatalogChange {
     behavior,     ///< `behavior`
     performs,     ///< `behavior` performs `task`; attribute "suitability"
     requirement,  ///< `behavior` requires `task`; attribute "minimum_performance"
+    variable,     ///< situation variable `variable`
     exclusion     ///< `task` excludes `other_task`, whose name comes later
   };
   Kind kind = Kind::changed;
@@ -37,6 +40,7 @@ struct CatalogChange {
   std::string task;
   std::string other_task;
   std::string behavior;
+  std::string variable;
   /// Of `changed`, at least one; otherwise all that are set: `before` of removed, `after` of added.
   std::vector<AttributeChange> attributes;
 };

@@ -120,6 +120,7 @@ void add_behavior(const CompiledCatalog& catalog, std::uint32_t behavior, Catalo
   to.name = catalog.behavior_names[behavior];
   to.package = catalog.texts[catalog.behavior_packages[behavior]];
   to.group = catalog.group_of(id);
+  to.situation = conditions_of(catalog, id);
   const auto by_task = [](const auto& a, const auto& b) { return a.task < b.task; };
   const auto first_performance = static_cast<std::ptrdiff_t>(graph.performances.size());
   for (const ValueId value : catalog.performs[id]) {
@@ -212,6 +213,11 @@ class ReadingGraph {
 
  private:
   [[nodiscard]] bool is_faulty(const Range& range) const { return faulty_.contains(range); }
+  [[nodiscard]] bool has_fault_within(const Range& range) const {
+    return std::any_of(faulty_.begin(), faulty_.end(), [&](const Range& fault) {
+      return range.begin <= fault.begin && fault.end <= range.end;
+    });
+  }
   static Mark mark_of(bool is_faulty) { return is_faulty ? Mark::faulty : Mark::plain; }
 
   void add_tasks() {
@@ -255,7 +261,9 @@ class ReadingGraph {
     CatalogGraph::Behavior& behavior = graph_.behaviors.emplace_back();
     behavior.name = from.name;
     behavior.package = from.package;
-    behavior.mark = mark_of(lacks_something || is_faulty(from.range));
+    behavior.situation = conditions_of(catalog_, from);
+    behavior.mark = mark_of(lacks_something || is_faulty(from.range) ||
+                            (from.situation_range && has_fault_within(*from.situation_range)));
     std::map<std::uint32_t, CatalogGraph::Performance> performances;
     for (const Performance& performance : from.performs) {
       const bool is_wrong =

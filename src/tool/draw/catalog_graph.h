@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "catalog/conditions.h"
 #include "catalog/reader.h"
 #include "cbc/units.h"
 #include "compile/compile.h"
@@ -72,7 +73,8 @@ struct CatalogGraph {
   struct Behavior {
     std::string_view name;  ///< may be missing in a bad catalog
     std::string_view package;
-    std::uint32_t group = none;  ///< none: it has no task
+    std::uint32_t group = none;             ///< none: it has no task
+    std::vector<NamedCondition> situation;  ///< in which it fits
     Mark mark = Mark::plain;
     std::vector<std::string> notes;
   };
@@ -142,7 +144,13 @@ struct RunState {
   std::vector<RunningTask> before;        ///< what ran before the event
   std::optional<std::uint32_t> finished;  ///< the active behavior whose end the event reports
   std::vector<Change> changes;            ///< in order
-  std::vector<std::uint32_t> unavailable;
+  /// A behavior that does not fit, since a situation variable has a value that it does not name.
+  struct Misfit {
+    std::uint32_t behavior = 0;
+    std::string why;  ///< "LIGHT is dark"
+  };
+  std::vector<std::uint32_t> unavailable;  ///< fitting or not
+  std::vector<Misfit> misfits;             ///< the others that do not fit
   std::vector<std::uint32_t> faulty;
 };
 

@@ -54,10 +54,16 @@ std::string with_sign(Mark mark, std::string label) {
 
 std::vector<std::string> caption_of(const Moment& moment) {
   const std::string script = label_of(std::string_view(moment.script));
-  if (moment.index == 0) return {script + ", before the first event"};
-  return {script + ", after event " + std::to_string(moment.index) + " at " +
-              format_decimal(moment.time, 6) + " s",
-          moment.event};
+  std::vector<std::string> lines;
+  if (moment.index == 0) {
+    lines.push_back(script + ", before the first event");
+  } else {
+    lines.push_back(script + ", after event " + std::to_string(moment.index) + " at " +
+                    format_decimal(moment.time, 6) + " s");
+    lines.push_back(moment.event);
+  }
+  if (!moment.situation.empty()) lines.push_back(moment.situation);
+  return lines;
 }
 
 std::string label_of(const CatalogGraph::Performance& performance) {
@@ -142,7 +148,7 @@ class Legend {
 
   /// Empty if a mark needs no explanation.
   [[nodiscard]] std::string describe(Mark mark) const {
-    if (mark == Mark::unavailable) return "unavailable or faulty";
+    if (mark == Mark::unavailable) return "cannot be activated";
     if (mark == Mark::faint && diagram_.moment) return "inactive";
     return std::string(draw::name_of(mark));
   }

@@ -33,6 +33,7 @@ struct Node {
   std::string id;         ///< unique, from the name
   std::string_view name;  ///< as in the catalog; may be empty
   std::string_view package;
+  std::vector<NamedCondition> situation;  ///< of a behavior: in which it fits
   std::uint32_t group = none;
   Millionths minimum_performance = 0;    ///< 0: none
   std::optional<std::int32_t> priority;  ///< of a task: of its request, in a state
@@ -66,6 +67,7 @@ struct Moment {
   std::uint64_t index = 0;  ///< of the last event; 0: none yet
   Microseconds time = 0;    ///< of this event
   std::string event;        ///< the event and its outcome: "start HOVER, priority 2: accepted"
+  std::string situation;    ///< the values of all variables: "TARGET is near, GPS is true"
 };
 
 struct Diagram {
@@ -144,7 +146,8 @@ void add_legend(Diagram& diagram);
 [[nodiscard]] std::string label_of(const CatalogGraph::Performance& performance);
 [[nodiscard]] std::string label_of(const CatalogGraph::Requirement& requirement);
 
-/// The lines above a picture of a state: "mission.yaml, after event 3 at 4.5 s", and the event.
+/// The lines above a picture of a state: "mission.yaml, after event 3 at 4.5 s", the event, and the
+/// situation.
 [[nodiscard]] std::vector<std::string> caption_of(const Moment& moment);
 
 /// The label of a line with a sign for its mark: "+ 90 %" if it is added or started, "− 90 %" if it

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/text.h"
 #include "diff/catalog_diff.h"
 #include "draw/catalog_graph.h"
 
@@ -97,16 +98,17 @@ class StateMarker {
       const bool is_new = change.is_activation && change.is_successful && !change.is_undoing;
       if (is_new && behavior.mark == Mark::active) behavior.mark = Mark::started;
     }
-    note_hindrance(state_.unavailable, "unavailable");
-    note_hindrance(state_.faulty, "faulty");
+    for (const std::uint32_t place : state_.unavailable) note_hindrance(place, "unavailable");
+    for (const RunState::Misfit& misfit : state_.misfits) {
+      note_hindrance(misfit.behavior, "does not fit: " + misfit.why);
+    }
+    for (const std::uint32_t place : state_.faulty) note_hindrance(place, "faulty");
   }
 
-  void note_hindrance(const std::vector<std::uint32_t>& behaviors, const char* note) {
-    for (const std::uint32_t place : behaviors) {
-      CatalogGraph::Behavior& behavior = graph_.behaviors[place];
-      behavior.notes.emplace_back(note);
-      if (behavior.mark == Mark::faint) behavior.mark = Mark::unavailable;
-    }
+  void note_hindrance(std::uint32_t place, std::string note) {
+    CatalogGraph::Behavior& behavior = graph_.behaviors[place];
+    behavior.notes.push_back(std::move(note));
+    if (behavior.mark == Mark::faint) behavior.mark = Mark::unavailable;
   }
 
   void mark_links() {
@@ -380,6 +382,9 @@ class Union {
         case ChangeSubject::requirement:
           mark_requirement(change);
           break;
+        case ChangeSubject::variable:
+          mark_variable(change);
+          break;
         case ChangeSubject::exclusion:
           break;  // marked together, by ExclusionMarker
       }
@@ -439,10 +444,28 @@ class Union {
       CatalogGraph::Behavior& removed = graph_.behaviors.emplace_back();
       removed.name = change.behavior;
       removed.package = package_before(change);
+      const std::uint32_t index = before_.find_behavior(change.behavior).value();
+      removed.situation = conditions_of(before_, before_.behavior_ids[index]);
     }
     CatalogGraph::Behavior& behavior = graph_.behaviors[behaviors_.at(change.behavior)];
     behavior.mark = mark_of(change.kind);
     behavior.notes = notes_of(change);
+  }
+
+  /// Variables have no node: the change of one is noted at the behaviors that name it. (Where it
+  /// was added or removed, their conditions have changed.)
+  void mark_variable(const CatalogChange& change) {
+    if (change.kind != ChangeKind::changed) return;
+    for (CatalogGraph::Behavior& behavior : graph_.behaviors) {
+      const bool names_it = std::any_of(
+          behavior.situation.begin(), behavior.situation.end(),
+          [&](const NamedCondition& condition) { return condition.variable == change.variable; });
+      if (!names_it || behavior.mark == Mark::removed || behavior.mark == Mark::added) continue;
+      behavior.mark = Mark::changed;
+      for (std::string& note : notes_of(change)) {
+        behavior.notes.push_back(printable(change.variable) + ": " + std::move(note));
+      }
+    }
   }
 
   /// The link of a change, a new one if the newer catalog does not have it. The first `known` links

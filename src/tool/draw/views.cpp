@@ -119,8 +119,12 @@ void Builder::add_behaviors() {
     node.package = from.package;
     node.group = from.group;
     node.label = from.name.empty() ? "a behavior without a name" : label_of(from.name);
+    node.situation = from.situation;
     node.mark = from.mark;
-    node.notes = from.notes;
+    for (const NamedCondition& condition : from.situation) {
+      node.notes.push_back(describe(condition));
+    }
+    node.notes.insert(node.notes.end(), from.notes.begin(), from.notes.end());
     add_node(std::move(node));
   }
 }

@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "catalog/allowed_values.h"
+#include "catalog/conditions.h"
 #include "cbc/units.h"
 #include "compile/compile.h"
 #include "report/catalog_report.h"
@@ -28,6 +29,10 @@ class Listing {
     const CatalogSummary summary = summarize(catalog_);
     line("");
     add_numbers("", summary.total);
+    line("situation variables: {}", catalog_.variables.size());
+    for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
+      add_variable(variable);
+    }
     line("groups: {}", summary.groups.size());
     for (std::size_t group = 0; group < summary.groups.size(); ++group) {
       line("");
@@ -63,6 +68,16 @@ class Listing {
     line("{}task minimums: {}", indent, numbers.constraints.task_minimums);
     line("{}constraints: {}", indent, numbers.constraints.total());
     line("{}search space: {}", indent, numbers.search_space);
+  }
+
+  void add_variable(std::uint32_t index) {
+    const CompiledVariable& variable = catalog_.variables[index];
+    std::string values;
+    for (std::uint32_t value = 0; value < variable.value_count; ++value) {
+      values += (value == 0 ? "" : ", ") + printable(catalog_.name_of_value({index, value}));
+    }
+    line("  variable {}{}", printable(catalog_.name_of_variable(index)),
+         variable.is_boolean != 0 ? "" : ": " + values);
   }
 
   void add_group(std::size_t group) {
@@ -120,6 +135,9 @@ class Listing {
         catalog_.texts[catalog_.behavior_packages[behavior.catalog_index]];
     if (!package.empty()) line("    package: {}", printable(package));
     if (behavior.timeout > 0) line("    timeout: {}", seconds(behavior.timeout));
+    for (const NamedCondition& condition : conditions_of(catalog_, id)) {
+      line("    situation: {}", describe(condition));
+    }
     for (const CompiledRequirement& requirement : catalog_.requirements[id]) {
       const Millionths minimum = requirement.minimum_performance;
       line("    requires: {}{}", printable(catalog_.name_of_task(requirement.task)),
@@ -196,6 +214,7 @@ void write_behavior(JsonWriter& json, const CompiledCatalog& catalog, BehaviorId
        {"level", behavior.level},
        {"package", catalog.texts[catalog.behavior_packages[behavior.catalog_index]]}});
   write_timeout(json, behavior.timeout);
+  write_conditions(json, conditions_of(catalog, id));
   json.write_list("requires", catalog.requirements[id], [&](const CompiledRequirement& required) {
     json.open('{');
     json.write("task", catalog.name_of_task(required.task));
@@ -244,6 +263,40 @@ void write_group(JsonWriter& json, const CompiledCatalog& catalog, std::size_t g
 
 }  // namespace
 
+void write_plain_value(JsonWriter& json, const CompiledCatalog& catalog, VariableValue value) {
+  if (catalog.variables[value.variable].is_boolean != 0) {
+    json.write(value.value == 0);
+  } else {
+    json.write(catalog.name_of_value(value));
+  }
+}
+
+void write_variable(JsonWriter& json, const CompiledCatalog& catalog, std::uint32_t index) {
+  const CompiledVariable& variable = catalog.variables[index];
+  json.open('{');
+  json.write("variable", catalog.name_of_variable(index));
+  json.open("values", '[');
+  for (std::uint32_t value = 0; value < variable.value_count; ++value) {
+    write_plain_value(json, catalog, {index, value});
+  }
+  json.close(']');
+  json.close('}');
+}
+
+void write_conditions(JsonWriter& json, std::span<const NamedCondition> conditions) {
+  json.open("situation", '{');
+  for (const NamedCondition& condition : conditions) {
+    json.write_list(condition.variable, condition.values, [&](std::string_view value) {
+      if (condition.is_boolean) {
+        json.write(value == "true");
+      } else {
+        json.write(value);
+      }
+    });
+  }
+  json.close('}');
+}
+
 void write_constraints(JsonWriter& json, const ConstraintCount& constraints) {
   json.write_object("constraints", {{"exclusive_pairs", constraints.exclusive_pairs},
                                     {"requirements", constraints.requirements},
@@ -265,6 +318,11 @@ std::string catalog_json(const CompiledFile& file) {
     json.on_new_line().write("tasks", summary.total.tasks);
     json.on_new_line().write("behaviors", summary.total.behaviors);
     write_numbers(json, summary.total);
+    json.on_new_line().open("variables", '[');
+    for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+      write_variable(json.on_new_line(), catalog, variable);
+    }
+    json.close(']');
     json.on_new_line().open("groups", '[');
     for (std::size_t group = 0; group < summary.groups.size(); ++group) {
       write_group(json, catalog, group, summary.groups[group]);

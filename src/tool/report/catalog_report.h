@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "catalog/conditions.h"
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
 #include "diagnostic/diagnostic.h"
@@ -109,6 +110,9 @@ namespace cbc {
 ///      "constraints": {"exclusive_pairs": 17, "requirements": 16, "task_minimums": 0,
 ///                      "total": 33},
 ///      "search_space": "1327104",           product of 1 + number of behaviors; a text
+///      "variables": [                       of the situation; the first value is the initial one
+///        {"variable": "TARGET", "values": ["far", "near"]},
+///        {"variable": "GPS", "values": [true, false]}],      declared without values
 ///      "groups": [{                         in the order of their first task
 ///        "group": 0,                        as in "search" of cbc.solve/1
 ///        "levels", "constraints", "search_space": as above, for the group
@@ -129,12 +133,25 @@ namespace cbc {
 ///          "level": 1,                      0: requires nothing
 ///          "package": "…",                  empty: none given
 ///          "timeout": null,                 seconds; null: that of the task
+///          "situation": {"TARGET": ["near"]},   the values in which it fits, of each variable that
+///                                           it names
 ///          "requires": [{"task": "LOCALIZE", "minimum_performance": 80, "line": 12}]}],
 ///        "exclusivity": [{"tasks": ["HOVER", "LAND"], "line": 20}]}]}
 ///
 /// allowed_values is a list of texts, or one text that names a type. Bytes that are no valid UTF-8
 /// are replaced.
 [[nodiscard]] std::string catalog_json(const CompiledFile& file);
+
+/// Writes a value of a situation variable: a text, or true or false if the variable was declared
+/// without values.
+void write_plain_value(JsonWriter& json, const CompiledCatalog& catalog, VariableValue value);
+
+/// Writes a situation variable: {"variable": "TARGET", "values": ["far", "near"]}. The values of
+/// one without values of its own are true and false.
+void write_variable(JsonWriter& json, const CompiledCatalog& catalog, std::uint32_t index);
+
+/// Writes the member "situation" of an object: {"TARGET": ["near", "far"], "GPS": [true]}.
+void write_conditions(JsonWriter& json, std::span<const NamedCondition> conditions);
 
 /// Writes the member "constraints" of an object, which counts them.
 void write_constraints(JsonWriter& json, const ConstraintCount& constraints);
@@ -153,13 +170,16 @@ void write_constraints(JsonWriter& json, const ConstraintCount& constraints);
 ///      "state": {"script": "mission.yaml",  only of a state: what it is that of
 ///                "index": 3,                as in cbc.solve/1: of the last event; 0: none yet
 ///                "time": 4.5,               its time; null: none yet
-///                "event": "wait"},          what it was, and what came of it; null: none yet
+///                "event": "wait",           what it was, and what came of it; null: none yet
+///                "situation": "TARGET is near"},   only of a catalog with situation variables
 ///      "nodes": [
 ///        {"id": "task:HOVER",               unique, from the name
 ///         "kind": "task",                   or behavior, hub (an exclusivity list)
 ///         "name": "HOVER",                  null for a hub, and for a behavior that lacks one
 ///         "group": 0,                       as in "search" of cbc.solve/1; null: in none
 ///         "package": "…",                   of a behavior; empty: none given
+///         "situation": {"TARGET": ["near"], "GPS": [true]},   of a behavior that names variables:
+///                                           the values in which it fits
 ///         "minimum_performance": 80,        of a task: percent, or null
 ///         "left_out": 12,                   of a hub: tasks of the list that are not drawn
 ///         "defined": true,                  of a task: false if it is only named
@@ -199,7 +219,8 @@ struct GraphFormat {
 
 /// The differences as JSON, schema cbc.diff/1: `old` and `new` name the catalogs; `changes` has an
 /// object for each difference, with `kind` (removed, added, changed), `subject` (task, behavior,
-/// performs, requirement, exclusion), the names in question (`task`, `behavior`, `other_task`) and
+/// performs, requirement, variable, exclusion), the names in question (`task`, `behavior`,
+/// `variable`, `other_task`) and
 /// `attributes`, each with `name`, `before` and `after`: suitability and minimum_performance in
 /// percent, timeout in seconds, null where nothing is set. `further_exclusions` counts those that
 /// are not listed.

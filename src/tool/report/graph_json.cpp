@@ -49,6 +49,7 @@ void write_moment(JsonWriter& json, const draw::Moment& moment) {
     json.write_seconds("time", moment.time);
     json.write("event", moment.event);
   }
+  if (!moment.situation.empty()) json.write("situation", moment.situation);
   json.close('}');
 }
 
@@ -58,7 +59,10 @@ void write_node(JsonWriter& json, const Node& node, bool has_state) {
   json.write_members({{"id", node.id}, {"kind", name_of(node.kind)}});
   json.write("name", is_unnamed ? std::nullopt : std::optional(node.name));
   json.write("group", node.group == none ? std::nullopt : std::optional(node.group));
-  if (node.kind == NodeKind::behavior) json.write("package", node.package);
+  if (node.kind == NodeKind::behavior) {
+    json.write("package", node.package);
+    if (!node.situation.empty()) write_conditions(json, node.situation);
+  }
   if (node.kind == NodeKind::hub) json.write("left_out", node.left_out);
   if (node.kind == NodeKind::task) {
     const Millionths minimum = node.minimum_performance;
@@ -113,6 +117,8 @@ std::string describe_subject(const CatalogChange& change) {
       return behavior + " performs " + task;
     case ChangeSubject::requirement:
       return behavior + " requires " + task;
+    case ChangeSubject::variable:
+      return "situation variable " + printable(change.variable);
     case ChangeSubject::exclusion:
       return task + " excludes " + printable(change.other_task);
   }
@@ -135,10 +141,11 @@ std::string diff_text(const CatalogDiff& diff, const Style& style) {
     }
     std::string line = fmt::format("{} {}", sign, describe_subject(change));
     std::string_view separator = ": ";
-    // For a new task or behavior the name is enough; its attributes are in the catalog.
+    // For a new task, behavior or variable the name is enough; its attributes are in the catalog.
     const bool is_whole =
         change.kind != ChangeKind::changed &&
-        (change.subject == ChangeSubject::task || change.subject == ChangeSubject::behavior);
+        (change.subject == ChangeSubject::task || change.subject == ChangeSubject::behavior ||
+         change.subject == ChangeSubject::variable);
     for (const AttributeChange& attribute : change.attributes) {
       if (is_whole) break;
       line += separator;
@@ -168,6 +175,7 @@ void write_change(JsonWriter& json, const CatalogChange& change) {
   json.write_members({{"kind", name_of(change.kind)}, {"subject", name_of(change.subject)}});
   if (!change.behavior.empty()) json.write("behavior", change.behavior);
   if (!change.task.empty()) json.write("task", change.task);
+  if (!change.variable.empty()) json.write("variable", change.variable);
   if (!change.other_task.empty()) json.write("other_task", change.other_task);
   json.write_list("attributes", change.attributes, [&](const AttributeChange& attribute) {
     json.write_object({{"name", attribute.name},

@@ -5,7 +5,9 @@
 #include <string_view>
 #include <utility>
 
+#include "catalog/conditions.h"
 #include "page_files.h"
+#include "report/catalog_report.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
 #include "script/event_lines.h"
@@ -129,11 +131,22 @@ StateRecorder::StateRecorder(const CompiledCatalog& catalog, const Script& scrip
 
 void StateRecorder::note_behaviors(const State& state) {
   state_.unavailable.clear();
+  state_.misfits.clear();
   state_.faulty.clear();
   for (std::uint32_t index = 0; index < catalog_.behavior_ids.size(); ++index) {
     const BehaviorId behavior = catalog_.behavior_ids[index];
-    if (!state.is_available(behavior)) state_.unavailable.push_back(index);
+    if (state.is_denied(behavior)) {
+      state_.unavailable.push_back(index);
+    } else if (const auto variable = catalog_.find_misfit(behavior, state.variables())) {
+      const VariableValue value{*variable, state.value_of(*variable)};
+      state_.misfits.push_back({index, describe_value(catalog_, value)});
+    }
     if (state.is_faulty(behavior)) state_.faulty.push_back(index);
+  }
+  moment_.situation.clear();
+  for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
+    if (variable > 0) moment_.situation += ", ";
+    moment_.situation += describe_value(catalog_, {variable, state.value_of(variable)});
   }
 }
 
@@ -168,12 +181,17 @@ namespace {
 
 constexpr double one_percent = one_million / 100.0;
 
-/// What the picture needs of a catalog: tasks and behaviors in catalog order, suitabilities in
-/// percent.
+/// What the picture needs of a catalog: tasks, situation variables and behaviors in catalog order,
+/// suitabilities in percent.
 void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
   const auto write_task = [&](TaskId task) { json.write(catalog.name_of_task(task)); };
   json.open('{');
   json.write_list("tasks", catalog.task_names);
+  json.open("variables", '[');
+  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+    write_variable(json, catalog, variable);
+  }
+  json.close(']');
   json.write_list("behaviors", catalog.behavior_ids, [&](BehaviorId behavior) {
     json.open('{');
     json.write("name", catalog.name_of_behavior(behavior));
@@ -183,6 +201,7 @@ void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
     });
     json.write_list("requires", catalog.requirements[behavior],
                     [&](const CompiledRequirement& required) { write_task(required.task); });
+    write_conditions(json, conditions_of(catalog, behavior));
     json.close('}');
   });
   json.open("exclusive", '[');

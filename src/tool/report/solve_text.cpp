@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
+#include "report/table_parts.h"
 #include "support/json.h"
 #include "support/wording.h"
 
@@ -143,16 +144,6 @@ namespace {
 constexpr std::size_t widest_column = 48;
 constexpr const char* change_indent = "          ";
 constexpr const char* text_indent = "           ";
-
-std::size_t width_of(std::string_view text) {
-  std::size_t width = 0;
-  for (std::size_t offset = 0; offset < text.size();) {
-    const utf8::Decoded decoded = utf8::decode(text, offset);
-    width += utf8::display_width(decoded.character);
-    offset += decoded.bytes;
-  }
-  return width;
-}
 
 std::size_t column_width(const Texts& names, std::size_t least) {
   std::size_t width = least;

@@ -18,6 +18,7 @@ function formatPercent(share) {
 /** A catalog with look-ups. */
 class Catalog {
   constructor(data) {
+    this.variables = new Map(data.variables.map(({ variable, values }) => [variable, values]));
     this.taskPlace = new Map(data.tasks.map((name, place) => [name, place]));
     this.behaviorPlace = new Map(data.behaviors.map((behavior, place) => [behavior.name, place]));
     this.behaviors = new Map(data.behaviors.map((behavior) => [behavior.name, behavior]));
@@ -39,6 +40,12 @@ class Catalog {
     return (this.behaviors.get(behavior)?.requires ?? []).includes(task);
   }
 
+  /** The first variable that a behavior names and whose value is none that it names, or undefined. */
+  findMisfit(behavior, values) {
+    return Object.entries(this.behaviors.get(behavior)?.situation ?? {})
+      .find(([variable, fitting]) => !fitting.includes(values.get(variable)))?.[0];
+  }
+
   suitability(behavior, task) {
     return this.behaviors.get(behavior)?.performs.find((entry) => entry.task === task)?.suitability;
   }
@@ -55,22 +62,36 @@ class Catalog {
 /** Whether an event is one that is accepted or rejected. */
 const isAsked = (event) => ['start', 'stop', 'finish'].includes(event.verb);
 
-const describeSituation = (situation) =>
+const describeValue = (variable, value) => `${variable} is ${value}`;
+
+/** Of `situation`, the names of `variables` have values, all others are behaviors. */
+const describeSituation = (situation, variables) =>
   Object.entries(situation)
-    .map(([name, available]) => `${name} ${available ? 'available' : 'unavailable'}`)
+    .map(([name, value]) => {
+      if (get(variables, name) !== undefined) return describeValue(name, value);
+      return `${name} ${value ? 'available' : 'unavailable'}`;
+    })
     .join(', ');
+
+/** The same of an event. */
+const situationOf = (event) => describeSituation(event.situation ?? {}, event.variables ?? {});
 
 /** An event in a line, without its outcome. */
 function describeEvent(event) {
   let text = event.verb;
   if (event.verb === 'wait') return 'wait';
-  if (event.verb === 'situation') return `situation: ${describeSituation(event.situation ?? {})}`;
-  if (event.name !== undefined) text += ` ${event.name}`;
+  if (event.verb === 'situation') return `situation: ${situationOf(event)}`;
+  if (event.task !== undefined) {
+    text += ` task ${event.task}, ${event.name === null ? 'which nothing performs' : `performed by ${event.name}`}`;
+  } else if (event.name !== undefined) {
+    text += ` ${event.name}`;
+  }
   if (event.priority !== undefined) text += `, priority ${event.priority}`;
   if (event.verb === 'finish') text += `: ${words(event.cause)}`;
   if (event.parameters !== undefined) text += ` ${JSON.stringify(event.parameters)}`;
   if (event.origin === 'timeout') text += ' (by the clock)';
   if (event.origin === 'reactive') text += ' (reactive start)';
+  if (event.origin === 'situation') text += ' (it no longer fits)';
   if (event.origin === 'fault') text += ' (its activation could not be taken back)';
   return text;
 }
@@ -96,6 +117,7 @@ class Run {
       this.failures.set(failure.index, [...(this.failures.get(failure.index) ?? []), failure]);
     }
     this.readSituations();
+    this.readWaiting();
     this.readSpans();
     this.readLinks();
   }
@@ -117,10 +139,11 @@ class Run {
     return number === 0 ? {} : this.event(number).requests;
   }
 
-  /** Behaviors that cannot be activated, and faulty ones, after each event; and when that was so. */
+  /** The values of the situation variables, and the behaviors that a script made unavailable, that do
+   * not fit, and that are faulty, after each event; and when that was so. */
   readSituations() {
     this.outages = []; // {behavior, kind, from, to}: numbers of events, `to` null at the end
-    const open = { unavailable: new Map(), faulty: new Map() };
+    const open = { unavailable: new Map(), 'does not fit': new Map(), faulty: new Map() };
     const set = (kind, behavior, isOut, number) => {
       const outage = open[kind].get(behavior);
       if (isOut && outage === undefined) {
@@ -132,21 +155,76 @@ class Run {
         open[kind].delete(behavior);
       }
     };
-    for (const [name, available] of Object.entries(this.situation)) set('unavailable', name, !available, 0);
+    const { variables } = this.catalog;
+    const values = new Map([...variables].map(([name, known]) => [name, known[0]]));
+    this.values = []; // of each event: variable -> value
+    this.valueSpans = []; // {variable, value, from, to}
+    const last = new Map(); // of each variable: its span
+    const readSituation = (situation, number) => {
+      for (const [name, value] of Object.entries(situation)) {
+        if (variables.has(name)) {
+          values.set(name, value);
+        } else {
+          set('unavailable', name, !value, number);
+        }
+      }
+      for (const [variable, value] of values) {
+        const span = last.get(variable);
+        if (span?.value === value) continue;
+        if (span !== undefined) span.to = number;
+        last.set(variable, { variable, value, from: number, to: null });
+        this.valueSpans.push(last.get(variable));
+      }
+      for (const [name, { situation: fitting }] of this.catalog.behaviors) {
+        if (Object.keys(fitting).length === 0) continue;
+        set('does not fit', name, this.catalog.findMisfit(name, values) !== undefined, number);
+      }
+      this.values.push(new Map(values));
+    };
+    readSituation(this.situation, 0);
     this.unavailable = [];
+    this.misfits = [];
     this.faulty = [];
     for (let number = 0; number <= this.size; ++number) {
       const event = this.event(number) ?? {};
       if (event.verb === 'situation') {
-        for (const [name, available] of Object.entries(event.situation ?? {})) {
-          set('unavailable', name, !available, number);
-        }
+        readSituation(event.situation ?? {}, number);
+      } else if (number > 0) {
+        this.values.push(this.values.at(-1));
       }
       if (event.verb === 'fault') set('faulty', event.name, true, number);
       if (event.verb === 'repair') set('faulty', event.name, false, number);
       this.unavailable.push(this.catalog.sortBehaviors(open.unavailable.keys()));
+      this.misfits.push(this.catalog.sortBehaviors(open['does not fit'].keys()));
       this.faulty.push(this.catalog.sortBehaviors(open.faulty.keys()));
     }
+  }
+
+  /** Which reactive tasks wait for a change of their group after each event; when, and why. */
+  readWaiting() {
+    this.waitings = []; // {task, from, to}: from the rejected start on
+    this.waiting = [[]];
+    const open = new Map();
+    for (let number = 1; number <= this.size; ++number) {
+      const event = this.event(number);
+      for (const [task, due] of Object.entries(event.queue)) {
+        if (due !== null || open.has(task)) continue;
+        open.set(task, { task, from: number, to: null });
+        this.waitings.push(open.get(task));
+      }
+      for (const [task, wait] of open) {
+        if (get(event.queue, task) !== undefined) continue;
+        wait.to = number;
+        open.delete(task);
+      }
+      this.waiting.push(this.catalog.sortTasks(open.keys()));
+    }
+  }
+
+  /** Whether the reactive start of a task was rejected by an event, so that it waits from then on. */
+  beginsToWait(number) {
+    const event = this.event(number);
+    return event.origin === 'reactive' && event.outcome === 'rejected' && this.waiting[number].includes(event.name);
   }
 
   /** When each task was performed by which behavior, and why: a span for each stretch of both. */
@@ -228,6 +306,7 @@ class Run {
       if (behavior !== undefined) tasks.get(task).add(behavior);
     };
     for (const span of this.spans) add(span.task, span.behavior);
+    for (const wait of this.waitings) add(wait.task);
     for (const event of this.events) {
       if (event.verb === 'start' || event.verb === 'stop') add(event.name);
       for (const change of event.changes) {
@@ -248,7 +327,9 @@ class Run {
   whyReplaced(number, link) {
     const event = this.event(number);
     const { task, behavior } = link.from;
-    if (event.verb === 'finish' && event.name === behavior) return `${behavior} finished: ${words(event.cause)}`;
+    if (event.verb === 'finish' && event.name === behavior) {
+      return event.origin === 'situation' ? '' : `${behavior} finished: ${words(event.cause)}`;
+    }
     const lost = (this.catalog.behaviors.get(behavior)?.requires ?? [])
       .filter((name) => get(event.running, name) === undefined);
     if (lost.length > 0) return `${behavior} requires ${lost.join(', ')}, which no longer runs`;
@@ -283,11 +364,15 @@ class Run {
     const after = event.running;
     const list = [];
     const say = (text, why = '', isBad = false) => list.push({ text, why, isBad });
-    if (event.verb === 'situation') say(describeSituation(event.situation ?? {}));
+    if (event.verb === 'situation') say(situationOf(event));
+    if (event.origin === 'situation') say(this.describeMisfit(number, event.name));
     if (event.search?.status === 'unknown') {
       say('a search limit was reached before the first solution', '', true);
     } else if (event.outcome === 'rejected' && event.conflict.length === 0) {
       say('no consistent set of behaviors; finding the reasons would have taken too long', '', true);
+    }
+    if (this.beginsToWait(number)) {
+      say(`${event.name} waits, and tries again after each accepted event of its group`);
     }
     for (const change of event.changes) {
       if (!change.success) say(`${change.behavior} could not be ${change.op}d`, '', true);
@@ -325,6 +410,13 @@ class Run {
       }
     }
     return list;
+  }
+
+  /** Why a behavior does not fit after an event. */
+  describeMisfit(number, behavior) {
+    const values = this.values[number];
+    const variable = this.catalog.findMisfit(behavior, values);
+    return `${behavior} does not fit: ${describeValue(variable, values.get(variable))}`;
   }
 
   whyRuns(number, task) {

@@ -9,7 +9,7 @@ class Page {
     this.picture = new Picture(
       { labels: byId('labels'), plot: byId('plot'), extent: byId('extent'), svg: byId('svg') },
       (number) => this.choose(number), (event, span, number) => this.hover(event, span, number));
-    fillLegend(byId('legend'));
+    fillLegend(byId('legend'), runs);
     this.setUpRuns();
     this.setUpControls();
     this.setUpPaper();

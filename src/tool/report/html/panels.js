@@ -160,9 +160,15 @@ function fillState(body, run, number) {
     });
     parts.push(html('table', '', html('thead', '', html('tr', '', ...head)), html('tbody', '', ...rows)));
   }
-  const queue = Object.entries(event.queue).map(([task, due]) => `${task} at ${formatTime(due)} s`);
+  const queue = Object.entries(event.queue).filter(([, due]) => due !== null)
+    .map(([task, due]) => `${task} at ${formatTime(due)} s`);
   const more = [];
+  if (run.values[number].size > 0) {
+    more.push(['situation', [...run.values[number]].map(([name, value]) => describeValue(name, value)).join(', ')]);
+  }
   if (queue.length > 0) more.push(['reactive starts due', queue.join(', ')]);
+  if (run.waiting[number].length > 0) more.push(['waiting reactive tasks', run.waiting[number].join(', ')]);
+  if (run.misfits[number].length > 0) more.push(['do not fit', run.misfits[number].join(', ')]);
   if (run.unavailable[number].length > 0) more.push(['unavailable', run.unavailable[number].join(', ')]);
   if (run.faulty[number].length > 0) more.push(['faulty', run.faulty[number].join(', ')]);
   if (more.length > 0) parts.push(pairs(more));
@@ -196,8 +202,8 @@ function tipContent(run, span, number) {
   return parts;
 }
 
-/** Signs and what they mean. */
-function fillLegend(legend) {
+/** Signs and what they mean; situations and waiting tasks only if a run has them. */
+function fillLegend(legend, runs) {
   const item = (width, draw, text) => {
     const picture = svgElement('svg', { width, height: 16, 'aria-hidden': 'true' });
     draw(picture);
@@ -226,6 +232,15 @@ function fillLegend(legend) {
   span('reactive', 'active: reactive start');
   item(26, (picture) => picture.append(svgElement('rect', { x: 1, y: 5, width: 24, height: 6, class: 'off' })),
        'cannot be activated');
+  const hasVariables = runs.some((run) => run.catalog.variables.size > 0);
+  if (hasVariables) {
+    item(26, (picture) => picture.append(svgElement('rect', { x: 1, y: 2, width: 24, height: 12, class: 'value' })),
+         'value of a situation variable');
+  }
+  if (runs.some((run) => run.waitings.length > 0)) {
+    item(26, (picture) => picture.append(svgElement('line', { x1: 1, x2: 25, y1: 8, y2: 8, class: 'waiting' })),
+         'reactive task that waits');
+  }
   link('replaced', 'replaced in the same task');
   link('way', 'its task gives way to one that excludes it');
   glyph(glyphs.good, 'good', 'goal achieved');
@@ -235,5 +250,7 @@ function fillLegend(legend) {
   mark('accepted', '1', 'event, accepted');
   mark('rejected', '\u00d7 1', 'rejected');
   mark('unchanged', '1', 'changes no behavior');
-  legend.append(html('span', '', 't, r, f after the number: made by a timeout, a reactive start, a fault'));
+  legend.append(html('span', '', hasVariables
+    ? 't, r, s, f after the number: made by a timeout, a reactive start, the situation, a fault'
+    : 't, r, f after the number: made by a timeout, a reactive start, a fault'));
 }

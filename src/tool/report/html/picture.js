@@ -108,6 +108,13 @@ class Picture {
     this.rowOf = new Map(); // by task, and by task and behavior
     let y = 0;
     const key = (...names) => JSON.stringify(names);
+    this.rowOfVariable = new Map();
+    for (const variable of this.run.catalog.variables.keys()) {
+      this.rowOfVariable.set(variable, { variable, y, height: behaviorHeight });
+      this.rows.push(this.rowOfVariable.get(variable));
+      y += behaviorHeight;
+    }
+    if (y > 0) y += 5;
     for (const { task, behaviors } of this.run.rows(this.wantsAll)) {
       const row = { task, y, height: taskHeight };
       this.rowOf.set(key(task), row);
@@ -161,7 +168,7 @@ class Picture {
     let rejectedRight = -Infinity;
     this.marks = this.run.events.map((event, place) => {
       const number = place + 1;
-      const suffix = { timeout: ' t', reactive: ' r', fault: ' f' }[event.origin] ?? '';
+      const suffix = { timeout: ' t', reactive: ' r', situation: ' s', fault: ' f' }[event.origin] ?? '';
       const sign = event.outcome === 'rejected' ? '\u00d7 ' : '';
       const text = `${sign}${number}${suffix}`;
       const width = Math.max(17, measure(text) + 9);
@@ -206,13 +213,19 @@ class Picture {
     items.push(label('', tickHeight + 3, 'lane'));
     let y = 0;
     for (const row of this.rows) {
-      const item = row.behavior === undefined ? label(row.task, row.height, 'task', `task ${row.task}`)
-                                              : label(row.behavior, row.height, 'behavior', `behavior ${row.behavior}`);
+      const item = label(...this.labelOf(row));
       item.style.marginTop = `${row.y - y}px`;
       y = row.y + row.height;
       items.push(item);
     }
     this.labels.replaceChildren(...items);
+  }
+
+  /** Of a row: the text, its height, its look, its title. */
+  labelOf({ variable, task, behavior, height }) {
+    if (variable !== undefined) return [variable, height, 'variable', `situation variable ${variable}`];
+    if (behavior !== undefined) return [behavior, height, 'behavior', `behavior ${behavior}`];
+    return [task, height, 'task', `task ${task}`];
   }
 
   drawSoon() {
@@ -236,6 +249,8 @@ class Picture {
     this.drawOutages();
     this.drawAxis();
     this.drawEventLines();
+    this.drawValues();
+    this.drawWaiting();
     this.drawSpans();
     this.cursor = this.add('g', {});
     this.drawLinks();
@@ -274,7 +289,7 @@ class Picture {
   drawRows() {
     for (const row of this.rows) {
       const y = this.top + row.y;
-      if (row.behavior === undefined) {
+      if (row.task !== undefined && row.behavior === undefined) {
         this.add('rect', { x: this.left, y, width: this.viewWidth, height: row.height, class: 'task-band' });
       } else {
         const below = y + row.height;
@@ -300,6 +315,36 @@ class Picture {
           this.add('text', { x: begin, y: y + 14, class: 'off-text' }, outage.kind);
         }
       }
+    }
+  }
+
+  /** The value of each situation variable over time. */
+  drawValues() {
+    for (const span of this.run.valueSpans) {
+      const x = this.xs[span.from];
+      const end = span.to === null ? this.endX + endRoom - 12 : this.xs[span.to];
+      if (!this.isInView(x, end)) continue;
+      const row = this.rowOfVariable.get(span.variable);
+      const y = this.top + row.y + (row.height - spanHeight) / 2;
+      const from = Math.max(x, this.left - 50);
+      const width = Math.max(Math.min(end, this.right + 50) - from, 3);
+      const target = this.run.size > 0 ? { 'data-event': Math.max(span.from, 1) } : {};
+      this.add('rect', { x: from, y, width, height: spanHeight, class: 'value', ...target });
+      const begin = Math.max(x, this.left) + 6;
+      const text = fitting([`${span.value}`], Math.min(end, this.right) - begin - 4);
+      if (text !== null) this.add('text', { x: begin, y: y + 11, class: 'value-text' }, text);
+    }
+  }
+
+  /** A line in the row of a reactive task, from the rejected start until the task runs or gives up. */
+  drawWaiting() {
+    for (const wait of this.run.waitings) {
+      const x = this.xs[wait.from];
+      const end = wait.to === null ? this.endX + endRoom - 12 : this.xs[wait.to];
+      if (!this.isInView(x, end)) continue;
+      const row = this.row(wait.task);
+      const y = this.top + row.y + row.height - 2;
+      this.add('line', { x1: x, x2: end, y1: y, y2: y, class: 'waiting' });
     }
   }
 
@@ -495,9 +540,10 @@ class Picture {
   /** From long to short. */
   rejectionTexts(event) {
     const messages = event.conflict.map((reason) => reason.message);
-    if (messages.length < 2) return [`rejected: ${messages[0] ?? 'no solution found'}`, 'rejected'];
+    const outcome = this.run.beginsToWait(event.index) ? 'waits' : 'rejected';
+    if (messages.length < 2) return [`${outcome}: ${messages[0] ?? 'no solution found'}`, outcome];
     const main = event.conflict.find((reason) => reason.kind === 'protected')?.message ?? messages[0];
-    return [`rejected: ${messages.join('; ')}`, `rejected: ${main} (${messages.length} reasons together)`, 'rejected'];
+    return [`${outcome}: ${messages.join('; ')}`, `${outcome}: ${main} (${messages.length} reasons together)`, outcome];
   }
 
   /** The event in words, between its mark and the next one beside it. */
