@@ -58,6 +58,9 @@ class CatalogGenerator {
       left -= size;
     }
     name_all();
+    if (random_.percent(50)) {
+      add_variables();
+    }
     arrange();
     return std::move(catalog_);
   }
@@ -116,8 +119,13 @@ class CatalogGenerator {
     if (size >= 5 && random_.percent(25)) {
       add_rivals(block);
     }
+    if (size >= 4 && random_.percent(35)) {
+      add_waiting(block);
+    }
     for (std::size_t i = 0; i < size; ++i) {
-      add_behaviors(block, block.first + i);
+      if (complete_.count(block.first + i) == 0) {
+        add_behaviors(block, block.first + i);
+      }
     }
   }
 
@@ -176,6 +184,33 @@ class CatalogGenerator {
         catalog_.behaviors.push_back(behavior);
       }
     }
+  }
+
+  // A reactive task that shares no list with a goal, and yet cannot run beside it: what both
+  // require excludes one another. So it waits until the goal has stopped.
+  void add_waiting(const Block& block) {
+    const std::size_t last = block.first + block.size - 1;
+    const std::size_t tasks[] = {last, last - 1};
+    if (exclude(last, block.first) || exclude(last - 1, block.first + 1)) {
+      return;
+    }
+    Task& waiting = catalog_.tasks[last];
+    waiting.listed = true;
+    waiting.start_on_request = false;
+    waiting.reactive_start = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::size_t support = block.first + i;
+      catalog_.tasks[support].start_on_request = false;
+      catalog_.tasks[support].listed = true;
+      Behavior behavior;
+      behavior.performs.push_back({tasks[i], pick_suitability()});
+      behavior.requirements.push_back({support, 0});
+      catalog_.behaviors.push_back(behavior);
+      if (i == 0 || random_.percent(60)) {
+        complete_.insert(tasks[i]);
+      }
+    }
+    catalog_.exclusivity.push_back({block.first, block.first + 1});
   }
 
   bool exclude(std::size_t a, std::size_t b) const {
@@ -345,6 +380,74 @@ class CatalogGenerator {
     }
   }
 
+  void add_variables() {
+    const std::size_t wanted = 1 + random_.below(3);
+    while (catalog_.variables.size() < wanted) {
+      add_variable();
+    }
+    static const std::vector<std::size_t> chances = {20, 40, 60};
+    const std::size_t chance = random_.pick(chances);
+    for (Behavior& behavior : catalog_.behaviors) {
+      if (random_.percent(chance)) {
+        add_conditions(behavior);
+      }
+    }
+  }
+
+  // A variable may have the name of a task, but not of a behavior. Values are texts, whatever else
+  // they look like.
+  void add_variable() {
+    static const std::vector<std::vector<std::string>> values = {
+        {"far", "near", "lost"},  {"bright", "dark"},        {"on", "off"}, {"no", "maybe", "yes"},
+        {"1.0", "1", "01", "10"}, {"true", "false", "True"}, {"A", "a"},
+    };
+    Variable variable;
+    variable.name = "V" + std::to_string(catalog_.variables.size());
+    const std::string& task = random_.pick(catalog_.tasks).name;
+    const auto has_name = [&](const auto& named) { return named.name == task; };
+    if (random_.percent(10) &&
+        std::none_of(catalog_.behaviors.begin(), catalog_.behaviors.end(), has_name) &&
+        std::none_of(catalog_.variables.begin(), catalog_.variables.end(), has_name)) {
+      variable.name = task;
+    }
+    if (random_.percent(60)) {
+      variable.values = random_.pick(values);
+      random_.shuffle(variable.values);
+    }
+    catalog_.variables.push_back(variable);
+  }
+
+  void add_conditions(Behavior& behavior) {
+    const std::size_t first = random_.below(catalog_.variables.size());
+    behavior.situation.push_back({first, pick_fitting_values(first)});
+    const std::size_t second = random_.below(catalog_.variables.size());
+    if (second != first && random_.percent(40)) {
+      behavior.situation.push_back({second, pick_fitting_values(second)});
+    }
+  }
+
+  // Most often some of the values, the initial one among them.
+  std::vector<std::size_t> pick_fitting_values(std::size_t variable) {
+    std::vector<std::size_t> values(catalog_.variables[variable].value_count());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = i;
+    }
+    std::vector<std::size_t> others(values.begin() + 1, values.end());
+    random_.shuffle(others);
+    if (random_.percent(3)) {
+      random_.shuffle(values);
+      return values;
+    }
+    if (random_.percent(30)) {
+      others.resize(1 + random_.below(others.size()));
+      return others;
+    }
+    others.resize(random_.below(others.size()));
+    others.push_back(0);
+    random_.shuffle(others);
+    return others;
+  }
+
   // Brings all into a random order, then the tasks into catalog order: those listed first, then
   // the others in the order in which the behaviors name them.
   void arrange() {
@@ -400,6 +503,7 @@ class CatalogGenerator {
   Random& random_;
   Microseconds unit_;
   std::vector<Millionths> palette_;
+  std::set<std::size_t> complete_;  // tasks that get no more behaviors
   Catalog catalog_;
 };
 
@@ -447,10 +551,17 @@ class ScriptGenerator {
     if (random_.percent(40)) {
       for (std::size_t b = 0; b < facts_->catalog.behaviors.size(); ++b) {
         if (random_.percent(15)) {
-          script.situation.emplace_back(b, random_.percent(15));
+          script.situation.own.emplace_back(b, random_.percent(15));
         }
       }
-      random_.shuffle(script.situation);
+      random_.shuffle(script.situation.own);
+    }
+    if (random_.percent(40)) {
+      for (std::size_t v = 0; v < facts_->catalog.variables.size(); ++v) {
+        if (random_.percent(60)) {
+          script.situation.variables.emplace_back(v, pick_value(v));
+        }
+      }
     }
     return script;
   }
@@ -487,6 +598,9 @@ class ScriptGenerator {
   }
 
   void add_something() {
+    if (!facts_->catalog.variables.empty() && random_.percent(14)) {
+      return add_change_of_variables();
+    }
     const std::size_t way = random_.below(100);
     if (way < 32) {
       emit_timed(start_event(random_.below(task_count())));
@@ -652,6 +766,12 @@ class ScriptGenerator {
     Event event;
     event.verb = Verb::finish;
     event.cause = random_.pick(causes);
+    if (random_.percent(25)) {
+      const std::vector<std::size_t> running = tasks_where(true, false);
+      event.performed_task = running.empty() || random_.percent(10) ? random_.below(task_count())
+                                                                    : random_.pick(running);
+      return event;
+    }
     const std::vector<std::size_t> active =
         behaviors_where([&](std::size_t b) { return is_active(b); });
     event.subject = active.empty() || random_.percent(3)
@@ -666,10 +786,10 @@ class ScriptGenerator {
       return;
     }
     Event event = finish_event();
-    if (event.cause == Cause::situation_change && random_.percent(60)) {
+    if (event.cause == Cause::situation_change && event.subject != none && random_.percent(60)) {
       Event change;
       change.verb = Verb::situation;
-      change.situation.emplace_back(event.subject, false);
+      change.situation.own.emplace_back(event.subject, false);
       emit_timed(change);
       emit(event);
       return;
@@ -689,25 +809,49 @@ class ScriptGenerator {
 
   void add_situation() {
     const std::vector<std::size_t> unavailable =
-        behaviors_where([&](std::size_t b) { return !oracle_.available(b); });
+        behaviors_where([&](std::size_t b) { return !oracle_.own(b); });
     Event event;
     event.verb = Verb::situation;
     const std::size_t behaviors = facts_->catalog.behaviors.size();
+    std::vector<std::pair<std::size_t, bool>>& own = event.situation.own;
     if (!unavailable.empty() && random_.percent(65)) {
-      event.situation.emplace_back(random_.pick(unavailable), true);
+      own.emplace_back(random_.pick(unavailable), true);
     } else if (behaviors > 0) {
       const std::size_t behavior = random_.below(behaviors);
-      event.situation.emplace_back(behavior, random_.percent(20));
+      own.emplace_back(behavior, random_.percent(20));
     }
     if (behaviors > 0 && random_.percent(30)) {
       const std::size_t other = random_.below(behaviors);
-      if (event.situation.empty() || event.situation.front().first != other) {
-        event.situation.emplace_back(other, random_.percent(60));
+      if (own.empty() || own.front().first != other) {
+        own.emplace_back(other, random_.percent(60));
       }
     }
-    if (!event.situation.empty()) {
+    if (!own.empty()) {
       emit_timed(event);
     }
+  }
+
+  std::size_t pick_value(std::size_t variable) {
+    return random_.below(facts_->catalog.variables[variable].value_count());
+  }
+
+  // Of one variable or several, and now and then of behaviors at once.
+  void add_change_of_variables() {
+    Event event;
+    event.verb = Verb::situation;
+    const std::size_t variables = facts_->catalog.variables.size();
+    const std::size_t changed = random_.below(variables);
+    for (std::size_t v = 0; v < variables; ++v) {
+      if (v == changed || random_.percent(35)) {
+        event.situation.variables.emplace_back(v, pick_value(v));
+      }
+    }
+    for (std::size_t b = 0; b < facts_->catalog.behaviors.size(); ++b) {
+      if (!event.situation.own.empty() ? random_.percent(8) : random_.percent(4)) {
+        event.situation.own.emplace_back(b, !oracle_.own(b) || random_.percent(30));
+      }
+    }
+    emit_timed(event);
   }
 
   void emit_fault(std::size_t behavior) {

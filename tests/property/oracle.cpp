@@ -66,6 +66,11 @@ std::vector<std::size_t> difference(const CatalogFacts& facts, const std::set<st
 // The higher of two priorities; an empty one is the lowest.
 std::optional<int> higher(std::optional<int> a, std::optional<int> b) { return a < b ? b : a; }
 
+// The value of a variable: true or false if it has none of its own, or else a text.
+ordered_json value_json(const Variable& variable, std::size_t value) {
+  return variable.is_boolean() ? ordered_json(value == 0) : ordered_json(variable.values[value]);
+}
+
 bool is_failure(Cause cause) {
   return cause != Cause::goal_achieved && cause != Cause::situation_change;
 }
@@ -87,12 +92,11 @@ Oracle::Oracle(std::shared_ptr<const CatalogFacts> facts, const Script& script,
   state_.requests.resize(tasks);
   queue_.resize(tasks);
   taken_at_.resize(tasks, 0);
-  available_.resize(behaviors, true);
+  variables_.resize(facts_->catalog.variables.size(), 0);
+  own_.resize(behaviors, true);
   faulty_.resize(behaviors, false);
   activated_at_.resize(behaviors, 0);
-  for (const auto& [behavior, available] : script.situation) {
-    available_[behavior] = available;
-  }
+  set_situation(script.situation);
   for (std::size_t group = 0; group < facts_->groups.size(); ++group) {
     join_queue_by_group(group);
   }
@@ -115,7 +119,10 @@ void Oracle::handle(const Event& event) {
     case Verb::stop:
       return run_stop(event);
     case Verb::finish:
-      return run_finish("script", event.subject, event.cause);
+      return event.performed_task == none
+                 ? run_finish("script", event.subject, event.cause)
+                 : run_finish("script", state_.values[event.performed_task], event.cause,
+                              event.performed_task);
     case Verb::situation:
       return run_situation(event);
     case Verb::fault:
@@ -226,6 +233,9 @@ void Oracle::run_stop(const Event& event) {
   record["priority"] = priority;
   if (state_.values[task] == none) {
     queue_[task].reset();
+    if (waiting_.erase(task) != 0) {
+      count("waiting: until a stop");
+    }
     return complete_unsolved(std::move(record), "unchanged");
   }
   if (request && request->priority > priority) {
@@ -239,10 +249,17 @@ void Oracle::run_stop(const Event& event) {
   coordinate(std::move(record), trigger);
 }
 
-void Oracle::run_finish(const char* origin, std::size_t behavior, Cause cause) {
+void Oracle::run_finish(const char* origin, std::size_t behavior, Cause cause, std::size_t task) {
   ordered_json record = new_record(origin, Verb::finish);
-  record["name"] = behavior_name(behavior);
+  record["name"] = behavior == none ? ordered_json() : ordered_json(behavior_name(behavior));
   record["cause"] = to_string(cause);
+  if (task != none) {
+    record["task"] = task_name(task);
+    count(behavior == none ? "finish by task, not running" : "finish by task");
+  }
+  if (behavior == none) {
+    return complete_unsolved(std::move(record), "unchanged");
+  }
   if (!is_active(behavior)) {
     count(std::string("finish of an inactive behavior, origin ") + origin);
     return complete_unsolved(std::move(record), "unchanged");
@@ -258,15 +275,64 @@ void Oracle::run_finish(const char* origin, std::size_t behavior, Cause cause) {
 void Oracle::run_situation(const Event& event) {
   ordered_json record = new_record("script", Verb::situation);
   ordered_json map = ordered_json::object();
-  for (const auto& [behavior, available] : event.situation) {
-    map[behavior_name(behavior)] = available;
-    if (available && !available_[behavior]) {
+  for (const auto& [behavior, own] : event.situation.own) {
+    map[behavior_name(behavior)] = own;
+  }
+  std::size_t changed = 0;
+  for (const auto& [variable, value] : event.situation.variables) {
+    map[facts_->catalog.variables[variable].name] =
+        value_json(facts_->catalog.variables[variable], value);
+    changed += variables_[variable] != value ? 1U : 0U;
+  }
+  count_if(changed >= 1, "situation: variables change");
+  count_if(changed >= 2, "situation: several variables change");
+  count_if(changed >= 1 && !event.situation.own.empty(), "situation: variables and behaviors");
+
+  std::vector<bool> fitted;
+  std::vector<bool> was_available;
+  for (std::size_t behavior = 0; behavior < own_.size(); ++behavior) {
+    fitted.push_back(fits(behavior));
+    was_available.push_back(available(behavior));
+  }
+  set_situation(event.situation);
+  for (std::size_t behavior = 0; behavior < own_.size(); ++behavior) {
+    if (available(behavior) && !was_available[behavior]) {
+      count_if(!fitted[behavior], "situation: available because it fits");
       join_queue_by_group(facts_->group_of_behavior(behavior));
     }
-    available_[behavior] = available;
   }
   record["situation"] = std::move(map);
+  if (!facts_->catalog.variables.empty()) {
+    record["variables"] = variables_json();
+  }
   complete_unsolved(std::move(record), "unchanged");
+  finish_what_does_not_fit();
+}
+
+void Oracle::set_situation(const Situation& situation) {
+  for (const auto& [behavior, own] : situation.own) {
+    own_[behavior] = own;
+  }
+  for (const auto& [variable, value] : situation.variables) {
+    variables_[variable] = value;
+  }
+}
+
+void Oracle::finish_what_does_not_fit() {
+  const std::set<std::size_t> active = active_behaviors(state_.values);
+  std::size_t finishes = 0;
+  for (const std::size_t behavior : active) {
+    if (fits(behavior)) {
+      continue;
+    }
+    if (!is_active(behavior)) {
+      count("situation: replaced by an earlier finish");
+      continue;
+    }
+    run_finish("situation", behavior, Cause::situation_change);
+    ++finishes;
+  }
+  count_if(finishes >= 2, "situation: several finishes");
 }
 
 void Oracle::run_fault(const Event& event) {
@@ -291,14 +357,15 @@ void Oracle::run_reactive_start(std::size_t task) {
   if (state_.values[task] != none) {
     return;
   }
-  const std::set<std::size_t>& excluded = facts_->excludes[task];
   const std::vector<std::size_t>& behaviors = facts_->behaviors_of[task];
-  const bool blocked = std::any_of(excluded.begin(), excluded.end(),
-                                   [&](std::size_t other) { return state_.values[other] != none; });
+  const bool blocked = is_excluded_by_running(task);
   const bool possible = std::any_of(behaviors.begin(), behaviors.end(),
                                     [&](std::size_t behavior) { return available(behavior); });
   if (blocked || !possible) {
     count("reactive start: dropped");
+    if (waiting_.erase(task) != 0) {
+      count("waiting: until a start is dropped");
+    }
     return;
   }
   ordered_json record = new_record("reactive", Verb::start);
@@ -309,6 +376,12 @@ void Oracle::run_reactive_start(std::size_t task) {
   trigger.subject = task;
   trigger.reactive = true;
   coordinate(std::move(record), trigger);
+}
+
+bool Oracle::is_excluded_by_running(std::size_t task) const {
+  const std::set<std::size_t>& excluded = facts_->excludes[task];
+  return std::any_of(excluded.begin(), excluded.end(),
+                     [&](std::size_t other) { return state_.values[other] != none; });
 }
 
 // Coordination
@@ -331,6 +404,7 @@ void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
   }
   if (trigger.reactive) {
     count("reactive start: " + outcome);
+    count_if(solution && waiting_.contains(trigger.subject), "waiting: until it starts");
   }
 
   ordered_json stopped = ordered_json::array();
@@ -344,14 +418,22 @@ void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
     objectives = objective(transition, *solution);
     if (keeps_answers_) {
       answers_[record["index"]] = {
-          trigger,    problem(transition),       *solution,           state_,
-          available_, transition.finished_tasks, transition.excluded, transition.level};
+          trigger,    problem(transition),       *solution,           state_,          own_,
+          variables_, transition.finished_tasks, transition.excluded, transition.level};
     }
     commit(transition, solution->values);
   } else {
     roll_back(transition);
     if (!transition.changes.empty()) {
       count("rejected and taken back");
+    }
+    if (trigger.reactive && !waiting_.insert(trigger.subject).second) {
+      if (transition.changes.empty()) {
+        count("waiting: silent attempt");
+        --event_number_;
+        return;
+      }
+      count("waiting: an attempt with a failed activation");
     }
   }
 
@@ -463,7 +545,8 @@ std::vector<std::size_t> Oracle::selectable(const Transition& transition, std::s
   std::vector<std::size_t> result;
   for (const std::size_t behavior : facts_->behaviors_of[task]) {
     const bool keeps_it = behavior == state_.values[task] && !finished;
-    if ((available(behavior) || keeps_it) && !transition.excluded.contains(behavior)) {
+    if ((available(behavior) || (keeps_it && fits(behavior))) &&
+        !transition.excluded.contains(behavior)) {
       result.push_back(behavior);
     }
   }
@@ -694,8 +777,12 @@ void Oracle::update_queue(const Transition& transition, const Assignment& before
       join_queue(other);
     }
     const bool own_stop = trigger.verb == Verb::stop && task == trigger.subject;
-    if (!own_stop && !contains(transition.finished_tasks, task)) {
+    const bool own_finish = contains(transition.finished_tasks, task);
+    const bool fits_no_more = trigger.cause == Cause::situation_change;
+    if (!own_stop && (!own_finish || fits_no_more)) {
       join_queue(task);
+      count_if(own_finish && facts_->catalog.tasks[task].reactive_start,
+               "reactive task stopped by a situation change of its own");
     }
   }
   for (std::size_t task = 0; task < before.size(); ++task) {
@@ -704,6 +791,25 @@ void Oracle::update_queue(const Transition& transition, const Assignment& before
       for (const std::size_t other : facts_->excludes[task]) {
         queue_[other].reset();
       }
+    }
+  }
+  update_waiting(transition.group);
+}
+
+// After an accepted event of the group.
+void Oracle::update_waiting(std::size_t group) {
+  for (const std::size_t task : facts_->groups[group]) {
+    if (!waiting_.contains(task)) {
+      continue;
+    }
+    if (state_.values[task] != none) {
+      waiting_.erase(task);
+    } else if (is_excluded_by_running(task)) {
+      count("waiting: until an exclusive task starts");
+      waiting_.erase(task);
+    } else {
+      count_if(!queue_[task], "waiting: joins the queue again");
+      join_queue(task);
     }
   }
 }
@@ -750,9 +856,17 @@ ordered_json Oracle::objective(const Transition& transition, const Solution& sol
           {"changes", solution.changes}};
 }
 
+ordered_json Oracle::variables_json() const {
+  const std::vector<Variable>& variables = facts_->catalog.variables;
+  ordered_json result = ordered_json::object();
+  for (std::size_t variable = 0; variable < variables.size(); ++variable) {
+    result[variables[variable].name] = value_json(variables[variable], variables_[variable]);
+  }
+  return result;
+}
+
 ordered_json Oracle::new_record(const std::string& origin, Verb verb) {
   ++event_number_;
-  count("origin: " + origin);
   return {{"index", event_number_},
           {"time", seconds(now_)},
           {"origin", origin},
@@ -782,11 +896,15 @@ void Oracle::complete(ordered_json record, const std::string& outcome) {
     }
     if (queue_[task]) {
       queue[task_name(task)] = seconds(*queue_[task]);
+    } else if (waiting_.contains(task)) {
+      queue[task_name(task)] = nullptr;
+      count("queue: waiting only");
     }
   }
   record["running"] = std::move(running);
   record["requests"] = std::move(requests);
   record["queue"] = std::move(queue);
+  count("origin: " + record["origin"].get<std::string>());
   events_.push_back(std::move(record));
   count("outcome: " + outcome);
 }
@@ -815,6 +933,12 @@ const std::string& Oracle::behavior_name(std::size_t behavior) const {
 void Oracle::count(const std::string& what) const {
   if (statistics_ != nullptr) {
     statistics_->count(what);
+  }
+}
+
+void Oracle::count_if(bool holds, const std::string& what) const {
+  if (holds) {
+    count(what);
   }
 }
 
