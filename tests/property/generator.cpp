@@ -835,14 +835,38 @@ class ScriptGenerator {
     return random_.below(facts_->catalog.variables[variable].value_count());
   }
 
+  std::pair<std::size_t, std::size_t> pick_change() {
+    const std::size_t variable = random_.below(facts_->catalog.variables.size());
+    return {variable, pick_value(variable)};
+  }
+
+  // A variable with a value in which an active behavior does not fit, if there is one.
+  std::pair<std::size_t, std::size_t> pick_disturbance() {
+    std::vector<std::pair<std::size_t, std::size_t>> choices;
+    for (std::size_t b = 0; b < facts_->catalog.behaviors.size(); ++b) {
+      for (const Condition& condition : facts_->catalog.behaviors[b].situation) {
+        const std::size_t count = facts_->catalog.variables[condition.variable].value_count();
+        for (std::size_t value = 0; value < count && is_active(b); ++value) {
+          if (std::find(condition.values.begin(), condition.values.end(), value) ==
+              condition.values.end()) {
+            choices.emplace_back(condition.variable, value);
+          }
+        }
+      }
+    }
+    return choices.empty() ? pick_change() : random_.pick(choices);
+  }
+
   // Of one variable or several, and now and then of behaviors at once.
   void add_change_of_variables() {
     Event event;
     event.verb = Verb::situation;
     const std::size_t variables = facts_->catalog.variables.size();
-    const std::size_t changed = random_.below(variables);
+    const auto [changed, value] = random_.percent(50) ? pick_disturbance() : pick_change();
     for (std::size_t v = 0; v < variables; ++v) {
-      if (v == changed || random_.percent(35)) {
+      if (v == changed) {
+        event.situation.variables.emplace_back(v, value);
+      } else if (random_.percent(35)) {
         event.situation.variables.emplace_back(v, pick_value(v));
       }
     }

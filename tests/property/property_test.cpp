@@ -231,6 +231,12 @@ TEST(Property, ConflictCheckSeesWhatIsWrong) {
         ordered_json silent = conflict;
         silent[i]["message"] = "";
         expect_fault(silent);
+        const bool situation = conflict[i]["kind"] == "situation";
+        if (situation || conflict[i]["kind"] == "unavailable") {
+          ordered_json other_kind = conflict;
+          other_kind[i]["kind"] = situation ? "unavailable" : "situation";
+          expect_fault(other_kind);
+        }
         // The list on the next line may exclude the same pair.
         if (conflict[i].contains("line") && !conflict[i].contains("tasks")) {
           ordered_json next_line = conflict;
