@@ -53,6 +53,8 @@ struct Answer {
   int level = 0;                            // of protection
 };
 
+std::set<std::size_t> active_behaviors(const Assignment& values);
+
 // Whether two parameters are the same data: mappings without order; null, empty and absent alike.
 bool same_parameters(const Parameters& a, const Parameters& b);
 
