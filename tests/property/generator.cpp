@@ -253,6 +253,11 @@ class ScriptGenerator {
     Event event;
     event.verb = Verb::stop;
     const std::vector<std::size_t> running = tasks_where(true, false);
+    const std::vector<std::size_t> waiting(oracle_.waiting().begin(), oracle_.waiting().end());
+    if (!waiting.empty() && random_.percent(15)) {
+      event.subject = random_.pick(waiting);
+      return event;
+    }
     event.subject = running.empty() || random_.percent(12) ? random_.below(task_count())
                                                            : random_.pick(running);
     if (random_.percent(40)) {

@@ -87,6 +87,7 @@ class Oracle {
   bool available(std::size_t behavior) const { return own(behavior) && fits(behavior); }
   const std::vector<std::size_t>& variables() const { return variables_; }  // their values
   bool faulty(std::size_t behavior) const { return faulty_[behavior]; }
+  const std::set<std::size_t>& waiting() const { return waiting_; }  // W
   Microseconds now() const { return now_; }
   std::optional<Microseconds> next_due_time() const;
 
