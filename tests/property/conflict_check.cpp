@@ -134,7 +134,8 @@ class CatalogText {
 struct Moment {
   Assignment values;
   std::vector<std::optional<int>> requests;  // priorities
-  std::vector<bool> available;
+  std::vector<bool> own;
+  std::vector<std::size_t> variables;  // the value of each
   std::vector<bool> faulty;
 };
 
@@ -159,6 +160,7 @@ enum class Kind {
   requirement,
   performance,
   unavailable,
+  situation,
   faulty
 };
 
@@ -180,6 +182,7 @@ const std::vector<Form>& forms() {
       {Kind::performance, "performance", {"behavior", "task", "line"}},
       {Kind::performance, "performance", {"task", "line"}},
       {Kind::unavailable, "unavailable", {"behavior"}},
+      {Kind::situation, "situation", {"behavior"}},
       {Kind::faulty, "faulty", {"behavior"}},
   };
   return all;
@@ -208,10 +211,14 @@ class Checker {
     }
     now_.values.assign(tasks_.size(), none);
     now_.requests.resize(tasks_.size());
-    now_.available.resize(behaviors_.size(), true);
+    now_.own.resize(behaviors_.size(), true);
+    now_.variables.resize(facts.catalog.variables.size(), 0);
     now_.faulty.resize(behaviors_.size(), false);
-    for (const auto& [behavior, available] : script.situation) {
-      now_.available[behavior] = available;
+    for (const auto& [behavior, own] : script.situation.own) {
+      now_.own[behavior] = own;
+    }
+    for (const auto& [variable, value] : script.situation.variables) {
+      now_.variables[variable] = value;
     }
   }
 
@@ -229,8 +236,12 @@ class Checker {
   void follow(const ordered_json& event) {
     const auto& verb = event.at("verb").get_ref<const std::string&>();
     if (verb == "situation") {
-      for (const auto& [name, available] : event.at("situation").items()) {
-        now_.available[behaviors_.at(name)] = available.get<bool>();
+      for (const auto& [name, value] : event.at("situation").items()) {
+        if (const auto behavior = behaviors_.find(name); behavior != behaviors_.end()) {
+          now_.own[behavior->second] = value.get<bool>();
+        } else {
+          set_variable(name, value);
+        }
       }
     } else if (verb == "fault" || verb == "repair") {
       now_.faulty[behavior_of(event.at("name"))] = verb == "fault";
@@ -243,6 +254,23 @@ class Checker {
     for (const auto& [name, priority] : event.at("requests").items()) {
       now_.requests[tasks_.at(name)] = priority.get<int>();
     }
+  }
+
+  void set_variable(const std::string& name, const ordered_json& value) {
+    for (std::size_t v = 0; v < facts_.catalog.variables.size(); ++v) {
+      const Variable& variable = facts_.catalog.variables[v];
+      if (variable.name != name) {
+        continue;
+      }
+      const auto& values = variable.values;
+      now_.variables[v] = variable.is_boolean()
+                              ? (value.get<bool>() ? 0U : 1U)
+                              : static_cast<std::size_t>(std::find(values.begin(), values.end(),
+                                                                   value.get<std::string>()) -
+                                                         values.begin());
+      return;
+    }
+    throw std::runtime_error("neither a behavior nor a situation variable: " + name);
   }
 
   void check_rejection(const ordered_json& event) {
@@ -389,7 +417,11 @@ class Checker {
         demand(reason.minimum > 0, "no minimum");
         return;
       case Kind::unavailable:
-        demand(!before.available[reason.behavior], "available");
+        demand(!before.own[reason.behavior], "it may be activated by its own answer");
+        return;
+      case Kind::situation:
+        demand(before.own[reason.behavior], "unavailable, too");
+        demand(!facts_.fits(reason.behavior, before.variables), "it fits");
         return;
       case Kind::faulty:
         demand(before.faulty[reason.behavior], "not faulty");
@@ -489,6 +521,7 @@ class Checker {
           }
         }
         return true;
+      case Kind::situation:  // it is not active, or it would have finished
       case Kind::faulty:
         return !assigned();
     }
@@ -516,6 +549,10 @@ class Checker {
     }
     if (reason.kind == Kind::unavailable && contains(rejection.before.values, reason.behavior)) {
       count("conflict: unavailable, but active");
+    }
+    if (reason.kind == Kind::unavailable &&
+        !facts_.fits(reason.behavior, rejection.before.variables)) {
+      count("conflict: unavailable, and does not fit");
     }
   }
 

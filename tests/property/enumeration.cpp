@@ -324,6 +324,14 @@ std::size_t CatalogFacts::group_of_behavior(std::size_t behavior) const {
   return group_of[catalog.behaviors[behavior].performs.front().task];
 }
 
+bool CatalogFacts::fits(std::size_t behavior, const std::vector<std::size_t>& variables) const {
+  const std::vector<Condition>& conditions = catalog.behaviors[behavior].situation;
+  return std::all_of(conditions.begin(), conditions.end(), [&](const Condition& condition) {
+    return std::find(condition.values.begin(), condition.values.end(),
+                     variables[condition.variable]) != condition.values.end();
+  });
+}
+
 ExactPerformance performance(const CatalogFacts& facts, const Assignment& values,
                              std::size_t task) {
   std::vector<bool> required(values.size(), false);

@@ -26,6 +26,9 @@ struct CatalogFacts {
   Millionths suitability(std::size_t behavior, std::size_t task) const;
   std::size_t group_of_behavior(std::size_t behavior) const;
 
+  // Whether the behavior fits the values of the situation variables.
+  bool fits(std::size_t behavior, const std::vector<std::size_t>& variables) const;
+
   Catalog catalog;
   std::vector<std::vector<std::size_t>> behaviors_of;  // of each task, in catalog order
   std::vector<std::set<std::size_t>> excludes;         // tasks that share a list with each task

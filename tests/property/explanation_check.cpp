@@ -321,7 +321,7 @@ class Check {
       demand(facts_.excludes[a].contains(b), "not exclusive");
       return [=](const Assignment& values) { return values[a] == none || values[b] == none; };
     }
-    if (kind == "unavailable" || kind == "faulty" || kind == "finished") {
+    if (kind == "unavailable" || kind == "situation" || kind == "faulty" || kind == "finished") {
       return read_condition(kind, behavior_of(reason.at("behavior")));
     }
     const std::size_t task = task_of(reason.at("task"));
@@ -345,18 +345,21 @@ class Check {
   }
 
   Holds read_condition(const std::string& kind, std::size_t behavior) const {
-    if (kind != "unavailable") {
+    if (kind == "faulty" || kind == "finished") {
       const bool is_own =
           answer_.trigger.verb == Verb::finish && answer_.trigger.subject == behavior;
       demand(answer_.excluded.contains(behavior) && is_own == (kind == "finished"),
              "not excluded for this");
       return [=](const Assignment& values) { return !contains(values, behavior); };
     }
-    demand(!answer_.available[behavior], "available");
-    return [this, behavior](const Assignment& values) {
+    // A behavior that does not fit may not be kept either.
+    const bool fits = facts_.fits(behavior, answer_.variables);
+    demand(answer_.own[behavior] == (kind == "situation"), "not by its own answer");
+    demand(kind == "unavailable" || !fits, "it fits");
+    return [this, behavior, fits](const Assignment& values) {
       for (std::size_t task = 0; task < values.size(); ++task) {
-        const bool is_kept =
-            answer_.before.values[task] == behavior && !contains(answer_.finished_tasks, task);
+        const bool is_kept = fits && answer_.before.values[task] == behavior &&
+                             !contains(answer_.finished_tasks, task);
         if (values[task] == behavior && !is_kept) {
           return false;
         }

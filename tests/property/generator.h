@@ -18,6 +18,9 @@ struct Case {
 // of its events do something.
 Case generate_case(std::uint64_t seed);
 
+// All times of a case are multiples of one of these, so that many things fall due together.
+Microseconds pick_time_unit(Random& random);
+
 Catalog generate_catalog(Random& random);
 Script generate_script(Random& random, const Catalog& catalog);
 

@@ -48,11 +48,31 @@ struct Requirement {
   bool operator==(const Requirement&) const = default;
 };
 
+// A situation variable. Values are numbered in their order; the first one is the initial value.
+struct Variable {
+  std::string name;
+  std::vector<std::string> values;  // none: true and false, in this order
+
+  bool is_boolean() const { return values.empty(); }
+  std::size_t value_count() const { return is_boolean() ? 2 : values.size(); }
+
+  bool operator==(const Variable&) const = default;
+};
+
+// What a behavior asks of a variable: one of these values.
+struct Condition {
+  std::size_t variable = 0;
+  std::vector<std::size_t> values;
+
+  bool operator==(const Condition&) const = default;
+};
+
 struct Behavior {
   std::string name;
   std::vector<Performance> performs;
   std::vector<Requirement> requirements;
   std::optional<Microseconds> timeout;
+  std::vector<Condition> situation = {};  // at most one condition for each variable
 
   bool operator==(const Behavior&) const = default;
 };
@@ -73,6 +93,7 @@ struct Catalog {
   std::vector<Task> tasks;
   std::vector<Behavior> behaviors;
   std::vector<std::vector<std::size_t>> exclusivity;
+  std::vector<Variable> variables = {};
 };
 
 enum class Verb { start, stop, finish, situation, fault, repair, wait };
@@ -89,7 +110,13 @@ enum class Cause {
 // Any YAML value whose scalars are text or null.
 using Parameters = nlohmann::ordered_json;
 
-using Situation = std::vector<std::pair<std::size_t, bool>>;  // behavior, available
+// What an event changes of the situation.
+struct Situation {
+  std::vector<std::pair<std::size_t, bool>> own;               // behavior, its own answer
+  std::vector<std::pair<std::size_t, std::size_t>> variables;  // variable, value
+
+  bool empty() const { return own.empty() && variables.empty(); }
+};
 
 struct Event {
   Verb verb = Verb::wait;
@@ -99,6 +126,7 @@ struct Event {
   std::optional<int> priority;           // start, stop
   std::optional<Parameters> parameters;  // start
   Cause cause = Cause::goal_achieved;    // finish
+  std::size_t performed_task = none;     // finish: whatever performs this task, not the subject
   Situation situation;
 };
 

@@ -1,7 +1,6 @@
 #include "oracle.h"
 
 #include <algorithm>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -41,36 +40,18 @@ nlohmann::json canonical(const Parameters& value) {
   return value;
 }
 
+// The value of a variable: true or false if it has none of its own, or else a text.
+ordered_json value_json(const Variable& variable, std::size_t value) {
+  return variable.is_boolean() ? ordered_json(value == 0) : ordered_json(variable.values[value]);
+}
+
+}  // namespace
+
 std::set<std::size_t> active_behaviors(const Assignment& values) {
   std::set<std::size_t> active(values.begin(), values.end());
   active.erase(none);
   return active;
 }
-
-enum class LevelOrder { highest_first, lowest_first };
-
-// The behaviors of one set that are not in another; of one level in catalog order.
-std::vector<std::size_t> difference(const CatalogFacts& facts, const std::set<std::size_t>& from,
-                                    const std::set<std::size_t>& without, LevelOrder order) {
-  std::vector<std::size_t> result;
-  std::set_difference(from.begin(), from.end(), without.begin(), without.end(),
-                      std::back_inserter(result));
-  std::stable_sort(result.begin(), result.end(), [&](std::size_t a, std::size_t b) {
-    const std::size_t level_a = facts.level_of[a];
-    const std::size_t level_b = facts.level_of[b];
-    return order == LevelOrder::highest_first ? level_a > level_b : level_a < level_b;
-  });
-  return result;
-}
-
-// The higher of two priorities; an empty one is the lowest.
-std::optional<int> higher(std::optional<int> a, std::optional<int> b) { return a < b ? b : a; }
-
-bool is_failure(Cause cause) {
-  return cause != Cause::goal_achieved && cause != Cause::situation_change;
-}
-
-}  // namespace
 
 bool same_parameters(const Parameters& a, const Parameters& b) {
   return canonical(a) == canonical(b);
@@ -87,12 +68,11 @@ Oracle::Oracle(std::shared_ptr<const CatalogFacts> facts, const Script& script,
   state_.requests.resize(tasks);
   queue_.resize(tasks);
   taken_at_.resize(tasks, 0);
-  available_.resize(behaviors, true);
+  variables_.resize(facts_->catalog.variables.size(), 0);
+  own_.resize(behaviors, true);
   faulty_.resize(behaviors, false);
   activated_at_.resize(behaviors, 0);
-  for (const auto& [behavior, available] : script.situation) {
-    available_[behavior] = available;
-  }
+  set_situation(script.situation);
   for (std::size_t group = 0; group < facts_->groups.size(); ++group) {
     join_queue_by_group(group);
   }
@@ -115,7 +95,10 @@ void Oracle::handle(const Event& event) {
     case Verb::stop:
       return run_stop(event);
     case Verb::finish:
-      return run_finish("script", event.subject, event.cause);
+      return event.performed_task == none
+                 ? run_finish("script", event.subject, event.cause)
+                 : run_finish("script", state_.values[event.performed_task], event.cause,
+                              event.performed_task);
     case Verb::situation:
       return run_situation(event);
     case Verb::fault:
@@ -226,6 +209,9 @@ void Oracle::run_stop(const Event& event) {
   record["priority"] = priority;
   if (state_.values[task] == none) {
     queue_[task].reset();
+    if (waiting_.erase(task) != 0) {
+      count("waiting: until a stop");
+    }
     return complete_unsolved(std::move(record), "unchanged");
   }
   if (request && request->priority > priority) {
@@ -239,10 +225,17 @@ void Oracle::run_stop(const Event& event) {
   coordinate(std::move(record), trigger);
 }
 
-void Oracle::run_finish(const char* origin, std::size_t behavior, Cause cause) {
+void Oracle::run_finish(const char* origin, std::size_t behavior, Cause cause, std::size_t task) {
   ordered_json record = new_record(origin, Verb::finish);
-  record["name"] = behavior_name(behavior);
+  record["name"] = behavior == none ? ordered_json() : ordered_json(behavior_name(behavior));
   record["cause"] = to_string(cause);
+  if (task != none) {
+    record["task"] = task_name(task);
+    count(behavior == none ? "finish by task, not running" : "finish by task");
+  }
+  if (behavior == none) {
+    return complete_unsolved(std::move(record), "unchanged");
+  }
   if (!is_active(behavior)) {
     count(std::string("finish of an inactive behavior, origin ") + origin);
     return complete_unsolved(std::move(record), "unchanged");
@@ -258,15 +251,64 @@ void Oracle::run_finish(const char* origin, std::size_t behavior, Cause cause) {
 void Oracle::run_situation(const Event& event) {
   ordered_json record = new_record("script", Verb::situation);
   ordered_json map = ordered_json::object();
-  for (const auto& [behavior, available] : event.situation) {
-    map[behavior_name(behavior)] = available;
-    if (available && !available_[behavior]) {
+  for (const auto& [behavior, own] : event.situation.own) {
+    map[behavior_name(behavior)] = own;
+  }
+  std::size_t changed = 0;
+  for (const auto& [variable, value] : event.situation.variables) {
+    map[facts_->catalog.variables[variable].name] =
+        value_json(facts_->catalog.variables[variable], value);
+    changed += variables_[variable] != value ? 1U : 0U;
+  }
+  count_if(changed >= 1, "situation: variables change");
+  count_if(changed >= 2, "situation: several variables change");
+  count_if(changed >= 1 && !event.situation.own.empty(), "situation: variables and behaviors");
+
+  std::vector<bool> fitted;
+  std::vector<bool> was_available;
+  for (std::size_t behavior = 0; behavior < own_.size(); ++behavior) {
+    fitted.push_back(fits(behavior));
+    was_available.push_back(available(behavior));
+  }
+  set_situation(event.situation);
+  for (std::size_t behavior = 0; behavior < own_.size(); ++behavior) {
+    if (available(behavior) && !was_available[behavior]) {
+      count_if(!fitted[behavior], "situation: available because it fits");
       join_queue_by_group(facts_->group_of_behavior(behavior));
     }
-    available_[behavior] = available;
   }
   record["situation"] = std::move(map);
+  if (!facts_->catalog.variables.empty()) {
+    record["variables"] = variables_json();
+  }
   complete_unsolved(std::move(record), "unchanged");
+  finish_what_does_not_fit();
+}
+
+void Oracle::set_situation(const Situation& situation) {
+  for (const auto& [behavior, own] : situation.own) {
+    own_[behavior] = own;
+  }
+  for (const auto& [variable, value] : situation.variables) {
+    variables_[variable] = value;
+  }
+}
+
+void Oracle::finish_what_does_not_fit() {
+  const std::set<std::size_t> active = active_behaviors(state_.values);
+  std::size_t finishes = 0;
+  for (const std::size_t behavior : active) {
+    if (fits(behavior)) {
+      continue;
+    }
+    if (!is_active(behavior)) {
+      count("situation: replaced by an earlier finish");
+      continue;
+    }
+    run_finish("situation", behavior, Cause::situation_change);
+    ++finishes;
+  }
+  count_if(finishes >= 2, "situation: several finishes");
 }
 
 void Oracle::run_fault(const Event& event) {
@@ -291,14 +333,15 @@ void Oracle::run_reactive_start(std::size_t task) {
   if (state_.values[task] != none) {
     return;
   }
-  const std::set<std::size_t>& excluded = facts_->excludes[task];
   const std::vector<std::size_t>& behaviors = facts_->behaviors_of[task];
-  const bool blocked = std::any_of(excluded.begin(), excluded.end(),
-                                   [&](std::size_t other) { return state_.values[other] != none; });
+  const bool blocked = is_excluded_by_running(task);
   const bool possible = std::any_of(behaviors.begin(), behaviors.end(),
                                     [&](std::size_t behavior) { return available(behavior); });
   if (blocked || !possible) {
     count("reactive start: dropped");
+    if (waiting_.erase(task) != 0) {
+      count("waiting: until a start is dropped");
+    }
     return;
   }
   ordered_json record = new_record("reactive", Verb::start);
@@ -311,414 +354,10 @@ void Oracle::run_reactive_start(std::size_t task) {
   coordinate(std::move(record), trigger);
 }
 
-// Coordination
-
-void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
-  Transition transition = begin(trigger);
-  std::optional<Solution> solution = solve_at_some_level(transition);
-  while (solution) {
-    const std::optional<std::size_t> failed = apply(transition, solution->values);
-    if (!failed) {
-      break;
-    }
-    transition.excluded.insert(*failed);
-    solution = solve_at_some_level(transition);
-  }
-  const std::string outcome = solution ? "accepted" : "rejected";
-  if (trigger.verb == Verb::finish) {
-    const int depth = transition.level - transition.first_level;
-    count("escalation: " + (depth < 3 ? std::to_string(depth) : std::string("3 or more")));
-  }
-  if (trigger.reactive) {
-    count("reactive start: " + outcome);
-  }
-
-  ordered_json stopped = ordered_json::array();
-  ordered_json objectives;
-  if (solution) {
-    for (const std::size_t task : stopped_tasks(solution->values)) {
-      const bool own = contains(transition.finished_tasks, task);
-      stopped.push_back({{"task", task_name(task)},
-                         {"cause", to_string(own ? trigger.cause : Cause::interrupted)}});
-    }
-    objectives = objective(transition, *solution);
-    if (keeps_answers_) {
-      answers_[record["index"]] = {
-          trigger,    problem(transition),       *solution,           state_,
-          available_, transition.finished_tasks, transition.excluded, transition.level};
-    }
-    commit(transition, solution->values);
-  } else {
-    roll_back(transition);
-    if (!transition.changes.empty()) {
-      count("rejected and taken back");
-    }
-  }
-
-  record["outcome"] = outcome;
-  record["changes"] = transition.changes;
-  record["stopped_tasks"] = std::move(stopped);
-  record["objective"] = std::move(objectives);
-  record["search"] = {{"status", solution ? "optimal" : "infeasible"},
-                      {"group", transition.group},
-                      {"space", transition.space.str()},
-                      {"protection", transition.level}};
-  complete(std::move(record), outcome);
-
-  for (const std::size_t behavior : transition.lost) {
-    run_finish("fault", behavior, Cause::process_failure);
-  }
-}
-
-Oracle::Transition Oracle::begin(const Trigger& trigger) const {
-  Transition transition;
-  transition.trigger = trigger;
-  transition.active_before = active_behaviors(state_.values);
-  transition.tasks_of.resize(facts_->catalog.behaviors.size());
-  for (const std::size_t behavior : transition.active_before) {
-    transition.tasks_of[behavior] = tasks_performed(state_.values, behavior);
-  }
-  if (trigger.verb == Verb::finish) {
-    transition.finished_tasks = transition.tasks_of[trigger.subject];
-    transition.active_before.erase(trigger.subject);
-    transition.group = facts_->group_of_behavior(trigger.subject);
-    for (const std::size_t task : transition.finished_tasks) {
-      const std::optional<Request>& request = state_.requests[task];
-      transition.first_level = std::max(transition.first_level, request ? request->priority : 0);
-    }
-    if (is_failure(trigger.cause)) {
-      transition.excluded.insert(trigger.subject);
-    }
-  } else {
-    transition.group = facts_->group_of[trigger.subject];
-    transition.first_level = trigger.priority;
-  }
-  transition.active = transition.active_before;
-  return transition;
-}
-
-// A finish always finds a solution, as in the end nothing is protected.
-std::optional<Solution> Oracle::solve_at_some_level(Transition& transition) const {
-  transition.level = transition.first_level;
-  while (true) {
-    const Problem to_solve = problem(transition);
-    transition.space = search_space(to_solve);
-    std::optional<Solution> solution = solve(*facts_, to_solve, statistics_);
-    if (solution || transition.trigger.verb != Verb::finish) {
-      return solution;
-    }
-    ++transition.level;
-  }
-}
-
-Problem Oracle::problem(const Transition& transition) const {
-  Problem result;
-  result.group = transition.group;
-  result.before = state_.values;
-  for (const std::size_t task : facts_->groups[transition.group]) {
-    result.domains.push_back(domain(transition, task));
-  }
-  for (const ActiveRequest& request : active_requests(transition)) {
-    if (facts_->group_of[request.task] == transition.group) {
-      result.requests.push_back(request);
-    }
-  }
-  sort_requests(result.requests);
-  for (const std::size_t behavior : transition.active_before) {
-    if (facts_->group_of_behavior(behavior) == transition.group) {
-      result.active.insert(behavior);
-    }
-  }
-  return result;
-}
-
-std::vector<std::size_t> Oracle::domain(const Transition& transition, std::size_t task) const {
-  const Trigger& trigger = transition.trigger;
-  std::vector<std::size_t> values = selectable(transition, task);
-  if (trigger.verb == Verb::start && task == trigger.subject) {
-    return values;
-  }
-  if (trigger.verb == Verb::stop && task == trigger.subject) {
-    return {none};
-  }
-  if (contains(transition.finished_tasks, task)) {
-    if (trigger.cause == Cause::goal_achieved) {
-      return {none};
-    }
-    values.push_back(none);
-    return values;
-  }
-  if (facts_->catalog.tasks[task].start_on_request && state_.values[task] == none) {
-    return {none};
-  }
-  if (!is_protected(transition, task)) {
-    values.push_back(none);
-  }
-  return values;
-}
-
-// S(x), without the excluded behaviors.
-std::vector<std::size_t> Oracle::selectable(const Transition& transition, std::size_t task) const {
-  const bool finished = contains(transition.finished_tasks, task);
-  std::vector<std::size_t> result;
-  for (const std::size_t behavior : facts_->behaviors_of[task]) {
-    const bool keeps_it = behavior == state_.values[task] && !finished;
-    if ((available(behavior) || keeps_it) && !transition.excluded.contains(behavior)) {
-      result.push_back(behavior);
-    }
-  }
-  return result;
-}
-
-bool Oracle::is_protected(const Transition& transition, std::size_t task) const {
-  const std::optional<Request>& request = state_.requests[task];
-  return request && (transition.trigger.reactive || request->priority > transition.level);
-}
-
-// Of the whole catalog: those of running tasks, the new one included, one stopped or done excluded.
-std::vector<ActiveRequest> Oracle::active_requests(const Transition& transition) const {
-  const Trigger& trigger = transition.trigger;
-  const bool success = trigger.cause == Cause::goal_achieved;
-  std::vector<ActiveRequest> result;
-  for (std::size_t task = 0; task < state_.requests.size(); ++task) {
-    const std::optional<Request>& request = state_.requests[task];
-    if (trigger.verb == Verb::start && task == trigger.subject) {
-      result.push_back({task, trigger.priority, event_number_});
-      continue;
-    }
-    const bool stopped = trigger.verb == Verb::stop && task == trigger.subject;
-    const bool done = success && contains(transition.finished_tasks, task);
-    if (request && !stopped && !done) {
-      result.push_back({task, request->priority, request->set_by});
-    }
-  }
-  return result;
-}
-
-// Applying a solution
-
-std::optional<std::size_t> Oracle::apply(Transition& transition, const Assignment& values) {
-  const std::set<std::size_t> target = active_behaviors(values);
-  const bool restart = restarts(transition, values);
-  const std::size_t restarted = restart ? values[transition.trigger.subject] : none;
-
-  for (const std::size_t behavior :
-       difference(*facts_, transition.active, target, LevelOrder::highest_first)) {
-    const std::vector<std::size_t>& tasks = transition.tasks_of[behavior];
-    if (!transition.active_before.contains(behavior)) {
-      deactivate(transition, behavior, "undone", std::nullopt);
-    } else {
-      deactivate(transition, behavior, deactivation_cause(transition, values, tasks),
-                 priority_before(tasks));
-    }
-  }
-  for (const std::size_t behavior :
-       difference(*facts_, target, transition.active, LevelOrder::lowest_first)) {
-    if (behavior == restarted) {
-      continue;
-    }
-    const std::vector<std::size_t> tasks = tasks_performed(values, behavior);
-    const std::optional<int> priority = priority_after(transition, tasks);
-    const char* cause = !priority ? "required" : *priority >= 1 ? "requested" : "reactive";
-    const bool undone = transition.active_before.contains(behavior);
-    if (!activate(transition, behavior, tasks, undone ? "undone" : cause,
-                  undone ? std::nullopt : priority)) {
-      return behavior;
-    }
-  }
-  if (restart) {
-    if (transition.active.contains(restarted)) {
-      deactivate(transition, restarted, "restarted",
-                 priority_before(transition.tasks_of[restarted]));
-    }
-    const std::vector<std::size_t> tasks = tasks_performed(values, restarted);
-    if (!activate(transition, restarted, tasks, "restarted", priority_after(transition, tasks))) {
-      return restarted;
-    }
-  }
-  return std::nullopt;
-}
-
-// The cause of the deactivation of a behavior that performed these tasks.
-const char* Oracle::deactivation_cause(const Transition& transition, const Assignment& values,
-                                       const std::vector<std::size_t>& tasks) const {
-  const Trigger& trigger = transition.trigger;
-  if (trigger.verb == Verb::stop && contains(tasks, trigger.subject)) {
-    return "requested";
-  }
-  const bool goes_on = std::any_of(tasks.begin(), tasks.end(),
-                                   [&](std::size_t task) { return values[task] != none; });
-  if (goes_on) {
-    return "replaced";
-  }
-  return priority_before(tasks) ? "displaced" : "released";
-}
-
-std::optional<int> Oracle::priority_before(const std::vector<std::size_t>& tasks) const {
-  std::optional<int> priority;
-  for (const std::size_t task : tasks) {
-    if (const std::optional<Request>& request = state_.requests[task]) {
-      priority = higher(priority, request->priority);
-    }
-  }
-  return priority;
-}
-
-std::optional<int> Oracle::priority_after(const Transition& transition,
-                                          const std::vector<std::size_t>& tasks) const {
-  std::optional<int> priority;
-  for (const ActiveRequest& request : active_requests(transition)) {
-    if (contains(tasks, request.task)) {
-      priority = higher(priority, request.priority);
-    }
-  }
-  return priority;
-}
-
-// Returns to what was active before the event, as far as that can be activated.
-void Oracle::roll_back(Transition& transition) {
-  const std::set<std::size_t>& before = transition.active_before;
-  for (const std::size_t behavior :
-       difference(*facts_, transition.active, before, LevelOrder::highest_first)) {
-    deactivate(transition, behavior, "undone", std::nullopt);
-  }
-  for (const std::size_t behavior :
-       difference(*facts_, before, transition.active, LevelOrder::lowest_first)) {
-    if (!activate(transition, behavior, tasks_performed(state_.values, behavior), "undone",
-                  std::nullopt)) {
-      transition.lost.push_back(behavior);
-    }
-  }
-  std::sort(transition.lost.begin(), transition.lost.end());
-}
-
-void Oracle::deactivate(Transition& transition, std::size_t behavior, const std::string& cause,
-                        std::optional<int> priority) {
-  add_change(transition, "deactivate", behavior, transition.tasks_of[behavior], cause, priority,
-             true);
-  transition.active.erase(behavior);
-}
-
-// False if the activation fails.
-bool Oracle::activate(Transition& transition, std::size_t behavior,
-                      const std::vector<std::size_t>& tasks, const std::string& cause,
-                      std::optional<int> priority) {
-  const bool success = !faulty(behavior);
-  add_change(transition, "activate", behavior, tasks, cause, priority, success);
-  if (!success) {
-    count("activation failed: " + cause);
-    return false;
-  }
-  if (tasks.size() >= 2) {
-    count("activated for two or more tasks");
-    count("activated for two or more tasks: " + cause);
-  }
-  transition.active.insert(behavior);
-  transition.tasks_of[behavior] = tasks;
-  activated_at_[behavior] = now_;
-  return true;
-}
-
-void Oracle::add_change(Transition& transition, const std::string& operation, std::size_t behavior,
-                        const std::vector<std::size_t>& tasks, const std::string& cause,
-                        std::optional<int> priority, bool success) const {
-  ordered_json names = ordered_json::array();
-  for (const std::size_t task : tasks) {
-    names.push_back(task_name(task));
-  }
-  ordered_json change;
-  change["op"] = operation;
-  change["behavior"] = behavior_name(behavior);
-  change["tasks"] = std::move(names);
-  change["cause"] = cause;
-  change["priority"] = priority ? ordered_json(*priority) : ordered_json();
-  change["success"] = success;
-  transition.changes.push_back(std::move(change));
-  count(operation + ": " + cause);
-}
-
-// Whether the started task keeps its behavior, with other parameters.
-bool Oracle::restarts(const Transition& transition, const Assignment& values) const {
-  const Trigger& trigger = transition.trigger;
-  if (trigger.verb != Verb::start || !trigger.parameters) {
-    return false;
-  }
-  const std::size_t before = state_.values[trigger.subject];
-  if (before == none || before != values[trigger.subject]) {
-    return false;
-  }
-  const std::optional<Request>& request = state_.requests[trigger.subject];
-  return !same_parameters(*trigger.parameters, request ? request->parameters : Parameters());
-}
-
-std::vector<std::size_t> Oracle::stopped_tasks(const Assignment& values) const {
-  std::vector<std::size_t> result;
-  for (std::size_t task = 0; task < values.size(); ++task) {
-    if (state_.values[task] != none && values[task] == none) {
-      result.push_back(task);
-    }
-  }
-  return result;
-}
-
-void Oracle::commit(const Transition& transition, const Assignment& values) {
-  const Trigger& trigger = transition.trigger;
-  const Assignment before = state_.values;
-  state_.values = values;
-  if (trigger.verb == Verb::start) {
-    std::optional<Request>& request = state_.requests[trigger.subject];
-    Parameters parameters = request ? request->parameters : Parameters();
-    if (trigger.parameters) {
-      parameters = *trigger.parameters;
-    }
-    request = Request{trigger.priority, std::move(parameters), event_number_};
-  }
-  for (std::size_t task = 0; task < values.size(); ++task) {
-    if (values[task] == none) {
-      state_.requests[task].reset();
-    } else if (values[task] != before[task]) {
-      taken_at_[task] = now_;
-    }
-  }
-  update_queue(transition, before);
-}
-
-// The stops count before the starts.
-void Oracle::update_queue(const Transition& transition, const Assignment& before) {
-  const Trigger& trigger = transition.trigger;
-  for (std::size_t task = 0; task < before.size(); ++task) {
-    if (before[task] == none || state_.values[task] != none) {
-      continue;
-    }
-    for (const std::size_t other : facts_->excludes[task]) {
-      join_queue(other);
-    }
-    const bool own_stop = trigger.verb == Verb::stop && task == trigger.subject;
-    if (!own_stop && !contains(transition.finished_tasks, task)) {
-      join_queue(task);
-    }
-  }
-  for (std::size_t task = 0; task < before.size(); ++task) {
-    if (before[task] == none && state_.values[task] != none) {
-      queue_[task].reset();
-      for (const std::size_t other : facts_->excludes[task]) {
-        queue_[other].reset();
-      }
-    }
-  }
-}
-
-// A reactive task that is neither running nor in Q joins it.
-void Oracle::join_queue(std::size_t task) {
-  if (facts_->catalog.tasks[task].reactive_start && state_.values[task] == none && !queue_[task]) {
-    queue_[task] = now_ + reactive_delay_;
-  }
-}
-
-void Oracle::join_queue_by_group(std::size_t group) {
-  for (const std::size_t task : facts_->groups[group]) {
-    join_queue(task);
-  }
+bool Oracle::is_excluded_by_running(std::size_t task) const {
+  const std::set<std::size_t>& excluded = facts_->excludes[task];
+  return std::any_of(excluded.begin(), excluded.end(),
+                     [&](std::size_t other) { return state_.values[other] != none; });
 }
 
 // Reports
@@ -750,9 +389,17 @@ ordered_json Oracle::objective(const Transition& transition, const Solution& sol
           {"changes", solution.changes}};
 }
 
+ordered_json Oracle::variables_json() const {
+  const std::vector<Variable>& variables = facts_->catalog.variables;
+  ordered_json result = ordered_json::object();
+  for (std::size_t variable = 0; variable < variables.size(); ++variable) {
+    result[variables[variable].name] = value_json(variables[variable], variables_[variable]);
+  }
+  return result;
+}
+
 ordered_json Oracle::new_record(const std::string& origin, Verb verb) {
   ++event_number_;
-  count("origin: " + origin);
   return {{"index", event_number_},
           {"time", seconds(now_)},
           {"origin", origin},
@@ -782,11 +429,15 @@ void Oracle::complete(ordered_json record, const std::string& outcome) {
     }
     if (queue_[task]) {
       queue[task_name(task)] = seconds(*queue_[task]);
+    } else if (waiting_.contains(task)) {
+      queue[task_name(task)] = nullptr;
+      count("queue: waiting only");
     }
   }
   record["running"] = std::move(running);
   record["requests"] = std::move(requests);
   record["queue"] = std::move(queue);
+  count("origin: " + record["origin"].get<std::string>());
   events_.push_back(std::move(record));
   count("outcome: " + outcome);
 }
@@ -815,6 +466,12 @@ const std::string& Oracle::behavior_name(std::size_t behavior) const {
 void Oracle::count(const std::string& what) const {
   if (statistics_ != nullptr) {
     statistics_->count(what);
+  }
+}
+
+void Oracle::count_if(bool holds, const std::string& what) const {
+  if (holds) {
+    count(what);
   }
 }
 

@@ -46,11 +46,14 @@ struct Answer {
   Problem problem;
   Solution solution;
   State before;
-  std::vector<bool> available;
+  std::vector<bool> own;                    // of each behavior
+  std::vector<std::size_t> variables;       // the value of each
   std::vector<std::size_t> finished_tasks;  // of a finish: what the behavior performed
   std::set<std::size_t> excluded;           // behaviors that may not be chosen
   int level = 0;                            // of protection
 };
+
+std::set<std::size_t> active_behaviors(const Assignment& values);
 
 // Whether two parameters are the same data: mappings without order; null, empty and absent alike.
 bool same_parameters(const Parameters& a, const Parameters& b);
@@ -79,8 +82,12 @@ class Oracle {
 
   const CatalogFacts& facts() const { return *facts_; }
   const State& state() const { return state_; }
-  bool available(std::size_t behavior) const { return available_[behavior]; }
+  bool own(std::size_t behavior) const { return own_[behavior]; }
+  bool fits(std::size_t behavior) const { return facts_->fits(behavior, variables_); }
+  bool available(std::size_t behavior) const { return own(behavior) && fits(behavior); }
+  const std::vector<std::size_t>& variables() const { return variables_; }  // their values
   bool faulty(std::size_t behavior) const { return faulty_[behavior]; }
+  const std::set<std::size_t>& waiting() const { return waiting_; }  // W
   Microseconds now() const { return now_; }
   std::optional<Microseconds> next_due_time() const;
 
@@ -116,11 +123,15 @@ class Oracle {
 
   void run_start(const Event& event);
   void run_stop(const Event& event);
-  void run_finish(const char* origin, std::size_t behavior, Cause cause);
+  // `task`: that by which a script names the behavior, or none.
+  void run_finish(const char* origin, std::size_t behavior, Cause cause, std::size_t task = none);
   void run_situation(const Event& event);
+  void set_situation(const Situation& situation);
+  void finish_what_does_not_fit();
   void run_fault(const Event& event);
   void run_repair(const Event& event);
   void run_reactive_start(std::size_t task);
+  bool is_excluded_by_running(std::size_t task) const;
 
   // Solves and applies; adds the results to the record, completes it, and lets the behaviors that
   // were lost finish.
@@ -152,9 +163,11 @@ class Oracle {
   std::vector<std::size_t> stopped_tasks(const Assignment& values) const;
   void commit(const Transition& transition, const Assignment& values);
   void update_queue(const Transition& transition, const Assignment& before);
+  void update_waiting(std::size_t group);
   void join_queue(std::size_t task);
   void join_queue_by_group(std::size_t group);
 
+  nlohmann::ordered_json variables_json() const;
   nlohmann::ordered_json objective(const Transition& transition, const Solution& solution) const;
   nlohmann::ordered_json new_record(const std::string& origin, Verb verb);
   void complete(nlohmann::ordered_json record, const std::string& outcome);
@@ -164,14 +177,17 @@ class Oracle {
   const std::string& task_name(std::size_t task) const;
   const std::string& behavior_name(std::size_t behavior) const;
   void count(const std::string& what) const;
+  void count_if(bool holds, const std::string& what) const;
 
   std::shared_ptr<const CatalogFacts> facts_;
   Statistics* statistics_;
   Microseconds reactive_delay_;
   State state_;
-  std::vector<bool> available_;
+  std::vector<std::size_t> variables_;  // the value of each
+  std::vector<bool> own_;               // of each behavior: what the script says
   std::vector<bool> faulty_;
   std::vector<std::optional<Microseconds>> queue_;  // due time of each task in Q
+  std::set<std::size_t> waiting_;                   // W
   std::vector<Microseconds> activated_at_;          // of each behavior: its last activation
   std::vector<Microseconds> taken_at_;              // of each task: when it took its behavior
   Microseconds now_ = 0;

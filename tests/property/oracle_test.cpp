@@ -391,7 +391,124 @@ TEST(Oracle, AReactiveStartStopsNoRequestedTask) {
   EXPECT_EQ(events[1]["origin"], "reactive");
   EXPECT_EQ(events[1]["outcome"], "rejected");
   EXPECT_EQ(events[1]["search"]["protection"], 0);
+  EXPECT_EQ(events[1]["queue"].dump(), R"({"R":null})");
+}
+
+// TAKE_OFF and HOVER share no list, but what they require excludes one another.
+Catalog controllers() {
+  Catalog catalog;
+  catalog.tasks = {on_request("TAKE_OFF"), reactive("HOVER"), automatic("PID"), automatic("DF")};
+  catalog.behaviors = {behavior("TAKE_OFF_WITH_DF", 0, 100, 3),
+                       behavior("HOVER_WITH_PID", 1, 100, 2), behavior("PID", 2),
+                       behavior("DF", 3)};
+  catalog.exclusivity = {{2, 3}};
+  return catalog;
+}
+
+Event at(Microseconds time, Event event) {
+  event.at = time;
+  return event;
+}
+
+TEST(Oracle, AReactiveTaskWaitsUntilItCanStart) {
+  const ordered_json events = run(
+      controllers(),
+      {start(0), at(5 * one_second, finish(0, Cause::goal_achieved)), at(6 * one_second, Event())});
+  ASSERT_EQ(events.size(), 5U);
+  EXPECT_EQ(events[1]["origin"], "reactive");
+  EXPECT_EQ(events[1]["time"], 0.08);
+  EXPECT_EQ(events[1]["outcome"], "rejected");
+  EXPECT_EQ(events[1]["queue"].dump(), R"({"HOVER":null})");
+  EXPECT_EQ(events[2]["queue"].dump(), R"({"HOVER":5.08})");
+  EXPECT_EQ(events[3]["time"], 5.08);
+  EXPECT_EQ(changes(events[3]), "+PID required, +HOVER_WITH_PID reactive(0)");
+  EXPECT_EQ(events[3]["queue"].dump(), "{}");
+}
+
+TEST(Oracle, FurtherAttemptsOfAWaitingTaskAreNoEvents) {
+  // The third event is accepted, so HOVER is tried again; after its stop, it is not.
+  const ordered_json events =
+      run(controllers(), {start(0), wait_for(one_second), start(0), wait_for(one_second), stop(1),
+                          finish(0, Cause::goal_achieved), wait_for(one_second)});
+  ASSERT_EQ(events.size(), 8U);
+  EXPECT_EQ(events[3]["queue"].dump(), R"({"HOVER":1.08})");
+  EXPECT_EQ(events[4]["index"], 5);
+  EXPECT_EQ(events[4]["queue"].dump(), R"({"HOVER":null})");
+  EXPECT_EQ(events[5]["outcome"], "unchanged");
+  EXPECT_EQ(events[5]["queue"].dump(), "{}");
+  EXPECT_EQ(events[7]["queue"].dump(), "{}");
+}
+
+Event change(std::size_t variable, std::size_t value) {
+  Event event = with_subject(Verb::situation, none);
+  event.situation.variables = {{variable, value}};
+  return event;
+}
+
+TEST(Oracle, BehaviorsThatDoNotFitFinish) {
+  // A and B are a group of their own each; of the group of C, the first finish replaces all.
+  Catalog catalog;
+  catalog.tasks = {on_request("A"), reactive("B"), on_request("C"), automatic("D")};
+  catalog.behaviors = {behavior("D1", 3), behavior("C1", 2, 100, 3), behavior("B1", 1),
+                       behavior("A1", 0), behavior("A2", 0, 50)};
+  catalog.variables = {{"LIGHT", {"bright", "dark"}}, {"GPS", {}}};
+  for (std::size_t b = 0; b < 4; ++b) {
+    catalog.behaviors[b].situation = {{0, {0}}};
+  }
+  Event several = change(0, 1);
+  several.situation.own = {{3, false}};
+  several.situation.variables.emplace_back(1, 1);
+  const ordered_json events =
+      run(catalog, {start(0, 2), start(2), wait_for(one_second), several, change(0, 0)});
+  ASSERT_EQ(events.size(), 9U);
+  EXPECT_EQ(events[4]["situation"],
+            ordered_json::parse(R"({"A1": false, "LIGHT": "dark", "GPS": false})"));
+  EXPECT_EQ(events[4]["variables"].dump(), R"({"LIGHT":"dark","GPS":false})");
+  for (const std::size_t i : {5U, 6U, 7U}) {
+    EXPECT_EQ(events[i]["origin"], "situation");
+    EXPECT_EQ(events[i]["cause"], "situation_change");
+  }
+  // Without D nothing can go on, however high the request of C.
+  EXPECT_EQ(events[5]["name"], "D1");
+  EXPECT_EQ(changes(events[5]), "-C1 displaced(1)");
+  // A reactive task that stops so is tried again.
+  EXPECT_EQ(events[6]["name"], "B1");
+  EXPECT_EQ(events[6]["queue"].dump(), R"({"B":1.08})");
+  EXPECT_EQ(changes(events[7]), "+A2 requested(2)");
+  EXPECT_EQ(events[8]["variables"].dump(), R"({"LIGHT":"bright","GPS":false})");
+}
+
+TEST(Oracle, ABehaviorThatDoesNotFitIsNotChosen) {
+  Catalog catalog;
+  catalog.tasks = {on_request("A"), reactive("B")};
+  catalog.behaviors = {behavior("A1", 0), behavior("A2", 0, 50), behavior("B1", 1)};
+  catalog.variables = {{"LIGHT", {"bright", "dark", "dim"}}};
+  catalog.behaviors[0].situation = {{0, {0, 2}}};
+  catalog.behaviors[2].situation = {{0, {0, 2}}};
+  Script script;
+  script.situation.variables = {{0, 1}};
+  script.events = {start(0), wait_for(one_second), change(0, 2), change(0, 0)};
+  const ordered_json events = run_oracle(catalog, script, nullptr);
+  ASSERT_EQ(events.size(), 4U);
+  EXPECT_EQ(changes(events[0]), "+A2 requested(1)");
   EXPECT_EQ(events[1]["queue"].dump(), "{}");
+  EXPECT_EQ(events[2]["queue"].dump(), R"({"B":1.08})");
+  EXPECT_EQ(events[2]["running"].dump(), R"({"A":"A2"})");
+}
+
+TEST(Oracle, FinishesWhateverPerformsATask) {
+  Catalog catalog;
+  catalog.tasks = {on_request("A")};
+  catalog.behaviors = {behavior("A1", 0)};
+  Event of_task = finish(none, Cause::interrupted);
+  of_task.performed_task = 0;
+  const ordered_json events = run(catalog, {of_task, start(0), of_task});
+  EXPECT_TRUE(events[0]["name"].is_null());
+  EXPECT_EQ(events[0]["task"], "A");
+  EXPECT_EQ(events[0]["outcome"], "unchanged");
+  EXPECT_EQ(events[2]["name"], "A1");
+  EXPECT_EQ(events[2]["task"], "A");
+  EXPECT_EQ(events[2]["stopped_tasks"].dump(), R"([{"task":"A","cause":"interrupted"}])");
 }
 
 }  // namespace

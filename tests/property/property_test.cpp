@@ -117,6 +117,7 @@ const LowerBound event_lower_bounds[] = {
     {"origin: timeout", 500},
     {"origin: reactive", 300},
     {"origin: fault", 100},
+    {"origin: situation", 150},
     {"finish: goal_achieved", 200},
     {"finish: situation_change", 200},
     {"finish: time_out", 500},
@@ -163,6 +164,23 @@ const LowerBound event_lower_bounds[] = {
     {"reactive start: accepted", 200},
     {"reactive start: rejected", 60},
     {"reactive start: dropped", 40},
+    {"finish by task", 250},
+    {"finish by task, not running", 15},
+    {"situation: variables change", 500},
+    {"situation: several variables change", 80},
+    {"situation: variables and behaviors", 200},
+    {"situation: available because it fits", 500},
+    {"situation: replaced by an earlier finish", 15},
+    {"situation: several finishes", 12},
+    {"reactive task stopped by a situation change of its own", 30},
+    {"queue: waiting only", 1000},
+    {"waiting: silent attempt", 150},
+    {"waiting: an attempt with a failed activation", 12},
+    {"waiting: joins the queue again", 200},
+    {"waiting: until it starts", 30},
+    {"waiting: until an exclusive task starts", 25},
+    {"waiting: until a start is dropped", 2},
+    {"waiting: until a stop", 10},
     {"conflict of a start", 1500},
     {"conflict of a stop", 30},
     {"conflict of a reactive start", 60},
@@ -180,6 +198,8 @@ const LowerBound event_lower_bounds[] = {
     {"conflict: performance", 350},
     {"conflict: performance of a task alone", 250},
     {"conflict: unavailable", 450},
+    {"conflict: unavailable, and does not fit", 30},
+    {"conflict: situation", 500},
     {"conflict: faulty", 800},
 };
 
@@ -211,6 +231,12 @@ TEST(Property, ConflictCheckSeesWhatIsWrong) {
         ordered_json silent = conflict;
         silent[i]["message"] = "";
         expect_fault(silent);
+        const bool situation = conflict[i]["kind"] == "situation";
+        if (situation || conflict[i]["kind"] == "unavailable") {
+          ordered_json other_kind = conflict;
+          other_kind[i]["kind"] = situation ? "unavailable" : "situation";
+          expect_fault(other_kind);
+        }
         // The list on the next line may exclude the same pair.
         if (conflict[i].contains("line") && !conflict[i].contains("tasks")) {
           ordered_json next_line = conflict;

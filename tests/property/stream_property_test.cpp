@@ -71,6 +71,15 @@ class Recording {
   Runner runner_;
 };
 
+std::string header_of(const Mission& mission) {
+  Lines lines;
+  Recording recording(mission.catalog, mission.script.reactive_delay, lines);
+  recording.runner().begin(mission.script.situation);
+  return stream_header(mission.catalog, mission.catalog.file, mission.script.reactive_delay,
+                       mission.script.situation,
+                       recording.runner().coordinator().state().variables());
+}
+
 Lines run_whole(const Mission& mission) {
   Lines lines;
   Recording recording(mission.catalog, mission.script.reactive_delay, lines);
@@ -124,9 +133,7 @@ TEST(StreamProperty, LogGivesTheSameEventsAgain) {
     const Mission mission = make_mission(seed);
     const Lines lines = run_whole(mission);
     EventLog log(mission.catalog);
-    const auto header =
-        log.read_header(stream_header(mission.catalog, mission.catalog.file,
-                                      mission.script.reactive_delay, mission.script.situation));
+    const auto header = log.read_header(header_of(mission));
     ASSERT_TRUE(header) << log.error();
     Lines again;
     Recording recording(mission.catalog, header->reactive_delay, again);

@@ -169,6 +169,18 @@ class Writer {
     return plain(random_.pick(value ? yes : no));
   }
 
+  // The value of a situation variable.
+  Node value_of(const Variable& variable, std::size_t value) {
+    if (!variable.is_boolean()) {
+      return text(variable.values[value]);
+    }
+    Node node = boolean(value == 0);
+    if (random_.percent(25)) {
+      node.text = '"' + node.text + '"';
+    }
+    return node;
+  }
+
   // A decimal number with the given number of places, some or all of its last zeros left out.
   Node decimal(std::int64_t value, std::size_t places) {
     std::string digits = std::to_string(value);
@@ -209,6 +221,11 @@ class CatalogWriter : public Writer {
     std::vector<Entry> sections;
     add_defaults(sections);
     sections.push_back({"behaviors", behaviors()});
+    if (!catalog_.variables.empty()) {
+      sections.push_back({"situation", variables()});
+    } else if (noise()) {
+      sections.push_back({"situation", null()});
+    }
     Node listed = tasks();
     if (!listed.items.empty()) {
       sections.push_back({"tasks", std::move(listed)});
@@ -427,6 +444,7 @@ class CatalogWriter : public Writer {
     } else if (noise()) {
       node.add("requires", random_.percent(50) ? null() : sequence());
     }
+    add_situation(node, behavior);
     if (noise()) {
       node.add("x-since", plain("2"));
     }
@@ -434,6 +452,46 @@ class CatalogWriter : public Writer {
       random_.shuffle(node.entries);
     }
     return node;
+  }
+
+  Node variables() {
+    Node list = sequence();
+    for (const Variable& variable : catalog_.variables) {
+      Node entry = mapping();
+      entry.add("variable", text(variable.name));
+      if (!variable.is_boolean()) {
+        Node values = sequence();
+        for (const std::string& value : variable.values) {
+          values.add(text(value));
+        }
+        entry.add("values", std::move(values));
+      } else {
+        add_null_sometimes(entry, "values");
+      }
+      list.add(std::move(entry));
+    }
+    return list;
+  }
+
+  void add_situation(Node& node, const Behavior& behavior) {
+    if (behavior.situation.empty()) {
+      add_null_sometimes(node, "situation");
+      return;
+    }
+    Node conditions = mapping();
+    for (const Condition& condition : behavior.situation) {
+      const Variable& variable = catalog_.variables[condition.variable];
+      if (condition.values.size() == 1 && random_.percent(75)) {
+        conditions.add(variable.name, value_of(variable, condition.values.front()));
+        continue;
+      }
+      Node values = sequence();
+      for (const std::size_t value : condition.values) {
+        values.add(value_of(variable, value));
+      }
+      conditions.add(variable.name, std::move(values));
+    }
+    node.add("situation", std::move(conditions));
   }
 
   // As `task:` or as `tasks:`; the suitability of the behavior itself stands in for those that the
@@ -528,7 +586,7 @@ class ScriptWriter : public Writer {
         node.add("stop", text(catalog_.tasks[event.subject].name));
         break;
       case Verb::finish:
-        node.add("finish", text(catalog_.behaviors[event.subject].name));
+        node.add("finish", finished(event));
         if (event.cause != Cause::goal_achieved || random_.percent(50)) {
           node.add("cause", text(to_string(event.cause)));
         }
@@ -560,11 +618,25 @@ class ScriptWriter : public Writer {
     return node;
   }
 
-  Node situation(const Situation& values) {
-    Node node = mapping();
-    for (const auto& [behavior, available] : values) {
-      node.add(catalog_.behaviors[behavior].name, boolean(available));
+  Node finished(const Event& event) {
+    if (event.performed_task == none) {
+      return text(catalog_.behaviors[event.subject].name);
     }
+    Node node = mapping();
+    node.add("task", text(catalog_.tasks[event.performed_task].name));
+    return node;
+  }
+
+  Node situation(const Situation& situation) {
+    Node node = mapping();
+    for (const auto& [behavior, own] : situation.own) {
+      node.add(catalog_.behaviors[behavior].name, boolean(own));
+    }
+    for (const auto& [variable, value] : situation.variables) {
+      const Variable& changed = catalog_.variables[variable];
+      node.add(changed.name, value_of(changed, value));
+    }
+    random_.shuffle(node.entries);
     return node;
   }
 
