@@ -31,8 +31,30 @@ using Statements = std::map<std::string, std::map<std::string, std::string>>;
 
 std::string truth(bool value) { return value ? "true" : "false"; }
 
+std::string list_of(std::vector<std::string> values) {
+  std::sort(values.begin(), values.end());
+  std::string text;
+  for (const std::string& value : values) text += (text.empty() ? "" : ", ") + value;
+  return "[" + text + "]";
+}
+
+std::vector<std::string> values_of(const Variable& variable) {
+  return variable.is_boolean() ? std::vector<std::string>{"true", "false"} : variable.values;
+}
+
+std::string text_of(const Condition& condition, const Variable& variable) {
+  std::vector<std::string> values;
+  for (const std::size_t value : condition.values) values.push_back(values_of(variable)[value]);
+  return variable.is_boolean() && values.size() == 1 ? values.front() : list_of(values);
+}
+
 Statements statements_of(const Catalog& catalog) {
   Statements statements;
+  for (const Variable& variable : catalog.variables) {
+    auto& attributes = statements["variable " + variable.name];
+    attributes["initial value"] = values_of(variable).front();
+    if (!variable.is_boolean()) attributes["values"] = list_of(variable.values);
+  }
   for (const Task& task : catalog.tasks) {
     auto& attributes = statements["task " + task.name];
     attributes["execution_goal"] = task.keep_running ? "keep_running" : "achieve_goal";
@@ -44,6 +66,10 @@ Statements statements_of(const Catalog& catalog) {
   for (const Behavior& behavior : catalog.behaviors) {
     auto& attributes = statements["behavior " + behavior.name];
     if (behavior.timeout.value_or(0) > 0) attributes["timeout"] = std::to_string(*behavior.timeout);
+    for (const Condition& condition : behavior.situation) {
+      const Variable& variable = catalog.variables[condition.variable];
+      attributes["situation " + variable.name] = text_of(condition, variable);
+    }
     for (const Performance& one : behavior.performs) {
       statements[behavior.name + " performs " + catalog.tasks[one.task].name]["suitability"] =
           std::to_string(one.suitability);
@@ -125,6 +151,9 @@ std::vector<std::string> lines_of(CatalogDiff diff) {
       case CatalogChange::Subject::requirement:
         statement = change.behavior + " requires " + change.task;
         break;
+      case CatalogChange::Subject::variable:
+        statement = "variable " + change.variable;
+        break;
       case CatalogChange::Subject::exclusion:
         statement = change.task + " excludes " + change.other_task;
         break;
@@ -151,7 +180,8 @@ std::vector<std::string> lines_of(CatalogDiff diff) {
 std::vector<std::string> signs(const Statements& before, const Statements& after) {
   std::set<std::string> lines;
   const auto is_thing = [](const std::string& statement) {
-    return statement.starts_with("task ") || statement.starts_with("behavior ");
+    return statement.starts_with("task ") || statement.starts_with("behavior ") ||
+           statement.starts_with("variable ");
   };
   for (const auto& [statement, attributes] : before) {
     const auto other = after.find(statement);

@@ -77,7 +77,7 @@ HOVER, LAND
 LAND, MOVE
   FLY_LAND requires DF (robot.yaml:5)
   PID excludes DF (robot.yaml:20)
-  MOVE requires PID (robot.yaml:9)
+  behavior MOVE requires PID (robot.yaml:9)
 )");
 }
 
