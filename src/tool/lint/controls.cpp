@@ -80,8 +80,7 @@ std::string_view name_of(RuleSetting setting) {
 }
 
 bool is_fixed(const Diagnostic& finding) {
-  const Rule& rule = *find_rule(finding.rule);
-  return rule.is_fixed || (finding.severity == Severity::error && rule.severity != Severity::error);
+  return finding.is_fixed || find_rule(finding.rule)->is_fixed;
 }
 
 void SeveritySettings::set(const Rule& rule, RuleSetting setting) {
@@ -97,7 +96,10 @@ void SeveritySettings::override_with(const SeveritySettings& stronger) {
 
 std::optional<Severity> SeveritySettings::severity_of(const Diagnostic& finding) const {
   const auto found = settings_.find(finding.rule);
-  if (found == settings_.end() || is_fixed(finding)) return finding.severity;
+  if (is_fixed(finding)) return finding.severity;
+  if (found == settings_.end()) {
+    return finding.is_off ? std::nullopt : std::optional(finding.severity);
+  }
   switch (found->second) {
     case RuleSetting::error:
       return Severity::error;
@@ -169,7 +171,7 @@ class SettingsReader {
       if (yaml::read_boolean(*strict, "strict", reporter_).value_or(false)) settings_.make_strict();
     }
     if (const yaml::Node* lists = fields.find(never_together)) read_never_together(*lists);
-    fields.report_unknown(Severity::error);
+    fields.report_unknown(yaml::UnknownKeys::refused);
     return settings_;
   }
 
@@ -222,7 +224,7 @@ class SettingsReader {
     const Rule* rule = find_rule(name);
     if (rule == nullptr) {
       // An error, though a warning in a catalog: settings that are not understood are of no use.
-      reporter_.report_as(Severity::error, rule::unknown_rule, range,
+      reporter_.report_as({Severity::error, true}, rule::unknown_rule, range,
                           names_.describe_unknown(name));
       return;
     }

@@ -26,8 +26,8 @@ inline constexpr std::array rule_settings = {RuleSetting::error, RuleSetting::wa
 /// "error", "warn", "allow": the key of a settings file, and the option.
 [[nodiscard]] std::string_view name_of(RuleSetting setting);
 
-/// Whether the severity of a finding cannot be changed: its rule is fixed, or it is an error though
-/// the rule's severity is not (an unknown key in a script).
+/// Whether the severity of a finding cannot be changed, because of its rule or by itself (an
+/// unknown key in a script).
 [[nodiscard]] bool is_fixed(const Diagnostic& finding);
 
 /// Tasks of which no two may be able to run at the same time, as a settings file lists them.

@@ -243,14 +243,53 @@ void check_performed(const CatalogReading& reading, const std::vector<Use>& uses
   }
 }
 
+/// The behaviors and exclusivity lists that name each task.
+class Namings {
+ public:
+  explicit Namings(const Catalog& catalog) : of_task_(catalog.tasks.size()) {
+    for (const Behavior& behavior : catalog.behaviors) {
+      for (const Performance& performance : behavior.performs) add(performance.task);
+      for (const Requirement& requirement : behavior.requirements) add(requirement.task);
+      ++count_;
+    }
+    for (const ExclusivityList& list : catalog.exclusivity) {
+      for (const TaskIndex task : list.tasks) add(task);
+      ++count_;
+    }
+  }
+
+  /// Whether one of them names both tasks, so that neither is a misspelling of the other.
+  [[nodiscard]] bool have_in_common(TaskIndex a, TaskIndex b) const {
+    const std::vector<std::size_t>& of_b = of_task_[b];
+    return std::any_of(of_task_[a].begin(), of_task_[a].end(), [&of_b](std::size_t naming) {
+      return std::binary_search(of_b.begin(), of_b.end(), naming);
+    });
+  }
+
+ private:
+  void add(TaskIndex task) {
+    std::vector<std::size_t>& of_task = of_task_[task];
+    if (of_task.empty() || of_task.back() != count_) of_task.push_back(count_);
+  }
+
+  std::vector<std::vector<std::size_t>> of_task_;  ///< ascending
+  std::size_t count_ = 0;
+};
+
 /// In a file without a section of tasks, one finding says so for all of them.
 void check_implicit_tasks(const Catalog& catalog, Reporter& reporter) {
   std::vector<std::string_view> listed;
-  for (const Task& task : catalog.tasks) {
+  std::unordered_map<std::string_view, TaskIndex> places;
+  for (TaskIndex place = 0; place < catalog.tasks.size(); ++place) {
+    const Task& task = catalog.tasks[place];
     if (!task.implicit) listed.push_back(task.name);
+    places.try_emplace(task.name, place);
   }
+  if (listed.size() == catalog.tasks.size()) return;
   Suggestions suggestions(std::move(listed));
-  for (const Task& task : catalog.tasks) {
+  const Namings namings(catalog);
+  for (TaskIndex place = 0; place < catalog.tasks.size(); ++place) {
+    const Task& task = catalog.tasks[place];
     if (!task.implicit) continue;
     if (!catalog.has_task_section) {
       reporter.report(rule::implicit_task, task.range,
@@ -260,7 +299,9 @@ void check_implicit_tasks(const Catalog& catalog, Reporter& reporter) {
     }
     std::string message =
         "task " + quote(task.name) + " is named only by a behavior, and has the default attributes";
-    message += did_you_mean(suggestions.nearest(task.name));
+    message += did_you_mean(suggestions.nearest(task.name, [&](std::string_view other) {
+      return namings.have_in_common(place, places.at(other));
+    }));
     reporter.report(rule::implicit_task, task.range, std::move(message));
   }
 }
