@@ -27,6 +27,7 @@
 #include "coordinator/record.h"
 #include "diagnostic/diagnostic.h"
 #include "lint/controls.h"
+#include "lint/lint.h"
 #include "script/reader.h"
 #include "support/wording.h"
 
@@ -221,16 +222,39 @@ std::optional<InputFile> InputFiles::read_catalog(const std::string& path) {
 }
 
 bool InputFiles::take_findings(const std::string& path, const yaml::Document& document,
-                               Diagnostics diagnostics) {
-  if (!keeps_findings_) return diagnostics.count(Severity::error) == 0;
+                               Diagnostics diagnostics, bool is_complete) {
   const std::optional<SeveritySettings> settings = settings_.find(path);
   if (!settings) return false;
-  // Not all rules are checked here, so comments may look unused that are not.
-  const CommentedFile file{document.file(), text_of(document), &document, false};
+  const CommentedFile file{document.file(), text_of(document), &document, is_complete};
+  return keep(control_findings(diagnostics.release(), file, *settings), *settings);
+}
+
+InputFiles::CheckedFile InputFiles::check_catalog(const std::string& path,
+                                                  const yaml::Document& document, Purpose purpose) {
+  const std::optional<SeveritySettings> settings = settings_.find(path);
+  if (!settings) return {};
+  if (purpose == Purpose::use && !settings->add_failures()) {
+    Diagnostics diagnostics;
+    CatalogReading reading = understand_catalog(document, diagnostics);
+    return {std::move(reading), take_findings(path, document, std::move(diagnostics), false)};
+  }
+  LintOptions options;
+  options.searches = settings->need_search();
+  CheckedCatalog checked =
+      cbc::check_catalog(document, text_of(document), *settings, options, Diagnostics());
+  const bool is_usable = keep(std::move(checked.findings), *settings);
+  return {std::move(checked.reading), is_usable};
+}
+
+/// Returns whether there are no errors.
+bool InputFiles::keep(std::vector<Diagnostic> findings, const SeveritySettings& settings) {
   bool has_errors = false;
-  for (Diagnostic& finding : control_findings(diagnostics.release(), file, *settings)) {
-    has_errors |= finding.severity == Severity::error;
-    findings_.push_back(std::move(finding));
+  for (Diagnostic& finding : findings) {
+    if (settings.is_failure(finding.severity)) {
+      finding.severity = Severity::error;
+      has_errors = true;
+    }
+    if (keeps_findings_) findings_.push_back(std::move(finding));
   }
   return !has_errors;
 }
@@ -247,7 +271,8 @@ std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const InputFile& file
     if (!compiled) return nullptr;
     return std::make_shared<const CompiledCatalog>(std::move(compiled->catalog));
   }
-  const std::optional<Catalog> catalog = understand(file.path, *file.document);
+  const std::optional<Catalog> catalog =
+      understand(file.path, *file.document, InputFiles::Purpose::use);
   if (!catalog) return nullptr;
   return std::make_shared<const CompiledCatalog>(compile(*catalog));
 }
@@ -262,11 +287,11 @@ std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const std::string& pa
 }
 
 std::optional<Catalog> CatalogLoader::understand(const std::string& path,
-                                                 const yaml::Document& document) {
-  Diagnostics diagnostics;
-  CatalogReading reading = understand_catalog(document, diagnostics);
-  if (!files_.take_findings(path, document, std::move(diagnostics))) return std::nullopt;
-  return std::move(reading.catalog);
+                                                 const yaml::Document& document,
+                                                 InputFiles::Purpose purpose) {
+  InputFiles::CheckedFile file = files_.check_catalog(path, document, purpose);
+  if (!file.is_usable) return std::nullopt;
+  return std::move(file.reading.catalog);
 }
 
 std::shared_ptr<const CompiledCatalog> load_catalog(const std::string& path) {
@@ -349,9 +374,10 @@ bool has_errors(const std::vector<Diagnostic>& findings) {
 
 /// Null if nothing can be drawn.
 std::unique_ptr<Drawable> from_text(InputFiles& files, const InputFile& file) {
+  // What can be drawn is drawn, whatever else lint would find.
   Diagnostics diagnostics;
   CatalogReading reading = understand_catalog(*file.document, diagnostics);
-  if (files.take_findings(file.path, *file.document, std::move(diagnostics))) {
+  if (files.take_findings(file.path, *file.document, std::move(diagnostics), false)) {
     return from_compiled(compile(reading.catalog));
   }
   // If there is no error, the settings could not be read.

@@ -199,6 +199,7 @@ exclusivity_constraints:
 const Rule redundant_requirement = {
     .name = "redundant-requirement",
     .severity = Severity::note,
+    .needs_search = true,
     .summary = "A requirement is always met because of other constraints.",
     .explanation =
         "Every assignment of behaviors to tasks that has this behavior and satisfies the other "
@@ -246,6 +247,7 @@ tasks:
 const Rule requires_on_request = {
     .name = "requires-on-request",
     .severity = Severity::warning,
+    .needs_search = true,
     .summary = "A behavior requires a task that starts only on request.",
     .explanation =
         "A task with start_on_request TRUE, which is the default, starts only when it is "

@@ -235,6 +235,7 @@ tasks:
 const Rule unused_allow = {
     .name = "unused-allow",
     .severity = Severity::warning,
+    .needs_search = true,
     .summary = "A comment allows a rule that is not broken there.",
     .explanation =
         "A comment '# cbc: allow RULE' at the end of a line allows the rule on this line; alone "

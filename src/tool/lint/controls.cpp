@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <system_error>
 #include <unordered_map>
 #include <unordered_set>
@@ -109,6 +110,41 @@ std::optional<Severity> SeveritySettings::severity_of(const Diagnostic& finding)
       break;
   }
   return std::nullopt;
+}
+
+std::optional<Severity> SeveritySettings::severity_by(const Rule& rule) const {
+  if (rule.name == rule::can_run_together.name && never_together_.empty()) return std::nullopt;
+  Diagnostic finding;
+  finding.rule = rule.name;
+  finding.severity = rule.severity;
+  finding.is_fixed = rule.is_fixed;
+  finding.is_off = rule.is_off;
+  return severity_of(finding);
+}
+
+bool SeveritySettings::need_search() const {
+  const std::span<const Rule> rules = all_rules();
+  return std::any_of(rules.begin(), rules.end(), [this](const Rule& rule) {
+    const std::optional<Severity> severity = severity_by(rule);
+    return rule.needs_search && severity && is_failure(*severity);
+  });
+}
+
+bool SeveritySettings::add_failures() const {
+  const std::span<const Rule> rules = all_rules();
+  return std::any_of(rules.begin(), rules.end(), [this](const Rule& rule) {
+    const std::optional<Severity> severity = severity_by(rule);
+    const bool is_of_settings = rule.name == rule::can_run_together.name;
+    return (rule.severity != Severity::error || is_of_settings) && severity &&
+           is_failure(*severity);
+  });
+}
+
+bool SeveritySettings::turn_on_rules() const {
+  const std::span<const Rule> rules = all_rules();
+  return std::any_of(rules.begin(), rules.end(), [this](const Rule& rule) {
+    return rule.is_off && severity_by(rule).has_value();
+  });
 }
 
 SeveritySettings settings_of_options(const SeverityOptions& options,
@@ -300,7 +336,7 @@ void check_never_together_names(const std::vector<NeverTogether>& lists,
       if (is_known(list.tasks[i])) continue;
       const auto meant = suggestions.nearest(list.tasks[i]);
       if (!meant && !has_known) continue;
-      reporter.report_as(meant ? Severity::error : Severity::warning, rule::undefined_task,
+      reporter.report_as({meant ? Severity::error : Severity::warning}, rule::undefined_task,
                          list.ranges[i],
                          "no catalog has task " + quote(list.tasks[i]) + did_you_mean(meant));
     }
@@ -500,6 +536,11 @@ void filter(Diagnostics& findings, std::vector<Allow>& allows, Diagnostics& kept
   }
 }
 
+/// Whether it is known that an allow that was not used is not needed.
+bool is_decided(const Allow& allow, const CommentedFile& file) {
+  return file.is_complete && (file.checks_off_rules || !allow.rule->is_off);
+}
+
 void report_unused(const Allow& allow, Reporter& reporter) {
   reporter.report(rule::unused_allow, allow.range,
                   "no finding of rule " + quote(allow.rule->name) + " needs this comment");
@@ -522,7 +563,8 @@ std::vector<Diagnostic> apply_allow_comments(std::vector<Diagnostic> findings,
   for (const Allow& allow : allows) {
     if (allow.rule->is_fixed) {
       unused_reporter.report(rule::unused_allow, allow.range, describe_fixed(*allow.rule));
-    } else if (file.is_complete && !allow.is_used && allow.rule->name != rule::unused_allow) {
+    } else if (is_decided(allow, file) && !allow.is_used &&
+               allow.rule->name != rule::unused_allow) {
       report_unused(allow, unused_reporter);
     }
   }

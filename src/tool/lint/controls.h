@@ -57,7 +57,20 @@ class SeveritySettings {
   [[nodiscard]] bool is_strict() const { return is_strict_; }
   [[nodiscard]] const std::vector<NeverTogether>& never_together() const { return never_together_; }
 
+  /// Whether a finding with this severity is a failure.
+  [[nodiscard]] bool is_failure(Severity severity) const {
+    return severity == Severity::error || (is_strict_ && severity == Severity::warning);
+  }
+  /// Whether there may be a failure that would be none without settings, by a rule that needs a
+  /// search, by any rule.
+  [[nodiscard]] bool need_search() const;
+  [[nodiscard]] bool add_failures() const;
+  /// Whether rules that are off without settings are to be checked.
+  [[nodiscard]] bool turn_on_rules() const;
+
  private:
+  [[nodiscard]] std::optional<Severity> severity_by(const Rule& rule) const;
+
   std::map<std::string_view, RuleSetting> settings_;  // by name of the rule
   bool is_strict_ = false;
   std::vector<NeverTogether> never_together_;
@@ -113,6 +126,8 @@ struct CommentedFile {
   const yaml::Document* document = nullptr;  ///< of the text, if it is valid YAML
   /// Whether every rule could be decided. If not, an allow without a finding may still be needed.
   bool is_complete = true;
+  /// The same for rules that are off unless settings ask for them.
+  bool checks_off_rules = false;
 };
 
 /// Removes the findings of a file that comments of the file allow:

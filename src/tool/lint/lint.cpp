@@ -483,13 +483,34 @@ LintResult lint_catalog(const yaml::Document& document, const LintOptions& optio
   const std::vector<bool> conflicts = check_conflicting_requirements(catalog, reporter);
   if (!reading.has_all_names || !reading.is_acyclic) {
     // Anything else that could be found may be due to what is missing.
-    check_on_request_requirements(catalog, conflicts, reporter);
+    if (options.searches) check_on_request_requirements(catalog, conflicts, reporter);
     return result;
   }
+  if (!options.searches) return result;
   CompiledCatalog compiled = compile(catalog);
   check_by_proof(reading, compiled, conflicts, options, reporter);
   if (reading.is_complete) result.compiled = std::move(compiled);
   return result;
+}
+
+CheckedCatalog check_catalog(const yaml::Document& document, std::string_view text,
+                             const SeveritySettings& settings, LintOptions options,
+                             Diagnostics diagnostics) {
+  options.never_together = settings.never_together();
+  options.checks_off_rules = settings.turn_on_rules();
+  options.control = [&](std::vector<Diagnostic> findings) {
+    return control_findings(std::move(findings), {document.file(), text, &document, false},
+                            settings);
+  };
+  LintResult result = lint_catalog(document, options, diagnostics);
+  CheckedCatalog checked;
+  checked.errors = diagnostics.count(Severity::error);
+  const CommentedFile file{document.file(), text, &document, result.compiled.has_value(),
+                           options.checks_off_rules};
+  checked.findings = control_findings(diagnostics.release(), file, settings);
+  checked.reading = std::move(result.reading);
+  checked.compiled = std::move(result.compiled);
+  return checked;
 }
 
 }  // namespace cbc
