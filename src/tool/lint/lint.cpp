@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -414,18 +416,29 @@ void check_exclusivity(const Catalog& catalog, Reporter& reporter) {
   Containment(catalog).report(reporter);
 }
 
+/// The places of findings.
+using Places = std::set<Position>;
+
 /// Finds behaviors that require two tasks which exclude one another.
 class ConflictCheck {
  public:
-  ConflictCheck(const Catalog& catalog, Reporter& reporter)
-      : catalog_(catalog), reporter_(reporter), exclusions_(catalog) {}
+  /// `exclusive`: the requirements that the findings of exclusive-requirement are about.
+  ConflictCheck(const Catalog& catalog, const Places& exclusive, Reporter& reporter)
+      : catalog_(catalog), exclusive_(exclusive), reporter_(reporter), exclusions_(catalog) {}
 
-  /// Reports each requirement that conflicts with an earlier one, once. Whether there is one.
+  /// Reports each requirement that conflicts with an earlier one, once. Whether a finding says that
+  /// the behavior can never be active.
   bool check(const Behavior& behavior) {
     bool has_conflict = false;
+    std::unordered_set<TaskIndex> explained;
     std::unordered_map<std::size_t, const Requirement*> first_in;  // by list
     for (const Requirement& requirement : behavior.requirements) {
-      if (exclusions_.find_for_all(behavior, requirement.task)) {
+      // The first requirement of a task has the finding, if there is one.
+      if (exclusive_.contains(requirement.range.begin) &&
+          exclusions_.find_for_all(behavior, requirement.task)) {
+        explained.insert(requirement.task);
+      }
+      if (explained.contains(requirement.task)) {
         has_conflict = true;
         continue;
       }
@@ -455,14 +468,34 @@ class ConflictCheck {
   }
 
   const Catalog& catalog_;
+  const Places& exclusive_;
   Reporter& reporter_;
   Exclusions exclusions_;
 };
 
-/// Returns, by behavior, whether it can never be active because of conflicting requirements, or
-/// because it requires a task that excludes its own (which the reader has reported).
-std::vector<bool> check_conflicting_requirements(const Catalog& catalog, Reporter& reporter) {
-  ConflictCheck check(catalog, reporter);
+/// The requirements that are reported because the task excludes what requires it. The reader has
+/// found them.
+Places find_exclusive_requirements(const Diagnostics& diagnostics, const std::string& file,
+                                   const LintOptions& options) {
+  std::vector<Diagnostic> findings;
+  for (const Diagnostic& finding : diagnostics.all()) {
+    if (finding.rule == rule::exclusive_requirement.name && finding.file == file) {
+      findings.push_back(finding);
+    }
+  }
+  if (options.control && !findings.empty()) findings = options.control(std::move(findings));
+  Places places;
+  for (const Diagnostic& finding : findings) {
+    if (finding.rule == rule::exclusive_requirement.name) places.insert(finding.range.begin);
+  }
+  return places;
+}
+
+/// Returns, by behavior, whether a finding says that it can never be active: because of conflicting
+/// requirements, or because it requires a task that excludes its own.
+std::vector<bool> check_conflicting_requirements(const Catalog& catalog, const Places& exclusive,
+                                                 Reporter& reporter) {
+  ConflictCheck check(catalog, exclusive, reporter);
   std::vector<bool> conflicts;
   for (const Behavior& behavior : catalog.behaviors) conflicts.push_back(check.check(behavior));
   return conflicts;
@@ -480,7 +513,8 @@ LintResult lint_catalog(const yaml::Document& document, const LintOptions& optio
   check_tasks(reading, reporter);
   check_behaviors(catalog, reading.is_complete, reporter);
   check_exclusivity(catalog, reporter);
-  const std::vector<bool> conflicts = check_conflicting_requirements(catalog, reporter);
+  const Places exclusive = find_exclusive_requirements(diagnostics, document.file(), options);
+  const std::vector<bool> conflicts = check_conflicting_requirements(catalog, exclusive, reporter);
   if (!reading.has_all_names || !reading.is_acyclic) {
     // Anything else that could be found may be due to what is missing.
     if (options.searches) check_on_request_requirements(catalog, conflicts, reporter);
