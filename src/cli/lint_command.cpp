@@ -387,7 +387,8 @@ constexpr const char* lint_footer =
     "A comment '# cbc: allow RULE' at the end of a line, or above an entry, allows a finding "
     "there. A file .cbc.yaml in the folder of a catalog, or above it, has settings for all of "
     "them:\n"
-    "  error: [RULE, ...]   warn: [RULE, ...]   allow: [RULE, ...]   strict: true\n"
+    "  error: [RULE, ...]   warn: [RULE, ...]   note: [RULE, ...]   allow: [RULE, ...]\n"
+    "  strict: true\n"
     "  never_together: [[TASK, TASK, ...], ...]   no two of them can run together\n"
     "\n"
     "Exit status: 0 no errors, 1 errors (with --strict, also warnings), 2 a file could not be "
@@ -583,6 +584,10 @@ void add_lint_command(Program& program) {
   command.option("--error", options->severities.error, rules, "Report findings of a rule as errors")
       .separated_by(',');
   command.option("--warn", options->severities.warn, rules, "Report findings of a rule as warnings")
+      .separated_by(',');
+  command
+      .option("--note", options->severities.note, rules,
+              "Report findings of a rule as notes; also turns on rules that are off")
       .separated_by(',');
   command.option("--allow", options->severities.allow, rules, "Do not report findings of a rule")
       .separated_by(',');

@@ -200,6 +200,11 @@ class Resolver {
 
   Catalog resolve() {
     catalog_.has_task_section = draft_.has_task_section;
+    catalog_.gives_goals =
+        draft_.task_defaults.execution_goal ||
+        std::any_of(draft_.tasks.begin(), draft_.tasks.end(), [](const draft::Task& task) {
+          return task.attributes.execution_goal.has_value();
+        });
     define_listed_tasks();
     define_implicit_tasks();
     read_situation([&] { catalog_.variables = situation_.read_variables(draft_.situation); });

@@ -66,6 +66,7 @@ struct Rule {
   RULE(on_request_and_reactive)  \
   RULE(parameter_value)          \
   RULE(reactive_timeout)         \
+  RULE(redundant_minimum)        \
   RULE(redundant_requirement)    \
   RULE(required_goal)            \
   RULE(requirement_cycle)        \

@@ -58,6 +58,8 @@ const std::vector<std::string>& names_for(RuleSetting setting, const SeverityOpt
       return options.error;
     case RuleSetting::warn:
       return options.warn;
+    case RuleSetting::note:
+      return options.note;
     case RuleSetting::allow:
       break;
   }
@@ -76,7 +78,7 @@ std::string name_of_option(RuleSetting setting) { return "--" + std::string(name
 }  // namespace
 
 std::string_view name_of(RuleSetting setting) {
-  constexpr std::string_view names[] = {"error", "warn", "allow"};
+  constexpr std::string_view names[] = {"error", "warn", "note", "allow"};
   return names[static_cast<std::size_t>(setting)];
 }
 
@@ -106,6 +108,8 @@ std::optional<Severity> SeveritySettings::severity_of(const Diagnostic& finding)
       return Severity::error;
     case RuleSetting::warn:
       return Severity::warning;
+    case RuleSetting::note:
+      return Severity::note;
     case RuleSetting::allow:
       break;
   }
@@ -181,7 +185,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr yaml::Key settings_keys[] = {
-    {"error"}, {"warn"}, {"allow"}, {"strict"}, {"never_together"}};
+    {"error"}, {"warn"}, {"note"}, {"allow"}, {"strict"}, {"never_together"}};
 constexpr yaml::Shape settings_shape{"the settings", settings_keys};
 
 /// The folder of a file, where the search begins: without links and "..", where possible.
@@ -313,8 +317,8 @@ std::optional<SeveritySettings> read_settings(std::string_view text, std::string
   Reporter reporter(file, diagnostics);
   if (root.kind != yaml::Kind::mapping) {
     reporter.report(rule::wrong_type, root.range,
-                    "settings must be a mapping with the keys 'error', 'warn', 'allow', 'strict' "
-                    "and 'never_together', found " +
+                    "settings must be a mapping with the keys 'error', 'warn', 'note', 'allow', "
+                    "'strict' and 'never_together', found " +
                         yaml::describe(root));
     return std::nullopt;
   }

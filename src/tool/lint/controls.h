@@ -18,12 +18,12 @@
 namespace cbc {
 
 /// What becomes of the findings of a rule; `allow`: they are not reported.
-enum class RuleSetting : std::uint8_t { error, warn, allow };
+enum class RuleSetting : std::uint8_t { error, warn, note, allow };
 
 inline constexpr std::array rule_settings = {RuleSetting::error, RuleSetting::warn,
-                                             RuleSetting::allow};
+                                             RuleSetting::note, RuleSetting::allow};
 
-/// "error", "warn", "allow": the key of a settings file, and the option.
+/// "error", "warn", "note", "allow": the key of a settings file, and the option.
 [[nodiscard]] std::string_view name_of(RuleSetting setting);
 
 /// Whether the severity of a finding cannot be changed, because of its rule or by itself (an
@@ -78,9 +78,10 @@ class SeveritySettings {
 
 /// Names of rules, as they were given on the command line.
 struct SeverityOptions {
-  std::vector<std::string> error;
-  std::vector<std::string> warn;
-  std::vector<std::string> allow;
+  std::vector<std::string> error = {};
+  std::vector<std::string> warn = {};
+  std::vector<std::string> note = {};
+  std::vector<std::string> allow = {};
   bool strict = false;
 };
 
@@ -102,6 +103,7 @@ inline constexpr std::string_view settings_file_name = ".cbc.yaml";
 ///
 ///     error: [unknown-key, dead-behavior]
 ///     warn: [exclusive-requirement]
+///     note: [redundant-minimum]
 ///     allow: [required-goal]
 ///     strict: true
 ///     never_together:

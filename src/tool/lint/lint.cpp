@@ -121,17 +121,20 @@ std::vector<Use> find_uses(const Catalog& catalog) {
   return uses;
 }
 
-void check_required_goal(const Task& task, const Use& use, Reporter& reporter) {
+/// A file that gives no goal at all, as generated ones do, says nothing about this one either.
+void check_required_goal(const Catalog& catalog, const Task& task, const Use& use,
+                         Reporter& reporter) {
   if (use.requirements == 0 || task.execution_goal == ExecutionGoal::keep_running) return;
   std::string who = describe(*use.required_by) + " requires it";
   if (use.requirements > 1) {
     who += ", and " + std::to_string(use.requirements - 1) + " more";
   }
-  reporter.report(rule::required_goal, task.range,
-                  "task " + quote(task.name) +
-                      " is required, but ends when its goal is achieved; what requires it then "
-                      "stops too",
-                  {reporter.note(use.required_at, std::move(who))});
+  reporter.report_as({.severity = rule::required_goal.severity, .is_off = !catalog.gives_goals},
+                     rule::required_goal, task.range,
+                     "task " + quote(task.name) +
+                         " is required, but ends when its goal is achieved; what requires it then "
+                         "stops too",
+                     {reporter.note(use.required_at, std::move(who))});
 }
 
 /// Reports tasks that nothing starts but a request, though start_on_request is false. In a catalog
@@ -317,7 +320,7 @@ void check_tasks(const CatalogReading& reading, Reporter& reporter) {
     const Use& use = uses[index];
     check_suspicious_minimum(task.minimum_performance, task.minimum_performance_range, reporter);
     if (!task.is_unclear) {
-      check_required_goal(task, use, reporter);
+      check_required_goal(catalog, task, use, reporter);
       check_timeout(task, use, reporter);
     }
     check_parameters(task, reporter);
