@@ -10,6 +10,7 @@
 #include <fstream>
 #include <memory>
 #include <poll.h>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <unistd.h>
@@ -19,6 +20,7 @@
 #include <fmt/core.h>
 
 #include "base/text.h"
+#include "catalog/format.h"
 #include "catalog/reader.h"
 #include "cbc/event.h"
 #include "cli/output.h"
@@ -34,31 +36,35 @@
 namespace cbc::cli {
 namespace {
 
-constexpr std::array<std::string_view, 4> catalog_keys = {
-    "behaviors", "tasks", "exclusivity_constraints", "default_values"};
-
 template <typename Keys>
 bool has_any(const yaml::Node& node, const Keys& keys) {
   return std::any_of(keys.begin(), keys.end(),
                      [&node](std::string_view key) { return node.find(key) != nullptr; });
 }
 
-/// Whether a line begins with one of the keys.
-bool has_line_with_key(std::string_view text) {
+/// Whether lines of a text that is not valid YAML begin with the keys of a catalog.
+bool has_lines_of_catalog(std::string_view text) {
+  constexpr std::string_view main_key = "behaviors";
+  constexpr std::string_view other_keys[] = {"tasks", "exclusivity_constraints", "default_values"};
+  const auto begins_with = [](std::string_view line, std::string_view key) {
+    return line.starts_with(key) && line.substr(key.size()).starts_with(':');
+  };
   text = utf8::without_byte_order_mark(text);
+  std::set<std::string_view> found;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::string_view line = text.substr(begin, text.find('\n', begin) - begin);
-    for (const std::string_view key : catalog_keys) {
-      if (line.starts_with(key) && line.substr(key.size()).starts_with(':')) return true;
+    if (begins_with(line, main_key)) return true;
+    for (const std::string_view key : other_keys) {
+      if (begins_with(line, key)) found.insert(key);
     }
     begin += line.size() + 1;
   }
-  return false;
+  return found.size() > 1;
 }
 
 }  // namespace
 
-bool is_catalog(const yaml::Document& document) { return has_any(document.root(), catalog_keys); }
+bool is_catalog(const yaml::Document& document) { return cbc::is_catalog(document.root()); }
 
 bool is_script(const yaml::Document& document) {
   constexpr std::array<std::string_view, 4> keys = {"events", "catalog", "reactive_delay",
@@ -83,15 +89,10 @@ bool looks_like_script(const yaml::Document& document) {
 }
 
 bool looks_like_catalog(std::string_view text) {
-  if (has_line_with_key(text)) return true;
   Diagnostics ignored;
   const auto document = yaml::parse(text, {}, ignored);
-  if (document == nullptr || is_script(*document)) return false;
-  if (is_catalog(*document)) return true;
-  const auto& entries = document->root().entries;
-  return std::any_of(entries.begin(), entries.end(), [](const auto& entry) {
-    return nearest(entry.first->text, catalog_keys).has_value();
-  });
+  if (document == nullptr) return has_lines_of_catalog(text);
+  return !is_script(*document) && resembles_catalog(document->root());
 }
 
 namespace {

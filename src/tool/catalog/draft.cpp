@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/text.h"
+#include "catalog/format.h"
 #include "diagnostic/rules.h"
 #include "yaml/values.h"
 
@@ -99,6 +100,11 @@ class Reader {
       reporter_.report(
           rule::wrong_type, root.range,
           "a catalog must be a mapping with the key 'behaviors', found " + yaml::describe(root));
+    } else if (const Node* key = find_older_format(root)) {
+      reporter_.report(rule::older_format, key->range,
+                       "this is a catalog of an older format, with capabilities and without tasks; "
+                       "it is not supported");
+      catalog_.lacks_a_section = true;
     } else {
       read_sections(root);
     }

@@ -63,6 +63,7 @@ struct Rule {
   RULE(missing_key)              \
   RULE(never_started)            \
   RULE(no_timeout_effect)        \
+  RULE(older_format)             \
   RULE(on_request_and_reactive)  \
   RULE(parameter_value)          \
   RULE(reactive_timeout)         \
