@@ -28,6 +28,7 @@
 #include "compiled/compiled_file.h"
 #include "coordinator/record.h"
 #include "diagnostic/diagnostic.h"
+#include "diagnostic/rules.h"
 #include "lint/controls.h"
 #include "lint/lint.h"
 #include "script/reader.h"
@@ -98,7 +99,8 @@ bool looks_like_catalog(std::string_view text) {
 namespace {
 
 /// Prints findings to standard error: all errors, and the first few warnings of each rule in each
-/// file, but no notes. `texts` has the files they are about, by their names in messages.
+/// file, but no notes. Older names of keys, of which a file usually has many, are only counted.
+/// `texts` has the files they are about, by their names in messages.
 void print_findings(const std::vector<Diagnostic>& findings,
                     const std::map<std::string, std::string>& texts) {
   constexpr std::size_t most_warnings = 3;
@@ -109,11 +111,19 @@ void print_findings(const std::vector<Diagnostic>& findings,
   for (const Diagnostic& finding : findings) {
     if (finding.severity == Severity::note) continue;
     if (finding.severity == Severity::error ||
-        ++warnings[{finding.file, finding.rule}] <= most_warnings) {
+        (++warnings[{finding.file, finding.rule}] <= most_warnings &&
+         finding.rule != rule::deprecated_key.name)) {
       fmt::print(stderr, "{}", render(finding, sources, style));
     }
   }
   for (const auto& [kind, count] : warnings) {
+    if (kind.second == rule::deprecated_key.name) {
+      fmt::print(stderr, "{}: {}: {} {}; see 'cbc lint', or 'cbc lint --fix' [{}]\n",
+                 printable(kind.first), style.paint(style.warning, "warning"),
+                 quantity(count, "key"), count == 1 ? "has an older name" : "have older names",
+                 kind.second);
+      continue;
+    }
     if (count <= most_warnings) continue;
     fmt::print(stderr, "{}: {} more like these [{}]\n", printable(kind.first),
                count - most_warnings, kind.second);
