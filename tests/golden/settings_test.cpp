@@ -48,11 +48,12 @@ TEST_F(Settings, AnErrorOfAnyRuleHoldsEverywhere) {
   for (const Rule* rule : rules_of_catalogs()) {
     const std::string name(rule->name);
     folder.write("robot.yaml", std::string(rule->example));
-    folder.write(".cbc.yaml", "error: [" + name + "]\n");
+    const std::string others(rule->settings);
+    folder.write(".cbc.yaml", others + "error: [" + name + "]\n");
     expect_usable(false, name);
     EXPECT_NE(cbc({"compile", "robot.yaml"}).err.find("error: "), std::string::npos) << name;
     EXPECT_NE(cbc({"compile", "robot.yaml"}).err.find("[" + name + "]\n"), std::string::npos);
-    folder.write(".cbc.yaml", "allow: [" + name + "]\n");
+    folder.write(".cbc.yaml", others + "allow: [" + name + "]\n");
     expect_usable(true, name);
   }
 }

@@ -53,8 +53,7 @@ struct CheckedCatalog {
 };
 
 /// Checks a catalog by all rules. `text` is that of the document; `diagnostics` has what was found
-/// before. What of `options` is about settings is
-/// not used.
+/// before. What `options` says about settings is replaced by `settings`.
 [[nodiscard]] CheckedCatalog check_catalog(const yaml::Document& document, std::string_view text,
                                            const SeveritySettings& settings, LintOptions options,
                                            Diagnostics diagnostics);
