@@ -10,6 +10,7 @@
 #include <fstream>
 #include <memory>
 #include <poll.h>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <unistd.h>
@@ -19,6 +20,7 @@
 #include <fmt/core.h>
 
 #include "base/text.h"
+#include "catalog/format.h"
 #include "catalog/reader.h"
 #include "cbc/event.h"
 #include "cli/output.h"
@@ -26,15 +28,14 @@
 #include "compiled/compiled_file.h"
 #include "coordinator/record.h"
 #include "diagnostic/diagnostic.h"
+#include "diagnostic/rules.h"
 #include "lint/controls.h"
+#include "lint/lint.h"
 #include "script/reader.h"
 #include "support/wording.h"
 
 namespace cbc::cli {
 namespace {
-
-constexpr std::array<std::string_view, 4> catalog_keys = {
-    "behaviors", "tasks", "exclusivity_constraints", "default_values"};
 
 template <typename Keys>
 bool has_any(const yaml::Node& node, const Keys& keys) {
@@ -42,22 +43,29 @@ bool has_any(const yaml::Node& node, const Keys& keys) {
                      [&node](std::string_view key) { return node.find(key) != nullptr; });
 }
 
-/// Whether a line begins with one of the keys.
-bool has_line_with_key(std::string_view text) {
+/// Whether lines of a text that is not valid YAML begin with the keys of a catalog.
+bool has_lines_of_catalog(std::string_view text) {
+  constexpr std::string_view main_key = "behaviors";
+  constexpr std::string_view other_keys[] = {"tasks", "exclusivity_constraints", "default_values"};
+  const auto begins_with = [](std::string_view line, std::string_view key) {
+    return line.starts_with(key) && line.substr(key.size()).starts_with(':');
+  };
   text = utf8::without_byte_order_mark(text);
+  std::set<std::string_view> found;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::string_view line = text.substr(begin, text.find('\n', begin) - begin);
-    for (const std::string_view key : catalog_keys) {
-      if (line.starts_with(key) && line.substr(key.size()).starts_with(':')) return true;
+    if (begins_with(line, main_key)) return true;
+    for (const std::string_view key : other_keys) {
+      if (begins_with(line, key)) found.insert(key);
     }
     begin += line.size() + 1;
   }
-  return false;
+  return found.size() > 1;
 }
 
 }  // namespace
 
-bool is_catalog(const yaml::Document& document) { return has_any(document.root(), catalog_keys); }
+bool is_catalog(const yaml::Document& document) { return cbc::is_catalog(document.root()); }
 
 bool is_script(const yaml::Document& document) {
   constexpr std::array<std::string_view, 4> keys = {"events", "catalog", "reactive_delay",
@@ -82,21 +90,17 @@ bool looks_like_script(const yaml::Document& document) {
 }
 
 bool looks_like_catalog(std::string_view text) {
-  if (has_line_with_key(text)) return true;
   Diagnostics ignored;
   const auto document = yaml::parse(text, {}, ignored);
-  if (document == nullptr || is_script(*document)) return false;
-  if (is_catalog(*document)) return true;
-  const auto& entries = document->root().entries;
-  return std::any_of(entries.begin(), entries.end(), [](const auto& entry) {
-    return nearest(entry.first->text, catalog_keys).has_value();
-  });
+  if (document == nullptr) return has_lines_of_catalog(text);
+  return !is_script(*document) && resembles_catalog(document->root());
 }
 
 namespace {
 
 /// Prints findings to standard error: all errors, and the first few warnings of each rule in each
-/// file, but no notes. `texts` has the files they are about, by their names in messages.
+/// file, but no notes. Older names of keys, of which a file usually has many, are only counted.
+/// `texts` has the files they are about, by their names in messages.
 void print_findings(const std::vector<Diagnostic>& findings,
                     const std::map<std::string, std::string>& texts) {
   constexpr std::size_t most_warnings = 3;
@@ -107,11 +111,19 @@ void print_findings(const std::vector<Diagnostic>& findings,
   for (const Diagnostic& finding : findings) {
     if (finding.severity == Severity::note) continue;
     if (finding.severity == Severity::error ||
-        ++warnings[{finding.file, finding.rule}] <= most_warnings) {
+        (++warnings[{finding.file, finding.rule}] <= most_warnings &&
+         finding.rule != rule::deprecated_key.name)) {
       fmt::print(stderr, "{}", render(finding, sources, style));
     }
   }
   for (const auto& [kind, count] : warnings) {
+    if (kind.second == rule::deprecated_key.name) {
+      fmt::print(stderr, "{}: {}: {} {}; see 'cbc lint', or 'cbc lint --fix' [{}]\n",
+                 printable(kind.first), style.paint(style.warning, "warning"),
+                 quantity(count, "key"), count == 1 ? "has an older name" : "have older names",
+                 kind.second);
+      continue;
+    }
     if (count <= most_warnings) continue;
     fmt::print(stderr, "{}: {} more like these [{}]\n", printable(kind.first),
                count - most_warnings, kind.second);
@@ -221,16 +233,39 @@ std::optional<InputFile> InputFiles::read_catalog(const std::string& path) {
 }
 
 bool InputFiles::take_findings(const std::string& path, const yaml::Document& document,
-                               Diagnostics diagnostics) {
-  if (!keeps_findings_) return diagnostics.count(Severity::error) == 0;
+                               Diagnostics diagnostics, bool is_complete) {
   const std::optional<SeveritySettings> settings = settings_.find(path);
   if (!settings) return false;
-  // Not all rules are checked here, so comments may look unused that are not.
-  const CommentedFile file{document.file(), text_of(document), &document, false};
+  const CommentedFile file{document.file(), text_of(document), &document, is_complete};
+  return keep(control_findings(diagnostics.release(), file, *settings), *settings);
+}
+
+InputFiles::CheckedFile InputFiles::check_catalog(const std::string& path,
+                                                  const yaml::Document& document, Purpose purpose) {
+  const std::optional<SeveritySettings> settings = settings_.find(path);
+  if (!settings) return {};
+  if (purpose == Purpose::use && !settings->add_failures()) {
+    Diagnostics diagnostics;
+    CatalogReading reading = understand_catalog(document, diagnostics);
+    return {std::move(reading), take_findings(path, document, std::move(diagnostics), false)};
+  }
+  LintOptions options;
+  options.searches = settings->need_search();
+  CheckedCatalog checked =
+      cbc::check_catalog(document, text_of(document), *settings, options, Diagnostics());
+  const bool is_usable = keep(std::move(checked.findings), *settings);
+  return {std::move(checked.reading), is_usable};
+}
+
+/// Returns whether there are no errors.
+bool InputFiles::keep(std::vector<Diagnostic> findings, const SeveritySettings& settings) {
   bool has_errors = false;
-  for (Diagnostic& finding : control_findings(diagnostics.release(), file, *settings)) {
-    has_errors |= finding.severity == Severity::error;
-    findings_.push_back(std::move(finding));
+  for (Diagnostic& finding : findings) {
+    if (settings.is_failure(finding.severity)) {
+      finding.severity = Severity::error;
+      has_errors = true;
+    }
+    if (keeps_findings_) findings_.push_back(std::move(finding));
   }
   return !has_errors;
 }
@@ -247,7 +282,8 @@ std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const InputFile& file
     if (!compiled) return nullptr;
     return std::make_shared<const CompiledCatalog>(std::move(compiled->catalog));
   }
-  const std::optional<Catalog> catalog = understand(file.path, *file.document);
+  const std::optional<Catalog> catalog =
+      understand(file.path, *file.document, InputFiles::Purpose::use);
   if (!catalog) return nullptr;
   return std::make_shared<const CompiledCatalog>(compile(*catalog));
 }
@@ -262,11 +298,11 @@ std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const std::string& pa
 }
 
 std::optional<Catalog> CatalogLoader::understand(const std::string& path,
-                                                 const yaml::Document& document) {
-  Diagnostics diagnostics;
-  CatalogReading reading = understand_catalog(document, diagnostics);
-  if (!files_.take_findings(path, document, std::move(diagnostics))) return std::nullopt;
-  return std::move(reading.catalog);
+                                                 const yaml::Document& document,
+                                                 InputFiles::Purpose purpose) {
+  InputFiles::CheckedFile file = files_.check_catalog(path, document, purpose);
+  if (!file.is_usable) return std::nullopt;
+  return std::move(file.reading.catalog);
 }
 
 std::shared_ptr<const CompiledCatalog> load_catalog(const std::string& path) {
@@ -349,9 +385,10 @@ bool has_errors(const std::vector<Diagnostic>& findings) {
 
 /// Null if nothing can be drawn.
 std::unique_ptr<Drawable> from_text(InputFiles& files, const InputFile& file) {
+  // What can be drawn is drawn, whatever else lint would find.
   Diagnostics diagnostics;
   CatalogReading reading = understand_catalog(*file.document, diagnostics);
-  if (files.take_findings(file.path, *file.document, std::move(diagnostics))) {
+  if (files.take_findings(file.path, *file.document, std::move(diagnostics), false)) {
     return from_compiled(compile(reading.catalog));
   }
   // If there is no error, the settings could not be read.

@@ -87,10 +87,10 @@ struct InputFile {
 /// Reads the files of a command line, and collects the findings about them.
 class InputFiles {
  public:
-  /// Findings that are dropped are not controlled by settings either.
   enum class Findings : std::uint8_t { kept, dropped };
-  explicit InputFiles(Findings findings = Findings::kept)
-      : keeps_findings_(findings == Findings::kept) {}
+  /// `settings` are those of the command line.
+  explicit InputFiles(Findings findings = Findings::kept, SeveritySettings settings = {})
+      : keeps_findings_(findings == Findings::kept), settings_(std::move(settings)) {}
   InputFiles(const InputFiles&) = delete;
   InputFiles& operator=(const InputFiles&) = delete;
 
@@ -106,9 +106,21 @@ class InputFiles {
   }
 
   /// Adds the findings about a file, except those that its comments and settings allow. False if
-  /// there are errors.
+  /// there are errors; a warning is one if the settings are strict. `is_complete`: there are all
+  /// findings that lint would have.
   [[nodiscard]] bool take_findings(const std::string& path, const yaml::Document& document,
-                                   Diagnostics diagnostics);
+                                   Diagnostics diagnostics, bool is_complete);
+
+  struct CheckedFile {
+    CatalogReading reading;
+    bool is_usable = false;  ///< there are no errors
+  };
+  /// Reads a catalog as far as possible, and adds the findings in the same way. Other rules than
+  /// those of reading are checked if the settings let them fail; for compilation, only those that
+  /// need a search depend on that.
+  enum class Purpose : std::uint8_t { use, compilation };
+  [[nodiscard]] CheckedFile check_catalog(const std::string& path, const yaml::Document& document,
+                                          Purpose purpose);
 
   /// Prints all findings to standard error, file by file.
   void print_findings();
@@ -117,6 +129,8 @@ class InputFiles {
   [[nodiscard]] const std::vector<Diagnostic>& findings() const { return findings_; }
 
  private:
+  [[nodiscard]] bool keep(std::vector<Diagnostic> findings, const SeveritySettings& settings);
+
   const bool keeps_findings_;
   std::map<std::string, std::string> texts_;  ///< by name in messages
   std::vector<Diagnostic> findings_;
@@ -142,8 +156,9 @@ class CatalogLoader {
   [[nodiscard]] bool knows(const std::string& path) const { return known_.contains(path); }
 
   /// A catalog in YAML, fit to be compiled; empty if there are errors.
-  [[nodiscard]] std::optional<Catalog> understand(const std::string& path,
-                                                  const yaml::Document& document);
+  [[nodiscard]] std::optional<Catalog> understand(
+      const std::string& path, const yaml::Document& document,
+      InputFiles::Purpose purpose = InputFiles::Purpose::compilation);
 
  private:
   InputFiles& files_;

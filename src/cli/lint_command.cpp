@@ -55,7 +55,9 @@ class Linter {
  public:
   /// `settings` are those of the command line, which override those of files.
   Linter(const LintCommand& command, SeveritySettings settings)
-      : command_(command), settings_(std::move(settings)) {}
+      : command_(command),
+        unlinted_(InputFiles::Findings::dropped, settings),
+        settings_(std::move(settings)) {}
 
   /// A catalog, or an event script that names its catalog.
   void lint_catalog(const std::string& path);
@@ -104,7 +106,7 @@ class Linter {
 
   const LintCommand& command_;
   std::vector<LintedFile> files_;
-  InputFiles unlinted_{InputFiles::Findings::dropped};
+  InputFiles unlinted_;
   CatalogLoader catalogs_{unlinted_};  ///< those that were linted, and others that scripts use
   SettingsFinder settings_;
   /// By settings file, what the names of tasks in it are checked against.
@@ -194,26 +196,27 @@ Linter::Linted Linter::lint_text(const std::string& name, std::string text,
   linted.file.file = name;
   linted.file.text = std::move(text);
   Diagnostics diagnostics;
-  CommentedFile commented{name, linted.file.text, nullptr, false};
   const auto document = yaml::parse(linted.file.text, name, diagnostics);
-  if (document != nullptr) {
-    linted.is_script = is_script(*document);
-    if (linted.is_script) return linted;
-    LintResult result = cbc::lint_catalog(
-        *document, LintOptions{command_.max_nodes, settings.never_together()}, diagnostics);
-    commented.document = document.get();
-    commented.is_complete = result.compiled.has_value();
-    if (result.compiled) {
-      linted.file.summary = summarize(*result.compiled);
-      if (command_.summary) {
-        linted.file.together = summarize_together(*result.compiled, command_.max_nodes);
-      }
-      linted.compiled = std::make_shared<const CompiledCatalog>(std::move(*result.compiled));
-    }
-    linted.catalog = std::move(result.reading.catalog);
+  if (document == nullptr) {
+    linted.errors = diagnostics.count(Severity::error);
+    linted.file.findings =
+        control_findings(diagnostics.release(), {name, linted.file.text, nullptr, false}, settings);
+    return linted;
   }
-  linted.errors = diagnostics.count(Severity::error);
-  linted.file.findings = control_findings(diagnostics.release(), commented, settings);
+  linted.is_script = is_script(*document);
+  if (linted.is_script) return linted;
+  CheckedCatalog checked = check_catalog(*document, linted.file.text, settings,
+                                         LintOptions{command_.max_nodes}, std::move(diagnostics));
+  if (checked.compiled) {
+    linted.file.summary = summarize(*checked.compiled);
+    if (command_.summary) {
+      linted.file.together = summarize_together(*checked.compiled, command_.max_nodes);
+    }
+    linted.compiled = std::make_shared<const CompiledCatalog>(std::move(*checked.compiled));
+  }
+  linted.catalog = std::move(checked.reading.catalog);
+  linted.errors = checked.errors;
+  linted.file.findings = std::move(checked.findings);
   return linted;
 }
 
@@ -333,8 +336,9 @@ std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& 
 }
 
 void Linter::add(LintedFile file, const SeveritySettings& settings) {
-  has_found_ |= count(file, Severity::error) > 0 ||
-                (settings.is_strict() && count(file, Severity::warning) > 0);
+  has_found_ |= std::any_of(
+      file.findings.begin(), file.findings.end(),
+      [&settings](const Diagnostic& finding) { return settings.is_failure(finding.severity); });
   files_.push_back(std::move(file));
 }
 
@@ -383,7 +387,8 @@ constexpr const char* lint_footer =
     "A comment '# cbc: allow RULE' at the end of a line, or above an entry, allows a finding "
     "there. A file .cbc.yaml in the folder of a catalog, or above it, has settings for all of "
     "them:\n"
-    "  error: [RULE, ...]   warn: [RULE, ...]   allow: [RULE, ...]   strict: true\n"
+    "  error: [RULE, ...]   warn: [RULE, ...]   note: [RULE, ...]   allow: [RULE, ...]\n"
+    "  strict: true\n"
     "  never_together: [[TASK, TASK, ...], ...]   no two of them can run together\n"
     "\n"
     "Exit status: 0 no errors, 1 errors (with --strict, also warnings), 2 a file could not be "
@@ -579,6 +584,10 @@ void add_lint_command(Program& program) {
   command.option("--error", options->severities.error, rules, "Report findings of a rule as errors")
       .separated_by(',');
   command.option("--warn", options->severities.warn, rules, "Report findings of a rule as warnings")
+      .separated_by(',');
+  command
+      .option("--note", options->severities.note, rules,
+              "Report findings of a rule as notes; also turns on rules that are off")
       .separated_by(',');
   command.option("--allow", options->severities.allow, rules, "Do not report findings of a rule")
       .separated_by(',');

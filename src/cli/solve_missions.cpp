@@ -95,7 +95,7 @@ void MissionLoader::add_script(const std::string& path, const yaml::Document& do
   }
   Diagnostics diagnostics;
   std::optional<Script> script = read_script(document, *catalog, Severity::warning, diagnostics);
-  if (files_.take_findings(path, document, std::move(diagnostics)) && script) {
+  if (files_.take_findings(path, document, std::move(diagnostics), script.has_value()) && script) {
     missions_.push_back({std::move(catalog), path_of_catalog(path, document), std::move(*script)});
   } else {
     has_failed_ = true;

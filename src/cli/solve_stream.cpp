@@ -206,7 +206,11 @@ std::optional<Script> load_script(const std::string& path, const CompiledCatalog
     Diagnostics diagnostics;
     script = read_script(*file->document, catalog, Severity::warning, diagnostics,
                          state ? &*state : nullptr);
-    if (!files.take_findings(path, *file->document, std::move(diagnostics))) script.reset();
+    const bool is_complete =
+        script && !state;  // with another situation there may be other findings
+    if (!files.take_findings(path, *file->document, std::move(diagnostics), is_complete)) {
+      script.reset();
+    }
   }
   files.print_findings();
   return script;

@@ -236,7 +236,7 @@ TEST(Readme, ShowsWhatTheProgramPrints) {
   for (const Excerpt& excerpt : excerpts) {
     ASSERT_GT(excerpt.parts.size(), 1U);
     const Result result = run({excerpt.arguments, CBC_SOURCE_DIR});
-    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(result.status, excerpt.arguments.front() == "lint" ? 1 : 0);  // it finds an error
     std::size_t place = 0;
     for (const std::string& part : excerpt.parts) {
       ASSERT_GT(part.size(), 30U);

@@ -130,6 +130,8 @@ class FindingReader {
       add(findings_.dead_behaviors, dead, read_reason(finding, oracle_.group_of_behavior(dead)));
     } else if (finding.rule == "redundant-requirement") {
       read_redundant(finding);
+    } else if (finding.rule == "redundant-minimum") {
+      read_redundant_minimum(finding);
     } else if (finding.rule == "requires-on-request") {
       read_on_request(finding);
     } else {
@@ -238,6 +240,27 @@ class FindingReader {
         read_reason(finding, oracle_.group_of_behavior(entry.behavior)));
   }
 
+  void read_redundant_minimum(const Diagnostic& finding) {
+    const auto expect_message = [&](const std::string& condition, std::size_t task,
+                                    Millionths minimum) {
+      expect(after(finding.message, "this minimum decides nothing: wherever " + condition + ", " +
+                                        in_quotes(catalog_.tasks[task].name) +
+                                        " performs with at least " + percent_text(minimum) +
+                                        " % anyway"));
+    };
+    if (const auto entry = find_entry(finding.range, &Places::Entry::minimum)) {
+      const Requirement& required = requirement(*entry);
+      expect_message("behavior " + behavior(*entry) + " is active", required.task,
+                     required.minimum);
+      add(findings_.redundant_minimums, *entry, required.minimum);
+      return;
+    }
+    const std::size_t task = find(places_.task_minimums, finding.range);
+    const Millionths minimum = catalog_.tasks[task].minimum;
+    expect_message("task " + in_quotes(catalog_.tasks[task].name) + " runs", task, minimum);
+    add(findings_.redundant_task_minimums, task, minimum);
+  }
+
   void read_on_request(const Diagnostic& finding) {
     const RequirementEntry entry = entry_at(finding.range);
     std::string rest =
@@ -339,7 +362,7 @@ Findings lint_findings(const LintOracle& oracle, const std::string& yaml) {
   Diagnostics diagnostics;
   const auto document = yaml::parse(yaml, "catalog.yaml", diagnostics);
   demand(document != nullptr, "not YAML");
-  const LintResult result = lint_catalog(*document, {}, diagnostics);
+  const LintResult result = lint_catalog(*document, {.checks_off_rules = true}, diagnostics);
   demand(result.compiled.has_value(), "not understood");
   FindingReader reader(oracle, document->root());
   for (const Diagnostic& finding : diagnostics.all()) {

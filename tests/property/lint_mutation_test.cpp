@@ -129,7 +129,10 @@ std::string check(const Base& base, const Mutation& mutation,
   for (const Expected& expected : mutation.expected) {
     const Rule* rule = find_rule(expected.rule);
     if (rule == nullptr) return "there is no rule " + std::string(expected.rule) + "\n";
-    if (rule->severity == Severity::error) ++errors_expected;
+    // A key that is probably another one is an error.
+    const bool is_near = rule->name == rule::unknown_key.name &&
+                         expected.says.find("did you mean") != std::string::npos;
+    if (rule->severity == Severity::error || is_near) ++errors_expected;
     const bool is_found =
         std::any_of(findings.begin(), findings.end(),
                     [&](const Diagnostic& finding) { return fits(finding, expected); });

@@ -24,6 +24,22 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return rows[a.size()][b.size()];
 }
 
+/// Whether two names of one length differ in one letter of a word of at most two letters: that
+/// makes another word.
+bool differ_in_a_short_word(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  std::size_t place = 0;
+  while (place < a.size() && a[place] == b[place]) ++place;
+  if (a.substr(std::min(place + 1, a.size())) != b.substr(std::min(place + 1, b.size()))) {
+    return false;
+  }
+  const std::string_view separators = "_-. ";
+  const std::size_t before = a.substr(0, place).find_last_of(separators);
+  const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
+  const std::size_t end = std::min(a.find_first_of(separators, place), a.size());
+  return end - begin <= 2;
+}
+
 bool is_letter(char byte) { return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z'); }
 
 }  // namespace
@@ -93,7 +109,7 @@ std::string misspell(const std::string& word, Random& random) {
 
 bool is_clear_misspelling(std::string_view name, std::string_view meant,
                           const std::vector<std::string_view>& words) {
-  if (edit_distance(name, meant) != 1) return false;
+  if (edit_distance(name, meant) != 1 || differ_in_a_short_word(name, meant)) return false;
   return std::all_of(words.begin(), words.end(), [&](std::string_view word) {
     return word == meant || edit_distance(name, word) > 1;
   });

@@ -73,12 +73,14 @@ const LowerBound lint_lower_bounds[] = {
     {"dead behavior without a finding of its own", 500},
     {"dead task without a finding of its own", 350},
     {"redundant-requirement", 120},
-    {"redundant-requirement with a minimum", 50},
+    {"redundant-requirement with a minimum", 5},
     {"redundant-requirement: reason of 2", 90},
     {"redundant-requirement: reason of 3", 50},
     {"redundant-requirement: reason of 4", 15},
     {"redundant-requirement: reason of 5 or more", 4},
     {"redundant-requirement: repeated", 120},
+    {"redundant-minimum", 100},
+    {"redundant-minimum of a task", 50},
     {"requires-on-request", 350},
     {"requires-on-request: more than one request", 90},
     {"nothing is dead", 200},
@@ -124,6 +126,11 @@ TEST(LintProperty, CheckSeesWhatIsWrong) {
     expect_faults(oracle, findings, &Findings::dead_tasks, leave_out, "dead-task" + at);
     expect_faults(oracle, findings, &Findings::dead_behaviors, leave_out, "dead-behavior" + at);
     expect_faults(oracle, findings, &Findings::redundant, leave_out, "redundant-requirement" + at);
+    for (const auto& [entry, minimum] : findings.redundant_minimums) {
+      Findings wrong = findings;
+      wrong.redundant_minimums.erase(entry);
+      expect_fault(oracle, wrong, "redundant-minimum" + at + ": one less");
+    }
     expect_faults(oracle, findings, &Findings::unreachable, round_up, "unreachable" + at);
     expect_faults(oracle, findings, &Findings::unreachable_minimums, round_up,
                   "unreachable minimum" + at);

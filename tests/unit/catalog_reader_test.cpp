@@ -339,22 +339,28 @@ TEST(CatalogReader, MisspeltRequiredKeysAreOneFinding) {
 
 TEST(CatalogReader, UnknownKeys) {
   EXPECT_EQ(findings("behaviors:\n- behavior: B\n  task: X\n  suitablity: 30\n  color: red\n"),
-            "4:3-13 warning unknown-key: unknown key 'suitablity' in behavior 'B'; did you mean "
+            "4:3-13 error unknown-key: unknown key 'suitablity' in behavior 'B'; did you mean "
             "'suitability'?\n"
             "5:3-8 warning unknown-key: unknown key 'color' in behavior 'B'\n");
   EXPECT_EQ(findings("behaviors: []\nTasks: []\n"),
-            "2:1-6 warning unknown-key: unknown key 'Tasks' in a catalog; did you mean 'tasks'?\n");
+            "2:1-6 error unknown-key: unknown key 'Tasks' in a catalog; did you mean 'tasks'?\n");
   // An older name is no suggestion.
   EXPECT_EQ(findings("behaviors: [{behavior: B, task: X, eficacy: 3}]\n"),
-            "1:36-43 warning unknown-key: unknown key 'eficacy' in behavior 'B'; did you mean "
+            "1:36-43 error unknown-key: unknown key 'eficacy' in behavior 'B'; did you mean "
             "'suitability'?\n");
   EXPECT_EQ(findings("behaviors: [{behavior: B, task: X, package:p}]\n"),
             "1:36-45 warning unknown-key: unknown key 'package:p' in behavior 'B': is a space "
             "missing after ':'?\n");
   EXPECT_EQ(findings("default_values: {tasks: {suitability: 3}, tsks: 3}\nbehaviors: []\n"),
             "1:26-37 warning unknown-key: unknown key 'suitability' in the defaults of tasks\n"
-            "1:43-47 warning unknown-key: unknown key 'tsks' in default_values; did you mean "
+            "1:43-47 warning unknown-key: unknown key 'tsks' in default_values\n");
+  // A key that is there already is not meant.
+  EXPECT_EQ(findings("default_values: {tsks: 3}\nbehaviors: []\n"),
+            "1:18-22 error unknown-key: unknown key 'tsks' in default_values; did you mean "
             "'tasks'?\n");
+  EXPECT_EQ(findings("behaviors: [{behavior: B, task: X, efficacy: 3, sutability: 3}]\n"),
+            "1:36-44 warning deprecated-key: 'efficacy' is an older name: write 'suitability'\n"
+            "1:49-59 warning unknown-key: unknown key 'sutability' in behavior 'B'\n");
 }
 
 TEST(CatalogReader, KeysAtTheWrongLevel) {
@@ -368,7 +374,7 @@ TEST(CatalogReader, KeysAtTheWrongLevel) {
             "behavior, one level up\n");
   // A list of tasks is no task at the wrong level.
   EXPECT_EQ(findings("behaviors: []\ntask:\n- task: X\n"),
-            "2:1-5 warning unknown-key: unknown key 'task' in a catalog; did you mean 'tasks'?\n");
+            "2:1-5 error unknown-key: unknown key 'task' in a catalog; did you mean 'tasks'?\n");
   EXPECT_EQ(findings("behaviors: []\ntask: X\n"),
             "2:1-5 warning unknown-key: unknown key 'task' in a catalog: it belongs to a behavior, "
             "one level down\n");
@@ -646,8 +652,8 @@ tasks:
 exclusivity_constraints:
 - mutually_exclusive: [HOVER, MOON]
 )"),
-            "5:11-15 error undefined-task: task 'HOVR', required by behavior 'B', is not defined; "
-            "did you mean 'HOVER'?\n"
+            // A behavior does not require what it performs.
+            "5:11-15 error undefined-task: task 'HOVR', required by behavior 'B', is not defined\n"
             "6:11-37 error undefined-task: task 'SELF_LOCALIZE_NON_EXISTENT', required by behavior "
             "'B', is not defined; did you mean 'SELF_LOCALIZE'?\n"
             "7:11-12 error undefined-task: task 'B', required by behavior 'B', is not defined: "

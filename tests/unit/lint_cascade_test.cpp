@@ -1,7 +1,9 @@
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "diagnostic/rules.h"
 #include "lint/lint.h"
 #include "unit/findings.h"
 
@@ -139,6 +141,71 @@ tasks: [{task: A, start_on_request: TRUE}, {task: B}]
 )"),
             "6:39-42 error invalid-value: 'suitability' must be a number from 0 to 100 (percent), "
             "found '120'\n");
+}
+
+/// What is found if findings of exclusive-requirement are not reported.
+std::string findings_behind(const std::string& text) {
+  Diagnostics diagnostics;
+  const auto document = yaml::parse(text, "a.yaml", diagnostics);
+  LintOptions options;
+  options.control = [](std::vector<Diagnostic> all) {
+    std::erase_if(all, [](const Diagnostic& finding) {
+      return finding.rule == rule::exclusive_requirement.name;
+    });
+    return all;
+  };
+  static_cast<void>(lint_catalog(*document, options, diagnostics));
+  std::string rules;
+  for (const Diagnostic& finding : diagnostics.all()) {
+    rules += std::to_string(finding.range.begin.line) + " " + std::string(finding.rule) + "\n";
+  }
+  return rules;
+}
+
+TEST(LintCascade, WhatIsBehindAnAllowedFinding) {
+  const std::string others =
+      "- {behavior: B, task: Y}\n"
+      "- {behavior: C, task: Z}\n"
+      "default_values: {tasks: {execution_goal: keep_running, start_on_request: FALSE}}\n"
+      "tasks: [{task: X, start_on_request: TRUE}, {task: Y}, {task: Z}]\n"
+      "exclusivity_constraints: [{mutually_exclusive: [X, Y, Z]}]\n";
+  // The only behavior of its task, one of two, and one with two such requirements.
+  EXPECT_EQ(findings_behind("behaviors:\n"
+                            "- {behavior: A, task: X, requires: [{task: Y}]}\n" +
+                            others),
+            "2 exclusive-requirement\n6 dead-task\n");
+  EXPECT_EQ(findings_behind("behaviors:\n"
+                            "- {behavior: A, task: X, requires: [{task: Y}]}\n"
+                            "- {behavior: D, task: X}\n" +
+                            others),
+            "2 exclusive-requirement\n2 dead-behavior\n");
+  EXPECT_EQ(findings_behind("behaviors:\n"
+                            "- {behavior: A, task: X, requires: [{task: Y}, {task: Z}]}\n"
+                            "- {behavior: D, task: X}\n" +
+                            others),
+            "2 exclusive-requirement\n2 exclusive-requirement\n2 conflicting-requirements\n");
+}
+
+TEST(LintCascade, GoalsThatAreNotGiven) {
+  const auto is_off = [](const std::string& tasks) {
+    const std::string text =
+        "behaviors:\n"
+        "- {behavior: A, task: X, requires: [{task: Y}]}\n"
+        "- {behavior: B, task: Y}\n" +
+        tasks;
+    Diagnostics diagnostics;
+    const auto document = yaml::parse(text, "a.yaml", diagnostics);
+    static_cast<void>(lint_catalog(*document, {.searches = false}, diagnostics));
+    EXPECT_EQ(diagnostics.all().size(), 1U);
+    EXPECT_EQ(diagnostics.all().front().rule, rule::required_goal.name);
+    return diagnostics.all().front().is_off;
+  };
+  EXPECT_TRUE(is_off("tasks: [{task: X}, {task: Y}]\n"));
+  EXPECT_FALSE(is_off("tasks: [{task: X}, {task: Y, execution_goal: achieve_goal}]\n"));
+  EXPECT_FALSE(is_off("tasks: [{task: X, execution_goal: keep_running}, {task: Y}]\n"));
+  EXPECT_FALSE(
+      is_off("default_values: {tasks: {execution_goal: achieve_goal}}\n"
+             "tasks: [{task: X}, {task: Y}]\n"));
 }
 
 }  // namespace

@@ -106,6 +106,14 @@ TEST(RuleText, StressesHeadings) {
   EXPECT_NE(rule_text(made_up, color_style()).find("\x1b[1mExample:\x1b[0m\n"), std::string::npos);
 }
 
+TEST(RuleText, SaysIfTheRuleIsOff) {
+  Rule rule = rule::dead_task;
+  EXPECT_TRUE(rule_text(rule, plain_style()).starts_with("dead-task (warning)\n"));
+  rule.is_off = true;
+  EXPECT_TRUE(rule_text(rule, plain_style())
+                  .starts_with("dead-task (warning; off unless settings ask for it)\n"));
+}
+
 TEST(RuleText, FitsATerminal) {
   for (const Rule& rule : all_rules()) {
     for (const std::string& line : lines_of(rule_text(rule, plain_style()))) {
@@ -124,7 +132,8 @@ TEST(RuleList, HasALineForEachRule) {
     });
     ASSERT_NE(line, lines.end()) << rule.name;
     // The longest name, conflicting-requirements, has 24 characters.
-    EXPECT_EQ(line->find(name_of(rule.severity), rule.name.size()), 26U) << *line;
+    const std::string_view severity = rule.is_off ? "off" : name_of(rule.severity);
+    EXPECT_EQ(line->find(severity, rule.name.size()), 26U) << *line;
     EXPECT_EQ(line->substr(35), rule.summary);
   }
 }

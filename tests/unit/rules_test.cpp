@@ -48,9 +48,10 @@ Names rules_found(const Rule& rule, std::string_view text, const LintOptions& op
     }
   }
   const CommentedFile file{"example.yaml", text, document.get(), is_complete};
+  SeveritySettings settings;
+  if (rule.is_off) settings.set(rule, RuleSetting::note);
   Names found;
-  for (const Diagnostic& finding :
-       control_findings(diagnostics.release(), file, SeveritySettings())) {
+  for (const Diagnostic& finding : control_findings(diagnostics.release(), file, settings)) {
     found.insert(finding.rule);
   }
   return found;
@@ -169,11 +170,20 @@ TEST_P(EveryRule, SpeaksOfBehaviors) {
 TEST_P(EveryRule, HasAnExampleThatBreaksItAlone) {
   LintOptions options;
   if (rule().name == rule::undecided) options.max_nodes = 1;
+  options.checks_off_rules = true;
   EXPECT_EQ(rules_found(rule(), rule().example, options), Names{rule().name});
 }
 
 TEST_P(EveryRule, HasAnExampleThatIsMended) {
-  EXPECT_EQ(rules_found(rule(), rule().mended), Names{});
+  EXPECT_EQ(rules_found(rule(), rule().mended, {.checks_off_rules = true}), Names{});
+}
+
+TEST_P(EveryRule, IsCheckedWithoutSearchIfItNeedsNone) {
+  if (rule().is_of_scripts || rule().name == rule::undecided) return;
+  const bool is_found =
+      !rules_found(rule(), rule().example, {.searches = false, .checks_off_rules = true}).empty();
+  // Of unused-allow the search decides whether a comment is used.
+  EXPECT_EQ(is_found, !rule().needs_search);
 }
 
 std::string test_name(const testing::TestParamInfo<std::string_view>& info) {

@@ -223,8 +223,10 @@ TEST(ScriptReader, WrongScripts) {
       "1000000000, found '0'\n"
       "3:12-17 error wrong-type: 'situation' must be a mapping of behaviors to true or false, "
       "or of situation variables to values, found 'HOVER'\n"
-      "4:1-6 error unknown-key: unknown key 'delay' in a script; did you mean "
-      "'reactive_delay'?\n");
+      "4:1-6 error unknown-key: unknown key 'delay' in a script\n");
+  EXPECT_EQ(findings("delay: 1\nevents: []\n"),
+            "1:1-6 error unknown-key: unknown key 'delay' in a script; did you mean "
+            "'reactive_delay'?\n");
 }
 
 TEST(ScriptReader, OneVerbForEachEvent) {
@@ -313,7 +315,7 @@ TEST(ScriptReader, NamesInExpectations) {
                "    stopped: LAND\n    active: [HOVER_PIT, ~]\n"),
       "2:14-21 error invalid-value: 'outcome' must be accepted, rejected or unchanged, found "
       "'acepted'; did you mean 'accepted'?\n"
-      "3:15-19 error undefined-task: there is no task 'LAMD'; did you mean 'LAND'?\n"
+      "3:15-19 error undefined-task: there is no task 'LAMD'\n"
       "3:32-37 error undefined-behavior: there is no behavior 'HOVER': it is a task; did you "
       "mean 'HOVER_PID'?\n"
       "3:46-47 error wrong-type: 'HOVER' must be a behavior or 'any', found nothing\n"

@@ -34,18 +34,20 @@ SeveritySettings read(std::string_view text) {
   return settings.value_or(SeveritySettings{});
 }
 
-std::string severity(const SeveritySettings& settings, std::string_view rule) {
-  const auto result = settings.severity_of({rule, Severity::note, "a", {}, "", {}});
+std::string severity(const SeveritySettings& settings, std::string_view rule,
+                     Severity found = Severity::note) {
+  const auto result = settings.severity_of({rule, found, "a", {}, "", {}, {}});
   return result ? std::string(name_of(*result)) : "none";
 }
 
 TEST(SettingsFile, IsRead) {
   const SeveritySettings settings = read(
       "# ours\nerror: [unknown-key, 'dead-behavior', missing-key]\nwarn:\n- exclusive-requirement\n"
-      "allow:\n  - required-goal\nstrict: TRUE\nx-own: {a: 1}\n");
+      "note: [task-without-behavior]\nallow:\n  - required-goal\nstrict: TRUE\nx-own: {a: 1}\n");
   EXPECT_EQ(severity(settings, rule::unknown_key), "error");
   EXPECT_EQ(severity(settings, rule::dead_behavior), "error");
   EXPECT_EQ(severity(settings, rule::exclusive_requirement), "warning");
+  EXPECT_EQ(severity(settings, rule::task_without_behavior, Severity::warning), "note");
   EXPECT_EQ(severity(settings, rule::required_goal), "none");
   EXPECT_EQ(severity(settings, rule::dead_task), "note");
   EXPECT_TRUE(settings.is_strict());
@@ -118,7 +120,7 @@ TEST(SettingsFile, AllThatIsWrongIsReported) {
             "3:22-35 error unknown-rule: there is no rule 'invalid_value'; did you mean "
             "'invalid-value'?\n"
             "4:9-14 error wrong-type: 'strict' must be true or false, found 'maybe'\n"
-            "5:1-5 error unknown-key: unknown key 'alow' in the settings; did you mean 'allow'?\n"
+            "5:1-5 error unknown-key: unknown key 'alow' in the settings\n"
             "6:1-7 error duplicate-key: 'strict' is given twice\n"
             "  4:1-7 first given here\n");
 }
@@ -144,10 +146,10 @@ TEST(SettingsFile, ARuleIsGivenOnce) {
 TEST(SettingsFile, MustBeAMapping) {
   EXPECT_EQ(errors_of("- error\n"),
             "1:1-2 error wrong-type: settings must be a mapping with the keys 'error', 'warn', "
-            "'allow', 'strict' and 'never_together', found a list\n");
+            "'note', 'allow', 'strict' and 'never_together', found a list\n");
   EXPECT_EQ(errors_of("strict"),
             "1:1-7 error wrong-type: settings must be a mapping with the keys 'error', 'warn', "
-            "'allow', 'strict' and 'never_together', found 'strict'\n");
+            "'note', 'allow', 'strict' and 'never_together', found 'strict'\n");
   for (const std::string_view text :
        {"error: [", "a: b: c", "\xFF", "a: 1\n---\nb: 2\n", "error: *a"}) {
     EXPECT_NE(errors_of(text).find("error yaml-syntax"), std::string::npos) << text;

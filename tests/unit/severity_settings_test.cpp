@@ -11,8 +11,9 @@ namespace cbc {
 namespace {
 
 std::string severity(const SeveritySettings& settings, std::string_view rule,
-                     Severity found = Severity::note) {
-  const std::optional<Severity> result = settings.severity_of({rule, found, "a", {}, "", {}});
+                     const Standing& found = {Severity::note}) {
+  const std::optional<Severity> result = settings.severity_of(
+      {rule, found.severity, "a", {}, "", {}, {}, found.is_fixed, found.is_off});
   return result ? std::string(name_of(*result)) : "none";
 }
 
@@ -35,7 +36,8 @@ SeveritySettings read(const SeverityOptions& options) {
 TEST(SeveritySettings, LeaveFindingsAsTheyAre) {
   const SeveritySettings settings;
   for (const Severity found : {Severity::note, Severity::warning, Severity::error}) {
-    EXPECT_EQ(severity(settings, rule::dead_task, found), name_of(found));
+    EXPECT_EQ(severity(settings, rule::dead_task, {found}), name_of(found));
+    EXPECT_EQ(severity(settings, rule::dead_task, {found, false, true}), "none");
   }
   EXPECT_FALSE(settings.is_strict());
 }
@@ -43,16 +45,19 @@ TEST(SeveritySettings, LeaveFindingsAsTheyAre) {
 TEST(SeveritySettings, ReadOptions) {
   const SeveritySettings settings = read({.error = {"dead-task", "missing-key"},
                                           .warn = {"implicit-task", "exclusive-requirement"},
+                                          .note = {"dead-behavior"},
                                           .allow = {"unknown-key", "unknown-key"},
                                           .strict = true});
-  EXPECT_EQ(severity(settings, rule::dead_task, Severity::warning), "error");
-  EXPECT_EQ(severity(settings, rule::missing_key, Severity::error), "error");
-  EXPECT_EQ(severity(settings, rule::implicit_task, Severity::note), "warning");
-  EXPECT_EQ(severity(settings, rule::exclusive_requirement, Severity::error), "warning");
-  EXPECT_EQ(severity(settings, rule::unknown_key, Severity::warning), "none");
-  // In a script, where it is an error, it stays one.
-  EXPECT_EQ(severity(settings, rule::unknown_key, Severity::error), "error");
-  EXPECT_EQ(severity(settings, rule::dead_behavior), "note");
+  EXPECT_EQ(severity(settings, rule::dead_task, {Severity::warning}), "error");
+  EXPECT_EQ(severity(settings, rule::missing_key, {Severity::error}), "error");
+  EXPECT_EQ(severity(settings, rule::implicit_task, {Severity::note}), "warning");
+  EXPECT_EQ(severity(settings, rule::exclusive_requirement, {Severity::error}), "warning");
+  EXPECT_EQ(severity(settings, rule::unknown_key, {Severity::warning}), "none");
+  EXPECT_EQ(severity(settings, rule::unknown_key, {Severity::error}), "none");
+  // In a script, where it is always an error, it stays one.
+  EXPECT_EQ(severity(settings, rule::unknown_key, {Severity::error, true}), "error");
+  EXPECT_EQ(severity(settings, rule::dead_behavior, {Severity::warning}), "note");
+  EXPECT_EQ(severity(settings, rule::required_goal), "note");
   EXPECT_TRUE(settings.is_strict());
   EXPECT_FALSE(read({.error = {"dead-task"}, .warn = {}, .allow = {}}).is_strict());
 }
@@ -95,6 +100,57 @@ TEST(SeveritySettings, TheStrongerOnesWin) {
   settings.override_with(SeveritySettings{});
   EXPECT_TRUE(settings.is_strict());
   EXPECT_EQ(severity(settings, rule::dead_task), "warning");
+}
+
+TEST(SeveritySettings, TurnRulesOn) {
+  const Standing off{Severity::note, false, true};
+  const std::string name(rule::redundant_minimum.name);
+  EXPECT_EQ(severity(SeveritySettings(), rule::redundant_minimum, off), "none");
+  EXPECT_FALSE(SeveritySettings().turn_on_rules());
+  EXPECT_EQ(severity(read({.note = {name}}), rule::redundant_minimum, off), "note");
+  EXPECT_EQ(severity(read({.warn = {name}}), rule::redundant_minimum, off), "warning");
+  EXPECT_EQ(severity(read({.error = {name}}), rule::redundant_minimum, off), "error");
+  EXPECT_EQ(severity(read({.allow = {name}}), rule::redundant_minimum, off), "none");
+  EXPECT_TRUE(read({.note = {name}}).turn_on_rules());
+  EXPECT_FALSE(read({.allow = {name}}).turn_on_rules());
+  EXPECT_FALSE(read({.note = {"dead-task"}}).turn_on_rules());
+}
+
+TEST(SeveritySettings, AddFailures) {
+  EXPECT_FALSE(SeveritySettings().add_failures());
+  for (const Rule& rule : all_rules()) {
+    const std::string name(rule.name);
+    EXPECT_EQ(read({.error = {name}}).add_failures(), rule.severity != Severity::error) << name;
+    if (rule.is_fixed) continue;
+    EXPECT_FALSE(read({.warn = {name}}).add_failures()) << name;
+  }
+  EXPECT_TRUE(read({.strict = true}).add_failures());
+}
+
+TEST(SeveritySettings, NeedASearchOnlyForWhatMayFail) {
+  EXPECT_FALSE(SeveritySettings().need_search());
+  EXPECT_FALSE(read({.error = {"required-goal"}}).need_search());
+  EXPECT_FALSE(read({.warn = {"undecided"}, .note = {"redundant-minimum"}}).need_search());
+  for (const Rule& rule : all_rules()) {
+    const std::string name(rule.name);
+    // There are findings of this one only if the settings say what to look for.
+    const bool has_findings = rule.name != rule::can_run_together.name;
+    EXPECT_EQ(read({.error = {name}}).need_search(), rule.needs_search && has_findings) << name;
+  }
+  EXPECT_TRUE(read({.strict = true}).need_search());
+  // Strict settings under which no rule that needs a search is a warning.
+  SeverityOptions options{.strict = true};
+  for (const Rule& rule : all_rules()) {
+    if (rule.needs_search && !rule.is_fixed) options.allow.emplace_back(rule.name);
+  }
+  EXPECT_FALSE(read(options).need_search());
+  options.allow.pop_back();
+  EXPECT_TRUE(read(options).need_search());
+
+  SeveritySettings settings;
+  settings.add_never_together({});
+  EXPECT_TRUE(settings.need_search());
+  EXPECT_TRUE(settings.add_failures());
 }
 
 }  // namespace

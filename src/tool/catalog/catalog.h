@@ -105,6 +105,7 @@ struct ExclusivityList {
 struct Catalog {
   std::string file;
   bool has_task_section = false;
+  bool gives_goals = false;  ///< an execution_goal is given, for a task or by default
   std::vector<Task> tasks;
   std::vector<Behavior> behaviors;
   std::vector<ExclusivityList> exclusivity;

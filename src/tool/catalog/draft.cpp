@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/text.h"
+#include "catalog/format.h"
 #include "diagnostic/rules.h"
 #include "yaml/values.h"
 
@@ -99,6 +100,11 @@ class Reader {
       reporter_.report(
           rule::wrong_type, root.range,
           "a catalog must be a mapping with the key 'behaviors', found " + yaml::describe(root));
+    } else if (const Node* key = find_older_format(root)) {
+      reporter_.report(rule::older_format, key->range,
+                       "this is a catalog of an older format, with capabilities and without tasks; "
+                       "it is not supported");
+      catalog_.lacks_a_section = true;
     } else {
       read_sections(root);
     }
@@ -109,9 +115,9 @@ class Reader {
   // Counts the errors that `read` reports as errors in values.
   template <typename Read>
   auto read_value(Read read) {
-    const std::size_t errors = reporter_.errors();
+    const std::size_t errors = hiding_errors(reporter_);
     auto value = read();
-    catalog_.value_errors += reporter_.errors() - errors;
+    catalog_.value_errors += hiding_errors(reporter_) - errors;
     return value;
   }
 
@@ -136,7 +142,7 @@ class Reader {
                    &Reader::read_exclusivity_list);
     }
     catalog_.situation = fields.find("situation");
-    fields.report_unknown(Severity::warning);
+    fields.report_unknown(yaml::UnknownKeys::ignored);
   }
 
   bool read_entries(const Node& node, std::string_view key, std::string_view expected,
@@ -174,15 +180,15 @@ class Reader {
     if (const Node* tasks = fields.find("tasks")) {
       Fields defaults(mappings_of(*tasks, "tasks"), shape::task_defaults, reporter_);
       catalog_.task_defaults = read_attributes(defaults);
-      defaults.report_unknown(Severity::warning);
+      defaults.report_unknown(yaml::UnknownKeys::ignored);
     }
     if (const Node* behaviors = fields.find("behaviors")) {
       Fields defaults(mappings_of(*behaviors, "behaviors"), shape::behavior_defaults, reporter_);
       catalog_.default_suitability = read_value([&] { return read_suitability(defaults); });
       catalog_.default_package = read_value([&] { return read_package(defaults); });
-      defaults.report_unknown(Severity::warning);
+      defaults.report_unknown(yaml::UnknownKeys::ignored);
     }
-    fields.report_unknown(Severity::warning);
+    fields.report_unknown(yaml::UnknownKeys::ignored);
   }
 
   // Tasks ------------------------------------------------------------------------------------
@@ -266,7 +272,7 @@ class Reader {
       task.parameters = read_value([&] { return read_parameters(*parameters); });
     }
     task.entry = entry_of(node, fields, errors);
-    fields.report_unknown(Severity::warning);
+    fields.report_unknown(yaml::UnknownKeys::ignored);
     if (name) {
       catalog_.tasks.push_back(std::move(task));
     } else {
@@ -293,7 +299,7 @@ class Reader {
         read_allowed_values(*allowed, parameter);
       }
       parameter.entry = entry_of(*item, fields, errors);
-      fields.report_unknown(Severity::warning);
+      fields.report_unknown(yaml::UnknownKeys::ignored);
       parameters.push_back(std::move(parameter));
     }
     return parameters;
@@ -356,7 +362,7 @@ class Reader {
       read_requirements(*list, behavior.requirements);
     }
     behavior.situation = fields.find("situation");
-    fields.report_unknown(Severity::warning);
+    fields.report_unknown(yaml::UnknownKeys::ignored);
     catalog_.behaviors.push_back(std::move(behavior));
   }
 
@@ -408,7 +414,7 @@ class Reader {
       Fields fields(*item, shape::performance, reporter_);
       const auto name = require_name(fields, "task", task_name, item->range);
       const auto suitability = read_value([&] { return read_suitability(fields); });
-      fields.report_unknown(Severity::warning);
+      fields.report_unknown(yaml::UnknownKeys::ignored);
       if (!name) {
         ++catalog_.nameless_tasks;
         continue;
@@ -433,7 +439,7 @@ class Reader {
       Fields fields(*item, shape::requirement, reporter_);
       const auto name = require_name(fields, "task", task_name, item->range);
       const Percent minimum = read_value([&] { return read_minimum(fields); });
-      fields.report_unknown(Severity::warning);
+      fields.report_unknown(yaml::UnknownKeys::ignored);
       if (name) requirements.push_back({*name, minimum, entry_of(*item, fields, errors)});
     }
   }
@@ -446,7 +452,7 @@ class Reader {
     Fields fields(node, shape::exclusivity_list, reporter_);
     const Node* value = fields.require("mutually_exclusive", node.range);
     const Range range = value == nullptr ? node.range : fields.range_of("mutually_exclusive");
-    fields.report_unknown(Severity::warning);
+    fields.report_unknown(yaml::UnknownKeys::ignored);
     if (value == nullptr) return;
     const Node* list =
         yaml::read_list(*value, "mutually_exclusive", "a list of names of tasks", reporter_);
@@ -500,6 +506,10 @@ class Reader {
 };
 
 }  // namespace
+
+std::size_t hiding_errors(const Reporter& reporter) {
+  return reporter.errors() - reporter.errors(rule::unknown_key);
+}
 
 Catalog read(const yaml::Node& root, Reporter& reporter) { return Reader(reporter).read(root); }
 

@@ -109,6 +109,10 @@ struct Catalog {
   std::size_t value_errors = 0;
 };
 
+/// The number of errors that left something of the file out. Where a key is unknown, the rest is
+/// understood as if it were not there.
+[[nodiscard]] std::size_t hiding_errors(const Reporter& reporter);
+
 /// Reads the entries of a file, and reports what is wrong with each.
 [[nodiscard]] Catalog read(const yaml::Node& root, Reporter& reporter);
 

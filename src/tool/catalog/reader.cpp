@@ -200,6 +200,11 @@ class Resolver {
 
   Catalog resolve() {
     catalog_.has_task_section = draft_.has_task_section;
+    catalog_.gives_goals =
+        draft_.task_defaults.execution_goal ||
+        std::any_of(draft_.tasks.begin(), draft_.tasks.end(), [](const draft::Task& task) {
+          return task.attributes.execution_goal.has_value();
+        });
     define_listed_tasks();
     define_implicit_tasks();
     read_situation([&] { catalog_.variables = situation_.read_variables(draft_.situation); });
@@ -216,9 +221,30 @@ class Resolver {
   [[nodiscard]] std::size_t situation_errors() const { return situation_errors_; }
 
  private:
+  /// A name that no task has, in a behavior or in an exclusivity list.
   struct Undefined {
     draft::Name name;
-    std::string where;
+    const draft::Behavior* behavior = nullptr;
+    const draft::ExclusivityList* list = nullptr;
+
+    [[nodiscard]] std::string where() const {
+      if (behavior == nullptr) return "named in an exclusivity list";
+      const std::string_view owner = behavior->name.text;
+      return "required by " + (owner.empty() ? "a behavior" : "behavior " + quote(owner));
+    }
+
+    /// Whether a task is named beside it.
+    [[nodiscard]] bool is_beside(std::string_view task) const {
+      const auto is_in = [task](const auto& entries, auto name_of_entry) {
+        return std::any_of(entries.begin(), entries.end(),
+                           [&](const auto& entry) { return name_of_entry(entry).text == task; });
+      };
+      if (list != nullptr) {
+        return is_in(list->tasks, [](const draft::Name& entry) { return entry; });
+      }
+      return is_in(behavior->requirements, [](const auto& entry) { return entry.task; }) ||
+             is_in(behavior->performs, [](const auto& entry) { return entry.task; });
+    }
   };
 
   void define_listed_tasks() {
@@ -305,7 +331,7 @@ class Resolver {
       behavior.performs.push_back(resolve(performance, entry));
     }
     for (const draft::Requirement& requirement : entry.requirements) {
-      const auto task = find_task(requirement.task, "required by behavior ", entry.name.text);
+      const auto task = find_task({requirement.task, &entry, nullptr});
       if (task) {
         behavior.requirements.push_back({*task, requirement.minimum_performance.value,
                                          requirement.minimum_performance.range,
@@ -343,7 +369,7 @@ class Resolver {
     list.entry = entry.entry;
     list.is_complete = entry.is_complete;
     for (const draft::Name& name : entry.tasks) {
-      if (const auto task = find_task(name, "named in an exclusivity list", {})) {
+      if (const auto task = find_task({name, nullptr, &entry})) {
         list.tasks.push_back(*task);
         list.ranges.push_back(name.range);
       } else {
@@ -356,12 +382,10 @@ class Resolver {
     catalog_.exclusivity.push_back(std::move(list));
   }
 
-  std::optional<TaskIndex> find_task(const draft::Name& name, std::string_view where,
-                                     std::string_view behavior) {
-    const auto found = tasks_.find(name.text);
+  std::optional<TaskIndex> find_task(const Undefined& use) {
+    const auto found = tasks_.find(use.name.text);
     if (found != tasks_.end()) return found->second;
-    undefined_.push_back({name, std::string(where)});
-    if (!behavior.empty()) undefined_.back().where += quote(behavior);
+    undefined_.push_back(use);
     return std::nullopt;
   }
 
@@ -383,11 +407,16 @@ class Resolver {
     }
     std::set<Range> reported;  // aliases give a name several places in the tree
     for (const Undefined& undefined : undefined_) {
-      const auto& suggestion = suggested.at(undefined.name.text);
+      auto suggestion = suggested.at(undefined.name.text);
       if (!suggestion && strange <= draft_.nameless_tasks) continue;
       if (!reported.insert(undefined.name.range).second) continue;
       std::string message =
-          "task " + quote(undefined.name.text) + ", " + undefined.where + ", is not defined";
+          "task " + quote(undefined.name.text) + ", " + undefined.where() + ", is not defined";
+      if (suggestion && undefined.is_beside(*suggestion)) {
+        suggestion = suggestions.nearest(undefined.name.text, [&undefined](std::string_view task) {
+          return undefined.is_beside(task);
+        });
+      }
       if (suggestion) {
         message += did_you_mean(suggestion);
       } else if (behaviors_.contains(undefined.name.text)) {
@@ -419,7 +448,8 @@ CatalogReading understand_catalog(const yaml::Document& document, Diagnostics& d
   reading.catalog = resolver.resolve();
   reading.undefined_tasks = resolver.undefined_tasks();
   reading.catalog.file = document.file();
-  const std::size_t hiding = reporter.errors() - reporter.errors(rule::on_request_and_reactive);
+  const std::size_t hiding =
+      draft::hiding_errors(reporter) - reporter.errors(rule::on_request_and_reactive);
   reading.is_complete = hiding == 0;
   reading.has_all_names = hiding == draft.value_errors + resolver.situation_errors();
   const auto without_task = static_cast<std::size_t>(

@@ -92,7 +92,7 @@ void SituationReader::read_variable(const Node& entry) {
     variable.is_boolean = true;
     variable.values = {"true", "false"};
   }
-  fields.report_unknown(Severity::warning);
+  fields.report_unknown(yaml::UnknownKeys::ignored);
   if (!name) {
     lacks_variables_ = true;
     return;
@@ -143,7 +143,7 @@ std::vector<Condition> SituationReader::read_conditions(const Node* node,
   yaml::report_duplicate_keys(*node, reporter_);
   for (const auto& [key, value] : node->entries) {
     if (value->kind == Kind::null) continue;
-    const auto variable = find_variable(*key, behavior);
+    const auto variable = find_variable(*key, *node, behavior);
     if (!variable) continue;
     if (std::any_of(conditions.begin(), conditions.end(),
                     [&](const Condition& other) { return other.variable == *variable; })) {
@@ -155,6 +155,7 @@ std::vector<Condition> SituationReader::read_conditions(const Node* node,
 }
 
 std::optional<std::uint32_t> SituationReader::find_variable(const Node& name,
+                                                            const Node& conditions,
                                                             std::string_view behavior) {
   const auto text =
       yaml::read_name(name, "situation", "the name of a situation variable", reporter_);
@@ -162,7 +163,9 @@ std::optional<std::uint32_t> SituationReader::find_variable(const Node& name,
   const auto found = places_.find(*text);
   if (found != places_.end()) return found->second;
   const std::vector<std::string_view> names = names_of(variables_);
-  const auto suggestion = nearest(*text, names);
+  const auto suggestion = nearest(*text, names, [&conditions](std::string_view other) {
+    return yaml::stands_in(conditions, other);
+  });
   if (suggestion || !lacks_variables_) {
     reporter_.report(rule::undeclared_situation, name.range,
                      concat("situation variable ", quote(*text), ", named by behavior ",

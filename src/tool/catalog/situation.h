@@ -33,6 +33,7 @@ class SituationReader {
   void read_variable(const yaml::Node& entry);
   void read_values(const yaml::Node& list, Variable& variable);
   [[nodiscard]] std::optional<std::uint32_t> find_variable(const yaml::Node& name,
+                                                           const yaml::Node& conditions,
                                                            std::string_view behavior);
   [[nodiscard]] Condition read_condition(std::uint32_t variable, const yaml::Node& key,
                                          const yaml::Node& value);

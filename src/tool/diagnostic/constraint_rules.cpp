@@ -199,13 +199,16 @@ exclusivity_constraints:
 const Rule redundant_requirement = {
     .name = "redundant-requirement",
     .severity = Severity::note,
+    .needs_search = true,
     .summary = "A requirement is always met because of other constraints.",
     .explanation =
         "Every assignment of behaviors to tasks that has this behavior and satisfies the other "
         "constraints satisfies this requirement, too. So the coordinator chooses the same with it "
         "and without it. Usually another task that the behavior requires always requires this one "
         "as well, or the behavior requires it twice. A minimum_performance is part of its "
-        "requirement: other constraints must ensure both the task and its minimum.\n\n"
+        "requirement: other constraints must ensure both the task and its minimum. A minimum that "
+        "the present behaviors reach by themselves is a margin, which the requirement is there "
+        "for: see redundant-minimum.\n\n"
         "It does no harm, but it is one more thing to maintain when the catalog changes.",
     .example = R"(behaviors:
 - behavior: FOLLOW_PATH_WITH_PID
@@ -243,9 +246,52 @@ tasks:
 )",
 };
 
+const Rule redundant_minimum = {
+    .name = "redundant-minimum",
+    .severity = Severity::note,
+    .is_off = true,
+    .needs_search = true,
+    .summary = "A minimum performance is reached whatever the coordinator chooses.",
+    .explanation =
+        "In every assignment of behaviors to tasks that satisfies the other constraints, the task "
+        "performs well enough. So the coordinator chooses the same with this minimum_performance "
+        "and without it.\n\n"
+        "Usually that is no mistake: the minimum is a margin for behaviors that are added later, "
+        "or for suitabilities that are measured anew. So the rule is off. Turn it on with 'cbc "
+        "lint --note redundant-minimum' to see which minimums decide something today.",
+    .example = R"(behaviors:
+- behavior: FOLLOW_PATH_WITH_PID
+  task: FOLLOW_PATH
+  requires:
+  - task: LOCALIZE
+    minimum_performance: 70
+- {behavior: GPS, task: LOCALIZE, suitability: 90}
+- {behavior: VISUAL_ODOMETRY, task: LOCALIZE, suitability: 80}
+tasks:
+- {task: FOLLOW_PATH, execution_goal: achieve_goal}
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
+)",
+    .mending =
+        "Keep the minimum if it is a margin. Raise it if a behavior is not good enough; remove it "
+        "if any will do.",
+    .mended = R"(behaviors:
+- behavior: FOLLOW_PATH_WITH_PID
+  task: FOLLOW_PATH
+  requires:
+  - task: LOCALIZE
+    minimum_performance: 85
+- {behavior: GPS, task: LOCALIZE, suitability: 90}
+- {behavior: VISUAL_ODOMETRY, task: LOCALIZE, suitability: 80}
+tasks:
+- {task: FOLLOW_PATH, execution_goal: achieve_goal}
+- {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
+)",
+};
+
 const Rule requires_on_request = {
     .name = "requires-on-request",
     .severity = Severity::warning,
+    .needs_search = true,
     .summary = "A behavior requires a task that starts only on request.",
     .explanation =
         "A task with start_on_request TRUE, which is the default, starts only when it is "
@@ -287,12 +333,15 @@ const Rule required_goal = {
         "has achieved the goal. What requires it then cannot go on: the coordinator stops that, "
         "too, unless there is another behavior for it that does not need this task. This happens "
         "in the middle of a mission, and looks like a failure.\n\n"
-        "A task that others rely on is nearly always one that runs as long as it is needed.",
+        "A task that others rely on is nearly always one that runs as long as it is needed.\n\n"
+        "Where a catalog gives no execution_goal at all, neither for a task nor in default_values, "
+        "as in generated catalogs, the rule is off unless settings ask for it ('cbc lint --warn "
+        "required-goal').",
     .example = R"(behaviors:
 - {behavior: HOVER_WITH_PID, task: HOVER, requires: [{task: LOCALIZE}]}
 - {behavior: GPS, task: LOCALIZE}
 tasks:
-- task: HOVER
+- {task: HOVER, execution_goal: keep_running}
 - {task: LOCALIZE, start_on_request: FALSE}
 )",
     .mending = "Give the required task 'execution_goal: keep_running'.",
@@ -300,7 +349,7 @@ tasks:
 - {behavior: HOVER_WITH_PID, task: HOVER, requires: [{task: LOCALIZE}]}
 - {behavior: GPS, task: LOCALIZE}
 tasks:
-- task: HOVER
+- {task: HOVER, execution_goal: keep_running}
 - {task: LOCALIZE, execution_goal: keep_running, start_on_request: FALSE}
 )",
 };

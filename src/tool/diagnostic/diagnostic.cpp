@@ -33,21 +33,22 @@ std::size_t Diagnostics::count(Severity severity) const {
 
 void Reporter::report(const Rule& rule, const Range& range, std::string message,
                       std::vector<Note> notes, std::vector<Edit> edits) {
-  report_as(rule.severity, rule, range, std::move(message), std::move(notes), std::move(edits));
+  report_as({rule.severity, rule.is_fixed, rule.is_off}, rule, range, std::move(message),
+            std::move(notes), std::move(edits));
 }
 
-void Reporter::report_as(Severity severity, const Rule& rule, const Range& range,
+void Reporter::report_as(const Standing& standing, const Rule& rule, const Range& range,
                          std::string message, std::vector<Note> notes, std::vector<Edit> edits) {
   std::string identity(rule.name);
   identity += ' ' + std::to_string(range.begin.line) + ' ' + std::to_string(range.begin.column) +
               ' ' + message;
   if (!reported_.insert(std::move(identity)).second) return;
-  if (severity == Severity::error) {
+  if (standing.severity == Severity::error) {
     ++errors_;
     ++errors_of_[rule.name];
   }
-  diagnostics_.add(
-      {rule.name, severity, file_, range, std::move(message), std::move(notes), std::move(edits)});
+  diagnostics_.add({rule.name, standing.severity, file_, range, std::move(message),
+                    std::move(notes), std::move(edits), standing.is_fixed, standing.is_off});
 }
 
 std::size_t Reporter::errors(const Rule& rule) const {

@@ -65,6 +65,15 @@ struct Diagnostic {
   std::string message;
   std::vector<Note> notes;
   std::vector<Edit> edits = {};  ///< together they mend it; empty: it takes a person
+  bool is_fixed = false;         ///< settings cannot change its severity
+  bool is_off = false;           ///< it is reported only if settings ask for its rule
+};
+
+/// How a finding counts, where that is not as its rule says.
+struct Standing {
+  Severity severity = Severity::error;
+  bool is_fixed = false;  ///< settings cannot change the severity
+  bool is_off = false;    ///< it is reported only if settings ask for the rule
 };
 
 /// Collects the findings of one or several files. Readers add to it and go on; nothing is thrown.
@@ -96,9 +105,9 @@ class Reporter {
   void report(const Rule& rule, const Range& range, std::string message,
               std::vector<Note> notes = {}, std::vector<Edit> edits = {});
 
-  /// Reports with another severity.
-  void report_as(Severity severity, const Rule& rule, const Range& range, std::string message,
-                 std::vector<Note> notes = {}, std::vector<Edit> edits = {});
+  /// The same for a finding that counts in another way than its rule.
+  void report_as(const Standing& standing, const Rule& rule, const Range& range,
+                 std::string message, std::vector<Note> notes = {}, std::vector<Edit> edits = {});
 
   /// A note about another place of this file.
   [[nodiscard]] Note note(const Range& range, std::string message) const {

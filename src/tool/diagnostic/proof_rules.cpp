@@ -6,6 +6,7 @@ namespace cbc::rule {
 const Rule dead_behavior = {
     .name = "dead-behavior",
     .severity = Severity::warning,
+    .needs_search = true,
     .summary = "A behavior can never be active, though its task can run.",
     .explanation =
         "No assignment of behaviors to tasks that satisfies all constraints has this behavior, "
@@ -64,6 +65,7 @@ exclusivity_constraints:
 const Rule dead_task = {
     .name = "dead-task",
     .severity = Severity::warning,
+    .needs_search = true,
     .summary = "A task can never run, though behaviors perform it.",
     .explanation =
         "No assignment of behaviors to tasks that satisfies all constraints has the task running, "
@@ -124,6 +126,7 @@ exclusivity_constraints:
 const Rule unreachable_performance = {
     .name = "unreachable-performance",
     .severity = Severity::warning,
+    .needs_search = true,
     .summary = "No choice of behaviors reaches a minimum performance.",
     .explanation =
         "The performance of a task is the suitability of its behavior times the suitabilities of "
@@ -178,6 +181,7 @@ tasks:
 const Rule blocked_reactive = {
     .name = "blocked-reactive",
     .severity = Severity::note,
+    .needs_search = true,
     .summary = "A reactive task cannot run beside a task on request, though no list has both.",
     .explanation =
         "A reactive task starts by itself whenever the constraints allow it. While the task that "
@@ -230,6 +234,7 @@ exclusivity_constraints:
 const Rule can_run_together = {
     .name = "can-run-together",
     .severity = Severity::error,
+    .needs_search = true,
     .summary = "Two tasks can run at the same time, but the settings say that they never do.",
     .explanation =
         "The key 'never_together' of the settings file, .cbc.yaml, has lists of tasks of which no "
@@ -267,6 +272,7 @@ exclusivity_constraints:
 const Rule undecided = {
     .name = "undecided",
     .severity = Severity::note,
+    .needs_search = true,
     .summary = "The search for a proof reached its limit, so a rule is left undecided.",
     .explanation =
         "Rules such as dead-behavior and redundant-requirement hold if there is no assignment of "

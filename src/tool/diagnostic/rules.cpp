@@ -50,8 +50,9 @@ const Rule unknown_key = {
         "one; with a misspelled 'requires' it requires nothing, and the coordinator runs it "
         "without what it needs. The message gives the key that is probably meant, or the level of "
         "the file at which the key belongs.\n\n"
-        "In a catalog this is a warning, in an event script an error that settings cannot change. "
-        "Keys that begin with 'x-' are the user's own, and are ignored. If a required key is "
+        "In a catalog it is an error if a known key is probably meant, and a warning otherwise. In "
+        "an event script it is an error that settings cannot change. Keys that begin with 'x-' are "
+        "the user's own, and are ignored. If a required key is "
         "misspelled, the finding is missing-key.",
     .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
@@ -98,6 +99,48 @@ tasks:
   task: HOVER
 tasks:
 - task: HOVER
+)",
+};
+
+const Rule older_format = {
+    .name = "older-format",
+    .severity = Severity::error,
+    .is_fixed = true,
+    .summary = "The catalog has an older format that is not supported.",
+    .explanation =
+        "In catalogs for the first versions of the coordinator, behaviors have 'capabilities' and "
+        "'incompatible_lists' in place of tasks and requirements; the sections are called "
+        "'behavior_descriptors', 'capability_descriptors' or 'basic_behaviors'. What such a "
+        "catalog means differs, so it is neither compiled nor solved, and nothing else of it is "
+        "checked.\n\n"
+        "Catalogs that have tasks, but older names for some keys, are understood: see "
+        "deprecated-key.",
+    .example = R"(behavior_descriptors:
+- behavior: GO_TO_POINT
+  timeout: 30
+  incompatible_lists: [motion_behaviors]
+  capabilities: [PATH_PLANNING]
+- behavior: KEEP_HOVERING
+  category: recurrent
+  incompatible_lists: [motion_behaviors]
+capability_descriptors:
+- capability: PATH_PLANNING
+  process_sequence: [planner]
+)",
+    .mending =
+        "Write the catalog anew: a behavior performs a task; what was a capability is a task of "
+        "its own that the behavior requires, and what was an incompatible list is a list of tasks "
+        "under 'mutually_exclusive'.",
+    .mended = R"(behaviors:
+- {behavior: GO_TO_POINT, task: MOVE, requires: [{task: PLAN_PATH}]}
+- {behavior: KEEP_HOVERING, task: HOVER}
+- {behavior: PLANNER, task: PLAN_PATH}
+tasks:
+- {task: MOVE, timeout: 30}
+- {task: HOVER, execution_goal: keep_running}
+- {task: PLAN_PATH, execution_goal: keep_running, start_on_request: FALSE}
+exclusivity_constraints:
+- mutually_exclusive: [MOVE, HOVER]
 )",
 };
 
@@ -234,6 +277,7 @@ tasks:
 const Rule unused_allow = {
     .name = "unused-allow",
     .severity = Severity::warning,
+    .needs_search = true,
     .summary = "A comment allows a rule that is not broken there.",
     .explanation =
         "A comment '# cbc: allow RULE' at the end of a line allows the rule on this line; alone "

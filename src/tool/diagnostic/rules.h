@@ -14,6 +14,10 @@ struct Rule {
   Severity severity = Severity::error;  ///< unless the settings say otherwise
   /// A file that breaks the rule has no meaning, so the severity cannot be lowered.
   bool is_fixed = false;
+  bool is_off = false;  ///< there are no findings, unless settings ask for them
+  /// It takes a search, or all other rules, so that only lint checks it always; compile and solve
+  /// do only if settings let it fail.
+  bool needs_search = false;
   bool is_of_scripts = false;  ///< the examples are event scripts, for the catalog below
   // The texts are ASCII. A paragraph is one line.
   std::string_view summary = {};      ///< one sentence: what is wrong
@@ -59,9 +63,11 @@ struct Rule {
   RULE(missing_key)              \
   RULE(never_started)            \
   RULE(no_timeout_effect)        \
+  RULE(older_format)             \
   RULE(on_request_and_reactive)  \
   RULE(parameter_value)          \
   RULE(reactive_timeout)         \
+  RULE(redundant_minimum)        \
   RULE(redundant_requirement)    \
   RULE(required_goal)            \
   RULE(requirement_cycle)        \

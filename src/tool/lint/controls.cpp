@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <system_error>
 #include <unordered_map>
 #include <unordered_set>
@@ -57,6 +58,8 @@ const std::vector<std::string>& names_for(RuleSetting setting, const SeverityOpt
       return options.error;
     case RuleSetting::warn:
       return options.warn;
+    case RuleSetting::note:
+      return options.note;
     case RuleSetting::allow:
       break;
   }
@@ -75,13 +78,12 @@ std::string name_of_option(RuleSetting setting) { return "--" + std::string(name
 }  // namespace
 
 std::string_view name_of(RuleSetting setting) {
-  constexpr std::string_view names[] = {"error", "warn", "allow"};
+  constexpr std::string_view names[] = {"error", "warn", "note", "allow"};
   return names[static_cast<std::size_t>(setting)];
 }
 
 bool is_fixed(const Diagnostic& finding) {
-  const Rule& rule = *find_rule(finding.rule);
-  return rule.is_fixed || (finding.severity == Severity::error && rule.severity != Severity::error);
+  return finding.is_fixed || find_rule(finding.rule)->is_fixed;
 }
 
 void SeveritySettings::set(const Rule& rule, RuleSetting setting) {
@@ -97,16 +99,56 @@ void SeveritySettings::override_with(const SeveritySettings& stronger) {
 
 std::optional<Severity> SeveritySettings::severity_of(const Diagnostic& finding) const {
   const auto found = settings_.find(finding.rule);
-  if (found == settings_.end() || is_fixed(finding)) return finding.severity;
+  if (is_fixed(finding)) return finding.severity;
+  if (found == settings_.end()) {
+    return finding.is_off ? std::nullopt : std::optional(finding.severity);
+  }
   switch (found->second) {
     case RuleSetting::error:
       return Severity::error;
     case RuleSetting::warn:
       return Severity::warning;
+    case RuleSetting::note:
+      return Severity::note;
     case RuleSetting::allow:
       break;
   }
   return std::nullopt;
+}
+
+std::optional<Severity> SeveritySettings::severity_by(const Rule& rule) const {
+  if (rule.name == rule::can_run_together.name && never_together_.empty()) return std::nullopt;
+  Diagnostic finding;
+  finding.rule = rule.name;
+  finding.severity = rule.severity;
+  finding.is_fixed = rule.is_fixed;
+  finding.is_off = rule.is_off;
+  return severity_of(finding);
+}
+
+bool SeveritySettings::need_search() const {
+  const std::span<const Rule> rules = all_rules();
+  return std::any_of(rules.begin(), rules.end(), [this](const Rule& rule) {
+    const std::optional<Severity> severity = severity_by(rule);
+    return rule.needs_search && severity && is_failure(*severity);
+  });
+}
+
+bool SeveritySettings::add_failures() const {
+  const std::span<const Rule> rules = all_rules();
+  return std::any_of(rules.begin(), rules.end(), [this](const Rule& rule) {
+    const std::optional<Severity> severity = severity_by(rule);
+    const bool is_of_settings = rule.name == rule::can_run_together.name;
+    return (rule.severity != Severity::error || is_of_settings) && severity &&
+           is_failure(*severity);
+  });
+}
+
+bool SeveritySettings::turn_on_rules() const {
+  const std::span<const Rule> rules = all_rules();
+  return std::any_of(rules.begin(), rules.end(), [this](const Rule& rule) {
+    return rule.is_off && severity_by(rule).has_value();
+  });
 }
 
 SeveritySettings settings_of_options(const SeverityOptions& options,
@@ -143,7 +185,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr yaml::Key settings_keys[] = {
-    {"error"}, {"warn"}, {"allow"}, {"strict"}, {"never_together"}};
+    {"error"}, {"warn"}, {"note"}, {"allow"}, {"strict"}, {"never_together"}};
 constexpr yaml::Shape settings_shape{"the settings", settings_keys};
 
 /// The folder of a file, where the search begins: without links and "..", where possible.
@@ -169,7 +211,7 @@ class SettingsReader {
       if (yaml::read_boolean(*strict, "strict", reporter_).value_or(false)) settings_.make_strict();
     }
     if (const yaml::Node* lists = fields.find(never_together)) read_never_together(*lists);
-    fields.report_unknown(Severity::error);
+    fields.report_unknown(yaml::UnknownKeys::refused);
     return settings_;
   }
 
@@ -222,7 +264,7 @@ class SettingsReader {
     const Rule* rule = find_rule(name);
     if (rule == nullptr) {
       // An error, though a warning in a catalog: settings that are not understood are of no use.
-      reporter_.report_as(Severity::error, rule::unknown_rule, range,
+      reporter_.report_as({Severity::error, true}, rule::unknown_rule, range,
                           names_.describe_unknown(name));
       return;
     }
@@ -275,8 +317,8 @@ std::optional<SeveritySettings> read_settings(std::string_view text, std::string
   Reporter reporter(file, diagnostics);
   if (root.kind != yaml::Kind::mapping) {
     reporter.report(rule::wrong_type, root.range,
-                    "settings must be a mapping with the keys 'error', 'warn', 'allow', 'strict' "
-                    "and 'never_together', found " +
+                    "settings must be a mapping with the keys 'error', 'warn', 'note', 'allow', "
+                    "'strict' and 'never_together', found " +
                         yaml::describe(root));
     return std::nullopt;
   }
@@ -298,7 +340,7 @@ void check_never_together_names(const std::vector<NeverTogether>& lists,
       if (is_known(list.tasks[i])) continue;
       const auto meant = suggestions.nearest(list.tasks[i]);
       if (!meant && !has_known) continue;
-      reporter.report_as(meant ? Severity::error : Severity::warning, rule::undefined_task,
+      reporter.report_as({meant ? Severity::error : Severity::warning}, rule::undefined_task,
                          list.ranges[i],
                          "no catalog has task " + quote(list.tasks[i]) + did_you_mean(meant));
     }
@@ -498,6 +540,11 @@ void filter(Diagnostics& findings, std::vector<Allow>& allows, Diagnostics& kept
   }
 }
 
+/// Whether it is known that an allow that was not used is not needed.
+bool is_decided(const Allow& allow, const CommentedFile& file) {
+  return file.is_complete && (file.checks_off_rules || !allow.rule->is_off);
+}
+
 void report_unused(const Allow& allow, Reporter& reporter) {
   reporter.report(rule::unused_allow, allow.range,
                   "no finding of rule " + quote(allow.rule->name) + " needs this comment");
@@ -520,7 +567,8 @@ std::vector<Diagnostic> apply_allow_comments(std::vector<Diagnostic> findings,
   for (const Allow& allow : allows) {
     if (allow.rule->is_fixed) {
       unused_reporter.report(rule::unused_allow, allow.range, describe_fixed(*allow.rule));
-    } else if (file.is_complete && !allow.is_used && allow.rule->name != rule::unused_allow) {
+    } else if (is_decided(allow, file) && !allow.is_used &&
+               allow.rule->name != rule::unused_allow) {
       report_unused(allow, unused_reporter);
     }
   }

@@ -18,16 +18,16 @@
 namespace cbc {
 
 /// What becomes of the findings of a rule; `allow`: they are not reported.
-enum class RuleSetting : std::uint8_t { error, warn, allow };
+enum class RuleSetting : std::uint8_t { error, warn, note, allow };
 
 inline constexpr std::array rule_settings = {RuleSetting::error, RuleSetting::warn,
-                                             RuleSetting::allow};
+                                             RuleSetting::note, RuleSetting::allow};
 
-/// "error", "warn", "allow": the key of a settings file, and the option.
+/// "error", "warn", "note", "allow": the key of a settings file, and the option.
 [[nodiscard]] std::string_view name_of(RuleSetting setting);
 
-/// Whether the severity of a finding cannot be changed: its rule is fixed, or it is an error though
-/// the rule's severity is not (an unknown key in a script).
+/// Whether the severity of a finding cannot be changed, because of its rule or by itself (an
+/// unknown key in a script).
 [[nodiscard]] bool is_fixed(const Diagnostic& finding);
 
 /// Tasks of which no two may be able to run at the same time, as a settings file lists them.
@@ -57,7 +57,20 @@ class SeveritySettings {
   [[nodiscard]] bool is_strict() const { return is_strict_; }
   [[nodiscard]] const std::vector<NeverTogether>& never_together() const { return never_together_; }
 
+  /// Whether a finding with this severity is a failure.
+  [[nodiscard]] bool is_failure(Severity severity) const {
+    return severity == Severity::error || (is_strict_ && severity == Severity::warning);
+  }
+  /// Whether there may be a failure that would be none without settings, by a rule that needs a
+  /// search, by any rule.
+  [[nodiscard]] bool need_search() const;
+  [[nodiscard]] bool add_failures() const;
+  /// Whether rules that are off without settings are to be checked.
+  [[nodiscard]] bool turn_on_rules() const;
+
  private:
+  [[nodiscard]] std::optional<Severity> severity_by(const Rule& rule) const;
+
   std::map<std::string_view, RuleSetting> settings_;  // by name of the rule
   bool is_strict_ = false;
   std::vector<NeverTogether> never_together_;
@@ -65,9 +78,10 @@ class SeveritySettings {
 
 /// Names of rules, as they were given on the command line.
 struct SeverityOptions {
-  std::vector<std::string> error;
-  std::vector<std::string> warn;
-  std::vector<std::string> allow;
+  std::vector<std::string> error = {};
+  std::vector<std::string> warn = {};
+  std::vector<std::string> note = {};
+  std::vector<std::string> allow = {};
   bool strict = false;
 };
 
@@ -89,6 +103,7 @@ inline constexpr std::string_view settings_file_name = ".cbc.yaml";
 ///
 ///     error: [unknown-key, dead-behavior]
 ///     warn: [exclusive-requirement]
+///     note: [redundant-minimum]
 ///     allow: [required-goal]
 ///     strict: true
 ///     never_together:
@@ -113,6 +128,8 @@ struct CommentedFile {
   const yaml::Document* document = nullptr;  ///< of the text, if it is valid YAML
   /// Whether every rule could be decided. If not, an allow without a finding may still be needed.
   bool is_complete = true;
+  /// The same for rules that are off unless settings ask for them.
+  bool checks_off_rules = false;
 };
 
 /// Removes the findings of a file that comments of the file allow:

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -119,17 +121,20 @@ std::vector<Use> find_uses(const Catalog& catalog) {
   return uses;
 }
 
-void check_required_goal(const Task& task, const Use& use, Reporter& reporter) {
+/// A file that gives no goal at all, as generated ones do, says nothing about this one either.
+void check_required_goal(const Catalog& catalog, const Task& task, const Use& use,
+                         Reporter& reporter) {
   if (use.requirements == 0 || task.execution_goal == ExecutionGoal::keep_running) return;
   std::string who = describe(*use.required_by) + " requires it";
   if (use.requirements > 1) {
     who += ", and " + std::to_string(use.requirements - 1) + " more";
   }
-  reporter.report(rule::required_goal, task.range,
-                  "task " + quote(task.name) +
-                      " is required, but ends when its goal is achieved; what requires it then "
-                      "stops too",
-                  {reporter.note(use.required_at, std::move(who))});
+  reporter.report_as({.severity = rule::required_goal.severity, .is_off = !catalog.gives_goals},
+                     rule::required_goal, task.range,
+                     "task " + quote(task.name) +
+                         " is required, but ends when its goal is achieved; what requires it then "
+                         "stops too",
+                     {reporter.note(use.required_at, std::move(who))});
 }
 
 /// Reports tasks that nothing starts but a request, though start_on_request is false. In a catalog
@@ -243,14 +248,53 @@ void check_performed(const CatalogReading& reading, const std::vector<Use>& uses
   }
 }
 
+/// The behaviors and exclusivity lists that name each task.
+class Namings {
+ public:
+  explicit Namings(const Catalog& catalog) : of_task_(catalog.tasks.size()) {
+    for (const Behavior& behavior : catalog.behaviors) {
+      for (const Performance& performance : behavior.performs) add(performance.task);
+      for (const Requirement& requirement : behavior.requirements) add(requirement.task);
+      ++count_;
+    }
+    for (const ExclusivityList& list : catalog.exclusivity) {
+      for (const TaskIndex task : list.tasks) add(task);
+      ++count_;
+    }
+  }
+
+  /// Whether one of them names both tasks, so that neither is a misspelling of the other.
+  [[nodiscard]] bool have_in_common(TaskIndex a, TaskIndex b) const {
+    const std::vector<std::size_t>& of_b = of_task_[b];
+    return std::any_of(of_task_[a].begin(), of_task_[a].end(), [&of_b](std::size_t naming) {
+      return std::binary_search(of_b.begin(), of_b.end(), naming);
+    });
+  }
+
+ private:
+  void add(TaskIndex task) {
+    std::vector<std::size_t>& of_task = of_task_[task];
+    if (of_task.empty() || of_task.back() != count_) of_task.push_back(count_);
+  }
+
+  std::vector<std::vector<std::size_t>> of_task_;  ///< ascending
+  std::size_t count_ = 0;
+};
+
 /// In a file without a section of tasks, one finding says so for all of them.
 void check_implicit_tasks(const Catalog& catalog, Reporter& reporter) {
   std::vector<std::string_view> listed;
-  for (const Task& task : catalog.tasks) {
+  std::unordered_map<std::string_view, TaskIndex> places;
+  for (TaskIndex place = 0; place < catalog.tasks.size(); ++place) {
+    const Task& task = catalog.tasks[place];
     if (!task.implicit) listed.push_back(task.name);
+    places.try_emplace(task.name, place);
   }
+  if (listed.size() == catalog.tasks.size()) return;
   Suggestions suggestions(std::move(listed));
-  for (const Task& task : catalog.tasks) {
+  const Namings namings(catalog);
+  for (TaskIndex place = 0; place < catalog.tasks.size(); ++place) {
+    const Task& task = catalog.tasks[place];
     if (!task.implicit) continue;
     if (!catalog.has_task_section) {
       reporter.report(rule::implicit_task, task.range,
@@ -260,7 +304,9 @@ void check_implicit_tasks(const Catalog& catalog, Reporter& reporter) {
     }
     std::string message =
         "task " + quote(task.name) + " is named only by a behavior, and has the default attributes";
-    message += did_you_mean(suggestions.nearest(task.name));
+    message += did_you_mean(suggestions.nearest(task.name, [&](std::string_view other) {
+      return namings.have_in_common(place, places.at(other));
+    }));
     reporter.report(rule::implicit_task, task.range, std::move(message));
   }
 }
@@ -274,7 +320,7 @@ void check_tasks(const CatalogReading& reading, Reporter& reporter) {
     const Use& use = uses[index];
     check_suspicious_minimum(task.minimum_performance, task.minimum_performance_range, reporter);
     if (!task.is_unclear) {
-      check_required_goal(task, use, reporter);
+      check_required_goal(catalog, task, use, reporter);
       check_timeout(task, use, reporter);
     }
     check_parameters(task, reporter);
@@ -373,18 +419,29 @@ void check_exclusivity(const Catalog& catalog, Reporter& reporter) {
   Containment(catalog).report(reporter);
 }
 
+/// The places of findings.
+using Places = std::set<Position>;
+
 /// Finds behaviors that require two tasks which exclude one another.
 class ConflictCheck {
  public:
-  ConflictCheck(const Catalog& catalog, Reporter& reporter)
-      : catalog_(catalog), reporter_(reporter), exclusions_(catalog) {}
+  /// `exclusive`: the requirements that the findings of exclusive-requirement are about.
+  ConflictCheck(const Catalog& catalog, const Places& exclusive, Reporter& reporter)
+      : catalog_(catalog), exclusive_(exclusive), reporter_(reporter), exclusions_(catalog) {}
 
-  /// Reports each requirement that conflicts with an earlier one, once. Whether there is one.
+  /// Reports each requirement that conflicts with an earlier one, once. Whether a finding says that
+  /// the behavior can never be active.
   bool check(const Behavior& behavior) {
     bool has_conflict = false;
+    std::unordered_set<TaskIndex> explained;
     std::unordered_map<std::size_t, const Requirement*> first_in;  // by list
     for (const Requirement& requirement : behavior.requirements) {
-      if (exclusions_.find_for_all(behavior, requirement.task)) {
+      // The first requirement of a task has the finding, if there is one.
+      if (exclusive_.contains(requirement.range.begin) &&
+          exclusions_.find_for_all(behavior, requirement.task)) {
+        explained.insert(requirement.task);
+      }
+      if (explained.contains(requirement.task)) {
         has_conflict = true;
         continue;
       }
@@ -414,14 +471,34 @@ class ConflictCheck {
   }
 
   const Catalog& catalog_;
+  const Places& exclusive_;
   Reporter& reporter_;
   Exclusions exclusions_;
 };
 
-/// Returns, by behavior, whether it can never be active because of conflicting requirements, or
-/// because it requires a task that excludes its own (which the reader has reported).
-std::vector<bool> check_conflicting_requirements(const Catalog& catalog, Reporter& reporter) {
-  ConflictCheck check(catalog, reporter);
+/// The requirements that are reported because the task excludes what requires it. The reader has
+/// found them.
+Places find_exclusive_requirements(const Diagnostics& diagnostics, const std::string& file,
+                                   const LintOptions& options) {
+  std::vector<Diagnostic> findings;
+  for (const Diagnostic& finding : diagnostics.all()) {
+    if (finding.rule == rule::exclusive_requirement.name && finding.file == file) {
+      findings.push_back(finding);
+    }
+  }
+  if (options.control && !findings.empty()) findings = options.control(std::move(findings));
+  Places places;
+  for (const Diagnostic& finding : findings) {
+    if (finding.rule == rule::exclusive_requirement.name) places.insert(finding.range.begin);
+  }
+  return places;
+}
+
+/// Returns, by behavior, whether a finding says that it can never be active: because of conflicting
+/// requirements, or because it requires a task that excludes its own.
+std::vector<bool> check_conflicting_requirements(const Catalog& catalog, const Places& exclusive,
+                                                 Reporter& reporter) {
+  ConflictCheck check(catalog, exclusive, reporter);
   std::vector<bool> conflicts;
   for (const Behavior& behavior : catalog.behaviors) conflicts.push_back(check.check(behavior));
   return conflicts;
@@ -439,16 +516,38 @@ LintResult lint_catalog(const yaml::Document& document, const LintOptions& optio
   check_tasks(reading, reporter);
   check_behaviors(catalog, reading.is_complete, reporter);
   check_exclusivity(catalog, reporter);
-  const std::vector<bool> conflicts = check_conflicting_requirements(catalog, reporter);
+  const Places exclusive = find_exclusive_requirements(diagnostics, document.file(), options);
+  const std::vector<bool> conflicts = check_conflicting_requirements(catalog, exclusive, reporter);
   if (!reading.has_all_names || !reading.is_acyclic) {
     // Anything else that could be found may be due to what is missing.
-    check_on_request_requirements(catalog, conflicts, reporter);
+    if (options.searches) check_on_request_requirements(catalog, conflicts, reporter);
     return result;
   }
+  if (!options.searches) return result;
   CompiledCatalog compiled = compile(catalog);
   check_by_proof(reading, compiled, conflicts, options, reporter);
   if (reading.is_complete) result.compiled = std::move(compiled);
   return result;
+}
+
+CheckedCatalog check_catalog(const yaml::Document& document, std::string_view text,
+                             const SeveritySettings& settings, LintOptions options,
+                             Diagnostics diagnostics) {
+  options.never_together = settings.never_together();
+  options.checks_off_rules = settings.turn_on_rules();
+  options.control = [&](std::vector<Diagnostic> findings) {
+    return control_findings(std::move(findings), {document.file(), text, &document, false},
+                            settings);
+  };
+  LintResult result = lint_catalog(document, options, diagnostics);
+  CheckedCatalog checked;
+  checked.errors = diagnostics.count(Severity::error);
+  const CommentedFile file{document.file(), text, &document, result.compiled.has_value(),
+                           options.checks_off_rules};
+  checked.findings = control_findings(diagnostics.release(), file, settings);
+  checked.reading = std::move(result.reading);
+  checked.compiled = std::move(result.compiled);
+  return checked;
 }
 
 }  // namespace cbc

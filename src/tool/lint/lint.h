@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,17 +25,38 @@ struct LintOptions {
   std::uint64_t max_nodes = 100'000;
   /// What the rule `can-run-together` checks; must outlive the check.
   std::span<const NeverTogether> never_together = {};
+  /// Whether rules that need a search are checked.
+  bool searches = true;
+  /// Whether rules that are off unless settings ask for them are checked, too.
+  bool checks_off_rules = false;
+  /// Returns those of some findings that are reported; empty: all of them are. What is wrong behind
+  /// a finding is looked for if it is not reported.
+  std::function<std::vector<Diagnostic>(std::vector<Diagnostic>)> control = {};
 };
 
 /// What lint knows about a catalog, besides its findings.
 struct LintResult {
   CatalogReading reading;
-  std::optional<CompiledCatalog> compiled;  ///< if all of it was understood
+  std::optional<CompiledCatalog> compiled;  ///< if all of it was understood, and searched
 };
 
 /// Reports everything that is wrong with a catalog, by all rules, into `diagnostics`.
 [[nodiscard]] LintResult lint_catalog(const yaml::Document& document, const LintOptions& options,
                                       Diagnostics& diagnostics);
+
+/// A catalog, checked under the control of its comments and of settings.
+struct CheckedCatalog {
+  CatalogReading reading;
+  std::optional<CompiledCatalog> compiled;  ///< as in LintResult
+  std::vector<Diagnostic> findings;         ///< what is to be reported, as by control_findings
+  std::size_t errors = 0;                   ///< whatever comments and settings say
+};
+
+/// Checks a catalog by all rules. `text` is that of the document; `diagnostics` has what was found
+/// before. What `options` says about settings is replaced by `settings`.
+[[nodiscard]] CheckedCatalog check_catalog(const yaml::Document& document, std::string_view text,
+                                           const SeveritySettings& settings, LintOptions options,
+                                           Diagnostics diagnostics);
 
 /// What lint has to say about one file.
 struct LintedFile {

@@ -18,9 +18,6 @@
 namespace cbc {
 namespace {
 
-/// Conflict sets are not sought among more constraints than this: it would take too long.
-constexpr std::size_t most_constraints = 20'000;
-
 /// Tasks and behaviors that no assignment has, each with a minimal conflict set. A fault is
 /// reported where it is, and not again where it shows.
 ///
@@ -458,7 +455,7 @@ class RedundancyCheck {
                  others.end());
     const Feasibility answer = can_be_broken(id, requirement, others);
     if (answer == Feasibility::unknown) note_undecided(id, requirement);
-    if (answer != Feasibility::no) return;
+    if (answer != Feasibility::no || is_margin(id, requirement, others)) return;
 
     const std::vector<Reason> reason =
         minimal_conflict_set(others, [&](std::span<const Reason> some) {
@@ -502,6 +499,24 @@ class RedundancyCheck {
       if (answer == Feasibility::yes) return answer;
     }
     return answer;
+  }
+
+  /// Whether the task performs well enough whatever minimums there are: then the minimum is a
+  /// margin for other suitabilities, which no other constraint ensures.
+  bool is_margin(BehaviorId id, const CompiledRequirement& requirement,
+                 std::vector<Reason> others) {
+    if (requirement.minimum_performance == 0) return false;
+    others.erase(std::remove_if(
+                     others.begin(), others.end(),
+                     [](const Reason& reason) { return reason.kind == Reason::Kind::performance; }),
+                 others.end());
+    const auto values = catalog_.performs[id];
+    return std::all_of(values.begin(), values.end(), [&](ValueId value) {
+      const TaskId task = catalog_.task_of(value);
+      ConflictSearch problem = proof_.relaxed({task, value - catalog_.values.begin[task]});
+      problem.keep_below(requirement.task, requirement.minimum_performance);
+      return proof_.solve(problem, others) == Feasibility::no;
+    });
   }
 
   void report(const Behavior& behavior, const Requirement& requirement, std::vector<Note> notes,
@@ -559,7 +574,10 @@ void check_by_proof(const CatalogReading& reading, const CompiledCatalog& compil
   DeadCheck(proof).check();
   OnRequestCheck(proof).check();
   // A value that could not be read excludes nothing, so more requirements may seem redundant.
-  if (reading.is_complete) RedundancyCheck(proof).check();
+  if (reading.is_complete) {
+    RedundancyCheck(proof).check();
+    if (options.checks_off_rules) check_redundant_minimums(proof);
+  }
   check_together(proof, options, reading.is_complete);
 }
 

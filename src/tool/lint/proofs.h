@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -30,6 +31,14 @@ void check_by_proof(const CatalogReading& reading, const CompiledCatalog& compil
 /// start on request only. Only the required task itself is known to be requested first.
 void check_on_request_requirements(const Catalog& catalog, const std::vector<bool>& conflicts,
                                    Reporter& reporter);
+
+class ProofContext;
+
+/// One of these checks: minimum performances that are reached anyway.
+void check_redundant_minimums(ProofContext& proof);
+
+/// Constraints that are examined for one proof; among more it would take too long.
+inline constexpr std::size_t most_constraints = 20'000;
 
 /// The requirement of a task by a behavior that has one; of several the strongest, or the first.
 [[nodiscard]] const Requirement& strongest_requirement(const Behavior& behavior, TaskIndex task);

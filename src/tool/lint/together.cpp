@@ -11,9 +11,6 @@
 namespace cbc {
 namespace {
 
-/// Reasons are not sought among more constraints than this: it would take too long.
-constexpr std::size_t most_constraints = 20'000;
-
 /// Reasons that may be examined in total.
 constexpr std::uint64_t most_effort_of_reasons = 400'000'000;
 

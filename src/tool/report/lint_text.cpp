@@ -62,7 +62,9 @@ std::string example_text(std::string_view heading, std::string_view example, con
 std::string rule_text(const Rule& rule, const Style& style) {
   std::string text =
       fmt::format("{}{}{} ({}{})\n\n", style.strong, rule.name, style.reset, name_of(rule.severity),
-                  rule.is_fixed ? "; settings cannot change it" : "");
+                  rule.is_fixed ? "; settings cannot change it"
+                  : rule.is_off ? "; off unless settings ask for it"
+                                : "");
   text += wrap(rule.summary);
   for (std::string_view rest = rule.explanation; !rest.empty();) {
     text += '\n' + wrap(take_until("\n\n", rest));
@@ -84,7 +86,7 @@ std::string rule_list(const Style& style) {
     for (const Rule& rule : all_rules()) {
       if (rule.severity != severity) continue;
       text += fmt::format("{}{:<{}}{}  {:<7}  {}\n", style.strong, rule.name, width, style.reset,
-                          name_of(severity), rule.summary);
+                          rule.is_off ? "off" : name_of(severity), rule.summary);
     }
   }
   return text;

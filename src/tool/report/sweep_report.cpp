@@ -69,6 +69,12 @@ std::string describe_reason(const SweepResult& result, const RejectionReason& re
   return {};
 }
 
+/// Whether a reason is a requirement of the catalog. These take part in most rejections, whatever
+/// has come about.
+bool is_requirement(const RejectionReason& reason) {
+  return reason.kind == Reason::Kind::requires_task || reason.kind == Reason::Kind::performance;
+}
+
 /// "2.50" for 2500 nanoseconds, with at least three digits.
 std::string to_microseconds(std::uint64_t nanoseconds) {
   const double time = static_cast<double>(nanoseconds) / 1000;
@@ -149,10 +155,12 @@ class SweepText {
     std::vector<std::pair<RejectionReason, std::uint64_t>> reasons(result_.counts.reasons.begin(),
                                                                    result_.counts.reasons.end());
     if (reasons.empty()) return;
-    std::stable_sort(reasons.begin(), reasons.end(),
-                     [](const auto& a, const auto& b) { return a.second > b.second; });
-    add("{}reasons for rejections{}, the most frequent of {}\n", style_.strong, style_.reset,
-        reasons.size());
+    std::stable_sort(reasons.begin(), reasons.end(), [](const auto& a, const auto& b) {
+      const bool is_last = is_requirement(a.first);
+      return is_last != is_requirement(b.first) ? !is_last : a.second > b.second;
+    });
+    add("{}reasons for rejections{}, the most frequent of {}, requirements last\n", style_.strong,
+        style_.reset, reasons.size());
     reasons.resize(std::min(reasons.size(), most_shown));
     for (const auto& [reason, count] : reasons) {
       add("{:>9}  {}\n", count, describe_reason(result_, reason));

@@ -172,9 +172,9 @@ void ParameterChecks::check(std::uint32_t task, const yaml::Node& given, Reporte
     if (!known.insert(name->text).second) continue;  // reported elsewhere
     const auto found = declared.values.find(name->text);
     if (found == declared.values.end()) {
-      report_undeclared(task, *name, reporter);
+      report_undeclared(task, *name, given, reporter);
     } else if (const auto fault = found->second.find_fault(*value)) {
-      reporter.report_as(severity_, rule::parameter_value, fault->node->range,
+      reporter.report_as({severity_}, rule::parameter_value, fault->node->range,
                          "parameter " + quote(name->text) + " of task " +
                              quote(catalog_.task_names[task]) + ": " + fault->message);
     }
@@ -182,20 +182,23 @@ void ParameterChecks::check(std::uint32_t task, const yaml::Node& given, Reporte
 }
 
 void ParameterChecks::report_undeclared(std::uint32_t task, const yaml::Node& name,
-                                        Reporter& reporter) {
+                                        const yaml::Node& given, Reporter& reporter) {
   Declared& declared = declared_by(task);
   std::string message = "task " + quote(catalog_.task_names[task]);
   if (declared.values.empty()) {
     message += " declares no parameters, found " + quote(name.text);
   } else {
     message += " declares no parameter " + quote(name.text);
-    if (const auto suggestion = declared.suggestions.nearest(name.text)) {
+    const auto is_taken = [&given](std::string_view other) {
+      return yaml::stands_in(given, other);
+    };
+    if (const auto suggestion = declared.suggestions.nearest(name.text, is_taken)) {
       message += did_you_mean(suggestion);
     } else {
       message += ", only " + declared.all;
     }
   }
-  reporter.report_as(severity_, rule::undeclared_parameter, name.range, std::move(message));
+  reporter.report_as({severity_}, rule::undeclared_parameter, name.range, std::move(message));
 }
 
 }  // namespace cbc

@@ -64,30 +64,36 @@ Suggestions& suggestions_from(const Texts& names, std::optional<Suggestions>& ma
 
 // The name is unknown as a `kind`, but may be known as another.
 std::string describe_unknown(std::string_view name, std::string_view kind, bool is_other,
-                             std::string_view other, Suggestions& suggestions) {
+                             std::string_view other, Suggestions& suggestions,
+                             const yaml::Node* beside) {
   std::string message = "there is no " + std::string(kind) + " " + quote(name);
   if (is_other) message += ": it is a " + std::string(other);
-  message += did_you_mean(suggestions.nearest(name));
+  const auto is_taken = [beside](std::string_view known) {
+    return beside != nullptr && yaml::stands_in(*beside, known);
+  };
+  message += did_you_mean(suggestions.nearest(name, is_taken));
   return message;
 }
 
 }  // namespace
 
 std::optional<std::uint32_t> NameIndex::find_task(const yaml::Node& node, std::string_view what,
-                                                  Reporter& reporter) {
+                                                  Reporter& reporter, const yaml::Node* beside) {
   const auto name = yaml::read_name(node, what, "the name of a task", reporter);
   if (!name) return std::nullopt;
   const auto found = catalog_.find_task(*name);
   if (!found) {
-    reporter.report(rule::undefined_task, node.range,
-                    describe_unknown(*name, "task", catalog_.find_behavior(*name).has_value(),
-                                     "behavior", suggestions_from(catalog_.task_names, tasks_)));
+    reporter.report(
+        rule::undefined_task, node.range,
+        describe_unknown(*name, "task", catalog_.find_behavior(*name).has_value(), "behavior",
+                         suggestions_from(catalog_.task_names, tasks_), beside));
   }
   return found;
 }
 
 std::optional<std::uint32_t> NameIndex::find_behavior(const yaml::Node& node, std::string_view what,
-                                                      Reporter& reporter) {
+                                                      Reporter& reporter,
+                                                      const yaml::Node* beside) {
   const auto name = yaml::read_name(node, what, "the name of a behavior", reporter);
   if (!name) return std::nullopt;
   const auto found = catalog_.find_behavior(*name);
@@ -95,12 +101,13 @@ std::optional<std::uint32_t> NameIndex::find_behavior(const yaml::Node& node, st
     reporter.report(
         rule::undefined_behavior, node.range,
         describe_unknown(*name, "behavior", catalog_.find_task(*name).has_value(), "task",
-                         suggestions_from(catalog_.behavior_names, behaviors_)));
+                         suggestions_from(catalog_.behavior_names, behaviors_), beside));
   }
   return found;
 }
 
-std::optional<NameIndex::Part> NameIndex::find_part(const yaml::Node& node, Reporter& reporter) {
+std::optional<NameIndex::Part> NameIndex::find_part(const yaml::Node& node, Reporter& reporter,
+                                                    const yaml::Node* beside) {
   const auto name =
       yaml::read_name(node, "situation", "the name of a behavior or a variable", reporter);
   if (!name) return std::nullopt;
@@ -118,7 +125,7 @@ std::optional<NameIndex::Part> NameIndex::find_part(const yaml::Node& node, Repo
   reporter.report(
       has_variables ? rule::undeclared_situation : rule::undefined_behavior, node.range,
       describe_unknown(*name, has_variables ? "behavior or situation variable" : "behavior",
-                       catalog_.find_task(*name).has_value(), "task", *parts_));
+                       catalog_.find_task(*name).has_value(), "task", *parts_, beside));
   return std::nullopt;
 }
 
@@ -145,7 +152,7 @@ class ExpectationReader {
     if (const Node* running = fields.find("running")) read_running(*running);
     if (const Node* stopped = fields.find("stopped")) read_stopped(*stopped);
     if (const Node* active = fields.find("active")) read_active(*active);
-    fields.report_unknown(Severity::error);
+    fields.report_unknown(yaml::UnknownKeys::refused);
     return std::move(out_);
   }
 
@@ -162,7 +169,7 @@ class ExpectationReader {
     yaml::report_duplicate_keys(node, reporter_);
     for (const auto& [key, value] : node.entries) {
       Expectation::Running entry;
-      const auto task = names_.find_task(*key, "running", reporter_);
+      const auto task = names_.find_task(*key, "running", reporter_, &node);
       if (value->kind != Kind::scalar) {
         yaml::report_wrong_type(*value, key->text, "a behavior or 'any'", reporter_);
       } else if (value->text != "any") {
@@ -194,7 +201,7 @@ class ExpectationReader {
   void read_stopped(const Node& node) {
     if (yaml::read_list(node, "stopped", "a list of tasks", reporter_) == nullptr) return;
     for (const Node* item : node.items) {
-      const auto task = names_.find_task(*item, "stopped", reporter_);
+      const auto task = names_.find_task(*item, "stopped", reporter_, &node);
       out_.stopped.push_back(task.value_or(0));
       if (!task) continue;
       const auto running = running_at_.find(*task);
@@ -210,7 +217,7 @@ class ExpectationReader {
     if (yaml::read_list(node, "active", "a list of behaviors", reporter_) == nullptr) return;
     auto& behaviors = out_.active.emplace();
     for (const Node* item : node.items) {
-      behaviors.push_back(names_.find_behavior(*item, "active", reporter_).value_or(0));
+      behaviors.push_back(names_.find_behavior(*item, "active", reporter_, &node).value_or(0));
     }
   }
 
@@ -265,7 +272,7 @@ void report_misplaced(const Fields& fields, std::string_view verb, Reporter& rep
   for (const Detail& detail : details) {
     if (fields.find(detail.key) == nullptr) continue;
     if (known && form_of(*known).*detail.belongs) continue;
-    reporter.report_as(Severity::error, rule::unknown_key, fields.range_of(detail.key),
+    reporter.report_as({Severity::error, true}, rule::unknown_key, fields.range_of(detail.key),
                        quote(detail.key) + " does not belong to " + quote(verb) + ", only to " +
                            list_verbs(detail.belongs));
   }
@@ -335,13 +342,13 @@ Step StepReader::read(const Node& node, Reporter& reporter) {
       if (parts.verb == Verb::finish && parts.subject->kind == Kind::mapping) {
         Fields of_finish(*parts.subject, shape::finished_task, reporter);
         parts.task = of_finish.require("task", parts.subject->range);
-        of_finish.report_unknown(Severity::error);
+        of_finish.report_unknown(yaml::UnknownKeys::refused);
         parts.subject = nullptr;
       }
       read_parts(parts, step, reporter);
     }
   }
-  fields.report_unknown(Severity::error);
+  fields.report_unknown(yaml::UnknownKeys::refused);
   return step;
 }
 
@@ -454,7 +461,7 @@ Situation StepReader::read_situation(const Node& node, Reporter& reporter) {
   yaml::report_duplicate_keys(node, reporter);
   for (const auto& [key, value] : node.entries) {
     if (value->kind == Kind::null) continue;
-    const auto part = names_.find_part(*key, reporter);
+    const auto part = names_.find_part(*key, reporter, &node);
     if (part && part->is_variable) {
       read_value(part->place, *value, situation, reporter);
       continue;
@@ -518,7 +525,7 @@ void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter
       yaml::read_list(*events, "events", "a list of events", reporter) != nullptr) {
     read_steps(*events, reader, script, reporter);
   }
-  fields.report_unknown(Severity::error);
+  fields.report_unknown(yaml::UnknownKeys::refused);
 }
 
 void resume(StepReader& reader, const CompiledCatalog& catalog, const Snapshot& snapshot) {

@@ -29,19 +29,23 @@ class NameIndex {
   /// The catalog must outlive this object.
   explicit NameIndex(const CompiledCatalog& catalog) : catalog_(catalog) {}
 
-  /// `what` is the key that the name is the value of.
+  /// `what` is the key that the name is the value of. `beside`: the list or mapping that the name
+  /// stands in, whose other names are not suggested.
   [[nodiscard]] std::optional<std::uint32_t> find_task(const yaml::Node& node,
-                                                       std::string_view what, Reporter& reporter);
+                                                       std::string_view what, Reporter& reporter,
+                                                       const yaml::Node* beside = nullptr);
   [[nodiscard]] std::optional<std::uint32_t> find_behavior(const yaml::Node& node,
                                                            std::string_view what,
-                                                           Reporter& reporter);
+                                                           Reporter& reporter,
+                                                           const yaml::Node* beside = nullptr);
 
   /// Of a situation: a behavior, or a variable.
   struct Part {
     bool is_variable = false;
     std::uint32_t place = 0;
   };
-  [[nodiscard]] std::optional<Part> find_part(const yaml::Node& node, Reporter& reporter);
+  [[nodiscard]] std::optional<Part> find_part(const yaml::Node& node, Reporter& reporter,
+                                              const yaml::Node* beside);
 
   [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
 
@@ -77,7 +81,8 @@ class ParameterChecks {
   };
 
   [[nodiscard]] Declared& declared_by(std::uint32_t task);
-  void report_undeclared(std::uint32_t task, const yaml::Node& name, Reporter& reporter);
+  void report_undeclared(std::uint32_t task, const yaml::Node& name, const yaml::Node& given,
+                         Reporter& reporter);
 
   const CompiledCatalog& catalog_;
   Severity severity_;

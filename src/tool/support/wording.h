@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,28 +15,38 @@
 /// programs, URIs.
 namespace cbc {
 
-/// Suggests known names for unknown ones: the one at the smallest edit distance, where a
-/// difference in case, or between '-' and '_', counts little; failing that, the longest one of
-/// which one is the beginning or end of the other, at a word boundary. Of equally near names, the
-/// first wins.
+/// Suggests known names for unknown ones. Names are compared word by word, whatever separates the
+/// words and in whatever case they are: a suggestion has the same words in any order, of which one
+/// may be misspelt. Words with different numbers are different words. If there is no such name, it
+/// is the longest one whose words begin or end the unknown name, or the other way around. Of
+/// equally near names, the first wins.
 ///
 /// The work of one object is bounded, so that a file full of unknown names stays cheap: after that,
 /// there are no more suggestions.
 class Suggestions {
  public:
+  /// Tells whether a name stands beside the unknown one already, so that it cannot be meant.
+  using IsTaken = std::function<bool(std::string_view)>;
+
   /// `names` are views of texts that must outlive this object.
   explicit Suggestions(std::vector<std::string_view> names) : names_(std::move(names)) {}
 
-  [[nodiscard]] std::optional<std::string_view> nearest(std::string_view name);
+  [[nodiscard]] std::optional<std::string_view> nearest(std::string_view name,
+                                                        const IsTaken& is_taken = {});
 
  private:
+  /// The words of a name, in small letters.
+  using Words = std::vector<std::string>;
+
   std::vector<std::string_view> names_;
+  std::vector<Words> words_;  ///< by name, since the first search
   std::size_t work_left_ = 100'000'000;
 };
 
 /// One search in a few names.
 [[nodiscard]] std::optional<std::string_view> nearest(std::string_view name,
-                                                      std::span<const std::string_view> names);
+                                                      std::span<const std::string_view> names,
+                                                      const Suggestions::IsTaken& is_taken = {});
 
 /// How a message about an unknown name ends: "; did you mean 'HOVER'?", or nothing.
 [[nodiscard]] std::string did_you_mean(std::optional<std::string_view> suggestion);

@@ -25,6 +25,13 @@ void report_duplicate_keys(const Node& mapping, Reporter& reporter) {
   }
 }
 
+bool stands_in(const Node& node, std::string_view text) {
+  return std::any_of(node.items.begin(), node.items.end(),
+                     [text](const Node* item) { return item->text == text; }) ||
+         std::any_of(node.entries.begin(), node.entries.end(),
+                     [text](const auto& entry) { return entry.first->text == text; });
+}
+
 namespace {
 
 std::string must_be(std::string_view what, std::string_view expected) {
@@ -242,6 +249,11 @@ std::vector<Edit> modernize(const Key& key, const Node& name, const Node& value)
   return edits;
 }
 
+/// The name of a key today.
+std::string_view present_name(const Key& key) {
+  return key.replaced_by.empty() ? key.name : key.replaced_by;
+}
+
 }  // namespace
 
 bool Shape::has(std::string_view key) const {
@@ -364,16 +376,24 @@ const Node* Fields::adopt(std::string_view key) {
 std::string_view Fields::suggestion_for(std::string_view key) const {
   std::vector<std::string_view> names;
   for (const Key& known : shape_.keys) names.push_back(known.name);
-  const std::optional<std::string_view> name = nearest(key, names);
-  if (!name) return {};
-  const Key& known = shape_.keys[place_of(*name)];
-  return known.replaced_by.empty() ? known.name : known.replaced_by;
+  const std::optional<std::string_view> name =
+      nearest(key, names, [this](std::string_view known) { return is_given(known); });
+  return name ? present_name(shape_.keys[place_of(*name)]) : std::string_view();
 }
 
-void Fields::report_unknown(Severity severity) {
+bool Fields::is_given(std::string_view key) const {
+  const std::string_view present = present_name(shape_.keys[place_of(key)]);
+  for (std::size_t place = 0; place < fields_.size(); ++place) {
+    if (fields_[place].key != nullptr && present_name(shape_.keys[place]) == present) return true;
+  }
+  return false;
+}
+
+void Fields::report_unknown(UnknownKeys treatment) {
   for (const Field& field : unknown_) {
     const std::string& key = field.key->text;
     std::string message = "unknown key " + quote(key) + " in " + what_;
+    Standing standing{rule::unknown_key.severity};
     const auto inner = std::find_if(shape_.inner.begin(), shape_.inner.end(),
                                     [&key](const Shape* shape) { return shape->has(key); });
     const std::string_view suggestion = suggestion_for(key);
@@ -387,8 +407,10 @@ void Fields::report_unknown(Severity severity) {
       message += ": is a space missing after ':'?";
     } else if (!suggestion.empty()) {
       message += did_you_mean(suggestion);
+      standing.severity = Severity::error;
     }
-    reporter_.report_as(severity, rule::unknown_key, field.key->range, std::move(message));
+    if (treatment == UnknownKeys::refused) standing = {Severity::error, true};
+    reporter_.report_as(standing, rule::unknown_key, field.key->range, std::move(message));
   }
 }
 

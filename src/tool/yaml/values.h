@@ -19,6 +19,9 @@ namespace cbc::yaml {
 /// Reports keys that are given twice in a mapping that may have any keys.
 void report_duplicate_keys(const Node& mapping, Reporter& reporter);
 
+/// Whether a text stands in a list, or is a key of a mapping.
+[[nodiscard]] bool stands_in(const Node& node, std::string_view text);
+
 /// A key that a mapping may have.
 struct Key {
   std::string_view name;
@@ -36,6 +39,12 @@ struct Shape {
   std::span<const Shape* const> inner = {};  ///< mappings that stand in this one
 
   [[nodiscard]] bool has(std::string_view key) const;
+};
+
+/// What becomes of keys that a mapping must not have.
+enum class UnknownKeys : std::uint8_t {
+  ignored,  ///< it is understood without them; it is an error if a known key is probably meant
+  refused   ///< each of them is an error that settings cannot change
 };
 
 /// The keys of a mapping, sorted out: duplicates and older names are reported, keys that begin with
@@ -67,7 +76,7 @@ class Fields {
   [[nodiscard]] const Node* adopt(std::string_view key);
 
   /// Reports the unknown keys. Call it once, after all required keys were asked for.
-  void report_unknown(Severity severity);
+  void report_unknown(UnknownKeys treatment);
 
  private:
   struct Field {
@@ -79,6 +88,8 @@ class Fields {
   void add(const Node& key, const Node& value);
   void report_older_names();
   [[nodiscard]] std::string_view suggestion_for(std::string_view key) const;
+  /// Whether a key of the shape is there, under its present name or an older one.
+  [[nodiscard]] bool is_given(std::string_view key) const;
   [[nodiscard]] std::size_t place_of(std::string_view key) const;
 
   const Shape& shape_;
