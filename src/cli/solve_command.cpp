@@ -205,7 +205,7 @@ void add_solve_command(Program& program) {
       .not_with({"--merge"}, of_shards);
   command
       .option("--max-clock-events", options->max_clock_events, whole_number("N", 1),
-              "Give up when timeouts and reactive starts have made more than N events "
+              "Give up after more than N timeouts and reactive starts, attempts included "
               "(default: 1000000)")
       .not_with({"--merge"}, of_shards);
 

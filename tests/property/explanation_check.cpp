@@ -63,8 +63,11 @@ class Check {
         continue;
       }
       const auto place = std::find(tasks_.begin(), tasks_.end(), request.task) - tasks_.begin();
-      demand(event_["displaced"].at(next++) == event_["why"].at(static_cast<std::size_t>(place)),
+      const ordered_json& why = event_["why"].at(static_cast<std::size_t>(place));
+      // What starts by itself again is explained by when it does.
+      demand(why.contains("due") || event_["displaced"].at(next) == why,
              "a displaced task is explained in two ways");
+      ++next;
       statistics_.count("displaced");
     }
     demand(next == event_["displaced"].size(), "a task that is not displaced");
@@ -152,6 +155,15 @@ class Check {
       demand(reason.at("kind") == "no_behavior" && reason.at("task") == why["task"],
              "not that no behavior performs the task");
       statistics_.count("reason: no_behavior");
+      return;
+    }
+    const auto queued = event_["queue"].find(name_of_task(task));
+    const bool is_due = queued != event_["queue"].end() && !queued->is_null();
+    demand(why.contains("due") == is_due, "wrong about being in the queue");
+    if (is_due) {
+      demand(why["due"] == *queued && value == none, "not the time at which it is due");
+      demand(why["alternative"].is_null() && why["loses"].is_null(), "it starts by itself");
+      statistics_.count(why["conflict"].empty() ? "due" : "due: hindered");
       return;
     }
     check_why_not(why, [&](const Assignment& values) { return values[task] != value; });
@@ -265,6 +277,12 @@ class Check {
                        [&](std::size_t task) { return values[task] == none; });
   }
 
+  bool stops_tasks() const {
+    const Trigger& trigger = answer_.trigger;
+    return trigger.verb == Verb::stop ||
+           (trigger.verb == Verb::finish && trigger.cause == Cause::goal_achieved);
+  }
+
   // Each assignment that is wanted, and asked for, is ruled out by a reason, and each reason is the
   // only one to rule out some of them.
   void check_conflict(const ordered_json& conflict, const Wanted& wanted) {
@@ -274,11 +292,13 @@ class Check {
       statistics_.count("reason: " + reason["kind"].get<std::string>());
     }
     statistics_.count(conflict.empty() ? "no other choice" : "explained by reasons");
+    // That the event stops its tasks is a reason of its own, where it is needed.
+    const bool is_event_a_reason = !conflict.empty() && stops_tasks();
     std::vector<bool> needed(reasons.size(), false);
     Assignment values = answer_.before.values;
     const std::function<void(std::size_t)> enumerate = [&](std::size_t place) {
       if (place == tasks_.size()) {
-        if (wanted(values) && is_asked_for(values)) {
+        if (wanted(values) && (is_event_a_reason || is_asked_for(values))) {
           judge(reasons, values, needed);
         }
         return;
@@ -320,6 +340,14 @@ class Check {
       const std::size_t b = task_of(reason.at("tasks").at(1));
       demand(facts_.excludes[a].contains(b), "not exclusive");
       return [=](const Assignment& values) { return values[a] == none || values[b] == none; };
+    }
+    if (stops_tasks() && (kind == "stopped" || kind == "finished")) {
+      const bool is_stop = answer_.trigger.verb == Verb::stop;
+      demand(is_stop == (kind == "stopped"), "not what the event does");
+      demand((is_stop ? task_of(reason.at("task")) : behavior_of(reason.at("behavior"))) ==
+                 answer_.trigger.subject,
+             "not the subject of the event");
+      return [this](const Assignment& values) { return is_asked_for(values); };
     }
     if (kind == "unavailable" || kind == "situation" || kind == "faulty" || kind == "finished") {
       return read_condition(kind, behavior_of(reason.at("behavior")));

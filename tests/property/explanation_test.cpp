@@ -54,7 +54,8 @@ const LowerBound explanation_lower_bounds[] = {
     {"explained by reasons", 500}, {"no other choice", 20},         {"reason: protected", 20},
     {"reason: exclusive", 50},     {"reason: on_request", 50},      {"reason: requires", 50},
     {"reason: performance", 20},   {"reason: unavailable", 50},     {"reason: faulty", 10},
-    {"reason: finished", 20},      {"reason: situation", 50},
+    {"reason: finished", 20},      {"reason: situation", 50},      {"reason: stopped", 1},
+    {"due", 20},                   {"due: hindered", 5},
 };
 
 TEST(Explanation, AgreesWithBruteForce) {

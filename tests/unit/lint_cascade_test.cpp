@@ -167,7 +167,7 @@ TEST(LintCascade, WhatIsBehindAnAllowedFinding) {
       "- {behavior: B, task: Y}\n"
       "- {behavior: C, task: Z}\n"
       "default_values: {tasks: {execution_goal: keep_running, start_on_request: FALSE}}\n"
-      "tasks: [{task: X, start_on_request: TRUE}, {task: Y}, {task: Z}]\n"
+      "tasks: [{task: X, start_on_request: TRUE}, {task: Y}, {task: Z, start_on_request: TRUE}]\n"
       "exclusivity_constraints: [{mutually_exclusive: [X, Y, Z]}]\n";
   // The only behavior of its task, one of two, and one with two such requirements.
   EXPECT_EQ(findings_behind("behaviors:\n"
