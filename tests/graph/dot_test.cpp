@@ -93,7 +93,7 @@ TEST(Dot, ReadsPicturesOfDifferencesWithHostileNames) {
 TEST(Dot, ReadsTablesOfHostileNames) {
   if (!has_graphviz()) GTEST_SKIP() << "there is no Graphviz (Debian: apt install graphviz)";
   std::size_t names = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 80; ++seed) {
     SCOPED_TRACE(seed);
     Diagnostics diagnostics;
     const auto document = yaml::parse(hostile_catalog(seed).text, "a<b>&.yaml", diagnostics);
