@@ -69,7 +69,7 @@ function isOptional(object, name) {
   if (name === 'variables') return !('groups' in object) && !('unconditional' in object);
   if (name === 'behavior') return object.kind === 'performance';
   if (name === 'error') return 'events' in object; // of a run; not of a line
-  return ['alternatives', 'parameters', 'priority', 'state', 'stats', 'waiting', 'why'].includes(name);
+  return ['alternatives', 'parameters', 'priority', 'due', 'state', 'stats', 'waiting', 'why'].includes(name);
 }
 
 module.exports = {hasPattern, isFree, isOptional, mapsByName, mayBeEmpty, mayBeOfAnyType, mayBeTruth, words};
