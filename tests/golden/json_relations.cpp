@@ -84,8 +84,8 @@ class Relations {
               std::find(values.begin(), values.end(), value.at("value")) != values.end();
           (fits ? fit : do_not_fit).push_back(behavior.at("behavior"));
         }
-        expect(value.at("fit") == fit, "other behaviors fit in a value of " + name);
-        expect(value.at("do_not_fit") == do_not_fit, "others do not fit in a value of " + name);
+        expect(value.at("fit") == fit && value.at("do_not_fit") == do_not_fit,
+               "other behaviors fit in a value of " + name);
       }
     }
   }

@@ -109,7 +109,7 @@ TEST(JsonRelations, OfSituation) {
                  {R"("fit":["a"])", R"("fit":[])"},
                  {R"("do_not_fit":["a"])", R"("do_not_fit":["c"])"},
                  {R"([true])", "[false]"},
-                 {R"({"V":["x"]})", "{}"}});
+                 {R"({"V":["x"]})", R"({"V":["x",true]})"}});
 }
 
 TEST(JsonRelations, OfDiff) {

@@ -142,6 +142,23 @@ TEST_F(LintFix, KeepsPermissionsAndLineEnds) {
   EXPECT_EQ(fs::status(folder / "gps.yaml").permissions(), permissions);
 }
 
+TEST_F(LintFix, KeepsSituations) {
+  const std::string text =
+      "situation:\n"
+      "- {variable: LIGHT, values: [bright, dark]}   # outside\n"
+      "- {variable: RAIN}\n"
+      "behaviors:\n"
+      "- {behavior: CAMERA, task: SEE, efficacy: 90, situation: {LIGHT: bright, RAIN: false}}\n"
+      "- {behavior: RADAR, task: SEE, situation: {RAIN: true}}\n"
+      "tasks:\n"
+      "- task: SEE\n";
+  folder.write("see.yaml", text);
+  EXPECT_EQ(fix({"see.yaml"}).err, "cbc: see.yaml: 1 finding fixed\n");
+  std::string expected = text;
+  expected.replace(expected.find("efficacy"), 8, "suitability");
+  EXPECT_EQ(folder.read("see.yaml"), expected);
+}
+
 TEST_F(LintFix, MendsWhateverTheSeverityIs) {
   folder.write("gps.yaml", small);
   const Result result = fix({"--error", "deprecated-key", "gps.yaml"});

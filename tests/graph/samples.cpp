@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "catalog/conditions.h"
 #include "catalog/reader.h"
 #include "compile/compile.h"
 #include "diff/catalog_diff.h"
@@ -173,8 +174,12 @@ std::vector<std::string> labels_of(const Catalog& catalog) {
     labels.push_back(draw::label_of(task.name));
     if (task.minimum_performance > 0) labels.back() += draw::at_least(task.minimum_performance);
   }
-  for (const Behavior& behavior : catalog.behaviors)
+  for (const Behavior& behavior : catalog.behaviors) {
     labels.push_back(draw::label_of(behavior.name));
+    for (const NamedCondition& condition : conditions_of(catalog, behavior)) {
+      labels.back() += describe(condition);
+    }
+  }
   std::sort(labels.begin(), labels.end());
   return labels;
 }

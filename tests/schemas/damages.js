@@ -8,12 +8,13 @@ const {
   mapsByName,
   mayBeEmpty,
   mayBeOfAnyType,
+  mayBeTruth,
   words,
 } = require('./vocabulary');
 
-function wrongValues(name, value) {
+function wrongValues(name, value, isTruth) {
   if (mayBeOfAnyType.has(name) && value === null) return [];
-  const wrong = [typeof value === 'boolean' ? 7 : true];
+  const wrong = [typeof value === 'boolean' || isTruth ? 7 : true];
   if (typeof value === 'number') wrong.push(-1);
   if (typeof value === 'string' && !mayBeEmpty.has(name)) wrong.push('');
   if (words.has(name) || hasPattern.has(name)) wrong.push('odd one');
@@ -26,6 +27,7 @@ function wrongValues(name, value) {
  */
 function* damages(node, place = '') {
   const ownName = place.split('/').at(-1);
+  const isTruth = mayBeTruth(place, node);
   const hasFixedMembers = !Array.isArray(node) && !mapsByName.has(ownName);
   for (const [name, value] of Object.entries(node)) {
     const here = `${place}/${name}`;
@@ -33,7 +35,7 @@ function* damages(node, place = '') {
       delete node[name];
       yield `${here} is missing`;
     }
-    for (const wrong of wrongValues(Array.isArray(node) ? ownName : name, value)) {
+    for (const wrong of wrongValues(Array.isArray(node) ? ownName : name, value, isTruth)) {
       node[name] = wrong;
       yield `${here} is ${JSON.stringify(wrong)}`;
     }

@@ -12,9 +12,11 @@ const schemaOf = {
   'cbc.events/1': 'events',
   'cbc.graph/1': 'graph',
   'cbc.lint/1': 'lint',
+  'cbc.situation/1': 'situation',
   'cbc.solve/1': 'solve',
   'cbc.state/1': 'state',
   'cbc.sweep/1': 'sweep',
+  'cbc.together/1': 'together',
 };
 
 /** A text that names its schema at its beginning, or nothing if it does not. */

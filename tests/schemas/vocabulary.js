@@ -1,8 +1,8 @@
 // What the names of members say about their values, in all documents.
 'use strict';
 
-/** Objects whose members have the names of tasks or behaviors. */
-const mapsByName = new Set(['active', 'queue', 'requests', 'running', 'situation']);
+/** Objects whose members have the names of tasks, behaviors or situation variables. */
+const mapsByName = new Set(['active', 'queue', 'requests', 'running', 'situation', 'variables']);
 
 /** Texts of which there are few. */
 const words = new Set([
@@ -55,11 +55,21 @@ function isFree(name, value) {
   return name === 'parameters' && !Array.isArray(value);
 }
 
-/** Whether the object may be without this member. */
-function isOptional(object, name) {
-  if (name === 'behavior') return object.kind === 'performance';
-  if (name === 'error') return 'events' in object; // of a run; not of a line
-  return ['alternatives', 'parameters', 'priority', 'state', 'stats', 'why'].includes(name);
+/** Whether what lies there is a text or a boolean, as values of situation variables are. */
+function mayBeTruth(place, object) {
+  const isInSituation = place.split('/').some((name) => name === 'situation' || name === 'variables');
+  return isInSituation || (object.name ?? '').toString().startsWith('situation ');
 }
 
-module.exports = {hasPattern, isFree, isOptional, mapsByName, mayBeEmpty, mayBeOfAnyType, words};
+/** Whether the object may be without this member. */
+function isOptional(object, name) {
+  if (name === 'task') return 'verb' in object; // of a finish; not of what is about tasks
+  if (name === 'together') return 'constraints' in object; // of a summary; not of a pair
+  if (name === 'situation') return object.kind === 'behavior' || 'event' in object;
+  if (name === 'variables') return !('groups' in object) && !('unconditional' in object);
+  if (name === 'behavior') return object.kind === 'performance';
+  if (name === 'error') return 'events' in object; // of a run; not of a line
+  return ['alternatives', 'parameters', 'priority', 'due', 'state', 'stats', 'waiting', 'why'].includes(name);
+}
+
+module.exports = {hasPattern, isFree, isOptional, mapsByName, mayBeEmpty, mayBeOfAnyType, mayBeTruth, words};

@@ -501,12 +501,14 @@ void FailureStory::begin_run(const CompiledCatalog& catalog) {
   rejected_.clear();
   reasons_.clear();
   stops_.clear();
+  waits_.clear();
 }
 
 void FailureStory::add(const EventRecord& record, const Step* step, const State& state) {
   last_ = &record;
   last_step_ = step;
   note_stops(record, step, state);
+  note_waits(record, state);
   if (record.origin != Origin::script || !form_of(record.verb).is_decided) return;
   rejected_.clear();
   reasons_.clear();
@@ -529,6 +531,19 @@ void FailureStory::note_stops(const EventRecord& record, const Step* step, const
   }
 }
 
+void FailureStory::note_waits(const EventRecord& record, const State& state) {
+  std::erase_if(waits_, [&state](const auto& wait) { return !state.is_waiting(wait.first); });
+  if (record.origin != Origin::reactive || record.outcome != Outcome::rejected) return;
+  if (!state.is_waiting(record.task)) return;
+  std::vector<std::string>& lines = waits_[record.task];
+  lines = {fmt::format(
+      "{} waits since event {} at {} s:", printable(catalog_->name_of_task(record.task)),
+      record.index, format_time(record.time))};
+  for (const std::string& reason : describe_rejection(*catalog_, record)) {
+    lines.push_back("  " + reason);
+  }
+}
+
 std::vector<std::string> FailureStory::tell(const Expectation& failed) const {
   if (last_ == nullptr) return {"before the first event"};
   const std::string last = describe(*last_, last_step_);
@@ -538,7 +553,11 @@ std::vector<std::string> FailureStory::tell(const Expectation& failed) const {
     for (const std::string& reason : reasons_) lines.push_back("rejected: " + reason);
   }
   for (const Expectation::Running& expected : failed.running) {
-    const auto found = stops_.find(catalog_->task_ids[expected.task]);
+    const TaskId task = catalog_->task_ids[expected.task];
+    if (const auto wait = waits_.find(task); wait != waits_.end()) {
+      lines.insert(lines.end(), wait->second.begin(), wait->second.end());
+    }
+    const auto found = stops_.find(task);
     if (found == stops_.end()) continue;
     const Stop& stop = found->second;
     if (stop.event != last_->index) {

@@ -98,7 +98,8 @@ struct Sentences {
                                                const State& state);
 
 /// Tells what led to a failed expectation: the event before it; why the last scripted start, stop
-/// or finish was rejected, if it was; and when and why tasks stopped that are expected to run.
+/// or finish was rejected, if it was; and when and why tasks stopped that are expected to run, or
+/// why they wait.
 class FailureStory {
  public:
   /// Starts a run. The catalog must outlive it.
@@ -117,6 +118,7 @@ class FailureStory {
   };
 
   void note_stops(const EventRecord& record, const Step* step, const State& state);
+  void note_waits(const EventRecord& record, const State& state);
   [[nodiscard]] std::string describe(const EventRecord& record, const Step* step) const;
 
   const CompiledCatalog* catalog_ = nullptr;
@@ -125,6 +127,7 @@ class FailureStory {
   std::string rejected_;  ///< the last scripted start, stop or finish, if it was rejected
   std::vector<std::string> reasons_;
   std::map<TaskId, Stop> stops_;
+  std::map<TaskId, std::vector<std::string>> waits_;  ///< of each waiting task: since when, and why
 };
 
 }  // namespace cbc

@@ -15,6 +15,7 @@
 #include "report/catalog_report.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
+#include "report/table_parts.h"
 #include "support/json.h"
 #include "support/wording.h"
 
@@ -98,7 +99,7 @@ class TextMatrix {
   TextMatrix(const CompiledCatalog& catalog, const TogetherTable& table, const Style& style)
       : matrix_(table), style_(style), digits_(std::to_string(table.tasks.size()).size()) {
     for (const TaskId task : table.tasks) {
-      names_.push_back(cut(draw::label_of(catalog.name_of_task(task))));
+      names_.push_back(cut_to(longest_name, draw::label_of(catalog.name_of_task(task))));
       name_width_ = std::max(name_width_, width_of(names_.back()));
     }
   }
@@ -117,27 +118,6 @@ class TextMatrix {
   }
 
  private:
-  static std::size_t width_of(std::string_view text) {
-    std::size_t columns = 0;
-    for (std::size_t offset = 0; offset < text.size();) {
-      const utf8::Decoded decoded = utf8::decode(text, offset);
-      columns += utf8::display_width(decoded.character);
-      offset += decoded.bytes;
-    }
-    return columns;
-  }
-
-  static std::string cut(std::string name) {
-    if (width_of(name) <= longest_name) return name;
-    while (width_of(name) > longest_name - 3) {
-      name.pop_back();
-      while (!name.empty() && (static_cast<unsigned char>(name.back()) & 0xC0U) == 0x80U) {
-        name.pop_back();
-      }
-    }
-    return name + "...";
-  }
-
   void add_part(std::size_t first, std::size_t end, std::size_t left) {
     text_ += '\n';
     for (std::size_t digit = 0; digit < digits_; ++digit) {
@@ -226,30 +206,6 @@ std::string together_json(const CompiledCatalog& catalog, const TogetherTable& t
 }
 
 namespace {
-
-/// Text in a label of Graphviz that is like HTML.
-std::string escape_html(std::string_view text) {
-  std::string escaped;
-  for (const char byte : text) {
-    switch (byte) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += byte;
-    }
-  }
-  return escaped;
-}
 
 std::string_view color_of(Together together) {
   switch (together) {

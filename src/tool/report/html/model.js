@@ -82,7 +82,7 @@ function describeEvent(event) {
   if (event.verb === 'wait') return 'wait';
   if (event.verb === 'situation') return `situation: ${situationOf(event)}`;
   if (event.task !== undefined) {
-    text += ` task ${event.task}, ${event.name === null ? 'which nothing performs' : `performed by ${event.name}`}`;
+    text += ` task ${event.task}` + (event.name === null ? ', which nothing performs' : ` (${event.name})`);
   } else if (event.name !== undefined) {
     text += ` ${event.name}`;
   }
@@ -155,7 +155,8 @@ class Run {
         open[kind].delete(behavior);
       }
     };
-    const { variables } = this.catalog;
+    const { variables, behaviors } = this.catalog;
+    const conditional = [...behaviors.keys()].filter((name) => Object.keys(behaviors.get(name).situation).length > 0);
     const values = new Map([...variables].map(([name, known]) => [name, known[0]]));
     this.values = []; // of each event: variable -> value
     this.valueSpans = []; // {variable, value, from, to}
@@ -175,8 +176,7 @@ class Run {
         last.set(variable, { variable, value, from: number, to: null });
         this.valueSpans.push(last.get(variable));
       }
-      for (const [name, { situation: fitting }] of this.catalog.behaviors) {
-        if (Object.keys(fitting).length === 0) continue;
+      for (const name of conditional) {
         set('does not fit', name, this.catalog.findMisfit(name, values) !== undefined, number);
       }
       this.values.push(new Map(values));

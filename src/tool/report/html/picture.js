@@ -320,14 +320,17 @@ class Picture {
 
   /** The value of each situation variable over time. */
   drawValues() {
+    const edges = new Map(); // of each variable: the right edge of what was drawn last
     for (const span of this.run.valueSpans) {
       const x = this.xs[span.from];
       const end = span.to === null ? this.endX + endRoom - 12 : this.xs[span.to];
       if (!this.isInView(x, end)) continue;
+      if (end - x < 1 && x - (edges.get(span.variable) ?? -Infinity) < 1) continue;
+      edges.set(span.variable, end);
       const row = this.rowOfVariable.get(span.variable);
       const y = this.top + row.y + (row.height - spanHeight) / 2;
       const from = Math.max(x, this.left - 50);
-      const width = Math.max(Math.min(end, this.right + 50) - from, 3);
+      const width = Math.max(Math.min(end, this.right + 50) - from, 1);
       const target = this.run.size > 0 ? { 'data-event': Math.max(span.from, 1) } : {};
       this.add('rect', { x: from, y, width, height: spanHeight, class: 'value', ...target });
       const begin = Math.max(x, this.left) + 6;
