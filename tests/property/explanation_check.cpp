@@ -172,8 +172,10 @@ class Reasons {
 
   Holds read_condition(const std::string& kind, std::size_t behavior) const {
     if (kind == "faulty" || kind == "finished") {
-      const bool is_own =
-          answer_.trigger.verb == Verb::finish && answer_.trigger.subject == behavior;
+      const bool is_own = answer_.trigger.verb == Verb::finish &&
+                          answer_.trigger.subject == behavior &&
+                          answer_.trigger.cause != Cause::goal_achieved &&
+                          answer_.trigger.cause != Cause::situation_change;
       demand(answer_.excluded.contains(behavior) && is_own == (kind == "finished"),
              "not excluded for this");
       return [=](const Assignment& values) { return !contains(values, behavior); };

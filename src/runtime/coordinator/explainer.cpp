@@ -76,8 +76,12 @@ class Candidates {
     Reason reason;
     reason.behavior = behavior;
     if (std::find(failed_.begin(), failed_.end(), behavior) != failed_.end()) {
-      // The behavior of a finish event is in this list if it failed.
-      reason.kind = behavior == trigger_.behavior ? Reason::Kind::finished : Reason::Kind::faulty;
+      // The behavior of a finish event is in this list from the start if it finished by a failure;
+      // otherwise it was chosen again, for another task, and its activation failed.
+      const bool has_failed = trigger_.cause != FinishCause::goal_achieved &&
+                              trigger_.cause != FinishCause::situation_change;
+      reason.kind = behavior == trigger_.behavior && has_failed ? Reason::Kind::finished
+                                                                : Reason::Kind::faulty;
       reasons_.push_back(reason);
     } else if (!state_.is_available(behavior)) {
       // An active behavior that does not fit may not be kept, unlike one that is unavailable.
