@@ -72,6 +72,15 @@ class Candidates {
     }
   }
 
+  /// Before the event, whose changes may have been applied by now; a finished behavior not counted.
+  [[nodiscard]] bool was_active(BehaviorId behavior) const {
+    const auto values = catalog_.performs[behavior];
+    return std::any_of(values.begin(), values.end(), [&](ValueId value) {
+      const TaskId task = catalog_.task_of(value);
+      return state_.behavior(task) == behavior && !has_finished(state_, trigger_, task);
+    });
+  }
+
   void add_condition(BehaviorId behavior) {
     Reason reason;
     reason.behavior = behavior;
@@ -86,7 +95,7 @@ class Candidates {
     } else if (!state_.is_available(behavior)) {
       // An active behavior that does not fit may not be kept, unlike one that is unavailable.
       const bool is_denied =
-          state_.is_denied(behavior) && (state_.fits(behavior) || !state_.is_active(behavior));
+          state_.is_denied(behavior) && (state_.fits(behavior) || !was_active(behavior));
       reason.kind = is_denied ? Reason::Kind::unavailable : Reason::Kind::situation;
       if (!is_denied) {
         reason.variable = *catalog_.find_misfit(behavior, state_.variables());
