@@ -177,7 +177,11 @@ std::vector<std::string> lines_of(CatalogDiff diff) {
 
 /// What both catalogs say, each statement with the sign of its mark in the picture: '=' if nothing
 /// has changed. Attributes of tasks and behaviors do not count, as above.
-std::vector<std::string> signs(const Statements& before, const Statements& after) {
+std::vector<std::string> signs(Statements before, Statements after) {
+  // The picture of a catalog has no variables.
+  const auto is_variable = [](const auto& entry) { return entry.first.starts_with("variable "); };
+  std::erase_if(before, is_variable);
+  std::erase_if(after, is_variable);
   std::set<std::string> lines;
   const auto is_thing = [](const std::string& statement) {
     return statement.starts_with("task ") || statement.starts_with("behavior ") ||
