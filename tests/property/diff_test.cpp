@@ -176,17 +176,18 @@ std::vector<std::string> lines_of(CatalogDiff diff) {
 }
 
 /// What both catalogs say, each statement with the sign of its mark in the picture: '=' if nothing
-/// has changed. Attributes of tasks and behaviors do not count, as above; variables are not drawn.
-std::vector<std::string> signs(const Statements& before, const Statements& after) {
+/// has changed. Attributes of tasks and behaviors do not count, as above.
+std::vector<std::string> signs(Statements before, Statements after) {
+  // The picture of a catalog has no variables.
+  const auto is_variable = [](const auto& entry) { return entry.first.starts_with("variable "); };
+  std::erase_if(before, is_variable);
+  std::erase_if(after, is_variable);
   std::set<std::string> lines;
   const auto is_thing = [](const std::string& statement) {
-    return statement.starts_with("task ") || statement.starts_with("behavior ");
-  };
-  const auto is_drawn = [](const std::string& statement) {
-    return !statement.starts_with("variable ");
+    return statement.starts_with("task ") || statement.starts_with("behavior ") ||
+           statement.starts_with("variable ");
   };
   for (const auto& [statement, attributes] : before) {
-    if (!is_drawn(statement)) continue;
     const auto other = after.find(statement);
     if (other == after.end()) {
       lines.insert("- " + statement);
@@ -196,7 +197,7 @@ std::vector<std::string> signs(const Statements& before, const Statements& after
     }
   }
   for (const auto& [statement, attributes] : after) {
-    if (is_drawn(statement) && before.count(statement) == 0) lines.insert("+ " + statement);
+    if (before.count(statement) == 0) lines.insert("+ " + statement);
   }
   return {lines.begin(), lines.end()};
 }

@@ -19,6 +19,220 @@ namespace {
 
 using nlohmann::ordered_json;
 using Holds = std::function<bool(const Assignment&)>;
+using Wanted = std::function<bool(const Assignment&)>;
+
+// Judges the reasons of an event, or of one that has not happened.
+class Reasons {
+ public:
+  Reasons(const CatalogFacts& facts, const Answer& answer, Statistics& statistics)
+      : facts_(facts),
+        answer_(answer),
+        statistics_(statistics),
+        tasks_(facts.groups[answer.problem.group]) {}
+
+  // Each assignment that is wanted, and asked for, is ruled out by a reason, and each reason is the
+  // only one to rule out some of them. One more reason may say that the event stops its tasks: if
+  // and only if what is not asked for is not ruled out by the others.
+  void check(const ordered_json& conflict, const Wanted& wanted) {
+    std::vector<Holds> reasons;
+    bool names_event = false;
+    for (const ordered_json& reason : conflict) {
+      statistics_.count("reason: " + reason["kind"].get<std::string>());
+      if (is_event(reason)) {
+        demand(!names_event && &reason == &conflict.back(), "the event twice, or not at the end");
+        names_event = true;
+      } else {
+        reasons.push_back(read_reason(reason));
+      }
+    }
+    statistics_.count(conflict.empty() ? "no other choice" : "explained by reasons");
+    demand(!names_event || !reasons.empty(), "the event alone");
+    std::vector<bool> needed(reasons.size(), false);
+    bool needs_event = false;
+    Assignment values = answer_.before.values;
+    const std::function<void(std::size_t)> enumerate = [&](std::size_t place) {
+      if (place == tasks_.size()) {
+        if (wanted(values) && is_asked_for(values)) {
+          judge(reasons, values, needed);
+        } else if (wanted(values) && answer_.trigger.verb != Verb::start) {
+          needs_event =
+              needs_event || std::all_of(reasons.begin(), reasons.end(),
+                                         [&](const Holds& holds) { return holds(values); });
+        }
+        return;
+      }
+      values[tasks_[place]] = none;
+      enumerate(place + 1);
+      for (const std::size_t behavior : facts_.behaviors_of[tasks_[place]]) {
+        values[tasks_[place]] = behavior;
+        enumerate(place + 1);
+      }
+    };
+    enumerate(0);
+    for (std::size_t i = 0; i < needed.size(); ++i) {
+      demand(needed[i], "superfluous: " + conflict[i].dump());
+    }
+    demand(reasons.empty() || names_event == needs_event, "wrong about the event as a reason");
+  }
+
+ private:
+  // Whether a reason says that the event stops its tasks.
+  bool is_event(const ordered_json& reason) const {
+    const Trigger& trigger = answer_.trigger;
+    if (trigger.verb == Verb::stop && reason.at("kind") == "stopped") {
+      demand(task_of(reason.at("task")) == trigger.subject, "not the task of the event");
+      return true;
+    }
+    if (trigger.verb == Verb::finish && trigger.cause == Cause::goal_achieved &&
+        reason.at("kind") == "finished") {
+      demand(behavior_of(reason.at("behavior")) == trigger.subject, "not the finished behavior");
+      return true;
+    }
+    return false;
+  }
+
+  std::size_t task_of(const ordered_json& name) const {
+    for (std::size_t task = 0; task < facts_.catalog.tasks.size(); ++task) {
+      if (name == facts_.catalog.tasks[task].name) {
+        return task;
+      }
+    }
+    throw std::runtime_error("no such task: " + name.dump());
+  }
+  std::size_t behavior_of(const ordered_json& name) const {
+    for (std::size_t b = 0; b < facts_.catalog.behaviors.size(); ++b) {
+      if (name == facts_.catalog.behaviors[b].name) {
+        return b;
+      }
+    }
+    throw std::runtime_error("no such behavior: " + name.dump());
+  }
+
+  // Whether an assignment is what the event alone asks for.
+  bool is_asked_for(const Assignment& values) const {
+    const Trigger& trigger = answer_.trigger;
+    if (trigger.verb == Verb::start) {
+      return values[trigger.subject] != none;
+    }
+    if (trigger.verb == Verb::stop) {
+      return values[trigger.subject] == none;
+    }
+    return trigger.cause != Cause::goal_achieved ||
+           std::all_of(answer_.finished_tasks.begin(), answer_.finished_tasks.end(),
+                       [&](std::size_t task) { return values[task] == none; });
+  }
+
+  static void judge(const std::vector<Holds>& reasons, const Assignment& values,
+                    std::vector<bool>& needed) {
+    std::size_t violated = 0;
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < reasons.size() && violated < 2; ++i) {
+      if (!reasons[i](values)) {
+        ++violated;
+        last = i;
+      }
+    }
+    demand(violated > 0, "the reasons leave a solution");
+    if (violated == 1) {
+      needed[last] = true;
+    }
+  }
+
+  // What a reason says of an assignment. It must be true of the catalog, or of the moment.
+  Holds read_reason(const ordered_json& reason) const {
+    const std::string kind = reason.at("kind");
+    if (kind == "exclusive") {
+      const std::size_t a = task_of(reason.at("tasks").at(0));
+      const std::size_t b = task_of(reason.at("tasks").at(1));
+      demand(facts_.excludes[a].contains(b), "not exclusive");
+      return [=](const Assignment& values) { return values[a] == none || values[b] == none; };
+    }
+    if (kind == "unavailable" || kind == "situation" || kind == "faulty" || kind == "finished") {
+      return read_condition(kind, behavior_of(reason.at("behavior")));
+    }
+    const std::size_t task = task_of(reason.at("task"));
+    const bool has_finished = contains(answer_.finished_tasks, task);
+    const bool is_subject = answer_.trigger.verb != Verb::finish && task == answer_.trigger.subject;
+    if (kind == "protected") {
+      const std::optional<Request>& request = answer_.before.requests[task];
+      demand(request && reason.at("priority") == request->priority, "not the request");
+      demand(!has_finished && !is_subject &&
+                 (answer_.trigger.reactive || request->priority > answer_.level),
+             "not protected");
+      return [=](const Assignment& values) { return values[task] != none; };
+    }
+    if (kind == "on_request") {
+      demand(answer_.before.values[task] == none && !is_subject &&
+                 facts_.catalog.tasks[task].start_on_request,
+             "it can start by itself");
+      return [=](const Assignment& values) { return values[task] == none; };
+    }
+    return read_constraint(reason, kind, task);
+  }
+
+  Holds read_condition(const std::string& kind, std::size_t behavior) const {
+    if (kind == "faulty" || kind == "finished") {
+      const bool is_own = answer_.trigger.verb == Verb::finish &&
+                          answer_.trigger.subject == behavior &&
+                          answer_.trigger.cause != Cause::goal_achieved &&
+                          answer_.trigger.cause != Cause::situation_change;
+      demand(answer_.excluded.contains(behavior) && is_own == (kind == "finished"),
+             "not excluded for this");
+      return [=](const Assignment& values) { return !contains(values, behavior); };
+    }
+    // A behavior that does not fit may not be kept either.
+    const bool fits = facts_.fits(behavior, answer_.variables);
+    const bool has_finished =
+        answer_.trigger.verb == Verb::finish && answer_.trigger.subject == behavior;
+    const bool was_active = contains(answer_.before.values, behavior) && !has_finished;
+    const bool is_denied = !answer_.own[behavior] && (fits || !was_active);
+    demand(is_denied == (kind == "unavailable"), "the other kind");
+    demand(is_denied || !fits, "available");
+    return [this, behavior, fits](const Assignment& values) {
+      for (std::size_t task = 0; task < values.size(); ++task) {
+        const bool is_kept = fits && answer_.before.values[task] == behavior &&
+                             !contains(answer_.finished_tasks, task);
+        if (values[task] == behavior && !is_kept) {
+          return false;
+        }
+      }
+      return true;
+    };
+  }
+
+  Holds read_constraint(const ordered_json& reason, const std::string& kind,
+                        std::size_t task) const {
+    demand(kind == "requires" || kind == "performance", "unknown kind: " + kind);
+    if (!reason.contains("behavior")) {
+      const Millionths minimum = facts_.catalog.tasks[task].minimum;
+      demand(kind == "performance" && minimum > 0, "no minimum");
+      return [=, this](const Assignment& values) {
+        return values[task] == none || reaches_with_what_runs(facts_, values, task, minimum);
+      };
+    }
+    const std::size_t behavior = behavior_of(reason.at("behavior"));
+    const auto& requirements = facts_.catalog.behaviors[behavior].requirements;
+    const auto requirement = std::find_if(requirements.begin(), requirements.end(),
+                                          [&](const Requirement& one) { return one.task == task; });
+    demand(requirement != requirements.end(), "no such requirement");
+    if (kind == "requires") {
+      return [=](const Assignment& values) {
+        return !contains(values, behavior) || values[task] != none;
+      };
+    }
+    const Millionths minimum = requirement->minimum;
+    demand(minimum > 0, "no minimum");
+    return [=, this](const Assignment& values) {
+      return !contains(values, behavior) || values[task] == none ||
+             reaches_with_what_runs(facts_, values, task, minimum);
+    };
+  }
+
+  const CatalogFacts& facts_;
+  const Answer& answer_;
+  Statistics& statistics_;
+  const std::vector<std::size_t>& tasks_;
+};
 
 // The explanations of one event.
 class Check {
@@ -45,7 +259,12 @@ class Check {
   void check_why() {
     std::size_t next = 0;
     for (const std::size_t task : tasks_) {
-      check_task(task, event_["why"].at(next++));
+      const ordered_json& why = event_["why"].at(next++);
+      if (answer_.queued.contains(task)) {
+        check_queued(task, why);
+      } else {
+        check_task(task, why);
+      }
     }
     for (std::size_t b = 0; b < facts_.catalog.behaviors.size(); ++b) {
       if (facts_.group_of_behavior(b) == answer_.problem.group) {
@@ -64,39 +283,23 @@ class Check {
       }
       const auto place = std::find(tasks_.begin(), tasks_.end(), request.task) - tasks_.begin();
       const ordered_json& why = event_["why"].at(static_cast<std::size_t>(place));
-      // What starts by itself again is explained by when it does.
-      demand(why.contains("due") || event_["displaced"].at(next) == why,
-             "a displaced task is explained in two ways");
-      ++next;
+      const ordered_json& displaced = event_["displaced"].at(next++);
+      if (why.contains("due")) {
+        check_task(request.task, displaced);
+      } else {
+        demand(displaced == why, "a displaced task is explained in two ways");
+      }
       statistics_.count("displaced");
     }
     demand(next == event_["displaced"].size(), "a task that is not displaced");
   }
 
  private:
-  using Wanted = std::function<bool(const Assignment&)>;
-
   const std::string& name_of_task(std::size_t task) const {
     return facts_.catalog.tasks[task].name;
   }
   ordered_json name_of_value(std::size_t value) const {
     return value == none ? ordered_json() : ordered_json(facts_.catalog.behaviors[value].name);
-  }
-  std::size_t task_of(const ordered_json& name) const {
-    for (std::size_t task = 0; task < facts_.catalog.tasks.size(); ++task) {
-      if (name == name_of_task(task)) {
-        return task;
-      }
-    }
-    throw std::runtime_error("no such task: " + name.dump());
-  }
-  std::size_t behavior_of(const ordered_json& name) const {
-    for (std::size_t b = 0; b < facts_.catalog.behaviors.size(); ++b) {
-      if (name == facts_.catalog.behaviors[b].name) {
-        return b;
-      }
-    }
-    throw std::runtime_error("no such behavior: " + name.dump());
   }
 
   // Of the tasks outside the group, too.
@@ -144,7 +347,34 @@ class Check {
     demand(actual == whole, "expected " + whole.dump() + ", found " + actual.dump());
   }
 
+  // A task in Q: not why the event did not start it, but what hinders its start now.
+  void check_queued(std::size_t task, const ordered_json& why) {
+    demand(why.at("task") == name_of_task(task) && why.at("chosen").is_null(), "not the next task");
+    demand(why.at("due") == event_["queue"].at(name_of_task(task)), "not when it is due");
+    demand(why.at("limit_reached") == false, "a limit was reached");
+    demand(why.at("alternative").is_null() && why.at("loses").is_null(), "an alternative");
+    demand(!why.at("message").get<std::string>().empty(), "no message");
+    const bool can_start = answer_.queued.at(task);
+    statistics_.count(can_start ? "queued: can start" : "queued: something hinders it");
+    demand(why.at("conflict").empty() == can_start, "wrong about whether it can start");
+    if (can_start || facts_.behaviors_of[task].empty()) {
+      return;
+    }
+    Answer start;
+    start.trigger.verb = Verb::start;
+    start.trigger.subject = task;
+    start.trigger.reactive = true;
+    start.problem.group = answer_.problem.group;
+    start.before = answer_.after;
+    start.own = answer_.own;
+    start.variables = answer_.variables;
+    Reasons(facts_, start, statistics_).check(why["conflict"], [](const Assignment&) {
+      return true;
+    });
+  }
+
   void check_task(std::size_t task, const ordered_json& why) {
+    demand(!why.contains("due"), "due, but not in the queue");
     demand(why.at("task") == name_of_task(task), "not the next task");
     const std::size_t value = answer_.solution.values[task];
     demand(why.at("chosen") == name_of_value(value), "not the value of the task");
@@ -155,15 +385,6 @@ class Check {
       demand(reason.at("kind") == "no_behavior" && reason.at("task") == why["task"],
              "not that no behavior performs the task");
       statistics_.count("reason: no_behavior");
-      return;
-    }
-    const auto queued = event_["queue"].find(name_of_task(task));
-    const bool is_due = queued != event_["queue"].end() && !queued->is_null();
-    demand(why.contains("due") == is_due, "wrong about being in the queue");
-    if (is_due) {
-      demand(why["due"] == *queued && value == none, "not the time at which it is due");
-      demand(why["alternative"].is_null() && why["loses"].is_null(), "it starts by itself");
-      statistics_.count(why["conflict"].empty() ? "due" : "due: hindered");
       return;
     }
     check_why_not(why, [&](const Assignment& values) { return values[task] != value; });
@@ -185,7 +406,7 @@ class Check {
                      [&](const Solution& solution) { return wanted(solution.values); });
     if (best == solutions_.end()) {
       demand(why["alternative"].is_null() && why["loses"].is_null(), "there is no alternative");
-      check_conflict(why["conflict"], wanted);
+      Reasons(facts_, answer_, statistics_).check(why["conflict"], wanted);
       return;
     }
     demand(why["conflict"].empty(), "a conflict, but there is an alternative");
@@ -261,167 +482,6 @@ class Check {
     std::string digits = Integer(whole + product).str();
     digits.erase(digits.find_last_not_of('0') + 1);
     return "0." + digits.substr(1);
-  }
-
-  // Whether an assignment is what the event alone asks for.
-  bool is_asked_for(const Assignment& values) const {
-    const Trigger& trigger = answer_.trigger;
-    if (trigger.verb == Verb::start) {
-      return values[trigger.subject] != none;
-    }
-    if (trigger.verb == Verb::stop) {
-      return values[trigger.subject] == none;
-    }
-    return trigger.cause != Cause::goal_achieved ||
-           std::all_of(answer_.finished_tasks.begin(), answer_.finished_tasks.end(),
-                       [&](std::size_t task) { return values[task] == none; });
-  }
-
-  bool stops_tasks() const {
-    const Trigger& trigger = answer_.trigger;
-    return trigger.verb == Verb::stop ||
-           (trigger.verb == Verb::finish && trigger.cause == Cause::goal_achieved);
-  }
-
-  // Each assignment that is wanted, and asked for, is ruled out by a reason, and each reason is the
-  // only one to rule out some of them.
-  void check_conflict(const ordered_json& conflict, const Wanted& wanted) {
-    std::vector<Holds> reasons;
-    for (const ordered_json& reason : conflict) {
-      reasons.push_back(read_reason(reason));
-      statistics_.count("reason: " + reason["kind"].get<std::string>());
-    }
-    statistics_.count(conflict.empty() ? "no other choice" : "explained by reasons");
-    // That the event stops its tasks is a reason of its own, where it is needed.
-    const bool is_event_a_reason = !conflict.empty() && stops_tasks();
-    std::vector<bool> needed(reasons.size(), false);
-    Assignment values = answer_.before.values;
-    const std::function<void(std::size_t)> enumerate = [&](std::size_t place) {
-      if (place == tasks_.size()) {
-        if (wanted(values) && (is_event_a_reason || is_asked_for(values))) {
-          judge(reasons, values, needed);
-        }
-        return;
-      }
-      values[tasks_[place]] = none;
-      enumerate(place + 1);
-      for (const std::size_t behavior : facts_.behaviors_of[tasks_[place]]) {
-        values[tasks_[place]] = behavior;
-        enumerate(place + 1);
-      }
-    };
-    enumerate(0);
-    for (std::size_t i = 0; i < needed.size(); ++i) {
-      demand(needed[i], "superfluous: " + conflict[i].dump());
-    }
-  }
-
-  static void judge(const std::vector<Holds>& reasons, const Assignment& values,
-                    std::vector<bool>& needed) {
-    std::size_t violated = 0;
-    std::size_t last = 0;
-    for (std::size_t i = 0; i < reasons.size() && violated < 2; ++i) {
-      if (!reasons[i](values)) {
-        ++violated;
-        last = i;
-      }
-    }
-    demand(violated > 0, "the reasons leave a solution");
-    if (violated == 1) {
-      needed[last] = true;
-    }
-  }
-
-  // What a reason says of an assignment. It must be true of the catalog, or of the moment.
-  Holds read_reason(const ordered_json& reason) const {
-    const std::string kind = reason.at("kind");
-    if (kind == "exclusive") {
-      const std::size_t a = task_of(reason.at("tasks").at(0));
-      const std::size_t b = task_of(reason.at("tasks").at(1));
-      demand(facts_.excludes[a].contains(b), "not exclusive");
-      return [=](const Assignment& values) { return values[a] == none || values[b] == none; };
-    }
-    if (stops_tasks() && (kind == "stopped" || kind == "finished")) {
-      const bool is_stop = answer_.trigger.verb == Verb::stop;
-      demand(is_stop == (kind == "stopped"), "not what the event does");
-      demand((is_stop ? task_of(reason.at("task")) : behavior_of(reason.at("behavior"))) ==
-                 answer_.trigger.subject,
-             "not the subject of the event");
-      return [this](const Assignment& values) { return is_asked_for(values); };
-    }
-    if (kind == "unavailable" || kind == "situation" || kind == "faulty" || kind == "finished") {
-      return read_condition(kind, behavior_of(reason.at("behavior")));
-    }
-    const std::size_t task = task_of(reason.at("task"));
-    const bool has_finished = contains(answer_.finished_tasks, task);
-    const bool is_subject = answer_.trigger.verb != Verb::finish && task == answer_.trigger.subject;
-    if (kind == "protected") {
-      const std::optional<Request>& request = answer_.before.requests[task];
-      demand(request && reason.at("priority") == request->priority, "not the request");
-      demand(!has_finished && !is_subject &&
-                 (answer_.trigger.reactive || request->priority > answer_.level),
-             "not protected");
-      return [=](const Assignment& values) { return values[task] != none; };
-    }
-    if (kind == "on_request") {
-      demand(answer_.before.values[task] == none && !is_subject &&
-                 facts_.catalog.tasks[task].start_on_request,
-             "it can start by itself");
-      return [=](const Assignment& values) { return values[task] == none; };
-    }
-    return read_constraint(reason, kind, task);
-  }
-
-  Holds read_condition(const std::string& kind, std::size_t behavior) const {
-    if (kind == "faulty" || kind == "finished") {
-      const bool is_own =
-          answer_.trigger.verb == Verb::finish && answer_.trigger.subject == behavior;
-      demand(answer_.excluded.contains(behavior) && is_own == (kind == "finished"),
-             "not excluded for this");
-      return [=](const Assignment& values) { return !contains(values, behavior); };
-    }
-    // A behavior that does not fit may not be kept either.
-    const bool fits = facts_.fits(behavior, answer_.variables);
-    demand(answer_.own[behavior] == (kind == "situation"), "not by its own answer");
-    demand(kind == "unavailable" || !fits, "it fits");
-    return [this, behavior, fits](const Assignment& values) {
-      for (std::size_t task = 0; task < values.size(); ++task) {
-        const bool is_kept = fits && answer_.before.values[task] == behavior &&
-                             !contains(answer_.finished_tasks, task);
-        if (values[task] == behavior && !is_kept) {
-          return false;
-        }
-      }
-      return true;
-    };
-  }
-
-  Holds read_constraint(const ordered_json& reason, const std::string& kind,
-                        std::size_t task) const {
-    demand(kind == "requires" || kind == "performance", "unknown kind: " + kind);
-    if (!reason.contains("behavior")) {
-      const Millionths minimum = facts_.catalog.tasks[task].minimum;
-      demand(kind == "performance" && minimum > 0, "no minimum");
-      return [=, this](const Assignment& values) {
-        return values[task] == none || reaches_with_what_runs(facts_, values, task, minimum);
-      };
-    }
-    const std::size_t behavior = behavior_of(reason.at("behavior"));
-    const auto& requirements = facts_.catalog.behaviors[behavior].requirements;
-    const auto requirement = std::find_if(requirements.begin(), requirements.end(),
-                                          [&](const Requirement& one) { return one.task == task; });
-    demand(requirement != requirements.end(), "no such requirement");
-    if (kind == "requires") {
-      return [=](const Assignment& values) {
-        return !contains(values, behavior) || values[task] != none;
-      };
-    }
-    const Millionths minimum = requirement->minimum;
-    demand(minimum > 0, "no minimum");
-    return [=, this](const Assignment& values) {
-      return !contains(values, behavior) || values[task] == none ||
-             reaches_with_what_runs(facts_, values, task, minimum);
-    };
   }
 
   const CatalogFacts& facts_;

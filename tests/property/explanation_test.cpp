@@ -48,14 +48,29 @@ struct LowerBound {
 };
 
 const LowerBound explanation_lower_bounds[] = {
-    {"alternatives: all", 100},    {"alternatives: the best", 100}, {"displaced", 20},
-    {"loses by: requests", 100},   {"loses by: request_order", 1},  {"loses by: suitability", 100},
-    {"loses by: idle", 100},       {"loses by: changes", 20},       {"loses by: canonical", 20},
-    {"explained by reasons", 500}, {"no other choice", 20},         {"reason: protected", 20},
-    {"reason: exclusive", 50},     {"reason: on_request", 50},      {"reason: requires", 50},
-    {"reason: performance", 20},   {"reason: unavailable", 50},     {"reason: faulty", 10},
-    {"reason: finished", 20},      {"reason: situation", 50},      {"reason: stopped", 1},
-    {"due", 20},                   {"due: hindered", 5},
+    {"alternatives: all", 100},
+    {"alternatives: the best", 100},
+    {"displaced", 20},
+    {"loses by: requests", 100},
+    {"loses by: request_order", 1},
+    {"loses by: suitability", 100},
+    {"loses by: idle", 100},
+    {"loses by: changes", 20},
+    {"loses by: canonical", 20},
+    {"explained by reasons", 500},
+    {"no other choice", 20},
+    {"reason: protected", 20},
+    {"reason: exclusive", 50},
+    {"reason: on_request", 50},
+    {"reason: requires", 50},
+    {"reason: performance", 20},
+    {"reason: unavailable", 50},
+    {"reason: faulty", 10},
+    {"reason: finished", 20},
+    {"reason: situation", 50},
+    {"reason: stopped", 30},
+    {"queued: can start", 40},
+    {"queued: something hinders it", 30},
 };
 
 TEST(Explanation, AgreesWithBruteForce) {

@@ -51,6 +51,10 @@ struct Answer {
   std::vector<std::size_t> finished_tasks;  // of a finish: what the behavior performed
   std::set<std::size_t> excluded;           // behaviors that may not be chosen
   int level = 0;                            // of protection
+  State after = {};
+  // The tasks of the group in Q after the event: whether a reactive start would have a solution
+  // now.
+  std::map<std::size_t, bool> queued = {};
 };
 
 std::set<std::size_t> active_behaviors(const Assignment& values);
@@ -164,6 +168,7 @@ class Oracle {
   void commit(const Transition& transition, const Assignment& values);
   void update_queue(const Transition& transition, const Assignment& before);
   void update_waiting(std::size_t group);
+  std::map<std::size_t, bool> queued_tasks(std::size_t group) const;
   void join_queue(std::size_t task);
   void join_queue_by_group(std::size_t group);
 

@@ -73,6 +73,11 @@ void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
           variables_, transition.finished_tasks, transition.excluded, transition.level};
     }
     commit(transition, solution->values);
+    if (keeps_answers_) {
+      Answer& answer = answers_.at(record["index"]);
+      answer.after = state_;
+      answer.queued = queued_tasks(transition.group);
+    }
   } else {
     roll_back(transition);
     if (!transition.changes.empty()) {
@@ -463,6 +468,20 @@ void Oracle::update_waiting(std::size_t group) {
       join_queue(task);
     }
   }
+}
+
+std::map<std::size_t, bool> Oracle::queued_tasks(std::size_t group) const {
+  std::map<std::size_t, bool> result;
+  for (const std::size_t task : facts_->groups[group]) {
+    if (queue_[task]) {
+      Trigger trigger;
+      trigger.verb = Verb::start;
+      trigger.subject = task;
+      trigger.reactive = true;
+      result[task] = solve(*facts_, problem(begin(trigger)), nullptr).has_value();
+    }
+  }
+  return result;
 }
 
 // A reactive task that is neither running nor in Q joins it.

@@ -72,17 +72,30 @@ class Candidates {
     }
   }
 
+  /// Before the event, whose changes may have been applied by now; a finished behavior not counted.
+  [[nodiscard]] bool was_active(BehaviorId behavior) const {
+    const auto values = catalog_.performs[behavior];
+    return std::any_of(values.begin(), values.end(), [&](ValueId value) {
+      const TaskId task = catalog_.task_of(value);
+      return state_.behavior(task) == behavior && !has_finished(state_, trigger_, task);
+    });
+  }
+
   void add_condition(BehaviorId behavior) {
     Reason reason;
     reason.behavior = behavior;
     if (std::find(failed_.begin(), failed_.end(), behavior) != failed_.end()) {
-      // The behavior of a finish event is in this list if it failed.
-      reason.kind = behavior == trigger_.behavior ? Reason::Kind::finished : Reason::Kind::faulty;
+      // The behavior of a finish event is in this list from the start if it finished by a failure;
+      // otherwise it was chosen again, for another task, and its activation failed.
+      const bool has_failed = trigger_.cause != FinishCause::goal_achieved &&
+                              trigger_.cause != FinishCause::situation_change;
+      reason.kind = behavior == trigger_.behavior && has_failed ? Reason::Kind::finished
+                                                                : Reason::Kind::faulty;
       reasons_.push_back(reason);
     } else if (!state_.is_available(behavior)) {
       // An active behavior that does not fit may not be kept, unlike one that is unavailable.
       const bool is_denied =
-          state_.is_denied(behavior) && (state_.fits(behavior) || !state_.is_active(behavior));
+          state_.is_denied(behavior) && (state_.fits(behavior) || !was_active(behavior));
       reason.kind = is_denied ? Reason::Kind::unavailable : Reason::Kind::situation;
       if (!is_denied) {
         reason.variable = *catalog_.find_misfit(behavior, state_.variables());
