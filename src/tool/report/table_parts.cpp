@@ -43,6 +43,9 @@ std::string escape_html(std::string_view text) {
       case '"':
         escaped += "&quot;";
         break;
+      case '\\':
+        escaped += "\\\\";  // one and a G would stand for the name of the graph
+        break;
       default:
         escaped += byte;
     }
