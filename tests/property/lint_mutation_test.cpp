@@ -99,7 +99,7 @@ Base make_base(const std::string& name, const std::string& text) {
 std::vector<Base> file_bases() {
   std::vector<Base> bases;
   const std::filesystem::path source(CBC_SOURCE_DIR);
-  for (const char* name : {"quadrotor.yaml", "target-following.yaml"}) {
+  for (const char* name : {"quadrotor.yaml", "mobile-manipulator.yaml"}) {
     bases.push_back(make_base(name, test::read_file(source / "catalogs" / name)));
     EXPECT_EQ(bases.back().errors, "") << name;
     EXPECT_NE(bases.back().outline, nullptr) << name;

@@ -57,6 +57,17 @@ class NumberList {
     add("parameter.first_allowed", parameter.first_allowed);
     add("parameter.allowed_count", parameter.allowed_count);
   }
+  void add(std::string_view /*field*/, CompiledVariable& variable) {
+    add("variable.name", variable.name);
+    add("variable.is_boolean", variable.is_boolean);
+    add("variable.first_value", variable.first_value);
+    add("variable.value_count", variable.value_count);
+  }
+  void add(std::string_view /*field*/, FittingValue& fitting) {
+    add("fitting.behavior", fitting.behavior);
+    add("fitting.variable", fitting.variable);
+    add("fitting.value", fitting.value);
+  }
 
   std::vector<EditableCatalog::Number> list;
 };
