@@ -300,11 +300,91 @@ TEST_F(LiveCoordinatorTest, ASituationIsRefusedAsAWhole) {
   EXPECT_EQ(coordinator.behavior_of(localizing), gps) << "it is still available";
 }
 
+constexpr const char* lit_by_day = R"(behaviors:
+- {behavior: camera, task: SEE, situation: {LIGHT: [day, dusk]}}
+- {behavior: lidar, task: SEE, suitability: 60, situation: {DRY: true}}
+situation:
+- {variable: LIGHT, values: [day, dusk, night]}
+- {variable: DRY}
+)";
+
+TEST(LiveSituation, VariablesHaveNamesAndValues) {
+  const LoadedCatalog catalog = test::load(test::compile_text(lit_by_day));
+  EXPECT_EQ(catalog.variable_count(), 2U);
+  EXPECT_EQ(catalog.variable_name(0), "LIGHT");
+  EXPECT_EQ(catalog.value_count(0), 3U);
+  EXPECT_EQ(catalog.value_name({0, 2}), "night");
+  EXPECT_EQ(catalog.value_name({1, 0}), "true");
+  EXPECT_EQ(catalog.find_variable("DRY"), 1U);
+  EXPECT_EQ(catalog.find_value(0, "dusk"), 1U);
+  // Of what there is not.
+  EXPECT_EQ(catalog.variable_name(2), "");
+  EXPECT_EQ(catalog.value_count(2), 0U);
+  EXPECT_EQ(catalog.value_name({0, 3}), "");
+  EXPECT_EQ(catalog.value_name({2, 0}), "");
+  EXPECT_EQ(catalog.find_variable("WET"), std::nullopt);
+  EXPECT_EQ(catalog.find_value(0, "true"), std::nullopt);
+  EXPECT_EQ(catalog.find_value(2, "day"), std::nullopt);
+}
+
+TEST(LiveSituation, VariablesAreSetAndBehaviorsFinish) {
+  const LoadedCatalog catalog = test::load(test::compile_text(lit_by_day));
+  LiveCoordinator coordinator(catalog);
+  EXPECT_EQ(coordinator.value_of(0), 0U);
+  EXPECT_EQ(coordinator.value_of(2), std::nullopt);
+  Event event;
+  event.verb = Verb::start;
+  EXPECT_EQ(coordinator.handle(0, event), LiveStatus::ok);
+  EXPECT_EQ(coordinator.behavior_of(0), 0U);
+
+  std::vector<VariableValue> values{{0, 3}};
+  event = {};
+  event.verb = Verb::situation;
+  event.variables = values;
+  EXPECT_EQ(coordinator.handle(1, event), LiveStatus::unknown_value);
+  values = {{0, 2}, {2, 0}};
+  event.variables = values;
+  EXPECT_EQ(coordinator.handle(1, event), LiveStatus::unknown_variable);
+  EXPECT_EQ(coordinator.value_of(0), 0U) << "a refused event changes nothing";
+  event.variables = {static_cast<const VariableValue*>(nullptr), 1};
+  EXPECT_EQ(coordinator.handle(1, event), LiveStatus::invalid_situation);
+
+  values = {{0, 2}};
+  event.variables = values;
+  EXPECT_EQ(coordinator.handle(1, event), LiveStatus::ok);
+  EXPECT_EQ(coordinator.value_of(0), 2U);
+  EXPECT_EQ(show(catalog, coordinator.events()),
+            "1 script situation unchanged\n"
+            "1 situation finish camera situation_change accepted +lidar(SEE ) requested 1,\n");
+}
+
+TEST(LiveSituation, AFinishMayNameATask) {
+  const LoadedCatalog catalog = test::load(test::compile_text(lit_by_day));
+  LiveCoordinator coordinator(catalog);
+  Event finish;
+  finish.verb = Verb::finish;
+  finish.is_by_task = true;
+  EXPECT_EQ(coordinator.handle(0, finish), LiveStatus::ok);
+  ASSERT_EQ(coordinator.events().size(), 1U);
+  EXPECT_EQ(coordinator.events()[0].subject, no_subject);
+  EXPECT_EQ(coordinator.events()[0].outcome, Outcome::unchanged);
+  Event start;
+  start.verb = Verb::start;
+  EXPECT_EQ(coordinator.handle(1, start), LiveStatus::ok);
+  EXPECT_EQ(coordinator.handle(2, finish), LiveStatus::ok);
+  EXPECT_EQ(show(catalog, coordinator.events()),
+            "2 script finish camera goal_achieved accepted; SEE goal_achieved\n");
+  finish.subject = 1;
+  EXPECT_EQ(coordinator.handle(3, finish), LiveStatus::unknown_task);
+}
+
 TEST(LiveStatusNames, AreThoseOfTheEnumerators) {
   EXPECT_EQ(name_of(LiveStatus::ok), "ok");
   EXPECT_EQ(name_of(LiveStatus::invalid_situation), "invalid_situation");
   EXPECT_EQ(name_of(LiveStatus::unknown_task), "unknown_task");
   EXPECT_EQ(name_of(LiveStatus::unknown_behavior), "unknown_behavior");
+  EXPECT_EQ(name_of(LiveStatus::unknown_variable), "unknown_variable");
+  EXPECT_EQ(name_of(LiveStatus::unknown_value), "unknown_value");
   EXPECT_EQ(name_of(LiveStatus::too_many_events), "too_many_events");
   EXPECT_EQ(name_of(LiveStatus::internal_error), "internal_error");
 }
