@@ -13,7 +13,7 @@ ln -s -- "$(command -v bash)" "$tools/bash"
 export PATH="$work/bin:$PATH" RUNNER_TEMP="$work" GITHUB_OUTPUT="$work/output"
 cd -- "$work"
 cp -- "$source/catalogs/quadrotor.yaml" catalogs
-printf 'behaviors:\n- behavior: A\n  task: B\n  suitabilty: 50\n' >catalogs/typo.yaml
+printf 'behaviors:\n- behavior: A\n  task: B\n  color: red\n' >catalogs/typo.yaml
 
 # What action.yml names is there.
 for script in $(sed -n 's/.*GITHUB_ACTION_PATH\/\([^"]*\)".*/\1/p' "$source/action.yml"); do

@@ -7,9 +7,14 @@ const {JSDOM} = require('jsdom');
 const {window} = new JSDOM('<body></body>');
 Object.assign(globalThis, {window, document: window.document});
 
-// Mermaid keeps its entities encoded until it has drawn them. It trims what is around a label.
+// Mermaid keeps its entities encoded until it has drawn them, and hard spaces, too. It trims what is
+// around a label.
 function decode(text) {
-  const decoded = text.replaceAll('ﬂ°°', '&#').replaceAll('¶ß', ';').replaceAll('<br>', '');
+  const decoded = text
+    .replaceAll('ﬂ°°', '&#')
+    .replaceAll('¶ß', ';')
+    .replaceAll('<br>', '')
+    .replaceAll('&nbsp;', '\u00a0');
   return decoded.replace(/&#(\d+);/g, (_, code) => String.fromCodePoint(Number(code))).trim();
 }
 

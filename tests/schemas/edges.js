@@ -187,6 +187,7 @@ const scripts = {
       'expect: {outcome: accepted, running: {HOVER: any, LOCALIZE: GPS}, stopped: [], active: []}'
     ),
     event('expect: {outcome: ~, running: ~, stopped: ~, active: ~}, at: 5'),
+    'events: []\nsituation: {GPS: ~}',
   ],
   bad: [
     '',
@@ -200,7 +201,6 @@ const scripts = {
     'events: []\nreactive_delay: 0',
     'events: []\nreactive_delay: soon',
     'events: []\nsituation: [GPS]',
-    'events: []\nsituation: {GPS: ~}',
     '[HOVER]',
     '[~]',
     event(''),
