@@ -228,7 +228,7 @@ const scripts = {
     event('finish: GPS, cause: [time_out]'),
     event('fault: GPS, cause: process_failure'),
     event('situation: GPS'),
-    event('situation: {GPS: 0}'),
+    event('situation: {GPS: [no]}'),
     event('at: 5, wait: 5'),
     event('start: HOVER, at: 5, wait: 5'),
     event('at: -1'),
