@@ -68,11 +68,15 @@ bool has_lines_of_catalog(std::string_view text) {
 bool is_catalog(const yaml::Document& document) { return cbc::is_catalog(document.root()); }
 
 bool is_script(const yaml::Document& document) {
-  constexpr std::array<std::string_view, 4> keys = {"events", "catalog", "reactive_delay",
-                                                    "situation"};
+  constexpr std::array<std::string_view, 3> keys = {"events", "catalog", "reactive_delay"};
   constexpr std::array<std::string_view, 2> other_event_keys = {"expect", "at"};
   const yaml::Node& root = document.root();
-  if (root.kind != yaml::Kind::sequence) return !is_catalog(document) && has_any(root, keys);
+  if (root.kind != yaml::Kind::sequence) {
+    // In a catalog it is a list.
+    const yaml::Node* const situation = root.find("situation");
+    const bool has_situation = situation != nullptr && situation->kind == yaml::Kind::mapping;
+    return !is_catalog(document) && (has_any(root, keys) || has_situation);
+  }
   // Another list is more likely a catalog that lacks a key.
   return root.items.empty() ||
          std::any_of(root.items.begin(), root.items.end(), [&](const yaml::Node* item) {

@@ -261,7 +261,7 @@ class Page(unittest.TestCase):
         self.click(".mark[data-event='6']")
         text = self.text("#detail-body")
         self.assertIn("MotionPlannerCloseTarget replaces MotionPlannerDistantTarget", text)
-        self.assertIn("MotionPlannerDistantTarget finished: situation change", text)
+        self.assertIn("finish MotionPlannerDistantTarget: situation change (it no longer fits)", text)
         shown = self.browser.ask("[...document.querySelectorAll('.changes tbody tr')].map((row) => "
                                  "[0, 1, 2, 4, 5].map((cell) => row.cells[cell].textContent))")
         expected = [["." if change["priority"] is None else str(change["priority"]),

@@ -46,7 +46,6 @@ class Reasons {
       }
     }
     statistics_.count(conflict.empty() ? "no other choice" : "explained by reasons");
-    demand(!names_event || !reasons.empty(), "the event alone");
     std::vector<bool> needed(reasons.size(), false);
     bool needs_event = false;
     Assignment values = answer_.before.values;
@@ -72,7 +71,7 @@ class Reasons {
     for (std::size_t i = 0; i < needed.size(); ++i) {
       demand(needed[i], "superfluous: " + conflict[i].dump());
     }
-    demand(reasons.empty() || names_event == needs_event, "wrong about the event as a reason");
+    demand(names_event == needs_event, "wrong about the event as a reason");
   }
 
  private:
@@ -350,6 +349,10 @@ class Check {
   // A task in Q: not why the event did not start it, but what hinders its start now.
   void check_queued(std::size_t task, const ordered_json& why) {
     demand(why.at("task") == name_of_task(task) && why.at("chosen").is_null(), "not the next task");
+    check_start(task, why);
+  }
+
+  void check_start(std::size_t task, const ordered_json& why) {
     demand(why.at("due") == event_["queue"].at(name_of_task(task)), "not when it is due");
     demand(why.at("limit_reached") == false, "a limit was reached");
     demand(why.at("alternative").is_null() && why.at("loses").is_null(), "an alternative");
@@ -395,7 +398,26 @@ class Check {
     const bool was_chosen = is_active(answer_.solution.values);
     demand(why.at("behavior") == name_of_value(behavior), "not the next behavior");
     demand(why.at("active") == was_chosen, "wrong about being active");
+    if (why.contains("due")) {
+      check_due(behavior, was_chosen, why);
+      return;
+    }
     check_why_not(why, [&](const Assignment& values) { return is_active(values) != was_chosen; });
+  }
+
+  // An inactive behavior of tasks in Q: as the first of them.
+  void check_due(std::size_t behavior, bool is_active, const ordered_json& why) {
+    std::size_t first = none;
+    for (const Performance& one : facts_.catalog.behaviors[behavior].performs) {
+      const auto entry = event_["queue"].find(name_of_task(one.task));
+      const bool is_queued = entry != event_["queue"].end() && !entry->is_null();
+      if (is_queued && one.task < first) {
+        first = one.task;
+      }
+    }
+    demand(!is_active && first != none, "none of its tasks is in the queue");
+    check_start(first, why);
+    statistics_.count("queued: a behavior");
   }
 
   void check_why_not(const ordered_json& why, const Wanted& wanted) {

@@ -193,7 +193,8 @@ class Check {
       if (finding.rule == rule) messages.push_back(finding.message);
     }
     demand(messages.size() == expected.size(), "another number of findings of " + rule);
-    for (const auto& [task, begin] : expected) {
+    for (const auto& entry : expected) {
+      const std::string& begin = entry.second;
       demand(std::any_of(messages.begin(), messages.end(),
                          [&begin](const auto& one) { return one.starts_with(begin); }),
              rule + " does not say: " + begin);

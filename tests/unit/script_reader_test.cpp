@@ -306,7 +306,8 @@ TEST(ScriptReader, TasksAndBehaviorsTakenForEachOther) {
       findings("- start: TAKE_OFF_BASIC\n- finish: LAND\n- {start: BOTH}\n- {fault: BOTH}\n"),
       "1:10-24 error undefined-task: there is no task 'TAKE_OFF_BASIC': it is a behavior; did "
       "you mean 'TAKE_OFF'?\n"
-      "2:11-15 error undefined-behavior: there is no behavior 'LAND': it is a task\n");
+      "2:11-15 error undefined-behavior: there is no behavior 'LAND': it is a task; write "
+      "'finish: {task: LAND}' for the behavior that performs it\n");
 }
 
 TEST(ScriptReader, NamesInExpectations) {

@@ -15,6 +15,21 @@ constexpr std::size_t most_candidates = 20'000;
 /// The same for ConflictSearch::effort, over all searches about one event: some tenths of a second.
 constexpr std::uint64_t most_effort = 50'000'000;
 
+/// Why a behavior is not available: a script denied it, or it does not fit. `fit_first`: what to
+/// say if both hold.
+Reason unavailability(const CompiledCatalog& catalog, const State& state, BehaviorId behavior,
+                      bool fit_first) {
+  Reason reason;
+  reason.behavior = behavior;
+  const bool is_denied = state.is_denied(behavior) && (state.fits(behavior) || !fit_first);
+  reason.kind = is_denied ? Reason::Kind::unavailable : Reason::Kind::situation;
+  if (!is_denied) {
+    reason.variable = *catalog.find_misfit(behavior, state.variables());
+    reason.value = state.value_of(reason.variable);
+  }
+  return reason;
+}
+
 /// Collects all reasons that may speak against the event.
 class Candidates {
  public:
@@ -94,14 +109,7 @@ class Candidates {
       reasons_.push_back(reason);
     } else if (!state_.is_available(behavior)) {
       // An active behavior that does not fit may not be kept, unlike one that is unavailable.
-      const bool is_denied =
-          state_.is_denied(behavior) && (state_.fits(behavior) || !was_active(behavior));
-      reason.kind = is_denied ? Reason::Kind::unavailable : Reason::Kind::situation;
-      if (!is_denied) {
-        reason.variable = *catalog_.find_misfit(behavior, state_.variables());
-        reason.value = state_.value_of(reason.variable);
-      }
-      reasons_.push_back(reason);
+      reasons_.push_back(unavailability(catalog_, state_, behavior, was_active(behavior)));
     }
   }
 
@@ -214,14 +222,17 @@ std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
   return reasons;
 }
 
+/// Whether the event itself says that tasks do not run.
+bool stops_tasks(const Trigger& trigger) {
+  return trigger.kind == Trigger::Kind::stop ||
+         (trigger.kind == Trigger::Kind::finish && trigger.cause == FinishCause::goal_achieved);
+}
+
 /// Whether the reasons rule out all of the `ways` only because the event stops its tasks.
 bool needs_event(const CompiledCatalog& catalog, const Circumstances& circumstances,
                  std::span<const Demands> ways, std::span<const Reason> reasons) {
   const Trigger& trigger = circumstances.trigger;
-  const bool stops =
-      trigger.kind == Trigger::Kind::stop ||
-      (trigger.kind == Trigger::Kind::finish && trigger.cause == FinishCause::goal_achieved);
-  if (!stops || reasons.empty()) return false;
+  if (!stops_tasks(trigger) || reasons.empty()) return false;
   const std::vector<std::uint32_t> present = present_values(catalog, circumstances);
   return std::any_of(ways.begin(), ways.end(), [&](const Demands& way) {
     ConflictSearch search(catalog, trigger.group, present, way);
@@ -279,17 +290,40 @@ void Explainer::explain(const Circumstances& circumstances, const Problem& probl
 
 void Explainer::explain_queued(const State& state, Explanation& explanation) const {
   for (Why& why : explanation.why) {
-    if (why.task == none || why.chosen != none) continue;
-    const std::uint32_t item = catalog_.tasks[why.task].catalog_index;
-    if (!state.queue().has(item)) continue;
+    if (why.task == none ? why.is_active : why.chosen != none) continue;
+    if (why.task == none && !state.is_available(why.behavior)) continue;
+    const TaskId task = why.task == none ? queued_task(state, why.behavior) : why.task;
+    if (task == none || !state.queue().has(catalog_.tasks[task].catalog_index)) continue;
     Trigger start;
-    start.group = catalog_.tasks[why.task].group;
-    start.task = why.task;
+    start.group = catalog_.tasks[task].group;
+    start.task = task;
     start.is_reactive = true;
-    why.due = state.queue().due(item);
+    why.queued_task = task;
+    why.due = state.queue().due(catalog_.tasks[task].catalog_index);
     why.why_not = {};
-    why.why_not.conflict = find_conflict(catalog_, {state, start, 0, {}});
+    const bool is_unavailable =
+        !catalog_.values[task].empty() && !state.has_available_behavior(task);
+    why.why_not.conflict = is_unavailable ? reasons_of_unavailability(state, task)
+                                          : find_conflict(catalog_, {state, start, 0, {}});
   }
+}
+
+/// The first task of a behavior that is in the queue, or none.
+TaskId Explainer::queued_task(const State& state, BehaviorId behavior) const {
+  for (const ValueId value : catalog_.performs[behavior]) {
+    const TaskId task = catalog_.task_of(value);
+    if (state.queue().has(catalog_.tasks[task].catalog_index)) return task;
+  }
+  return none;
+}
+
+/// Why none of the behaviors of a task is available.
+std::vector<Reason> Explainer::reasons_of_unavailability(const State& state, TaskId task) const {
+  std::vector<Reason> reasons;
+  for (const Value& value : catalog_.values[task]) {
+    reasons.push_back(unavailability(catalog_, state, value.behavior, false));
+  }
+  return reasons;
 }
 
 bool Explainer::is_in_group(const Subject& subject, std::uint32_t group) const {
@@ -373,7 +407,8 @@ WhyNot Explainer::why_not(const Circumstances& circumstances, const Configuratio
     answer.difference = search_.comparison().compare(chosen, *answer.alternative);
   } else if (auto reasons = find_reasons(catalog_, circumstances, ways)) {
     answer.conflict = std::move(*reasons);
-    if (needs_event(catalog_, circumstances, ways, answer.conflict)) {
+    const bool is_event_alone = answer.conflict.empty() && stops_tasks(circumstances.trigger);
+    if (is_event_alone || needs_event(catalog_, circumstances, ways, answer.conflict)) {
       answer.conflict.push_back(reason_of(circumstances.trigger));
     }
   } else {

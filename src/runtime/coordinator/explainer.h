@@ -39,11 +39,15 @@ class Explainer {
   void explain(const Circumstances& circumstances, const Problem& problem,
                const Assignment& solution, Explanation& explanation);
 
-  /// Of tasks that do not run, but are in the queue after the event: replaces the explanation by
-  /// what hinders their start, if anything does. `state`: after the event.
+  /// Of tasks that do not run, but are in the queue after the event, and of their behaviors:
+  /// replaces the explanation by what hinders their start, if anything does. `state`: after the
+  /// event.
   void explain_queued(const State& state, Explanation& explanation) const;
 
  private:
+  [[nodiscard]] TaskId queued_task(const State& state, BehaviorId behavior) const;
+  [[nodiscard]] std::vector<Reason> reasons_of_unavailability(const State& state,
+                                                              TaskId task) const;
   [[nodiscard]] bool is_in_group(const Subject& subject, std::uint32_t group) const;
   [[nodiscard]] ObjectiveValues elsewhere(const State& state, std::uint32_t group) const;
   void explain_displaced(const Circumstances& circumstances, const Problem& problem,

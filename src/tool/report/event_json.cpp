@@ -143,8 +143,8 @@ void write_why(JsonWriter& json, const CompiledCatalog& catalog, const EventReco
     json.write("task", catalog.name_of_task(why.task));
     json.write("chosen", why.chosen == none ? std::nullopt
                                             : std::optional(catalog.name_of_behavior(why.chosen)));
-    if (why.due) json.write_seconds("due", *why.due);
   }
+  if (why.due) json.write_seconds("due", *why.due);
   json.write("limit_reached", why_not.is_cut);
   if (why_not.alternative) {
     json.key("alternative");

@@ -435,8 +435,28 @@ Sentences describe_displacement(const CompiledCatalog& catalog, const EventRecor
                   displaced.why_not, displaced.task, state);
 }
 
+namespace {
+
+/// Of a task that is in the queue, or a behavior of one.
+Sentences describe_due(const CompiledCatalog& catalog, const EventRecord& record, const Why& why) {
+  const std::string task = task_name(catalog, why.queued_task);
+  const std::string subject =
+      why.behavior == none
+          ? fmt::format("why {} does not run: it", task)
+          : fmt::format("why {} is not active: {}", behavior_name(catalog, why.behavior), task);
+  const std::string time = format_time(*why.due);
+  if (why.why_not.conflict.empty()) {
+    return {fmt::format("{} starts by itself at {} s", subject, time), {}};
+  }
+  return {fmt::format("{} tries to start at {} s, but", subject, time),
+          describe_reasons(catalog, record, why.why_not.conflict, none)};
+}
+
+}  // namespace
+
 Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record, const Why& why,
                        const State& state) {
+  if (why.due) return describe_due(catalog, record, why);
   if (why.behavior != none) {
     return describe(catalog, record,
                     fmt::format("why {} is {}active", behavior_name(catalog, why.behavior),
@@ -444,15 +464,6 @@ Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record
                     why.is_active ? "without it" : "with it", why.why_not, none, state);
   }
   const std::string name = task_name(catalog, why.task);
-  if (why.due) {
-    const std::string time = format_time(*why.due);
-    const std::string subject = fmt::format("why {} does not run", name);
-    if (why.why_not.conflict.empty()) {
-      return {fmt::format("{}: it starts by itself at {} s", subject, time), {}};
-    }
-    return {fmt::format("{}: it tries to start at {} s, but", subject, time),
-            describe_reasons(catalog, record, why.why_not.conflict, none)};
-  }
   std::string condition;
   if (why.why_not.alternative) {
     const TaskId first = catalog.group_tasks[record.search->group];

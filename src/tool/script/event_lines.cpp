@@ -214,9 +214,14 @@ class StateReader {
     for (const JsonValue& name : root_["unavailable"].items()) {
       out_.denied.push_back(behavior(name.text()));
     }
-    out_.variables.assign(catalog_.variables.size(), 0);
+    out_.variables.assign(catalog_.variables.size(), none);
     if (const auto variables = root_.find("variables")) {
       for (const JsonValue& value : variables->members()) read_variable(value);
+    }
+    for (std::uint32_t variable = 0; variable < out_.variables.size(); ++variable) {
+      if (out_.variables[variable] != none) continue;
+      throw JsonFault("situation variable " + quote(catalog_.name_of_variable(variable)) +
+                      " has no value");
     }
     for (const JsonValue& name : root_["faulty"].items()) {
       out_.faulty.push_back(behavior(name.text()));

@@ -97,13 +97,17 @@ std::optional<std::uint32_t> NameIndex::find_behavior(const yaml::Node& node, st
   const auto name = yaml::read_name(node, what, "the name of a behavior", reporter);
   if (!name) return std::nullopt;
   const auto found = catalog_.find_behavior(*name);
-  if (!found) {
-    reporter.report(
-        rule::undefined_behavior, node.range,
-        describe_unknown(*name, "behavior", catalog_.find_task(*name).has_value(), "task",
-                         suggestions_from(catalog_.behavior_names, behaviors_), beside));
-  }
-  return found;
+  if (found) return found;
+  const bool is_task = catalog_.find_task(*name).has_value();
+  std::string message =
+      is_task && what == cbc::name_of(Verb::finish)
+          ? concat("there is no behavior ", quote(*name), ": it is a task; write ",
+                   quote(concat("finish: {task: ", *name, "}")),
+                   " for the behavior that performs it")
+          : describe_unknown(*name, "behavior", is_task, "task",
+                             suggestions_from(catalog_.behavior_names, behaviors_), beside);
+  reporter.report(rule::undefined_behavior, node.range, std::move(message));
+  return std::nullopt;
 }
 
 std::optional<NameIndex::Part> NameIndex::find_part(const yaml::Node& node, Reporter& reporter,
