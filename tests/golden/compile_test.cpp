@@ -74,8 +74,8 @@ TEST_F(Compile, WritesTheSameBytesEachTimeAndEverywhere) {
   EXPECT_EQ(elsewhere.read("robot.cbc"), folder.read("robot.cbc"));
 }
 
-/// The file of the tests of the newest format was written once, by another compiler than some of those that
-/// build this.
+/// The file of the tests of the newest format was written once, by another compiler than some of
+/// those that build this.
 TEST_F(Compile, WritesTheSameBytesWhateverItWasBuiltWith) {
   const std::string kept = CBC_SOURCE_DIR "/tests/golden/cases/compiled_format_2_solve/robot";
   fs::copy_file(kept + ".yaml", folder / "robot.yaml");

@@ -132,8 +132,9 @@ struct Why {
   BehaviorId behavior = none;  ///< set if the question is about a behavior
   BehaviorId chosen = none;    ///< of the task, if the question is about a task
   bool is_active = false;      ///< of the behavior
-  /// Of a reactive task in the queue after the event, or its behavior: when it is due. The rest then says what would
-  /// hinder its start now: `why_not` has no alternative, and a conflict set if something would.
+  /// Of a reactive task in the queue after the event, or its behavior: when it is due. The rest
+  /// then says what would hinder its start now: `why_not` has no alternative, and a conflict set if
+  /// something would.
   std::optional<Microseconds> due;
   TaskId queued_task = none;  ///< the task, or that of the behavior, which is due
   WhyNot why_not;

@@ -184,8 +184,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr yaml::Key settings_keys[] = {
-    {"error"}, {"warn"}, {"note"}, {"allow"}, {"strict"}, {"never_together"}};
+constexpr yaml::Key settings_keys[] = {{"error"}, {"warn"},   {"note"},
+                                       {"allow"}, {"strict"}, {"never_together"}};
 constexpr yaml::Shape settings_shape{"the settings", settings_keys};
 
 /// The folder of a file, where the search begins: without links and "..", where possible.
