@@ -27,11 +27,16 @@ expect() {
   grep -F -m 1 -- "$text" <<<"$output" || fail "expected '$text' from: $*"$'\n'"$output"
 }
 
-# Copies the sources with their times, so that only what a patch changes is built again.
+# Copies the sources with their times, so that only what a patch changes is built again; what the
+# patches change counts as new, since FOLDER may have it as an earlier run left it.
 copy_sources() {
   rm -rf -- "$source"
   mkdir -- "$source"
   tar -C "$origin" --exclude=./.git --exclude=./build -c . | tar -C "$source" -x
+  local file
+  while read -r file; do
+    if [[ -e $source/$file ]]; then touch -- "$source/$file"; fi
+  done < <(sed -nE 's|^\+\+\+ [^/]*/([^[:space:]]*).*|\1|p' "$origin"/tests/growing/*.patch | sort -u)
 }
 
 # try_patch NAME CASE: builds and tests the copy with the patch. CASE is the golden case that it brings.
