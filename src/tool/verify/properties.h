@@ -73,9 +73,9 @@ struct Property {
     reachable   ///< some state satisfies `condition`
   };
   Kind kind = Kind::can_start;
-  std::string name;       ///< empty: none
-  std::size_t line = 0;   ///< in the file
-  TaskId task = none;     ///< of can_start
+  std::string name;      ///< empty: none
+  std::size_t line = 0;  ///< in the file
+  TaskId task = none;    ///< of can_start
   std::int32_t priority = 1;
   Condition condition;
   std::optional<Condition> when;
@@ -84,7 +84,7 @@ struct Property {
 
 /// A property file.
 struct PropertyFile {
-  std::string path;  ///< as named; for messages and reports
+  std::string path;                    ///< as named; for messages and reports
   std::optional<std::string> catalog;  ///< as written in the file, relative to it
   Assumptions assumptions;
   std::vector<Property> properties;

@@ -1,0 +1,447 @@
+#include "verify/model.h"
+
+#include <algorithm>
+#include <set>
+
+#include "base/disjoint_sets.h"
+
+namespace cbc {
+
+namespace {
+
+/// The number of an item in a list, or none.
+template <typename List, typename Key>
+std::uint32_t find_number(const List& list, Key key) {
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const auto& item) { return item.id == key; });
+  return found == list.end() ? none : static_cast<std::uint32_t>(found - list.begin());
+}
+
+}  // namespace
+
+Model::Model(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
+             const Assumptions& assumptions)
+    : catalog_(catalog), assumptions_(assumptions) {
+  add_groups(groups);
+  add_rivals();
+  find_interactions();
+  add_variables();
+  rank_priorities();
+  lay_out();
+  add_never();
+  add_moves();
+}
+
+void Model::add_groups(const std::vector<std::uint32_t>& groups) {
+  for (const std::uint32_t number : groups) {
+    Group group;
+    group.number = number;
+    group.tasks.begin = static_cast<std::uint32_t>(tasks_.size());
+    group.values.begin = static_cast<std::uint32_t>(task_of_.size());
+    for (TaskId id = catalog_.group_tasks[number]; id < catalog_.group_tasks[number + 1]; ++id) {
+      const auto place = static_cast<std::uint32_t>(tasks_.size());
+      const CompiledTask& compiled = catalog_.tasks[id];
+      Task& task = tasks_.emplace_back();
+      task.id = id;
+      task.group = static_cast<std::uint32_t>(groups_.size());
+      task.start_on_request = compiled.start_on_request != 0;
+      task.achieves_goal = compiled.keep_running == 0;
+      task.values.begin = static_cast<std::uint32_t>(task_of_.size());
+      task_of_.resize(task_of_.size() + catalog_.values[id].size(), place);
+      task.values.end = static_cast<std::uint32_t>(task_of_.size());
+      if (compiled.reactive_start != 0) {
+        task.reactive = static_cast<std::uint32_t>(reactive_.size());
+        group.reactive.push_back(task.reactive);
+        reactive_.push_back(place);
+      }
+    }
+    group.tasks.end = static_cast<std::uint32_t>(tasks_.size());
+    group.values.end = static_cast<std::uint32_t>(task_of_.size());
+    add_behaviors(group);
+    groups_.push_back(std::move(group));
+  }
+  for (std::uint32_t task = 0; task < tasks_.size(); ++task) tasks_in_order_.push_back(task);
+  std::sort(tasks_in_order_.begin(), tasks_in_order_.end(), [&](auto a, auto b) {
+    return catalog_.tasks[tasks_[a].id].catalog_index < catalog_.tasks[tasks_[b].id].catalog_index;
+  });
+  for (std::uint32_t place = 0; place < behaviors_.size(); ++place) {
+    behaviors_in_order_.push_back(place);
+  }
+  const auto index_of = [&](std::uint32_t behavior) {
+    return catalog_.behaviors[behaviors_[behavior].id].catalog_index;
+  };
+  std::sort(behaviors_in_order_.begin(), behaviors_in_order_.end(),
+            [&](auto a, auto b) { return index_of(a) < index_of(b); });
+}
+
+/// By level, so that the first of some behaviors is the one that is activated first.
+void Model::add_behaviors(Group& group) {
+  group.behaviors.begin = static_cast<std::uint32_t>(behaviors_.size());
+  std::vector<BehaviorId> ids;
+  for (BehaviorId id = catalog_.group_behaviors[group.number];
+       id < catalog_.group_behaviors[group.number + 1]; ++id) {
+    ids.push_back(id);
+  }
+  std::stable_sort(ids.begin(), ids.end(), [&](BehaviorId a, BehaviorId b) {
+    return catalog_.behaviors[a].level < catalog_.behaviors[b].level;
+  });
+  behavior_of_.resize(task_of_.size(), none);
+  for (const BehaviorId id : ids) {
+    const auto place = static_cast<std::uint32_t>(behaviors_.size());
+    Behavior& behavior = behaviors_.emplace_back();
+    behavior.id = id;
+    behavior.group = static_cast<std::uint32_t>(groups_.size());
+    for (const ValueId value : catalog_.performs[id]) {
+      const TaskId task = catalog_.task_of(value);
+      const std::uint32_t local = group.tasks.begin + (task - catalog_.group_tasks[group.number]);
+      const std::uint32_t number =
+          tasks_[local].values.begin + (value - catalog_.values.begin[task]);
+      behavior.values.push_back(number);
+      behavior_of_[number] = place;
+    }
+  }
+  group.behaviors.end = static_cast<std::uint32_t>(behaviors_.size());
+}
+
+void Model::add_rivals() {
+  for (std::uint32_t place = 0; place < tasks_.size(); ++place) {
+    Task& task = tasks_[place];
+    std::set<std::uint32_t> rivals;
+    for (const std::uint32_t clique : catalog_.task_cliques[task.id]) {
+      for (const TaskId other : catalog_.cliques[clique]) {
+        if (other != task.id) rivals.insert(place + other - task.id);
+      }
+    }
+    task.rivals.assign(rivals.begin(), rivals.end());
+    for (const std::uint32_t rival : task.rivals) {
+      if (tasks_[rival].reactive != none) task.reactive_rivals.push_back(tasks_[rival].reactive);
+    }
+  }
+}
+
+void Model::find_interactions() {
+  const std::size_t count = tasks_.size();
+  const std::size_t words = words_for(count);
+  // What each task may need, itself included, and whether a minimum performance is among it.
+  std::vector<std::vector<Word>> needs(count, std::vector<Word>(words, 0));
+  std::vector<std::vector<Word>> rivals = needs;  // of what it may need
+  std::vector<bool> has_minimum(count, false);
+  for (const Group& group : groups_) {
+    const auto order =
+        catalog_.topological_order.subspan(catalog_.group_tasks[group.number], group.tasks.size());
+    for (const TaskId id : order) {
+      const std::uint32_t task = group.tasks.begin + (id - catalog_.group_tasks[group.number]);
+      set_bit(needs[task].data(), task);
+      for (const std::uint32_t rival : tasks_[task].rivals) set_bit(rivals[task].data(), rival);
+      has_minimum[task] = catalog_.tasks[id].has_performance_rules != 0;
+      for (const Arc& arc : catalog_.arcs[id]) {
+        const std::uint32_t target =
+            group.tasks.begin + (arc.target - catalog_.group_tasks[group.number]);
+        for (std::size_t word = 0; word < words; ++word) {
+          needs[task][word] |= needs[target][word];
+          rivals[task][word] |= rivals[target][word];
+        }
+        has_minimum[task] = has_minimum[task] || has_minimum[target];
+      }
+    }
+  }
+  const auto meet = [&](const std::vector<Word>& a, const std::vector<Word>& b) {
+    for (std::size_t word = 0; word < words; ++word) {
+      if ((a[word] & b[word]) != 0) return true;
+    }
+    return false;
+  };
+  DisjointSets classes(count);
+  std::vector<std::uint32_t> requestable = reactive_;
+  for (const Assumptions::Start& start : assumptions_.start) {
+    const std::uint32_t task = find_task(start.task);
+    if (task != none) requestable.push_back(task);
+  }
+  for (const std::uint32_t a : requestable) {
+    for (const std::uint32_t b : requestable) {
+      if (a == b || tasks_[a].group != tasks_[b].group) continue;
+      const bool shares_minimum = (has_minimum[a] || has_minimum[b]) && meet(needs[a], needs[b]);
+      if (shares_minimum || meet(rivals[a], needs[b])) classes.join(a, b);
+    }
+  }
+  classes_ = classes.numbers();
+}
+
+void Model::add_variables() {
+  denied_.assign(words_for(behaviors_.size()), 0);
+  for (const SituationPart::Own& own : assumptions_.initially.behaviors) {
+    const std::uint32_t behavior = find_behavior(own.behavior);
+    if (behavior != none && !own.available) set_bit(denied_.data(), behavior);
+  }
+  std::set<std::uint32_t> named;
+  for (const Behavior& behavior : behaviors_) {
+    for (const FittingValue& fitting : catalog_.fitting_values_of(behavior.id)) {
+      named.insert(fitting.variable);
+    }
+  }
+  for (const std::uint32_t id : named) {
+    Variable& variable = variables_.emplace_back();
+    variable.id = id;
+    variable.values = catalog_.variables[id].value_count;
+    for (const VariableValue& value : assumptions_.initially.variables) {
+      if (value.variable == id) variable.initial = value.value;
+    }
+    variable.misfits.assign(variable.values, std::vector<Word>(denied_.size(), 0));
+  }
+  for (std::uint32_t behavior = 0; behavior < behaviors_.size(); ++behavior) {
+    const auto fitting = catalog_.fitting_values_of(behaviors_[behavior].id);
+    for (const FittingValue& first : fitting) {
+      Variable& variable = variables_[find_variable(first.variable)];
+      for (std::uint32_t value = 0; value < variable.values; ++value) {
+        const bool fits = std::any_of(fitting.begin(), fitting.end(), [&](const auto& other) {
+          return other.variable == first.variable && other.value == value;
+        });
+        if (!fits) set_bit(variable.misfits[value].data(), behavior);
+      }
+    }
+  }
+}
+
+void Model::rank_priorities() {
+  std::set<std::int32_t> priorities{0};
+  for (const Assumptions::Start& start : assumptions_.start) {
+    priorities.insert(start.priorities.begin(), start.priorities.end());
+  }
+  priorities_.assign(priorities.begin(), priorities.end());
+}
+
+Model::Rank Model::ranks_up_to(std::int32_t priority) const {
+  return static_cast<Rank>(std::upper_bound(priorities_.begin(), priorities_.end(), priority) -
+                           priorities_.begin());
+}
+
+Model::Rank Model::rank_of(std::int32_t priority) const {
+  return static_cast<Rank>(std::lower_bound(priorities_.begin(), priorities_.end(), priority) -
+                           priorities_.begin());
+}
+
+std::uint32_t Model::find_task(TaskId task) const { return find_number(tasks_, task); }
+std::uint32_t Model::find_behavior(BehaviorId behavior) const {
+  return find_number(behaviors_, behavior);
+}
+std::uint32_t Model::find_variable(std::uint32_t variable) const {
+  return find_number(variables_, variable);
+}
+
+/// A bound on the requests at one time: of the tasks that an exclusivity list names, one runs.
+std::uint32_t Model::most_requests() const {
+  std::set<TaskId> left;
+  for (const Assumptions::Start& start : assumptions_.start) {
+    if (find_task(start.task) != none) left.insert(start.task);
+  }
+  for (const std::uint32_t task : reactive_) left.insert(tasks_[task].id);
+  std::uint32_t count = 0;
+  for (; !left.empty(); ++count) {
+    const TaskId task = *left.begin();
+    std::uint32_t best = none;
+    std::size_t most = 0;
+    const auto is_left = [&](TaskId member) { return left.contains(member); };
+    for (const std::uint32_t clique : catalog_.task_cliques[task]) {
+      const auto members = catalog_.cliques[clique];
+      const auto size =
+          static_cast<std::size_t>(std::count_if(members.begin(), members.end(), is_left));
+      if (size > most) {
+        most = size;
+        best = clique;
+      }
+    }
+    left.erase(task);
+    if (best == none) continue;
+    for (const TaskId member : catalog_.cliques[best]) left.erase(member);
+  }
+  return count;
+}
+
+void Model::lay_out() {
+  std::size_t bits = 0;
+  const auto add = [&](std::size_t most) {
+    const auto width = static_cast<std::uint8_t>(std::bit_width(most));
+    if (width == 0) {
+      fields_.push_back({});
+      return;
+    }
+    if (bits % 32 + width > 32) bits += 32 - bits % 32;
+    fields_.push_back(
+        {static_cast<std::uint16_t>(bits / 32), static_cast<std::uint8_t>(bits % 32), width});
+    bits += width;
+  };
+  const auto here = [&] { return static_cast<std::uint32_t>(fields_.size()); };
+  for (const Task& task : tasks_) add(task.values.size());
+  layout_.requests = here();
+  layout_.request_count = most_requests();
+  for (std::uint32_t request = 0; request < layout_.request_count; ++request) add(tasks_.size());
+  layout_.ranks = here();
+  for (std::uint32_t request = 0; request < layout_.request_count; ++request) {
+    add(priorities_.size() - 1);
+  }
+  layout_.reactive_count = static_cast<std::uint32_t>(reactive_.size());
+  layout_.queue = here();
+  for (std::uint32_t task = 0; task < layout_.reactive_count; ++task) add(layout_.reactive_count);
+  layout_.waiting = here();
+  for (std::uint32_t task = 0; task < layout_.reactive_count; ++task) add(1);
+  layout_.variables = here();
+  for (Variable& variable : variables_) {
+    const auto& changing = assumptions_.variables;
+    if (std::find(changing.begin(), changing.end(), variable.id) == changing.end()) continue;
+    variable.cell = here();
+    add(variable.values - 1);
+  }
+  layout_.own = here();
+  for (Behavior& behavior : behaviors_) {
+    const auto& changing = assumptions_.behaviors;
+    if (std::find(changing.begin(), changing.end(), behavior.id) == changing.end()) continue;
+    behavior.own = layout_.own_count++;
+    add(1);
+  }
+  layout_.faulty = here();
+  if (assumptions_.faults > 0) {
+    layout_.faulty_count = static_cast<std::uint32_t>(behaviors_.size());
+    for (std::uint32_t behavior = 0; behavior < behaviors_.size(); ++behavior) add(1);
+  }
+  layout_.cells = here();
+  packed_words_ = std::max<std::size_t>(1, (bits + 31) / 32);
+}
+
+/// Entries of `never` as conditions on cells. What cannot change is compared once.
+void Model::add_never() {
+  for (const SituationPart& part : assumptions_.never) {
+    Excluded excluded;
+    bool occurs = true;
+    for (const VariableValue& value : part.variables) {
+      const std::uint32_t place = find_variable(value.variable);
+      const auto& changing = assumptions_.variables;
+      const bool changes =
+          std::find(changing.begin(), changing.end(), value.variable) != changing.end();
+      if (changes && place == none) {
+        occurs = false;  // it is not part of the state
+      } else if (changes) {
+        excluded.emplace_back(variables_[place].cell, value.value);
+      } else {
+        std::uint32_t initial = 0;
+        for (const VariableValue& other : assumptions_.initially.variables) {
+          if (other.variable == value.variable) initial = other.value;
+        }
+        occurs = occurs && initial == value.value;
+      }
+    }
+    for (const SituationPart::Own& own : part.behaviors) {
+      const std::uint32_t place = find_behavior(own.behavior);
+      const auto& changing = assumptions_.behaviors;
+      const bool changes =
+          std::find(changing.begin(), changing.end(), own.behavior) != changing.end();
+      if (changes && place == none) {
+        occurs = false;
+      } else if (changes) {
+        excluded.emplace_back(layout_.own + behaviors_[place].own, own.available ? 0 : 1);
+      } else {
+        bool initial = true;
+        for (const SituationPart::Own& other : assumptions_.initially.behaviors) {
+          if (other.behavior == own.behavior) initial = other.available;
+        }
+        occurs = occurs && initial == own.available;
+      }
+    }
+    if (occurs) excluded_.push_back(std::move(excluded));
+  }
+}
+
+void Model::add_moves() {
+  const auto index_of_task = [&](std::uint32_t task) {
+    return catalog_.tasks[tasks_[task].id].catalog_index;
+  };
+  const auto index_of_behavior = [&](std::uint32_t behavior) {
+    return catalog_.behaviors[behaviors_[behavior].id].catalog_index;
+  };
+  for (const std::uint32_t task : tasks_in_order_) {
+    for (const Assumptions::Start& start : assumptions_.start) {
+      if (start.task != tasks_[task].id) continue;
+      for (const std::int32_t priority : start.priorities) {
+        moves_.push_back(
+            {{Move::Kind::start, index_of_task(task), priority}, task, rank_of(priority)});
+      }
+    }
+  }
+  for (const std::uint32_t task : tasks_in_order_) {
+    const auto& stop = assumptions_.stop;
+    if (std::find(stop.begin(), stop.end(), tasks_[task].id) == stop.end()) continue;
+    moves_.push_back({{Move::Kind::stop, index_of_task(task), 0}, task, 0});
+  }
+  const auto add_for_behaviors = [&](Move::Kind kind) {
+    for (const std::uint32_t behavior : behaviors_in_order_) {
+      moves_.push_back({{kind, index_of_behavior(behavior), 0}, behavior, 0});
+    }
+  };
+  if (assumptions_.successes) add_for_behaviors(Move::Kind::success);
+  if (assumptions_.failures) add_for_behaviors(Move::Kind::failure);
+  for (const std::uint32_t behavior : behaviors_in_order_) {
+    const bool is_denied = has_bit(denied_.data(), behavior);
+    if (!is_denied && behaviors_[behavior].own == none) continue;
+    moves_.push_back({{Move::Kind::situation_change, index_of_behavior(behavior), 0}, behavior, 0});
+  }
+  if (assumptions_.faults > 0) {
+    add_for_behaviors(Move::Kind::fault);
+    add_for_behaviors(Move::Kind::repair);
+  }
+  for (std::uint32_t variable = 0; variable < variables_.size(); ++variable) {
+    if (variables_[variable].cell == none) continue;
+    for (std::uint32_t value = 0; value < variables_[variable].values; ++value) {
+      moves_.push_back(
+          {{Move::Kind::variable, variables_[variable].id, static_cast<std::int32_t>(value)},
+           variable,
+           value});
+    }
+  }
+  for (const std::uint32_t behavior : behaviors_in_order_) {
+    if (behaviors_[behavior].own == none) continue;
+    // Which of the two it becomes is filled in where the move is taken.
+    moves_.push_back({{Move::Kind::own, index_of_behavior(behavior), 0}, behavior, 0});
+  }
+  if (!reactive_.empty()) moves_.push_back({{Move::Kind::due, 0, 0}, 0, 0});
+}
+
+std::vector<std::uint16_t> Model::first_state() const {
+  std::vector<std::uint16_t> cells(layout_.cells, 0);
+  for (std::uint32_t task = 0; task < layout_.reactive_count; ++task) {
+    cells[layout_.queue + task] = 1;
+  }
+  for (const Variable& variable : variables_) {
+    if (variable.cell != none) cells[variable.cell] = static_cast<std::uint16_t>(variable.initial);
+  }
+  for (std::uint32_t place = 0; place < behaviors_.size(); ++place) {
+    const Behavior& behavior = behaviors_[place];
+    if (behavior.own != none && has_bit(denied_.data(), place)) {
+      cells[layout_.own + behavior.own] = 1;
+    }
+  }
+  return cells;
+}
+
+bool Model::is_excluded(const std::uint16_t* cells) const {
+  return std::any_of(excluded_.begin(), excluded_.end(), [&](const Excluded& excluded) {
+    return std::all_of(excluded.begin(), excluded.end(),
+                       [&](const auto& part) { return cells[part.first] == part.second; });
+  });
+}
+
+void Model::pack(const std::uint16_t* cells, std::uint32_t* packed) const {
+  std::fill(packed, packed + packed_words_, 0);
+  const Field* field = fields_.data();
+  for (std::uint32_t cell = 0; cell < layout_.cells; ++cell, ++field) {
+    packed[field->word] |= std::uint32_t{cells[cell]} << field->shift;
+  }
+}
+
+void Model::unpack(const std::uint32_t* packed, std::uint16_t* cells) const {
+  const Field* field = fields_.data();
+  for (std::uint32_t cell = 0; cell < layout_.cells; ++cell, ++field) {
+    cells[cell] = static_cast<std::uint16_t>((packed[field->word] >> field->shift) &
+                                             ((std::uint32_t{1} << field->width) - 1));
+  }
+}
+
+}  // namespace cbc

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace cbc {
+
+/// The states that an exploration has found, numbered in the order in which they were found, each
+/// with the one that it was found from. A state is a fixed number of 32-bit words.
+///
+/// The index is a hash table of buckets of one cache line: of each of up to 12 states, 8 bits of
+/// its hash and its number. A full bucket overflows into the next.
+class StateStore {
+ public:
+  using Number = std::uint32_t;
+  static constexpr Number most_states = UINT32_MAX - 1;
+
+  explicit StateStore(std::size_t words);
+
+  [[nodiscard]] Number size() const { return size_; }
+  [[nodiscard]] std::size_t words() const { return words_; }
+  [[nodiscard]] const std::uint32_t* state(Number number) const {
+    return states_[number / segment].get() + (number % segment) * words_;
+  }
+  /// The first state has itself.
+  [[nodiscard]] Number parent(Number number) const {
+    return parents_[number / segment][number % segment];
+  }
+  [[nodiscard]] std::uint64_t bytes() const;
+
+  [[nodiscard]] std::uint64_t hash(const std::uint32_t* state) const;
+  void prefetch(std::uint64_t hash) const { __builtin_prefetch(&buckets_[hash & bucket_mask_]); }
+  [[nodiscard]] bool contains(const std::uint32_t* state, std::uint64_t hash) const;
+  /// True if the state is new.
+  bool insert(const std::uint32_t* state, std::uint64_t hash, Number parent);
+
+ private:
+  static constexpr std::size_t segment = std::size_t{1} << 16U;
+  static constexpr std::size_t bucket_size = 12;
+
+  struct alignas(64) Bucket {
+    std::uint8_t tags[bucket_size] = {};
+    std::uint32_t count = 0;
+    Number numbers[bucket_size] = {};
+  };
+  static_assert(sizeof(Bucket) == 64);
+
+  [[nodiscard]] static std::uint8_t tag_of(std::uint64_t hash) {
+    return static_cast<std::uint8_t>(hash >> 56U);
+  }
+  [[nodiscard]] bool is_same(Number number, const std::uint32_t* other) const {
+    return std::equal(other, other + words_, state(number));
+  }
+  /// The bucket that the state is in, or that a new one belongs into.
+  [[nodiscard]] std::size_t find(const std::uint32_t* state, std::uint64_t hash,
+                                 bool& is_found) const;
+  void add_to_bucket(std::size_t bucket, std::uint64_t hash, Number number);
+  void grow();
+
+  const std::size_t words_;
+  Number size_ = 0;
+  std::vector<std::unique_ptr<std::uint32_t[]>> states_;
+  std::vector<std::unique_ptr<Number[]>> parents_;
+  std::vector<Bucket> buckets_;
+  std::size_t bucket_mask_ = 0;
+};
+
+}  // namespace cbc
