@@ -15,6 +15,7 @@
 #include "report/solve_report.h"
 #include "script/reader.h"
 #include "script/runner.h"
+#include "script/writer.h"
 #include "support/read_file.h"
 #include "sweep/sequence.h"
 #include "unit/compiled_fixture.h"
@@ -195,13 +196,19 @@ std::uint64_t at(const std::map<std::string, std::uint64_t>& counts, const std::
   return found == counts.end() ? 0 : found->second;
 }
 
+Script script_of(std::vector<Step> steps) {
+  Script script;
+  script.steps = std::move(steps);
+  return script;
+}
+
 void expect_recounted(const CompiledCatalog& catalog, const SweepSettings& settings) {
   Recount recount(catalog);
   for (std::uint64_t sequence = 0; sequence < settings.sequences; ++sequence) {
     recount.begin_sequence();
     const auto steps = steps_of_sequence(catalog, settings, sequence, 0);
     EXPECT_EQ(steps.size(), settings.shape.events);
-    const Script script = read(catalog, write_script(catalog, steps, ""));
+    const Script script = read(catalog, write_script(catalog, script_of(steps), ""));
     EXPECT_EQ(run_script(catalog, script, {}, recount).status, Coordinator::Status::ok);
   }
   const Json found = Json::parse(sweep_to_json(run(catalog, settings, 2)));
@@ -285,7 +292,8 @@ behaviors:
 )");
   SweepSettings settings;
   settings.shape.events = 400;  // one of 16 starts has parameters
-  const std::string script = write_script(catalog, steps_of_sequence(catalog, settings, 0, 0), "");
+  const std::string script =
+      write_script(catalog, script_of(steps_of_sequence(catalog, settings, 0, 0)), "");
   EXPECT_NE(script.find("\"p\":0.5}"), std::string::npos) << script;
   EXPECT_NE(script.find("\"p\":1000.0}"), std::string::npos) << script;
   EXPECT_EQ(script.find("0.50"), std::string::npos);

@@ -71,6 +71,7 @@ void apply(const Situation& situation, const CompiledCatalog& catalog, State& st
 struct Script {
   std::string file;
   Microseconds reactive_delay = 80'000;
+  bool timeouts = true;  ///< false: none fires by the clock
   Situation situation;  ///< before the first event
   std::vector<Step> steps;
 };

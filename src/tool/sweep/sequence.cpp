@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -414,45 +413,6 @@ class StepCounter final : public SequenceListener {
   std::size_t count_ = 0;
 };
 
-// Scripts. Names are quoted as in JSON, so that none is taken for another type.
-
-std::string in_quotes(std::string_view text) {
-  std::string json;
-  append_text(json, text);
-  return json;
-}
-
-std::string describe_step(const CompiledCatalog& catalog, const Step& step) {
-  const VerbForm& form = form_of(step.verb);
-  std::string text;
-  switch (form.subject) {
-    case VerbForm::SubjectKind::nothing:
-      return {};
-    case VerbForm::SubjectKind::situation:
-      for (const Availability& entry : step.situation.availability) {
-        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ",
-                            in_quotes(catalog.behavior_names[entry.behavior]), entry.available);
-      }
-      for (const VariableValue value : step.situation.variables) {
-        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ",
-                            in_quotes(catalog.name_of_variable(value.variable)),
-                            in_quotes(catalog.name_of_value(value)));
-      }
-      return fmt::format("{}: {{{}}}", form.name, text);
-    case VerbForm::SubjectKind::task:
-      text = in_quotes(catalog.task_names[step.subject]);
-      break;
-    case VerbForm::SubjectKind::behavior:
-      text = in_quotes(catalog.behavior_names[step.subject]);
-      break;
-  }
-  text = fmt::format("{}: {}", form.name, text);
-  if (step.priority) text += fmt::format(", priority: {}", *step.priority);
-  if (step.parameters) text += fmt::format(", parameters: {}", step.parameters->json);
-  if (form.has_cause) text += fmt::format(", cause: {}", name_of(step.cause));
-  return text;
-}
-
 }  // namespace
 
 SequenceEnd run_sequence(const CompiledCatalog& catalog, const SweepSettings& settings,
@@ -467,20 +427,6 @@ std::vector<Step> steps_of_sequence(const CompiledCatalog& catalog, const SweepS
   static_cast<void>(Sequence(catalog, settings, sequence, counter).run(&steps));
   steps.resize(counter.count());
   return steps;
-}
-
-std::string write_script(const CompiledCatalog& catalog, const std::vector<Step>& steps,
-                         const std::string& comment) {
-  std::string text;
-  std::istringstream lines(comment);
-  for (std::string line; std::getline(lines, line);) text += "# " + line + "\n";
-  text += "events:\n";
-  for (const Step& step : steps) {
-    const std::string event = describe_step(catalog, step);
-    text += fmt::format("- {{at: {}{}{}}}\n", format_decimal(step.time.value_or(0), 6),
-                        event.empty() ? "" : ", ", event);
-  }
-  return text;
 }
 
 std::string options_for_script(const SweepSearch& search) {

@@ -152,10 +152,6 @@ struct SequenceEnd {
                                                   const SweepSettings& settings,
                                                   std::uint64_t sequence, std::uint64_t index);
 
-/// A script for `cbc solve` with these steps, below the lines of `comment`.
-[[nodiscard]] std::string write_script(const CompiledCatalog& catalog,
-                                       const std::vector<Step>& steps, const std::string& comment);
-
 /// The options of `cbc solve` with which a script runs as in the sweep: " --max-nodes 5".
 [[nodiscard]] std::string options_for_script(const SweepSearch& search);
 

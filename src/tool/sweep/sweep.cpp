@@ -15,6 +15,7 @@
 #include "base/text.h"
 #include "cbc/version.h"
 #include "compiled/compiled_file.h"
+#include "script/writer.h"
 #include "sweep/sequence.h"
 
 namespace cbc {
@@ -298,8 +299,9 @@ std::optional<SlowestEvent> to_slowest(const CompiledCatalog& catalog,
       "Run it with: cbc solve CATALOG FILE{}\n",
       slowest.sequence, settings.seed, measure, slowest.event, slowest.what,
       options_for_script(settings.search));
-  slowest.script = write_script(
-      catalog, steps_of_sequence(catalog, settings, candidate.sequence, candidate.event), comment);
+  Script script;
+  script.steps = steps_of_sequence(catalog, settings, candidate.sequence, candidate.event);
+  slowest.script = write_script(catalog, script, comment);
   return slowest;
 }
 
@@ -310,8 +312,9 @@ SweepFailure to_failure(const CompiledCatalog& catalog, const SweepSettings& set
   const std::string comment =
       fmt::format("Sequence {} of a sweep with seed {}.\nRun it with: cbc solve CATALOG FILE{}\n",
                   sequence + 1, settings.seed, options_for_script(settings.search));
-  return {sequence + 1, end.status, end.internal_error,
-          write_script(catalog, steps_of_sequence(catalog, settings, sequence, 0), comment)};
+  Script script;
+  script.steps = steps_of_sequence(catalog, settings, sequence, 0);
+  return {sequence + 1, end.status, end.internal_error, write_script(catalog, script, comment)};
 }
 
 std::vector<std::string> to_strings(const Texts& names) {

@@ -359,6 +359,7 @@ void Stepper::settle_queue() {
   const Model::Layout& layout = model_.layout();
   std::uint16_t* const sets = now_.cells.data() + layout.queue;
   std::uint16_t last = 0;
+  joined_set_ = 0;
   for (;;) {
     std::uint16_t next = 0;
     for (std::uint32_t place = 0; place < layout.reactive_count; ++place) {
@@ -366,6 +367,7 @@ void Stepper::settle_queue() {
     }
     if (next == 0) return;
     ++last;
+    if (next == joined_now) joined_set_ = last;
     if (next == last) continue;
     for (std::uint32_t place = 0; place < layout.reactive_count; ++place) {
       if (sets[place] == next) sets[place] = last;

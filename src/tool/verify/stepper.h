@@ -44,6 +44,10 @@ class Stepper {
   /// situation and does not exist. Of start: was_accepted() tells the outcome.
   bool take(const Model::Choice& choice);
   [[nodiscard]] bool was_accepted() const { return accepted_; }
+  /// Whether the reactive task joined the queue in the move.
+  [[nodiscard]] bool has_joined(std::uint32_t reactive) const {
+    return now_.cells[model_.layout().queue + reactive] == joined_set_ && joined_set_ != 0;
+  }
   /// Writes the state after the move.
   void pack(std::uint32_t* packed) const { model_.pack(now_.cells.data(), packed); }
 
@@ -145,6 +149,7 @@ class Stepper {
   State before_;  ///< as loaded
   State now_;     ///< as the move leaves it
   bool accepted_ = false;
+  std::uint16_t joined_set_ = 0;  ///< the set that joined the queue in the move; 0: none
 
   // Of the event.
   std::vector<Word> excluded_values_;

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "verify/explore.h"
+#include "verify/properties.h"
+#include "verify/witness.h"
+
+namespace cbc {
+
+/// What was found out about one property.
+struct Answer {
+  const Property* property = nullptr;
+  std::size_t exploration = 0;  ///< place in Verification::explorations
+  Verdict verdict;
+  std::optional<Witness> witness;  ///< of the verdict's script
+};
+
+/// What was found out about a catalog under the assumptions of one property file, or under the
+/// default ones.
+struct Verification {
+  const PropertyFile* file = nullptr;  ///< null: default assumptions, no properties
+  std::vector<Exploration> explorations;
+  std::vector<Answer> answers;  ///< in the order of the file
+
+  [[nodiscard]] bool is_complete() const;
+};
+
+/// Options of a verification; `on_progress` is told the groups that are explored, too.
+struct VerificationOptions {
+  ExplorationLimits limits;  ///< of each exploration
+  unsigned jobs = 1;
+  std::function<bool(const std::vector<std::uint32_t>& groups, const ExplorationProgress&)>
+      on_progress;
+};
+
+/// Explores each group of the catalog by itself under the default assumptions.
+[[nodiscard]] Verification verify_groups(const CompiledCatalog& catalog,
+                                         const VerificationOptions& options);
+
+/// Answers the properties of a file. Properties about the same groups are answered by the same
+/// exploration.
+[[nodiscard]] Verification verify_properties(const CompiledCatalog& catalog,
+                                             const PropertyFile& file,
+                                             const VerificationOptions& options);
+
+/// The groups that a property is about, ascending: those of its tasks and behaviors; if there are
+/// none, those whose behaviors name its variables.
+[[nodiscard]] std::vector<std::uint32_t> groups_of(const CompiledCatalog& catalog,
+                                                   const Property& property);
+
+/// A property in words: "LAND can always start with priority 3".
+[[nodiscard]] std::string describe(const CompiledCatalog& catalog, const Property& property);
+
+}  // namespace cbc

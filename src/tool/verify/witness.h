@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "script/script.h"
+#include "verify/explore.h"
+#include "verify/properties.h"
+
+namespace cbc {
+
+/// A path through the states as an event script that `cbc solve` repeats: timeouts are off, the
+/// queue comes due where the path says so and nowhere else, and an expectation at the end says in
+/// which state the path ends.
+struct Witness {
+  Script script;
+  std::string text;  ///< of the script, with comments
+};
+
+/// The script of these moves, made on these groups. `property`: decides what is expected at the
+/// end; null: the values of all tasks and, if the last move is a start or a stop, its outcome.
+/// `comment`: the first lines of the text, without "# ".
+[[nodiscard]] Witness make_witness(const CompiledCatalog& catalog,
+                                   const std::vector<std::uint32_t>& groups,
+                                   const Assumptions& assumptions, const std::vector<Move>& moves,
+                                   const Property* property, const std::string& comment);
+
+}  // namespace cbc
