@@ -25,7 +25,7 @@ std::string identifier(std::string_view name, std::uint32_t place) {
   std::string id(name);
   std::replace_if(
       id.begin(), id.end(), [](char byte) { return !is_plain(byte); }, '_');
-  return id == name && !id.empty() ? id : fmt::format("{}-{}", id.empty() ? "_" : id, place + 1);
+  return id == name ? id : fmt::format("{}-{}", id, place + 1);
 }
 
 class Writer {
