@@ -51,14 +51,14 @@ class WrittenTree {
     std::istringstream stream(xml);
     boost::property_tree::ptree document;
     boost::property_tree::read_xml(stream, document);
-    const auto& tree = document.get_child("opsa-mef.define-fault-tree");
-    for (const auto& [element, content] : tree) {
+    for (const auto& [element, content] : document.get_child("opsa-mef.define-fault-tree")) {
       if (element != "define-gate") continue;
       const std::string name = name_of(content);
       if (top_.empty()) top_ = name;
-      demand(gates_.emplace(name, &content).second, "a gate is defined twice: " + name);
       for (const auto& [formula, inputs] : content) {
-        if (formula != "<xmlattr>" && formula != "label") formulas_[name] = {formula, inputs};
+        if (formula == "<xmlattr>" || formula == "label") continue;
+        demand(formulas_.emplace(name, std::pair(formula, inputs)).second,
+               "a gate has two formulas: " + name);
       }
     }
     for (const auto& [element, content] : document.get_child("opsa-mef.model-data")) {
@@ -114,7 +114,6 @@ class WrittenTree {
   }
 
   std::string top_;
-  std::map<std::string, const Tree*> gates_;
   std::map<std::string, std::pair<std::string, Tree>> formulas_;
   std::set<std::string> events_;
 };

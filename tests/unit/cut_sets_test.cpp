@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "compiled/compiled_catalog.h"
@@ -202,6 +203,48 @@ TEST(CutSets, SayWhatIsCompleteWhenTheyAreStopped) {
     }
   }
   EXPECT_EQ(reached, 3U) << "the last search is for {plainly rtk gps}";
+}
+
+/// Nine pigeons in eight holes, which a search by propagation refutes hole by hole.
+std::string pigeons() {
+  constexpr int holes = 8;
+  std::string behaviors = "behaviors:\n- {behavior: all, task: ALL, requires: [";
+  std::string lists = "exclusivity_constraints:\n";
+  for (int pigeon = 0; pigeon <= holes; ++pigeon)
+    behaviors += fmt::format("{{task: P{}}}, ", pigeon);
+  behaviors += "]}\n";
+  for (int hole = 0; hole < holes; ++hole) {
+    lists += "- mutually_exclusive: [";
+    for (int pigeon = 0; pigeon <= holes; ++pigeon) {
+      const std::string place = fmt::format("{}_{}", pigeon, hole);
+      behaviors += fmt::format(
+          "- {{behavior: go_{0}, task: P{1}, requires: [{{task: IN_{0}}}]}}\n"
+          "- {{behavior: in_{0}, task: IN_{0}}}\n",
+          place, pigeon);
+      lists += fmt::format("IN_{}, ", place);
+    }
+    lists += "]\n";
+  }
+  return behaviors + lists;
+}
+
+TEST(CutSets, CanBeStoppedInALongSearch) {
+  const CompiledCatalog catalog = compile_text(pigeons());
+  const TaskId task = task_id(catalog, "ALL");
+  CutSetOptions options;
+  int calls = 0;
+  options.on_progress = [&](const CutSetProgress& /*progress*/) { return ++calls > 0; };
+  const CutSets all = find_cut_sets(catalog, task, ruled_out_by(catalog, {}), options);
+  EXPECT_TRUE(all.complete);
+  EXPECT_EQ(show_sets(catalog, all), "{}");
+  EXPECT_EQ(all.searches, 1U);
+  EXPECT_GT(calls, 1) << "not hard enough";
+  int left = 1;
+  options.on_progress = [&](const CutSetProgress& /*progress*/) { return left-- > 0; };
+  const CutSets none = find_cut_sets(catalog, task, ruled_out_by(catalog, {}), options);
+  EXPECT_FALSE(none.complete);
+  EXPECT_EQ(none.incomplete_size, 0U);
+  EXPECT_TRUE(none.sets.empty());
 }
 
 CompiledCatalog own_catalog(const std::string& name) {

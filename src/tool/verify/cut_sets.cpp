@@ -68,7 +68,7 @@ class SupportSearch {
   }
 
  private:
-  static constexpr std::uint64_t first_budget = 100'000;
+  static constexpr std::uint64_t first_budget = 10'000;
 
   /// A hard search begins anew with twice the decisions, which at most doubles the effort, so that
   /// it can be stopped in between.
