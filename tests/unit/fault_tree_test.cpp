@@ -274,7 +274,7 @@ TEST(OpenPsa, GivesScramTheSameCutSets) {
   if (!has_scram()) GTEST_SKIP() << "there is no scram";
   const test::ScratchFolder folder;
   std::size_t trees = 0;
-  for (const char* const name : {"autoware", "quadrotor", "localization-faults"}) {
+  for (const char* const name : {"autoware", "quadrotor", "mobile-manipulator"}) {
     const CompiledCatalog catalog =
         compile_text(test::read_file(fmt::format("{}/catalogs/{}.yaml", CBC_SOURCE_DIR, name)));
     for (const TaskId task : catalog.task_ids) {

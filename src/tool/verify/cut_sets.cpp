@@ -70,7 +70,7 @@ class SupportSearch {
  private:
   static constexpr std::uint64_t first_budget = 10'000;
 
-  /// A hard search begins anew with twice the decisions, which at most doubles the effort, so that
+  /// A hard search begins anew with twice the decisions, which at most triples the effort, so that
   /// it can be stopped in between.
   void set_budget(std::uint64_t nodes) {
     budget_ = nodes;
@@ -101,7 +101,7 @@ class SupportSearch {
 /// The supports (sets of active behaviors) of the assignments that are known.
 class KnownSupports {
  public:
-  explicit KnownSupports(const CompiledCatalog& catalog, std::uint32_t group)
+  KnownSupports(const CompiledCatalog& catalog, std::uint32_t group)
       : first_(catalog.group_behaviors[group]),
         users_(catalog.group_behaviors[group + 1] - first_) {}
 
