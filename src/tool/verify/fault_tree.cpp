@@ -176,7 +176,7 @@ class ExclusionMarks {
 class Minimums {
  public:
   Minimums(const CompiledCatalog& catalog, const Cone& cone)
-      : catalog_(catalog), cone_(cone), may_fail_(catalog.tasks.size(), false) {
+      : cone_(cone), may_fail_(catalog.tasks.size(), false) {
     std::vector<Millionths> strongest(catalog.tasks.size(), 0);
     for (const TaskId task : cone.tasks()) {
       strongest[task] = std::max(strongest[task], catalog.tasks[task].minimum_performance);
@@ -218,7 +218,6 @@ class Minimums {
     return cone_.values(task).back()->suitability;  // values are in rank order
   }
 
-  const CompiledCatalog& catalog_;
   const Cone& cone_;
   std::vector<bool> may_fail_;  ///< by task
 };
