@@ -39,6 +39,10 @@ void register_stream_benchmarks();
 /// sweep/…: random events on the reference catalog and on generated ones of one group.
 void register_sweep_benchmarks();
 
+/// cut_sets/…: the minimal cut sets of order 2 of the modes of Autoware, one by one, and those of
+/// order 3 of all tasks of the quadrotor together.
+void register_cut_set_benchmarks();
+
 /// fleet/…, generated catalogs of up to 100,000 tasks: compiling, loading, events of one
 /// robot, and a picture of one task.
 /// Together they take about a minute.

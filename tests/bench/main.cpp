@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
   cbc::bench::register_compiled_benchmarks();
   cbc::bench::register_stream_benchmarks();
   cbc::bench::register_sweep_benchmarks();
+  cbc::bench::register_cut_set_benchmarks();
   cbc::bench::register_fleet_benchmarks();
   cbc::bench::TableReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

@@ -1,0 +1,14 @@
+// Compiled catalogs, without the headers that read them.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "compiled/compiled_catalog.h"
+
+namespace cbc::oracle {
+
+// Nothing if the catalog was not understood. Requirements that exclude each other are allowed.
+std::optional<CompiledCatalog> compile_yaml(const std::string& yaml);
+
+}  // namespace cbc::oracle
