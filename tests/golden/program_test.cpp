@@ -13,6 +13,7 @@
 
 #include "cbc/version.h"
 #include "golden/process.h"
+#include "support/catalog_files.h"
 #include "support/read_file.h"
 
 namespace cbc::golden {

@@ -60,6 +60,7 @@ class ConditionReader {
     check_active();
     check_requested();
     check_available();
+    if (reporter_.errors() > errors) return {};
     check_fitting();
     check_exclusions();
     check_assumptions();
