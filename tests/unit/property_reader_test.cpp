@@ -202,6 +202,9 @@ TEST(Assumptions, MustNotExcludeTheFirstState) {
             "1:19-20 error invalid-value: an entry of 'never' must name a variable or a behavior: "
             "this one excludes every situation\n");
   // If it is not known where it begins, nothing follows.
+  EXPECT_EQ(findings("{initialy: {LIGHT: dusk}, assume: {never: [{LIGHT: day}]}, properties: []}"),
+            "1:2-10 error unknown-key: unknown key 'initialy' in a property file; did you mean "
+            "'initially'?\n");
   EXPECT_EQ(findings("{initially: {LIGHT: dark}, assume: {never: [{LIGHT: day}]}, properties: []}"),
             "1:21-25 error situation-value: situation variable 'LIGHT' has no value 'dark'; its "
             "values are 'day', 'dusk' and 'night'\n");

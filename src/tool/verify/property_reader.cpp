@@ -51,9 +51,11 @@ class AssumptionReader {
   AssumptionReader(NameIndex& names, Reporter& reporter)
       : names_(names), catalog_(names.catalog()), reporter_(reporter) {}
 
-  /// The values of the keys `assume` and `initially`; null if there is none.
-  Assumptions read(const Node* assume, const Node* initially) && {
+  /// The values of the keys `assume` and `initially`; null if there is none. `knows_all`: no other
+  /// key may be one of them, misspelt.
+  Assumptions read(const Node* assume, const Node* initially, bool knows_all) && {
     out_ = default_assumptions(catalog_);
+    knows_first_ = knows_all;
     if (initially != nullptr) read_initially(*initially);
     if (assume != nullptr &&
         yaml::read_mapping(*assume, "assume", "a mapping", reporter_) != nullptr) {
@@ -66,7 +68,7 @@ class AssumptionReader {
   void read_initially(const Node& node) {
     const auto situation = read_situation(node, names_, reporter_);
     if (situation) out_.initially = part_of(*situation, catalog_);
-    knows_first_ = situation.has_value();
+    knows_first_ &= situation.has_value();
   }
 
   void read_assume(const Node& node) {
@@ -212,7 +214,7 @@ class AssumptionReader {
   const CompiledCatalog& catalog_;
   Reporter& reporter_;
   Assumptions out_;
-  bool knows_first_ = true;  ///< `initially` was understood
+  bool knows_first_ = true;  ///< the situation at the beginning is understood
 };
 
 /// A key that belongs to some kinds of properties only.
@@ -241,7 +243,8 @@ class PropertyReader {
     }
     const std::size_t errors = reporter_.errors();
     file.assumptions =
-        AssumptionReader(names_, reporter_).read(fields.find("assume"), fields.find("initially"));
+        AssumptionReader(names_, reporter_)
+            .read(fields.find("assume"), fields.find("initially"), !fields.has_unknown());
     // What follows from a mistake is not reported.
     if (reporter_.errors() == errors && !fields.has_unknown()) assumptions_ = &file.assumptions;
     if (const Node* properties = fields.find("properties")) {
