@@ -112,10 +112,13 @@ std::optional<InputFile> read_if_readable(InputFiles& files, const std::string& 
   return is_readable_file(path) ? files.read(path) : std::nullopt;
 }
 
-/// The catalog at the path, or the one that the script there names.
+/// The catalog at the path, or the one that the script or property file there names.
 std::optional<InputFile> read_catalog_of(InputFiles& files, const std::string& path) {
   std::optional<InputFile> file = read_if_readable(files, path);
-  if (!file || file->document == nullptr || !is_script(*file->document)) return file;
+  if (!file || file->document == nullptr ||
+      (!is_script(*file->document) && !is_property_file(*file->document))) {
+    return file;
+  }
   const std::optional<std::string> named = path_of_catalog(path, *file->document);
   return named ? read_if_readable(files, *named) : std::nullopt;
 }

@@ -75,7 +75,8 @@ bool is_script(const yaml::Document& document) {
     // In a catalog it is a list.
     const yaml::Node* const situation = root.find("situation");
     const bool has_situation = situation != nullptr && situation->kind == yaml::Kind::mapping;
-    return !is_catalog(document) && (has_any(root, keys) || has_situation);
+    return !is_catalog(document) && !is_property_file(document) &&
+           (has_any(root, keys) || has_situation);
   }
   // Another list is more likely a catalog that lacks a key.
   return root.items.empty() ||
@@ -84,10 +85,18 @@ bool is_script(const yaml::Document& document) {
          });
 }
 
+bool is_property_file(const yaml::Document& document) {
+  const auto& entries = document.root().entries;
+  return !is_catalog(document) &&
+         std::any_of(entries.begin(), entries.end(), [](const auto& entry) {
+           return entry.first->text == "properties" || entry.first->text == "assume";
+         });
+}
+
 bool looks_like_script(const yaml::Document& document) {
   if (is_script(document)) return true;
   const auto& entries = document.root().entries;
-  return !is_catalog(document) &&
+  return !is_catalog(document) && !is_property_file(document) &&
          std::any_of(entries.begin(), entries.end(), [](const auto& entry) {
            return nearest(entry.first->text, std::array<std::string_view, 1>{"events"}).has_value();
          });
@@ -97,7 +106,8 @@ bool looks_like_catalog(std::string_view text) {
   Diagnostics ignored;
   const auto document = yaml::parse(text, {}, ignored);
   if (document == nullptr) return has_lines_of_catalog(text);
-  return !is_script(*document) && resembles_catalog(document->root());
+  return !is_script(*document) && !is_property_file(*document) &&
+         resembles_catalog(document->root());
 }
 
 namespace {
@@ -229,11 +239,12 @@ std::optional<InputFile> InputFiles::read(const std::string& path) {
 
 std::optional<InputFile> InputFiles::read_catalog(const std::string& path) {
   std::optional<InputFile> file = read(path);
-  if (file && file->document != nullptr && is_script(*file->document)) {
-    complain("{} is a script; expected a catalog here", quote(display_name(path)));
-    return std::nullopt;
-  }
-  return file;
+  if (!file || file->document == nullptr) return file;
+  const bool is_of_properties = is_property_file(*file->document);
+  if (!is_of_properties && !is_script(*file->document)) return file;
+  complain("{} is a {}; expected a catalog here", quote(display_name(path)),
+           is_of_properties ? "property file" : "script");
+  return std::nullopt;
 }
 
 bool InputFiles::take_findings(const std::string& path, const yaml::Document& document,
@@ -347,11 +358,11 @@ std::optional<CompiledFile> load(const CatalogInput& input) {
   return std::move(result.file);
 }
 
-std::optional<std::string> path_of_catalog(const std::string& script_path,
-                                           const yaml::Document& script) {
-  const std::optional<std::string> named = catalog_of_script(script);
+std::optional<std::string> path_of_catalog(const std::string& path,
+                                           const yaml::Document& document) {
+  const std::optional<std::string> named = catalog_of_script(document);
   if (!named) return std::nullopt;
-  const std::filesystem::path folder = std::filesystem::path(script_path).parent_path();
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   return (folder / *named).lexically_normal().string();
 }
 

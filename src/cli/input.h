@@ -26,6 +26,8 @@ namespace cbc::cli {
 
 [[nodiscard]] bool is_catalog(const yaml::Document& document);
 [[nodiscard]] bool is_script(const yaml::Document& document);
+/// Whether it is a property file: it has the key `properties` or `assume`.
+[[nodiscard]] bool is_property_file(const yaml::Document& document);
 
 /// Whether it is a script, or would be one but for a misspelt key.
 [[nodiscard]] bool looks_like_script(const yaml::Document& document);
@@ -97,7 +99,7 @@ class InputFiles {
   /// Empty if the file cannot be read, which is reported, or is not valid YAML, which is a finding.
   [[nodiscard]] std::optional<InputFile> read(const std::string& path);
 
-  /// The same for a file that has to be a catalog: a script is reported.
+  /// The same for a file that has to be a catalog: a script or a property file is reported.
   [[nodiscard]] std::optional<InputFile> read_catalog(const std::string& path);
 
   /// The text of a YAML file.
@@ -168,10 +170,10 @@ class CatalogLoader {
 /// Loads the only catalog of a command line. Null if it cannot be used; the reason is printed.
 [[nodiscard]] std::shared_ptr<const CompiledCatalog> load_catalog(const std::string& path);
 
-/// The path of the catalog that a script at this path names (catalog: FILE). Empty if it names
-/// none.
-[[nodiscard]] std::optional<std::string> path_of_catalog(const std::string& script_path,
-                                                         const yaml::Document& script);
+/// The path of the catalog that a script or property file at this path names (catalog: FILE). Empty
+/// if it names none.
+[[nodiscard]] std::optional<std::string> path_of_catalog(const std::string& path,
+                                                         const yaml::Document& document);
 
 /// The drawable part of a catalog, and its source.
 struct Drawable {

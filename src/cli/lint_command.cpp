@@ -30,6 +30,7 @@
 #include "report/lint_report.h"
 #include "script/reader.h"
 #include "support/wording.h"
+#include "verify/property_reader.h"
 #include "yaml/document.h"
 
 namespace cbc::cli {
@@ -59,11 +60,12 @@ class Linter {
         unlinted_(InputFiles::Findings::dropped, settings),
         settings_(std::move(settings)) {}
 
-  /// A catalog, or an event script that names its catalog.
+  /// A catalog; or an event script or a property file that names its catalog.
   void lint_catalog(const std::string& path);
   /// Lints a file of a folder if it is a catalog. Returns whether it is one.
   bool lint_if_catalog(const std::string& path);
-  /// `catalog`: path of the catalog that it runs on; if empty, the one that the script names.
+  /// An event script or a property file. `catalog`: path of its catalog; if empty, the one that the
+  /// file names.
   void lint_script(const std::string& path, const std::string& catalog);
   /// Checks the settings by what the catalogs are that they apply to. Comes last.
   void check_settings();
@@ -84,7 +86,7 @@ class Linter {
     LintedFile file;
     Catalog catalog;
     std::size_t errors = 0;  ///< whatever the settings say
-    bool is_script = false;
+    bool is_script = false;  ///< or a property file
     std::shared_ptr<const CompiledCatalog>
         compiled;  ///< null if scripts cannot be checked against it
   };
@@ -94,7 +96,7 @@ class Linter {
   void fix(const std::string& path, Linted& linted, const SeveritySettings& settings);
   [[nodiscard]] static bool write_fixed(const std::string& path, const std::string& before,
                                         const std::string& after);
-  [[nodiscard]] std::shared_ptr<const CompiledCatalog> catalog_of(const yaml::Document& script,
+  [[nodiscard]] std::shared_ptr<const CompiledCatalog> catalog_of(const yaml::Document& document,
                                                                   const std::string& given);
   void lint_script_text(const std::string& path, std::string text, const std::string& catalog);
   void lint_catalog_text(const std::string& path, std::string text);
@@ -124,7 +126,7 @@ class Linter {
 };
 
 void complain_of_catalog(const std::string& name) {
-  complain("{} is a catalog; expected an event script", quote(name));
+  complain("{} is a catalog; expected an event script or a property file", quote(name));
 }
 
 void Linter::lint_catalog(const std::string& path) {
@@ -203,7 +205,7 @@ Linter::Linted Linter::lint_text(const std::string& name, std::string text,
         control_findings(diagnostics.release(), {name, linted.file.text, nullptr, false}, settings);
     return linted;
   }
-  linted.is_script = is_script(*document);
+  linted.is_script = is_script(*document) || is_property_file(*document);
   if (linted.is_script) return linted;
   CheckedCatalog checked = check_catalog(*document, linted.file.text, settings,
                                          LintOptions{command_.max_nodes}, std::move(diagnostics));
@@ -296,10 +298,13 @@ void Linter::lint_script_text(const std::string& path, std::string text,
   if (document != nullptr) {
     const auto compiled = catalog_of(*document, catalog);
     if (compiled == nullptr) return;
-    const auto script = read_script(*document, *compiled, Severity::error, diagnostics);
-    // Findings that may be allowed do not make a script incomplete.
+    const bool is_usable =
+        is_property_file(*document)
+            ? read_properties(*document, *compiled, diagnostics).has_value()
+            : read_script(*document, *compiled, Severity::error, diagnostics).has_value();
+    // Findings that may be allowed do not make a file incomplete.
     commented.is_complete =
-        script || std::none_of(diagnostics.all().begin(), diagnostics.all().end(), is_fixed);
+        is_usable || std::none_of(diagnostics.all().begin(), diagnostics.all().end(), is_fixed);
   }
   if (!settings) {
     has_failed_ = true;
@@ -309,16 +314,18 @@ void Linter::lint_script_text(const std::string& path, std::string text,
   add(std::move(file), *settings);
 }
 
-/// The catalog that a script runs on. Null, after a message, if none can be used.
-std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& script,
+/// The catalog of a script or a property file. Null, after a message, if none can be used.
+std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& document,
                                                           const std::string& given) {
+  const bool is_of_properties = is_property_file(document);
   const std::string catalog =
-      given.empty() ? path_of_catalog(script.file(), script).value_or("") : given;
+      given.empty() ? path_of_catalog(document.file(), document).value_or("") : given;
   if (catalog.empty()) {
     complain(
-        "{} is an event script that names no catalog; give one: "
+        "{} is {} that names no catalog; give one: "
         "cbc lint --script {} CATALOG",
-        quote(script.file()), printable(script.file()));
+        quote(document.file()), is_of_properties ? "a property file" : "an event script",
+        printable(document.file()));
     has_failed_ = true;
     return nullptr;
   }
@@ -326,9 +333,9 @@ std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& 
   std::shared_ptr<const CompiledCatalog> compiled = catalogs_.load(catalog);
   if (compiled == nullptr) {
     complain(
-        "script {} is not checked, as its catalog {} cannot be used; "
+        "{} {} is not checked, as its catalog {} cannot be used; "
         "'cbc lint' says why",
-        quote(script.file()), quote(catalog));
+        is_of_properties ? "property file" : "script", quote(document.file()), quote(catalog));
     // If it was linted, its errors are findings.
     if (!is_linted) has_failed_ = true;
   }
@@ -413,7 +420,7 @@ int explain_rule(const std::string& name) {
 /// Says what is wrong with the choice of files; empty if nothing is.
 std::string find_misuse(const LintCommand& command) {
   if (command.paths.empty() && command.scripts.empty())
-    return "expected a catalog, or an event script that names one";
+    return "expected a catalog, or an event script or property file that names one";
   if (!command.scripts.empty() &&
       (command.paths.size() > 1 || (command.paths.size() == 1 && is_folder(command.paths[0])))) {
     return "--script checks against one catalog, but several are given";
@@ -488,7 +495,8 @@ bool lint_all(const LintCommand& command, Linter& linter) {
   for (const std::string& path : command.paths) {
     if (!is_folder(path) || folders_with_catalogs.contains(path)) continue;
     complain("found no catalog in {}{}", quote(path),
-             folders_with_files.contains(path) ? "; to check an event script, name the file itself"
+             folders_with_files.contains(path) ? "; to check an event script or a property "
+                                                 "file, name the file itself"
                                                : "");
     has_failed = true;
   }
@@ -554,10 +562,11 @@ void add_lint_command(Program& program) {
                            lint_footer});
   command.argument("CATALOG", options->paths, input("...", ValueKind::catalog),
                    "Catalogs: files, folders (all *.yaml and *.yml in them that look like "
-                   "catalogs), or - for standard input; also event scripts that name their "
-                   "catalogs");
+                   "catalogs), or - for standard input; also event scripts and property files that "
+                   "name their catalogs");
   command.option("--script", options->scripts, input("FILE", ValueKind::script),
-                 "Also check this event script against the catalog. May be repeated");
+                 "Also check this event script or property file against the catalog. May be "
+                 "repeated");
   command.option("--format", options->format, one_of("FORMAT", formats),
                  fmt::format("{} (default: {})", join_with_or(formats), formats.front()));
   command

@@ -27,7 +27,8 @@ std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::s
   std::size_t first_script = 0;
   if (!is_folder(paths.front())) {
     const std::optional<InputFile> first = files_.read(paths.front());
-    if (first && first->document != nullptr && is_script(*first->document)) {
+    if (first && first->document != nullptr &&
+        (is_script(*first->document) || is_property_file(*first->document))) {
       add_script(paths.front(), *first->document);
     } else {
       if (first) given_catalog_ = catalogs_.load(*first);
@@ -86,6 +87,11 @@ void MissionLoader::complain_of_catalog(const std::string& path) {
 void MissionLoader::add_script(const std::string& path, const yaml::Document& document) {
   if (is_catalog(document)) {
     complain_of_catalog(path);
+    return;
+  }
+  if (is_property_file(document)) {
+    complain("{} is a property file; expected a script here", quote(display_name(path)));
+    has_failed_ = true;
     return;
   }
   std::shared_ptr<const CompiledCatalog> catalog = catalog_of(path, document);

@@ -62,7 +62,8 @@ async function checkGallery() {
   const files = fs.readdirSync(folder).filter((file) => file.endsWith('.yaml'));
   assert.ok(files.length > 1);
   for (const file of files) {
-    const schema = file.endsWith('.mission.yaml') ? 'script' : 'catalog';
+    const schemas = {mission: 'script', properties: 'properties'};
+    const schema = schemas[file.split('.').at(-2)] ?? 'catalog';
     const modeline = `# yaml-language-server: $schema=../schemas/${schema}.json\n`;
     assert.ok(read(file).startsWith(modeline), file);
     assert.deepStrictEqual(await diagnostics(edit(file, read(file))), [], file);
@@ -83,6 +84,9 @@ async function checkMistakes() {
   const priority = '  priority: 1\n  at: 0\n';
   await expectMistake(script, priority, '  prio: 1\n  at: 0\n', 'Property prio is not allowed.');
   await expectMistake(script, '  at: 0\n', '  at: zero\n', 'Expected one of number, null.');
+  const properties = 'target-following.properties.yaml';
+  const kind = '- can_start: ApproachTarget\n';
+  await expectMistake(properties, kind, `${kind}  prioriti: 1\n`, 'Property prioriti is not allowed.');
 }
 
 /** Where the text ends before a mark, as the language server counts. */

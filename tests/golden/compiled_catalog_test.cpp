@@ -78,7 +78,8 @@ TEST_F(CompiledCatalog, GivesSolveNoScript) {
   EXPECT_EQ(result.err, "");
   expect_result(cbc({"lint", "--script", "missions/robot.yaml", "robot.yaml"}), 2,
                 "no findings in 1 file\n",
-                "cbc: 'missions/robot.yaml' is a catalog; expected an event script\n");
+                "cbc: 'missions/robot.yaml' is a catalog; expected an event script or a property "
+                "file\n");
 }
 
 TEST_F(CompiledCatalog, IsTrustedByNoCommandIfDamaged) {

@@ -13,6 +13,7 @@
 
 #include "cbc/version.h"
 #include "golden/process.h"
+#include "support/catalog_files.h"
 #include "support/read_file.h"
 
 namespace cbc::golden {
@@ -140,13 +141,11 @@ TEST_F(Terminal, IsNoPlaceForACompiledCatalog) {
   EXPECT_EQ(run(call).status, 0);
 }
 
-/// In the folder catalogs/: NAME.yaml, each with a NAME.mission.yaml.
+/// In the folder catalogs/: NAME.yaml, each with a NAME.mission.yaml and a NAME.properties.yaml.
 std::vector<std::string> names_of_published_catalogs() {
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(CBC_SOURCE_DIR "/catalogs")) {
-    const std::string file = entry.path().filename();
-    if (!file.ends_with(".yaml") || file.ends_with(".mission.yaml")) continue;
-    names.push_back(entry.path().stem());
+  for (const fs::path& file : test::catalog_files(CBC_SOURCE_DIR "/catalogs")) {
+    names.push_back(file.stem());
   }
   return names;
 }
@@ -164,6 +163,11 @@ TEST(PublishedCatalogs, HaveNoFindings) {
     call.arguments = {"lint", "--strict", "--script", path + ".mission.yaml", path + ".yaml"};
     result = run(call);
     EXPECT_EQ(result.out, "no findings in 2 files\n") << name;
+    // It names its catalog.
+    call.arguments = {"lint", "--strict", path + ".properties.yaml"};
+    result = run(call);
+    EXPECT_EQ(result.out, "no findings in 1 file\n") << name;
+    EXPECT_EQ(result.err, "") << name;
   }
 }
 

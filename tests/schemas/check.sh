@@ -1,6 +1,6 @@
 #!/bin/sh
 # check.sh FOLDER PROGRAM SAMPLES: validates the JSON of PROGRAM, and that of the golden cases, with the
-# schemas of the repository; then catalogs and scripts, good ones and bad ones, of the repository and
+# schemas of the repository; then catalogs, scripts and property files, good ones and bad ones, of the repository and
 # of the program SAMPLES (main.cpp). The packages come from npm, and go to FOLDER.
 #
 # Exit status: 0 valid, 1 not valid, 77 skipped: no Node.js, or no way to the packages.

@@ -1,5 +1,5 @@
-// check_inputs.js PROGRAM SAMPLES: validates catalogs and scripts with the schemas, and compares with
-// what lint finds in them; see check.sh.
+// check_inputs.js PROGRAM SAMPLES: validates catalogs, scripts and property files with the schemas, and
+// compares with what lint finds in them; see check.sh.
 //
 // A schema may refuse only what lint reports as an error, or an unknown key, which is a warning in a
 // catalog. And it has to refuse what breaks one of the rules below, except where a mistake is listed
@@ -87,14 +87,16 @@ function checkSamples() {
 }
 
 function checkFiles() {
-  const counts = {catalog: 0, script: 0, refused: 0};
+  const counts = {catalog: 0, script: 0, properties: 0, refused: 0};
   const broken = new Set();
   for (const {source, schema, text, findings} of filesOfRepository(root, linter)) {
     const reason = refusal(schema, text);
     if (reason && !mayBeRefused(findings)) {
       refuse(`${source} is refused (${reason}), but lint is content`);
     }
-    const rules = findings.map(([rule]) => rule).filter((rule) => expressible.has(rule));
+    const rules = findings
+      .filter(([rule, severity]) => expressible.has(rule) && severity !== 'note')
+      .map(([rule]) => rule);
     if (!reason && rules.length > 0 && !(source in unseen)) {
       refuse(`${source} is accepted, which breaks ${rules}`);
     }
@@ -102,7 +104,7 @@ function checkFiles() {
     ++counts[schema];
     if (reason) ++counts.refused;
   }
-  if (counts.catalog < 300 || counts.script < 100 || broken.size < expressible.size) {
+  if (counts.catalog < 300 || counts.script < 100 || counts.properties < 9 || broken.size < expressible.size) {
     refuse(`few files were found: ${JSON.stringify(counts)}, which break ${[...broken]}`);
   }
   return counts;
@@ -123,10 +125,13 @@ function checkEdges() {
     const catalogs = edges.catalog[list];
     const findings = linter.ofCatalogs(catalogs);
     catalogs.forEach((text, place) => checkEdge('catalog', text, findings[place], verdict));
-    for (const text of edges.script[list]) {
-      checkEdge('script', text, linter.ofScript(text, catalog), verdict);
+    for (const schema of ['script', 'properties']) {
+      for (const text of edges[schema][list]) {
+        checkEdge(schema, text, linter.ofScript(text, catalog), verdict);
+      }
+      count += edges[schema][list].length;
     }
-    count += catalogs.length + edges.script[list].length;
+    count += catalogs.length;
   }
   return count;
 }
@@ -135,6 +140,7 @@ const edgeCount = checkEdges();
 const made = checkSamples();
 const files = checkFiles();
 console.log(
-  `as lint has it: ${files.catalog} catalogs and ${files.script} scripts (${files.refused} refused), ` +
+  `as lint has it: ${files.catalog} catalogs, ${files.script} scripts and ${files.properties} property files ` +
+    `(${files.refused} refused), ` +
     `${made.samples} random catalogs (${made.refused} refused), ${edgeCount} around what is allowed`
 );

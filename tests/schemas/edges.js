@@ -1,4 +1,4 @@
-// Small catalogs and scripts around what is allowed. With `good` and `bad` lint and the schema agree;
+// Small catalogs, scripts and property files around what is allowed. With `good` and `bad` lint and the schema agree;
 // `unseen` is what lint reports and the schema lets pass, since YAML 1.2, JSON, or a single entry do not
 // show it.
 'use strict';
@@ -22,6 +22,9 @@ const task = (text) => `tasks: [{task: LOCALIZE, ${text}}]\nbehaviors: []`;
 const defaults = (text) => `default_values: ${text}\nbehaviors: []`;
 const lists = (text) => `exclusivity_constraints: ${text}\nbehaviors: []`;
 const event = (text) => `[{start: HOVER}, {${text}}]`;
+const assume = (text) => `assume: {${text}}\nproperties: []`;
+const property = (text) => `properties: [{${text}}]`;
+const never = (text) => `properties: [{never: {${text}}}]`;
 
 const catalogs = {
   good: [
@@ -257,4 +260,83 @@ const scripts = {
   ],
 };
 
-module.exports = {catalog, edges: {catalog: catalogs, script: scripts}};
+const properties = {
+  good: [
+    'properties: []',
+    'properties: ~\nassume: ~\ninitially:\ncatalog: ~\nx-note: 1',
+    'assume: {}',
+    'catalog: 7\nassume: {x-why: because}\ninitially: {GPS: no, HOVER_WITH_MPC: ~}',
+    assume('start: [HOVER], stop: [], situation: [GPS], never: [{GPS: false}]'),
+    assume('start: {HOVER: [2, 1], LOCALIZE: 3}, successes: No, failures: true, faults: 2'),
+    assume('start: ~, stop: ~, successes: ~, failures: ~, faults: ~, situation: ~, never: ~'),
+    assume('start: {}, never: []'),
+    property('can_start: HOVER'),
+    property('can_start: HOVER, priority: 2147483647, name: 7, x-why: because'),
+    property('can_start: HOVER, priority: ~, when: ~, settled: ~, always: ~'),
+    property('always: {stopped: [HOVER]}, when: {active: [GPS], faulty: []}, settled: yes'),
+    property('reachable: {available: [GPS], situation: {GPS: on}}, settled: false'),
+    never('running: [HOVER, LOCALIZE]'),
+    never('running: {HOVER: any, LOCALIZE: GPS}'),
+    never('requested: {HOVER: 0}, stopped: ~'),
+  ],
+  bad: [
+    'assume: 1',
+    'assume: []',
+    'properties: {can_start: HOVER}',
+    'properties: [HOVER]',
+    'properties: [~]',
+    'properties: [{}]',
+    'properties: []\nevents: []',
+    'properties: []\ncatalog: ""',
+    'properties: []\ninitially: [GPS]',
+    assume('strt: [HOVER]'),
+    assume('start: HOVER'),
+    assume('start: [HOVER, HOVER]'),
+    assume('start: {HOVER: []}'),
+    assume('start: {HOVER: ~}'),
+    assume('start: {HOVER: 0}'),
+    assume('start: {HOVER: [1, 1]}'),
+    assume('start: {HOVER: ["1"]}'),
+    assume('stop: {HOVER: 1}'),
+    assume('successes: 1'),
+    assume('faults: -1'),
+    assume('faults: 0.5'),
+    assume('situation: {GPS: true}'),
+    assume('never: {GPS: false}'),
+    assume('never: [{}]'),
+    assume('never: [~]'),
+    property('name: x'),
+    property('can_start: ~'),
+    property('can_start: [HOVER]'),
+    property('can_start: HOVER, never: {running: [HOVER]}'),
+    property('can_start: HOVER, priority: 0'),
+    property('can_start: HOVER, settled: true'),
+    property('can_start: HOVER, when: {running: [HOVER]}'),
+    property('never: {running: [HOVER]}, priority: 1'),
+    property('reachable: {running: [HOVER]}, when: {running: [HOVER]}'),
+    property('always: {running: [HOVER]}, settled: maybe'),
+    property('name: [x], can_start: HOVER'),
+    never(''),
+    never('outcome: accepted'),
+    never('running: HOVER'),
+    never('running: {HOVER: ~}'),
+    never('running: [HOVER, HOVER]'),
+    never('stopped: {HOVER: any}'),
+    never('active: GPS'),
+    never('faulty: [~]'),
+    never('requested: [HOVER]'),
+    never('requested: {HOVER: -1}'),
+    never('requested: {HOVER: ~}'),
+    never('situation: {GPS: [no]}'),
+  ],
+  unseen: [
+    property('can_start: LAND'), // not defined
+    never('running: []'), // says nothing
+    never('running: ~'),
+    never('running: [HOVER], stopped: [HOVER]'), // contradicts itself
+    assume('never: [{GPS: true}]'), // so it is at the beginning
+    assume('never: [{GPS: ~}]'),
+  ],
+};
+
+module.exports = {catalog, edges: {catalog: catalogs, properties, script: scripts}};

@@ -1,4 +1,4 @@
-// The catalogs and scripts of the repository, with what lint finds in them.
+// The catalogs, scripts and property files of the repository, with what lint finds in them.
 'use strict';
 
 const fs = require('fs');
@@ -6,6 +6,7 @@ const path = require('path');
 const {readYaml} = require('./yaml');
 
 const catalogKeys = ['behaviors', 'tasks', 'exclusivity_constraints', 'default_values'];
+const propertyKeys = ['properties', 'assume'];
 const scriptKeys = ['events', 'reactive_delay', 'situation', 'catalog'];
 
 /** The schema that a text is for, told by its content, or by its name if it is not YAML. */
@@ -15,6 +16,7 @@ function schemaOf(file, text) {
   if (document !== null && typeof document === 'object') {
     if (Array.isArray(document)) return 'script';
     if (has(catalogKeys)) return 'catalog';
+    if (has(propertyKeys)) return 'properties';
     if (has(scriptKeys)) return 'script';
   }
   return /script|mission/.test(path.basename(file)) ? 'script' : 'catalog';
@@ -30,12 +32,12 @@ function filesIn(folder, ...suffixes) {
     .sort();
 }
 
-/** The catalog that a script is for, if it can be told. */
+/** The catalog that a script or a property file is for, if it can be told. */
 function catalogOf(file, text) {
   const folder = path.dirname(file);
   const names = [
     readYaml(text).document?.catalog,
-    path.basename(file).replace('.mission.yaml', '.yaml'),
+    path.basename(file).replace(/\.(mission|properties)\.yaml$/, '.yaml'),
     'catalog.yaml',
   ];
   const found = names
@@ -50,7 +52,7 @@ function isUtf8(file) {
   return Buffer.from(bytes.toString('utf8')).equals(bytes);
 }
 
-/** Those in the folders with catalogs and scripts. */
+/** Those in the folders with catalogs, scripts and property files. */
 function* yamlFiles(root) {
   for (const folder of ['catalogs', 'tests/golden', 'tests/browser']) {
     for (const file of filesIn(path.join(root, folder), '.yaml', '.yml').filter(isUtf8)) {
@@ -96,7 +98,7 @@ function filesOfRepository(root, linter) {
   const catalogs = items.filter((item) => item.schema === 'catalog');
   const findings = linter.ofCatalogs(catalogs.map((item) => item.text));
   catalogs.forEach((item, place) => (item.findings = findings[place]));
-  for (const item of items.filter(({schema, catalog}) => schema === 'script' && catalog)) {
+  for (const item of items.filter(({schema, catalog}) => schema !== 'catalog' && catalog)) {
     item.findings = linter.ofScript(item.text, item.catalog);
   }
   return [...items.filter((item) => item.findings !== undefined), ...excerpts(root)];

@@ -59,7 +59,7 @@ class Linter {
     });
   }
 
-  /** The same for a script; nothing if there is no good catalog for it. */
+  /** The same for a script or a property file; nothing if there is no good catalog for it. */
   ofScript(text, catalog) {
     return this.withFiles([text, catalog], ([script, file]) =>
       findingsIn(this.run('--format', 'json', '--script', script, file)).get(script)

@@ -6,7 +6,7 @@ const fs = require('fs');
 const path = require('path');
 
 /** What cbc reads; all others are of what it writes. */
-const inputs = new Set(['catalog', 'script', 'settings']);
+const inputs = new Set(['catalog', 'properties', 'script', 'settings']);
 
 /** All schemas, by name. */
 function readSchemas(root) {

@@ -23,6 +23,7 @@
 #include "script/script.h"
 #include "support/read_file.h"
 #include "sweep/sequence.h"
+#include "verify/property_reader.h"
 #include "yaml/values.h"
 
 namespace cbc {
@@ -208,6 +209,14 @@ TEST(SchemaWords, OfScripts) {
             or_none(names_up_to(FinishCause::interrupted)));
   EXPECT_EQ(words_at(script, "/$defs/expectation/properties/outcome"),
             or_none(names_up_to(Outcome::unchanged)));
+}
+
+TEST(SchemaWords, OfPropertyFiles) {
+  const Json properties = schema("properties");
+  expect_keys(properties, "", shape::property_file);
+  expect_keys(properties, "/$defs/assumptions", shape::assumptions);
+  expect_keys(properties, "/$defs/property", shape::property);
+  expect_keys(properties, "/$defs/condition", shape::condition);
 }
 
 }  // namespace

@@ -51,9 +51,9 @@ const Rule unknown_key = {
         "without what it needs. The message gives the key that is probably meant, or the level of "
         "the file at which the key belongs.\n\n"
         "In a catalog it is an error if a known key is probably meant, and a warning otherwise. In "
-        "an event script it is an error that settings cannot change. Keys that begin with 'x-' are "
-        "the user's own, and are ignored. If a required key is "
-        "misspelled, the finding is missing-key.",
+        "an event script or a property file it is an error that settings cannot change. Keys that "
+        "begin with 'x-' are the user's own, and are ignored. If a required key is misspelled, the "
+        "finding is missing-key.",
     .example = R"(behaviors:
 - behavior: HOVER_WITH_PID
   task: HOVER
@@ -82,7 +82,9 @@ const Rule missing_key = {
         "A catalog must have 'behaviors'; a behavior its name, 'behavior', and 'task' or 'tasks'; "
         "a task, a requirement and each task of a behavior 'task'; a parameter 'parameter'; an "
         "exclusivity constraint 'mutually_exclusive'. A script must have 'events', unless it is "
-        "just a list of events, and an event must have a verb or a time.\n\n"
+        "just a list of events, and an event must have a verb or a time. A property must have a "
+        "kind, such as 'can_start', and a condition at least one part; without 'properties' a "
+        "property file has nothing but assumptions, which is a note.\n\n"
         "A key with a null value counts as absent. A key that resembles the missing one is taken "
         "in its place, so that the rest can be checked; the message then names both. Since a "
         "missing value cannot be guessed, such a file is neither compiled nor solved.",
@@ -194,7 +196,8 @@ const Rule invalid_value = {
         "keep_running. A name is not empty, and a behavior performs at least one task, each of "
         "them once. In a script, an event has one verb and not both 'at' and 'wait', a priority is "
         "an integer, at least 1 for a start and 0 for a stop, and causes and outcomes are known "
-        "words.\n\n"
+        "words. In a property file, a property is of one kind, a list has each name once, and "
+        "'never' of 'assume' excludes neither every situation nor the one at the beginning.\n\n"
         "A value is never rounded or cut to an allowed one, since the file would then mean "
         "something that nobody wrote: it is neither compiled nor solved.",
     .example = R"(behaviors:
@@ -330,12 +333,12 @@ const Rule undefined_behavior = {
     .severity = Severity::error,
     .is_fixed = true,
     .is_of_scripts = true,
-    .summary = "A script names a behavior that the catalog does not have.",
+    .summary = "A script or a property file names a behavior that the catalog does not have.",
     .explanation =
         "finish, fault and repair, the keys of situation, and the expectations about running and "
-        "active behaviors name behaviors. Without such a behavior the event has no meaning, so the "
-        "script is not run. The message gives the nearest known name, and says so if there is a "
-        "task of this name.",
+        "active behaviors name behaviors, and so do the conditions of property files. Without such "
+        "a behavior the event or the condition has no meaning, so the file is not used. The "
+        "message gives the nearest known name, and says so if there is a task of this name.",
     .example = R"(events:
 - start: ROTATE
 - finish: GSP
@@ -454,10 +457,16 @@ const Rule impossible_expectation = {
     .name = "impossible-expectation",
     .severity = Severity::warning,
     .is_of_scripts = true,
-    .summary = "A script expects something that can never hold.",
+    .summary = "A script or a property file names a state that can never be.",
     .explanation =
         "A behavior is expected to run a task that it does not perform, or a task is expected both "
-        "to run and to be stopped. Whatever happens before, this expectation fails.",
+        "to run and to be stopped. Whatever happens before, the expectation of a script fails.\n\n"
+        "In a condition of a property file such a contradiction is an error, which settings cannot "
+        "change: 'never' with that condition would be proved, and say nothing. It is a warning if "
+        "the catalog rules the condition out, as with two tasks that exclude each other or a "
+        "behavior that does not fit the situation, or if the assumptions do, as with a faulty "
+        "behavior where 'faults' is 0. Under 'never' it is a note, since that is what the property "
+        "says.",
     .example = R"(events:
 - start: ROTATE
 - expect: {running: {ROTATE: GPS}}

@@ -44,8 +44,9 @@ const Rule situation_value = {
     .is_fixed = true,
     .summary = "A situation variable has no such value, or its values cannot be told apart.",
     .explanation =
-        "A variable has two values or more, each once. A behavior, or an event, names one of them "
-        "(a behavior also a list of some). Values are texts as they are written: 'on' is not true, "
+        "A variable has two values or more, each once. A behavior, an event or a condition names "
+        "one of them (a behavior also a list of some). Values are texts as they are written: 'on' "
+        "is not true, "
         "and 1.0 is not 1. Only a variable that is declared without values is true or false.\n\n"
         "A behavior with an empty list of values would never fit.",
     .example = R"(behaviors:
@@ -75,7 +76,8 @@ const Rule undeclared_situation = {
     .name = "undeclared-situation",
     .severity = Severity::error,
     .is_fixed = true,
-    .summary = "A behavior, or an event, names a situation variable that is not declared.",
+    .summary =
+        "A behavior, an event or a property file names a situation variable that is not declared.",
     .explanation =
         "Situation variables are declared in the section 'situation' of the catalog, with their "
         "values. Without a declaration it is not known what the initial value is, and a "

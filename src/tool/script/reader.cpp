@@ -5,16 +5,16 @@
 #include <cstdint>
 #include <iterator>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "base/text.h"
-#include "catalog/situation.h"
 #include "cbc/event.h"
 #include "coordinator/record.h"
 #include "diagnostic/diagnostic.h"
 #include "diagnostic/rules.h"
+#include "script/expectation.h"
+#include "script/names.h"
 #include "script/script.h"
 #include "yaml/values.h"
 
@@ -51,193 +51,9 @@ const Shape finished_task{"a finish", finished_task_keys, &event};
 namespace cbc {
 namespace {
 
-Suggestions& suggestions_from(const Texts& names, std::optional<Suggestions>& made) {
-  if (!made) {
-    std::vector<std::string_view> all;
-    all.reserve(names.size());
-    // NOLINTNEXTLINE(modernize-loop-convert): these texts have no iterators
-    for (std::size_t place = 0; place < names.size(); ++place) all.push_back(names[place]);
-    made.emplace(std::move(all));
-  }
-  return *made;
-}
-
-// The name is unknown as a `kind`, but may be known as another.
-std::string describe_unknown(std::string_view name, std::string_view kind, bool is_other,
-                             std::string_view other, Suggestions& suggestions,
-                             const yaml::Node* beside) {
-  std::string message = "there is no " + std::string(kind) + " " + quote(name);
-  if (is_other) message += ": it is a " + std::string(other);
-  const auto is_taken = [beside](std::string_view known) {
-    return beside != nullptr && yaml::stands_in(*beside, known);
-  };
-  message += did_you_mean(suggestions.nearest(name, is_taken));
-  return message;
-}
-
-}  // namespace
-
-std::optional<std::uint32_t> NameIndex::find_task(const yaml::Node& node, std::string_view what,
-                                                  Reporter& reporter, const yaml::Node* beside) {
-  const auto name = yaml::read_name(node, what, "the name of a task", reporter);
-  if (!name) return std::nullopt;
-  const auto found = catalog_.find_task(*name);
-  if (!found) {
-    reporter.report(
-        rule::undefined_task, node.range,
-        describe_unknown(*name, "task", catalog_.find_behavior(*name).has_value(), "behavior",
-                         suggestions_from(catalog_.task_names, tasks_), beside));
-  }
-  return found;
-}
-
-std::optional<std::uint32_t> NameIndex::find_behavior(const yaml::Node& node, std::string_view what,
-                                                      Reporter& reporter,
-                                                      const yaml::Node* beside) {
-  const auto name = yaml::read_name(node, what, "the name of a behavior", reporter);
-  if (!name) return std::nullopt;
-  const auto found = catalog_.find_behavior(*name);
-  if (found) return found;
-  const bool is_task = catalog_.find_task(*name).has_value();
-  std::string message =
-      is_task && what == cbc::name_of(Verb::finish)
-          ? concat("there is no behavior ", quote(*name), ": it is a task; write ",
-                   quote(concat("finish: {task: ", *name, "}")),
-                   " for the behavior that performs it")
-          : describe_unknown(*name, "behavior", is_task, "task",
-                             suggestions_from(catalog_.behavior_names, behaviors_), beside);
-  reporter.report(rule::undefined_behavior, node.range, std::move(message));
-  return std::nullopt;
-}
-
-std::optional<NameIndex::Part> NameIndex::find_part(const yaml::Node& node, Reporter& reporter,
-                                                    const yaml::Node* beside) {
-  const auto name =
-      yaml::read_name(node, "situation", "the name of a behavior or a variable", reporter);
-  if (!name) return std::nullopt;
-  if (const auto variable = catalog_.find_variable(*name)) return Part{true, *variable};
-  if (const auto behavior = catalog_.find_behavior(*name)) return Part{false, *behavior};
-  if (!parts_) {
-    std::vector<std::string_view> names;
-    for (const std::string_view behavior : catalog_.behavior_names) names.push_back(behavior);
-    for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
-      names.push_back(catalog_.name_of_variable(variable));
-    }
-    parts_.emplace(std::move(names));
-  }
-  const bool has_variables = !catalog_.variables.empty();
-  reporter.report(
-      has_variables ? rule::undeclared_situation : rule::undefined_behavior, node.range,
-      describe_unknown(*name, has_variables ? "behavior or situation variable" : "behavior",
-                       catalog_.find_task(*name).has_value(), "task", *parts_, beside));
-  return std::nullopt;
-}
-
-namespace {
-
 using yaml::Fields;
 using yaml::Kind;
 using yaml::Node;
-
-template <typename Enum>
-std::optional<Enum> read_word(const Node& node, std::string_view what, Reporter& reporter) {
-  const auto place = yaml::read_choice(node, what, words_of<Enum>(), reporter);
-  return place ? std::optional(static_cast<Enum>(*place)) : std::nullopt;
-}
-
-class ExpectationReader {
- public:
-  ExpectationReader(NameIndex& names, Reporter& reporter) : names_(names), reporter_(reporter) {}
-
-  Expectation read(const Node& node) && {
-    if (yaml::read_mapping(node, "expect", "a mapping", reporter_) == nullptr) return {};
-    yaml::Fields fields(node, shape::expectation, reporter_);
-    if (const Node* outcome = fields.find("outcome")) read_outcome(*outcome);
-    if (const Node* running = fields.find("running")) read_running(*running);
-    if (const Node* stopped = fields.find("stopped")) read_stopped(*stopped);
-    if (const Node* active = fields.find("active")) read_active(*active);
-    fields.report_unknown(yaml::UnknownKeys::refused);
-    return std::move(out_);
-  }
-
- private:
-  void read_outcome(const Node& node) {
-    out_.outcome = read_word<Outcome>(node, "outcome", reporter_);
-  }
-
-  void read_running(const Node& node) {
-    if (yaml::read_mapping(node, "running", "a mapping of tasks to behaviors or 'any'",
-                           reporter_) == nullptr) {
-      return;
-    }
-    yaml::report_duplicate_keys(node, reporter_);
-    for (const auto& [key, value] : node.entries) {
-      Expectation::Running entry;
-      const auto task = names_.find_task(*key, "running", reporter_, &node);
-      if (value->kind != Kind::scalar) {
-        yaml::report_wrong_type(*value, key->text, "a behavior or 'any'", reporter_);
-      } else if (value->text != "any") {
-        entry.behavior = names_.find_behavior(*value, key->text, reporter_);
-      }
-      if (task) running_at_.try_emplace(*task, key->range);
-      if (task && entry.behavior) check_performs(*entry.behavior, *task, value->range);
-      entry.task = task.value_or(0);
-      out_.running.push_back(entry);
-    }
-  }
-
-  void check_performs(std::uint32_t behavior, std::uint32_t task, const Range& range) {
-    const CompiledCatalog& catalog = names_.catalog();
-    std::vector<std::uint32_t> performed;
-    for (const ValueId value : catalog.performs[catalog.behavior_ids[behavior]]) {
-      performed.push_back(catalog.tasks[catalog.task_of(value)].catalog_index);
-    }
-    if (std::find(performed.begin(), performed.end(), task) != performed.end()) return;
-    const std::uint32_t first = *std::min_element(performed.begin(), performed.end());
-    std::string performs = quote(catalog.task_names[first]);
-    if (performed.size() > 1) performs += " and " + std::to_string(performed.size() - 1) + " more";
-    reporter_.report(rule::impossible_expectation, range,
-                     "this can never hold: behavior " + quote(catalog.behavior_names[behavior]) +
-                         " does not perform task " + quote(catalog.task_names[task]) +
-                         ", it performs " + performs);
-  }
-
-  void read_stopped(const Node& node) {
-    if (yaml::read_list(node, "stopped", "a list of tasks", reporter_) == nullptr) return;
-    for (const Node* item : node.items) {
-      const auto task = names_.find_task(*item, "stopped", reporter_, &node);
-      out_.stopped.push_back(task.value_or(0));
-      if (!task) continue;
-      const auto running = running_at_.find(*task);
-      if (running == running_at_.end()) continue;
-      reporter_.report(
-          rule::impossible_expectation, item->range,
-          "this can never hold: task " + quote(item->text) + " is also expected to run",
-          {reporter_.note(running->second, "expected to run here")});
-    }
-  }
-
-  void read_active(const Node& node) {
-    if (yaml::read_list(node, "active", "a list of behaviors", reporter_) == nullptr) return;
-    auto& behaviors = out_.active.emplace();
-    for (const Node* item : node.items) {
-      behaviors.push_back(names_.find_behavior(*item, "active", reporter_, &node).value_or(0));
-    }
-  }
-
-  NameIndex& names_;
-  Reporter& reporter_;
-  Expectation out_;
-  std::unordered_map<std::uint32_t, Range> running_at_;  ///< by task
-};
-
-}  // namespace
-
-Expectation read_expectation(const Node& node, NameIndex& names, Reporter& reporter) {
-  return ExpectationReader(names, reporter).read(node);
-}
-
-namespace {
 
 constexpr std::string_view expect = "expect";
 
@@ -284,32 +100,15 @@ void report_misplaced(const Fields& fields, std::string_view verb, Reporter& rep
 
 // The verb of an entry; "wait" if it only has a time; empty after an error.
 std::string_view find_verb(const Fields& fields, const Range& range, Reporter& reporter) {
-  std::vector<std::string_view> found;
-  std::string_view without_value;
-  const auto look_for = [&](std::string_view verb) {
-    if (fields.find(verb) != nullptr) {
-      found.push_back(verb);
-    } else if (fields.has(verb)) {
-      without_value = verb;
-    }
-  };
+  std::vector<std::string_view> verbs;
   for (const VerbForm& form : verb_forms) {
-    if (form.subject != VerbForm::SubjectKind::nothing) look_for(form.name);
+    if (form.subject != VerbForm::SubjectKind::nothing) verbs.push_back(form.name);
   }
-  look_for(expect);
-  if (found.size() == 1) return found.front();
-  if (found.size() > 1) {
-    std::sort(found.begin(), found.end(), [&fields](std::string_view a, std::string_view b) {
-      return fields.range_of(a) < fields.range_of(b);
-    });
-    reporter.report(
-        rule::invalid_value, fields.range_of(found[1]),
-        "an event must have exactly one verb, found " + quote(found[0]) + " and " + quote(found[1]),
-        {reporter.note(fields.range_of(found[0]), "the first one is here")});
-  } else if (!without_value.empty()) {
-    reporter.report(rule::missing_key, fields.range_of(without_value),
-                    quote(without_value) + " has no value");
-  } else if (fields.has_unknown()) {
+  verbs.push_back(expect);
+  const yaml::ChosenKey chosen =
+      yaml::choose_key(fields, verbs, "an event must have exactly one verb", reporter);
+  if (!chosen.name.empty() || chosen.is_reported) return chosen.name;
+  if (fields.has_unknown()) {
     // Probably a misspelt verb; it is reported as such.
   } else if (fields.find("at") != nullptr || fields.find("wait") != nullptr) {
     return name_of(Verb::wait);
@@ -455,51 +254,16 @@ void StepReader::check_finish(std::uint32_t behavior, const Range& range, Report
 }
 
 Situation StepReader::read_situation(const Node& node, Reporter& reporter) {
-  Situation situation;
-  constexpr std::string_view expected =
-      "a mapping of behaviors to true or false, or of situation variables to values";
-  if (yaml::read_mapping(node, "situation", expected, reporter) == nullptr) {
+  std::optional<Situation> situation = cbc::read_situation(node, names_, reporter);
+  if (!situation) {
     doubt_situation();
-    return situation;
+    return {};
   }
-  yaml::report_duplicate_keys(node, reporter);
-  for (const auto& [key, value] : node.entries) {
-    if (value->kind == Kind::null) continue;
-    const auto part = names_.find_part(*key, reporter, &node);
-    if (part && part->is_variable) {
-      read_value(part->place, *value, situation, reporter);
-      continue;
-    }
-    // The value of an unknown name may be one of a variable.
-    const bool is_behavior = part || names_.catalog().variables.empty();
-    const auto available =
-        is_behavior ? yaml::read_boolean(*value, key->text, reporter) : std::nullopt;
-    if (!part || !available) {
-      doubt_situation();
-      continue;
-    }
-    situation.availability.push_back({part->place, *available});
-    is_denied_[part->place] = !*available;
+  for (const Availability& entry : situation->availability) {
+    is_denied_[entry.behavior] = !entry.available;
   }
-  return situation;
-}
-
-void StepReader::read_value(std::uint32_t variable, const Node& node, Situation& situation,
-                            Reporter& reporter) {
-  const CompiledCatalog& catalog = names_.catalog();
-  const auto text = value_text(node, catalog.variables[variable].is_boolean != 0);
-  const auto value = text ? catalog.find_value(variable, *text) : std::nullopt;
-  if (value) {
-    situation.variables.push_back({variable, *value});
-    variables_[variable] = *value;
-    return;
-  }
-  doubt_situation();
-  std::vector<std::string_view> values;
-  for (std::uint32_t place = 0; place < catalog.variables[variable].value_count; ++place) {
-    values.push_back(catalog.name_of_value({variable, place}));
-  }
-  report_unknown_value(node, catalog.name_of_variable(variable), values, reporter);
+  for (const VariableValue value : situation->variables) variables_[value.variable] = value.value;
+  return std::move(*situation);
 }
 
 namespace {

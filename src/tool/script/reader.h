@@ -13,6 +13,7 @@
 #include "compiled/compiled_catalog.h"
 #include "coordinator/state.h"
 #include "diagnostic/diagnostic.h"
+#include "script/names.h"
 #include "script/script.h"
 #include "support/wording.h"
 #include "yaml/document.h"
@@ -21,41 +22,6 @@
 namespace cbc {
 
 // Event scripts: the reader of whole scripts, and the parts that streams and logs share with it.
-
-/// Finds the tasks and behaviors that a script names, by their places in the catalog, and reports
-/// unknown names.
-class NameIndex {
- public:
-  /// The catalog must outlive this object.
-  explicit NameIndex(const CompiledCatalog& catalog) : catalog_(catalog) {}
-
-  /// `what` is the key that the name is the value of. `beside`: the list or mapping that the name
-  /// stands in, whose other names are not suggested.
-  [[nodiscard]] std::optional<std::uint32_t> find_task(const yaml::Node& node,
-                                                       std::string_view what, Reporter& reporter,
-                                                       const yaml::Node* beside = nullptr);
-  [[nodiscard]] std::optional<std::uint32_t> find_behavior(const yaml::Node& node,
-                                                           std::string_view what,
-                                                           Reporter& reporter,
-                                                           const yaml::Node* beside = nullptr);
-
-  /// Of a situation: a behavior, or a variable.
-  struct Part {
-    bool is_variable = false;
-    std::uint32_t place = 0;
-  };
-  [[nodiscard]] std::optional<Part> find_part(const yaml::Node& node, Reporter& reporter,
-                                              const yaml::Node* beside);
-
-  [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
-
- private:
-  const CompiledCatalog& catalog_;
-  // Made when the first unknown name is met.
-  std::optional<Suggestions> tasks_;
-  std::optional<Suggestions> behaviors_;
-  std::optional<Suggestions> parts_;
-};
 
 /// Checks the parameters of starts against those that the tasks declare.
 class ParameterChecks {
@@ -136,8 +102,6 @@ class StepReader {
 
  private:
   void read_time(const yaml::Fields& fields, Step& step, Reporter& reporter);
-  void read_value(std::uint32_t variable, const yaml::Node& node, Situation& situation,
-                  Reporter& reporter);
   void check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter);
 
   Microseconds clock_ = 0;
@@ -149,12 +113,7 @@ class StepReader {
   bool knows_situation_ = true;
 };
 
-/// Reads the value of an `expect`, and warns of expectations that can never hold. Mistakes are
-/// reported; the result may be used only if there was no error.
-[[nodiscard]] Expectation read_expectation(const yaml::Node& node, NameIndex& names,
-                                           Reporter& reporter);
-
-/// The `catalog:` of a script (as written, relative to the script), if it names one.
+/// The `catalog:` of a script or a property file, as written, if it names one.
 [[nodiscard]] std::optional<std::string> catalog_of_script(const yaml::Document& document);
 
 /// Reads and checks a whole event script. Findings about parameters have the severity

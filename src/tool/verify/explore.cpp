@@ -9,19 +9,6 @@
 
 namespace cbc {
 
-Assumptions default_assumptions(const CompiledCatalog& catalog) {
-  Assumptions assumptions;
-  for (const TaskId task : catalog.task_ids) {
-    if (catalog.tasks[task].start_on_request == 0) continue;
-    assumptions.start.push_back({task, {1}});
-    assumptions.stop.push_back(task);
-  }
-  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
-    assumptions.variables.push_back(variable);
-  }
-  return assumptions;
-}
-
 namespace {
 
 using Number = StateStore::Number;
@@ -32,7 +19,7 @@ class StateTest {
  public:
   /// `of_any`: a variable that no behavior of the model names may have any of its values. True: the
   /// condition holds if it does for one of them; false: if it does for all.
-  StateTest(const Model& model, const Condition& condition, bool of_any);
+  StateTest(const Model& model, const StateCondition& condition, bool of_any);
 
   [[nodiscard]] bool holds(const Stepper& state) const;
 
@@ -42,7 +29,7 @@ class StateTest {
     std::uint32_t wanted = 0;
   };
 
-  void add_variables(const Model& model, const Condition& condition, bool of_any);
+  void add_variables(const Model& model, const StateCondition& condition, bool of_any);
 
   const Model& model_;
   bool is_false_ = false;
@@ -56,8 +43,9 @@ class StateTest {
   std::vector<Part> own_;  ///< behaviors and whether own(b) is true
 };
 
-StateTest::StateTest(const Model& model, const Condition& condition, bool of_any) : model_(model) {
-  for (const Condition::Running& running : condition.running) {
+StateTest::StateTest(const Model& model, const StateCondition& condition, bool of_any)
+    : model_(model) {
+  for (const StateCondition::Running& running : condition.running) {
     const std::uint32_t task = model.find_task(running.task);
     if (running.behavior == none) {
       values_.push_back({task, none});
@@ -79,7 +67,7 @@ StateTest::StateTest(const Model& model, const Condition& condition, bool of_any
   add_behaviors(condition.active, active_);
   add_behaviors(condition.faulty, faulty_);
   add_behaviors(condition.available, available_);
-  for (const Condition::Requested& requested : condition.requested) {
+  for (const StateCondition::Requested& requested : condition.requested) {
     const Model::Rank rank = model.rank_of(requested.priority);
     requested_.push_back({model.find_task(requested.task), rank + 1U});
   }
@@ -89,7 +77,7 @@ StateTest::StateTest(const Model& model, const Condition& condition, bool of_any
   add_variables(model, condition, of_any);
 }
 
-void StateTest::add_variables(const Model& model, const Condition& condition, bool of_any) {
+void StateTest::add_variables(const Model& model, const StateCondition& condition, bool of_any) {
   const Assumptions& assumptions = model.assumptions();
   for (const VariableValue& value : condition.situation.variables) {
     const std::uint32_t variable = model.find_variable(value.variable);

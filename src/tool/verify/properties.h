@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cbc/event.h"
@@ -24,7 +26,8 @@ struct SituationPart {
   std::vector<Own> behaviors;
 };
 
-/// The events that may happen, and the first state (docs/verify.md, "Moves").
+/// The events that may happen, and the first state (docs/verify.md, "Moves"). Lists are in catalog
+/// order.
 struct Assumptions {
   struct Start {
     TaskId task = 0;
@@ -45,8 +48,12 @@ struct Assumptions {
 /// priority 1 and stopped, all variables may change, nothing is faulty.
 [[nodiscard]] Assumptions default_assumptions(const CompiledCatalog& catalog);
 
+/// Of the first state: the value of a situation variable, and own(b) of a behavior.
+[[nodiscard]] std::uint32_t initial_value(const Assumptions& assumptions, std::uint32_t variable);
+[[nodiscard]] bool is_available_at_first(const Assumptions& assumptions, BehaviorId behavior);
+
 /// What a state satisfies: all parts together.
-struct Condition {
+struct StateCondition {
   struct Running {
     TaskId task = 0;
     BehaviorId behavior = none;  ///< none: any
@@ -77,10 +84,17 @@ struct Property {
   std::size_t line = 0;  ///< in the file
   TaskId task = none;    ///< of can_start
   std::int32_t priority = 1;
-  Condition condition;
-  std::optional<Condition> when;
+  StateCondition condition;
+  std::optional<StateCondition> when;
   bool settled = false;  ///< only states with nothing in the queue count
 };
+
+/// The keys of the kinds of properties, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 4> property_kinds = {"can_start", "always", "never",
+                                                                   "reachable"};
+[[nodiscard]] constexpr std::string_view name_of(Property::Kind kind) {
+  return property_kinds[static_cast<std::size_t>(kind)];
+}
 
 /// A property file.
 struct PropertyFile {

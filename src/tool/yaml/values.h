@@ -100,6 +100,17 @@ class Fields {
   bool has_own_ = false;  // a key that begins with "x-"
 };
 
+/// Which of some keys a mapping has.
+struct ChosenKey {
+  std::string_view name;     ///< empty: none of them, or several
+  bool is_reported = false;  ///< that there are several, or that one has no value
+};
+
+/// Finds the only one of some keys that has a value. `what` begins the message about several: "an
+/// event must have exactly one verb".
+[[nodiscard]] ChosenKey choose_key(const Fields& fields, std::span<const std::string_view> keys,
+                                   std::string_view what, Reporter& reporter);
+
 // Readers of values. Each reports a value that is not as expected, and then returns nothing; `what`
 // is the name of its key.
 

@@ -1,0 +1,489 @@
+#include "verify/property_reader.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+#include "diagnostic/diagnostic.h"
+#include "unit/compiled_fixture.h"
+#include "unit/findings.h"
+#include "verify/properties.h"
+#include "yaml/document.h"
+
+namespace cbc {
+namespace {
+
+// In groups the tasks stand as HOVER LAND LOCALIZE | TALK | BOTH, so that places and ids differ.
+const CompiledCatalog& catalog() {
+  static const CompiledCatalog catalog = test::compile_text(R"(
+tasks:
+- task: HOVER
+- task: TALK
+- task: LAND
+- {task: LOCALIZE, start_on_request: false, execution_goal: keep_running}
+- {task: SEE, start_on_request: false, execution_goal: keep_running}
+- {task: LOOK, start_on_request: false, execution_goal: keep_running}
+behaviors:
+- {behavior: HOVER_MPC, task: HOVER, requires: [{task: LOCALIZE}]}
+- {behavior: TALK_LOUD, task: TALK}
+- {behavior: HOVER_PID, task: HOVER}
+- {behavior: LAND_PID, task: LAND}
+- {behavior: GPS, task: LOCALIZE, situation: {SIGNAL: true}}
+- {behavior: SLAM, task: LOCALIZE, situation: {LIGHT: [day, dusk]}}
+- {behavior: EYE, tasks: [{task: SEE}, {task: LOOK}]}
+exclusivity_constraints:
+- mutually_exclusive: [HOVER, LAND]
+situation:
+- variable: SIGNAL
+- {variable: LIGHT, values: [day, dusk, night]}
+)");
+  return catalog;
+}
+
+struct Result {
+  std::optional<PropertyFile> file;
+  std::string findings;
+};
+
+Result read_any(std::string_view text) {
+  Diagnostics diagnostics;
+  const auto document = yaml::parse(text, "p.yaml", diagnostics);
+  Result result;
+  if (document != nullptr) result.file = read_properties(*document, catalog(), diagnostics);
+  EXPECT_EQ(result.file.has_value(), !diagnostics.has_errors()) << text;
+  result.findings = show(diagnostics);
+  return result;
+}
+
+std::string findings(std::string_view text) { return read_any(text).findings; }
+
+PropertyFile read(std::string_view text) {
+  Result result = read_any(text);
+  EXPECT_EQ(result.findings, "") << text;
+  return result.file.value_or(PropertyFile{});
+}
+
+std::string name_of_task(TaskId task) { return std::string(catalog().name_of_task(task)); }
+std::string name_of_behavior(BehaviorId behavior) {
+  return std::string(catalog().name_of_behavior(behavior));
+}
+
+std::string describe(const SituationPart& part) {
+  std::string text;
+  for (const VariableValue value : part.variables) {
+    text += " " + std::string(catalog().name_of_variable(value.variable)) + "=" +
+            std::string(catalog().name_of_value(value));
+  }
+  for (const SituationPart::Own& own : part.behaviors) {
+    text += " " + name_of_behavior(own.behavior) + (own.available ? "+" : "-");
+  }
+  return text;
+}
+
+std::string describe(const Assumptions& assumptions) {
+  std::string text = "start";
+  for (const Assumptions::Start& start : assumptions.start) {
+    text += " " + name_of_task(start.task);
+    for (const std::int32_t priority : start.priorities) text += " " + std::to_string(priority);
+  }
+  text += "; stop";
+  for (const TaskId task : assumptions.stop) text += " " + name_of_task(task);
+  if (!assumptions.successes) text += "; no successes";
+  if (!assumptions.failures) text += "; no failures";
+  text += "; faults " + std::to_string(assumptions.faults) + "; changing";
+  for (const std::uint32_t variable : assumptions.variables) {
+    text += " " + std::string(catalog().name_of_variable(variable));
+  }
+  for (const BehaviorId behavior : assumptions.behaviors) text += " " + name_of_behavior(behavior);
+  for (const SituationPart& never : assumptions.never) text += "; never" + describe(never);
+  return text + "; initially" + describe(assumptions.initially);
+}
+
+std::string describe(const StateCondition& condition) {
+  std::string text;
+  for (const StateCondition::Running& running : condition.running) {
+    text += " running " + name_of_task(running.task) + "=" +
+            (running.behavior == none ? "any" : name_of_behavior(running.behavior));
+  }
+  for (const TaskId task : condition.stopped) text += " stopped " + name_of_task(task);
+  for (const BehaviorId behavior : condition.active)
+    text += " active " + name_of_behavior(behavior);
+  for (const BehaviorId behavior : condition.faulty)
+    text += " faulty " + name_of_behavior(behavior);
+  for (const BehaviorId behavior : condition.available) {
+    text += " available " + name_of_behavior(behavior);
+  }
+  for (const StateCondition::Requested& requested : condition.requested) {
+    text += " requested " + name_of_task(requested.task) + " " + std::to_string(requested.priority);
+  }
+  return text + describe(condition.situation);
+}
+
+std::string describe(const Property& property) {
+  std::string text = std::to_string(property.line) + " " + std::string(name_of(property.kind));
+  if (!property.name.empty()) text += " '" + property.name + "'";
+  if (property.kind == Property::Kind::can_start) {
+    return text + " " + name_of_task(property.task) + " " + std::to_string(property.priority);
+  }
+  text += describe(property.condition);
+  if (property.when) text += " when" + describe(*property.when);
+  if (property.settled) text += " settled";
+  return text;
+}
+
+/// Of a file with one property.
+std::string property_of(const std::string& text) {
+  const PropertyFile file = read("properties:\n- " + text);
+  EXPECT_EQ(file.properties.size(), 1U) << text;
+  return file.properties.empty() ? "" : describe(file.properties.front());
+}
+
+std::string findings_of_property(const std::string& text, const std::string& assume = "{}") {
+  return findings("assume: " + assume + "\nproperties:\n- " + text);
+}
+
+// Assumptions ------------------------------------------------------------------------------------
+
+constexpr const char* defaults =
+    "start HOVER 1 TALK 1 LAND 1; stop HOVER TALK LAND; faults 0; changing SIGNAL LIGHT; initially";
+
+TEST(Assumptions, HaveDefaults) {
+  EXPECT_EQ(describe(default_assumptions(catalog())), defaults);
+  EXPECT_EQ(describe(read("properties: []").assumptions), defaults);
+  EXPECT_EQ(describe(read("{assume: {}, initially: {}, properties: []}").assumptions), defaults);
+  EXPECT_EQ(describe(read("{assume: {start: ~, stop: ~, successes: ~, failures: ~, faults: ~, "
+                          "situation: ~, never: ~}, initially: ~, properties: []}")
+                         .assumptions),
+            defaults);
+}
+
+std::string assuming(const std::string& text) {
+  return describe(read("properties: []\nassume: {" + text + "}").assumptions);
+}
+
+TEST(Assumptions, AreInCatalogOrder) {
+  EXPECT_EQ(assuming("start: [LOCALIZE, LAND, HOVER]"),
+            "start HOVER 1 LAND 1 LOCALIZE 1; stop HOVER LAND LOCALIZE; faults 0; "
+            "changing SIGNAL LIGHT; initially");
+  EXPECT_EQ(assuming("start: {LAND: 3, HOVER: [2, 1]}, stop: [LAND, TALK]"),
+            "start HOVER 2 1 LAND 3; stop TALK LAND; faults 0; changing SIGNAL LIGHT; initially");
+  EXPECT_EQ(assuming("start: [], situation: [SLAM, LIGHT, HOVER_PID]"),
+            "start; stop; faults 0; changing LIGHT HOVER_PID SLAM; initially");
+  EXPECT_EQ(
+      assuming("start: {}, stop: [], situation: [], successes: no, failures: false, faults: 2"),
+      "start; stop; no successes; no failures; faults 2; changing; initially");
+}
+
+TEST(Assumptions, AreAboutSituations) {
+  const PropertyFile file = read(R"(
+assume: {never: [{LIGHT: night, SIGNAL: true}, {LIGHT: day}, {SLAM: false}]}
+initially: {GPS: false, LIGHT: night, SIGNAL: no}
+properties: [])");
+  EXPECT_EQ(describe(file.assumptions),
+            "start HOVER 1 TALK 1 LAND 1; stop HOVER TALK LAND; faults 0; changing SIGNAL LIGHT; "
+            "never LIGHT=night SIGNAL=true; never LIGHT=day; never SLAM-; "
+            "initially LIGHT=night SIGNAL=false GPS-");
+}
+
+TEST(Assumptions, MustNotExcludeTheFirstState) {
+  constexpr const char* message =
+      "error invalid-value: this excludes the situation at the beginning; 'initially' sets another "
+      "one\n";
+  EXPECT_EQ(findings("{assume: {never: [{LIGHT: day}]}, properties: []}"),
+            std::string("1:19-20 ") + message);
+  EXPECT_EQ(findings("{assume: {never: [{GPS: true, SIGNAL: true}]}, properties: []}"),
+            std::string("1:19-20 ") + message);
+  EXPECT_EQ(findings("{initially: {LIGHT: night, GPS: no}, "
+                     "assume: {never: [{LIGHT: night, GPS: false}]}, properties: []}"),
+            std::string("1:55-56 ") + message);
+  EXPECT_EQ(findings("{assume: {never: [{}]}, properties: []}"),
+            "1:19-20 error invalid-value: an entry of 'never' must name a variable or a behavior: "
+            "this one excludes every situation\n");
+  // If it is not known where it begins, nothing follows.
+  EXPECT_EQ(findings("{initialy: {LIGHT: dusk}, assume: {never: [{LIGHT: day}]}, properties: []}"),
+            "1:2-10 error unknown-key: unknown key 'initialy' in a property file; did you mean "
+            "'initially'?\n");
+  EXPECT_EQ(findings("{initially: {LIGHT: dark}, assume: {never: [{LIGHT: day}]}, properties: []}"),
+            "1:21-25 error situation-value: situation variable 'LIGHT' has no value 'dark'; its "
+            "values are 'day', 'dusk' and 'night'\n");
+}
+
+TEST(Assumptions, NameThingsOnce) {
+  EXPECT_EQ(findings(R"(
+properties: []
+assume:
+  start: [LAND, LAND]
+  stop: [HOVER, TALK, HOVER]
+  situation: [GPS, GPS]
+)"),
+            "4:17-21 error invalid-value: 'LAND' is listed twice\n"
+            "  4:11-15 first listed here\n"
+            "5:23-28 error invalid-value: 'HOVER' is listed twice\n"
+            "  5:10-15 first listed here\n"
+            "6:20-23 error invalid-value: 'GPS' is listed twice\n"
+            "  6:15-18 first listed here\n");
+  EXPECT_EQ(findings("properties: []\nassume: {start: {LAND: [1, 2, 1], TALK: 1, LAND: 2}}"),
+            "2:31-32 error invalid-value: '1' is listed twice\n"
+            "  2:25-26 first listed here\n"
+            "2:44-48 error duplicate-key: 'LAND' is given twice\n"
+            "  2:18-22 first given here\n");
+}
+
+TEST(Assumptions, ReportAllMistakes) {
+  EXPECT_EQ(
+      findings(R"(
+properties: []
+assume:
+  start: {LND: 1, HOVER: 0, TALK: [], LAND: ~}
+  stop: LAND
+  succeses: true
+  failures: 3
+  faults: -1
+  situation: [LIGTH, LAND]
+  never: {LIGHT: night}
+)"),
+      "4:11-14 error undefined-task: there is no task 'LND'\n"
+      "4:26-27 error invalid-value: 'HOVER' must be an integer from 1 to 2147483647, found "
+      "'0'\n"
+      "4:35-36 error wrong-type: 'TALK' must be a priority or a list of priorities, found an "
+      "empty list\n"
+      "4:45-46 error wrong-type: 'LAND' must be a priority or a list of priorities, found "
+      "nothing\n"
+      "5:9-13 error wrong-type: 'stop' must be a list of tasks, found 'LAND'\n"
+      "6:3-11 error unknown-key: unknown key 'succeses' in an assume; did you mean "
+      "'successes'?\n"
+      "7:13-14 error wrong-type: 'failures' must be true or false, found '3'\n"
+      "8:11-13 error invalid-value: 'faults' must be an integer from 0 to 2147483647, found "
+      "'-1'\n"
+      "9:15-20 error undeclared-situation: there is no behavior or situation variable "
+      "'LIGTH'; did you mean 'LIGHT'?\n"
+      "9:22-26 error undeclared-situation: there is no behavior or situation variable 'LAND': "
+      "it is a task; did you mean 'LAND_PID'?\n"
+      "10:10-11 error wrong-type: 'never' must be a list of situations, found a mapping\n");
+  EXPECT_EQ(findings("{assume: {start: LAND}, properties: []}"),
+            "1:18-22 error wrong-type: 'start' must be a list of tasks, or a mapping of tasks to "
+            "lists of priorities, found 'LAND'\n");
+}
+
+// Properties -------------------------------------------------------------------------------------
+
+TEST(PropertyFiles, AreMappings) {
+  EXPECT_EQ(findings(""),
+            "1:1-1 error missing-key: missing key 'properties': the property file is empty\n");
+  EXPECT_EQ(findings("[can_start: LAND]"),
+            "1:1-2 error wrong-type: a property file must be a mapping with the key 'properties', "
+            "found a list\n");
+  EXPECT_EQ(findings("{properties: {can_start: LAND}, asume: {}}"),
+            "1:14-15 error wrong-type: 'properties' must be a list of properties, found a mapping\n"
+            "1:33-38 error unknown-key: unknown key 'asume' in a property file; did you mean "
+            "'assume'?\n");
+  EXPECT_EQ(findings("assume: {faults: 1}"),
+            "1:1-2 note missing-key: without 'properties' there is nothing to prove\n");
+}
+
+TEST(PropertyFiles, NameTheirCatalog) {
+  const PropertyFile file = read("{catalog: robot.yaml, properties: []}");
+  EXPECT_EQ(file.path, "p.yaml");
+  EXPECT_EQ(file.catalog, "robot.yaml");
+  EXPECT_EQ(read("properties: []").catalog, std::nullopt);
+}
+
+TEST(Properties, AreOfFourKinds) {
+  EXPECT_EQ(property_of("can_start: LAND"), "2 can_start LAND 1");
+  EXPECT_EQ(property_of("{can_start: LAND, priority: 3, name: it lands, always: ~, when: ~}"),
+            "2 can_start 'it lands' LAND 3");
+  EXPECT_EQ(property_of("{always: {running: [LAND]}, when: {stopped: [TALK]}, settled: yes}"),
+            "2 always running LAND=any when stopped TALK settled");
+  EXPECT_EQ(property_of("{never: {active: [EYE]}, settled: false}"), "2 never active EYE");
+  EXPECT_EQ(property_of("{reachable: {available: [GPS]}, settled: true}"),
+            "2 reachable available GPS settled");
+}
+
+TEST(Properties, HaveConditionsOfManyParts) {
+  EXPECT_EQ(property_of("never: {running: {HOVER: HOVER_PID, TALK: any}, stopped: [LAND, SEE], "
+                        "active: [GPS, TALK_LOUD], faulty: [], available: [SLAM], "
+                        "requested: {TALK: 1, HOVER: 0}, situation: {LIGHT: dusk, SLAM: true}}"),
+            "2 never running HOVER=HOVER_PID running TALK=any stopped LAND stopped SEE active GPS "
+            "active TALK_LOUD available SLAM requested TALK 1 requested HOVER 0 LIGHT=dusk SLAM+");
+}
+
+TEST(Properties, HaveOneKind) {
+  EXPECT_EQ(
+      findings_of_property("{can_start: LAND, never: {running: [LAND]}}"),
+      "3:21-26 error invalid-value: a property must be of exactly one kind, found 'can_start' "
+      "and 'never'\n"
+      "  3:4-13 the first one is here\n");
+  EXPECT_EQ(findings_of_property("name: x"),
+            "3:3-4 error missing-key: a property needs one of 'can_start', 'always', 'never' and "
+            "'reachable'\n");
+  EXPECT_EQ(findings_of_property("always: ~"), "3:3-9 error missing-key: 'always' has no value\n");
+  EXPECT_EQ(findings_of_property("can_strat: LAND"),
+            "3:3-12 error unknown-key: unknown key 'can_strat' in a property; did you mean "
+            "'can_start'?\n");
+  EXPECT_EQ(findings_of_property("LAND"),
+            "3:3-7 error wrong-type: a property must be a mapping ('can_start: TASK'), found "
+            "'LAND'\n");
+}
+
+TEST(Properties, HaveDetailsOfTheirKind) {
+  EXPECT_EQ(
+      findings_of_property("{can_start: LAND, when: {running: [TALK]}, settled: true}"),
+      "3:21-25 error unknown-key: 'when' does not belong to 'can_start', only to 'always'\n"
+      "3:46-53 error unknown-key: 'settled' does not belong to 'can_start', only to 'always', "
+      "'never' and 'reachable'\n");
+  EXPECT_EQ(
+      findings_of_property("{never: {running: [LAND]}, priority: 2, when: {running: [LAND]}}"),
+      "3:30-38 error unknown-key: 'priority' does not belong to 'never', only to "
+      "'can_start'\n"
+      "3:43-47 error unknown-key: 'when' does not belong to 'never', only to 'always'\n");
+  EXPECT_EQ(
+      findings_of_property("{can_start: LND, priority: 0}"),
+      "3:15-18 error undefined-task: there is no task 'LND'; did you mean 'LAND'?\n"
+      "3:30-31 error invalid-value: 'priority' must be an integer from 1 to 2147483647, found "
+      "'0'\n");
+  EXPECT_EQ(findings_of_property("{always: {running: [LAND]}, settled: 1}"),
+            "3:40-41 error wrong-type: 'settled' must be true or false, found '1'\n");
+}
+
+TEST(Properties, HaveConditionsThatSaySomething) {
+  constexpr const char* message =
+      "error missing-key: 'never' needs a condition: one of 'running', 'stopped', 'active', "
+      "'faulty', 'available', 'requested' and 'situation'\n";
+  EXPECT_EQ(findings_of_property("never: {}"), std::string("3:10-11 ") + message);
+  EXPECT_EQ(findings_of_property("never: {running: []}"), std::string("3:10-11 ") + message);
+  EXPECT_EQ(findings_of_property("{always: {running: [LAND]}, when: [LAND]}"),
+            "3:37-38 error wrong-type: 'when' must be a mapping, found a list\n");
+}
+
+TEST(Properties, ReportAllMistakesOfTheirConditions) {
+  EXPECT_EQ(
+      findings(R"(
+properties:
+- always:
+    running: LAND
+    stoped: [LAND]
+    active: [LAND, GPS, GPS]
+    faulty: GPS
+    requested: {TALK: high, LND: 1}
+    situation: {SIGNAL: maybe, LIGHT: 1}
+    outcome: accepted
+)"),
+      "4:14-18 error wrong-type: 'running' must be a list of tasks, or a mapping of tasks to "
+      "behaviors or 'any', found 'LAND'\n"
+      "5:5-11 error unknown-key: unknown key 'stoped' in a condition; did you mean "
+      "'stopped'?\n"
+      "6:14-18 error undefined-behavior: there is no behavior 'LAND': it is a task; did you "
+      "mean 'LAND_PID'?\n"
+      "6:25-28 error invalid-value: 'GPS' is listed twice\n"
+      "  6:20-23 first listed here\n"
+      "7:13-16 error wrong-type: 'faulty' must be a list of behaviors, found 'GPS'\n"
+      "8:23-27 error wrong-type: 'TALK' must be an integer from 0 to 2147483647, found "
+      "'high'\n"
+      "8:29-32 error undefined-task: there is no task 'LND'; did you mean 'LAND'?\n"
+      "9:25-30 error situation-value: situation variable 'SIGNAL' has no value 'maybe'; its "
+      "values are 'true' and 'false'\n"
+      "9:39-40 error situation-value: situation variable 'LIGHT' has no value '1'; its values "
+      "are 'day', 'dusk' and 'night'\n"
+      "10:5-12 error unknown-key: unknown key 'outcome' in a condition\n");
+}
+
+// Conditions that never hold ---------------------------------------------------------------------
+
+TEST(Conditions, MustNotContradictThemselves) {
+  EXPECT_EQ(findings_of_property("never: {running: [LAND], stopped: [TALK, LAND]}"),
+            "3:44-48 error impossible-expectation: this can never hold: task 'LAND' is also "
+            "expected to run\n"
+            "  3:21-25 expected to run here\n");
+  EXPECT_EQ(findings_of_property("always: {running: {LAND: GPS}}"),
+            "3:28-31 error impossible-expectation: this can never hold: behavior 'GPS' does not "
+            "perform task 'LAND', it performs 'LOCALIZE'\n");
+  EXPECT_EQ(findings_of_property("reachable: {requested: {LAND: 1}, stopped: [LAND]}"),
+            "3:27-31 error impossible-expectation: this can never hold: task 'LAND' is also "
+            "expected to be stopped, and loses its request then\n"
+            "  3:47-51 expected to be stopped here\n");
+  EXPECT_EQ(findings_of_property("never: {available: [GPS], situation: {GPS: false}}"),
+            "3:23-26 error impossible-expectation: this can never hold: behavior 'GPS' is also "
+            "expected to be unavailable\n"
+            "  3:41-44 expected to be unavailable here\n");
+}
+
+TEST(Conditions, LeaveATaskForEachActiveBehavior) {
+  EXPECT_EQ(findings_of_property("never: {active: [HOVER_PID], running: {HOVER: HOVER_MPC}}"),
+            "3:20-29 error impossible-expectation: this can never hold: no task is left for "
+            "behavior 'HOVER_PID'\n"
+            "  3:49-58 'HOVER' is expected to run with another behavior here\n");
+  EXPECT_EQ(findings_of_property("never: {active: [HOVER_PID, HOVER_MPC]}"),
+            "3:31-40 error impossible-expectation: this can never hold: no task is left for "
+            "behavior 'HOVER_MPC'\n"
+            "  3:20-29 'HOVER' is expected to run with another behavior here\n");
+  EXPECT_EQ(findings_of_property("never: {active: [EYE], stopped: [SEE, LOOK]}"),
+            "3:20-23 error impossible-expectation: this can never hold: no task is left for "
+            "behavior 'EYE'\n"
+            "  3:36-39 'SEE' is expected to be stopped here\n"
+            "  3:41-45 'LOOK' is expected to be stopped here\n");
+  EXPECT_EQ(findings_of_property("never: {active: [EYE], stopped: [SEE], running: {LOOK: EYE}}"),
+            "");
+}
+
+TEST(Conditions, MayBeRuledOutByTheCatalog) {
+  const std::string exclusion =
+      " impossible-expectation: this can never hold: 'HOVER' excludes 'LAND' (a.yaml:18)\n";
+  EXPECT_EQ(findings_of_property("reachable: {running: [HOVER, LAND]}"),
+            "3:32-36 warning" + exclusion);
+  EXPECT_EQ(findings_of_property("never: {running: [HOVER, LAND]}"), "3:28-32 note" + exclusion);
+  EXPECT_EQ(findings_of_property(
+                "{always: {running: [TALK]}, when: {running: [HOVER], active: [LAND_PID]}}"),
+            "3:65-73 warning" + exclusion);
+  EXPECT_EQ(findings_of_property("reachable: {requested: {HOVER: 1, LAND: 0}}"),
+            "3:37-41 warning" + exclusion);
+  EXPECT_EQ(findings_of_property("reachable: {active: [SLAM], situation: {LIGHT: night}}"),
+            "3:24-28 warning impossible-expectation: this can never hold: behavior 'SLAM' does not "
+            "fit 'LIGHT: night'\n"
+            "  3:43-48 expected here\n");
+  EXPECT_EQ(findings_of_property("reachable: {active: [SLAM], situation: {LIGHT: dusk}}"), "");
+}
+
+TEST(Conditions, MayBeRuledOutByTheAssumptions) {
+  constexpr const char* assume = "{start: {LAND: [1, 2]}, situation: [SIGNAL, SLAM], faults: 1}";
+  EXPECT_EQ(findings_of_property("reachable: {faulty: [GPS]}", assume), "");
+  EXPECT_EQ(findings_of_property("reachable: {faulty: [GPS, SLAM]}", assume),
+            "3:29-33 warning impossible-expectation: this can never hold: 'faults' of 'assume' "
+            "allows only 1 at a time\n");
+  EXPECT_EQ(findings_of_property("reachable: {faulty: [GPS]}"),
+            "3:24-27 warning impossible-expectation: this can never hold: no behavior becomes "
+            "faulty, as 'faults' of 'assume' is 0\n");
+  EXPECT_EQ(findings_of_property("reachable: {situation: {SIGNAL: false, SLAM: false}}", assume),
+            "");
+  EXPECT_EQ(
+      findings_of_property("reachable: {situation: {LIGHT: night, GPS: false}}", assume),
+      "3:27-32 warning impossible-expectation: this can never hold: 'LIGHT' never changes, as "
+      "'situation' of 'assume' does not list it\n"
+      "3:41-44 warning impossible-expectation: this can never hold: 'GPS' never changes, as "
+      "'situation' of 'assume' does not list it\n");
+  EXPECT_EQ(findings_of_property("reachable: {requested: {LAND: 2, TALK: 0}}", assume), "");
+  EXPECT_EQ(findings_of_property("reachable: {requested: {LAND: 3}}", assume),
+            "3:27-31 warning impossible-expectation: this can never hold: 'start' of 'assume' "
+            "requests task 'LAND' with at most priority 2\n");
+  EXPECT_EQ(findings_of_property("reachable: {requested: {TALK: 1}}", assume),
+            "3:27-31 warning impossible-expectation: this can never hold: task 'TALK' is never "
+            "requested, as 'start' of 'assume' does not list it\n");
+  // What follows from mistakes in the assumptions is not reported.
+  EXPECT_EQ(
+      findings_of_property("reachable: {faulty: [GPS]}", "{fault: 1}"),
+      "1:10-15 error unknown-key: unknown key 'fault' in an assume; did you mean 'faults'?\n");
+}
+
+TEST(Conditions, MayBeginWithTheirSituation) {
+  EXPECT_EQ(findings(R"(
+assume: {situation: []}
+initially: {LIGHT: night, GPS: false}
+properties:
+- always: {situation: {LIGHT: night, GPS: false, SIGNAL: true}}
+)"),
+            "");
+}
+
+}  // namespace
+}  // namespace cbc
