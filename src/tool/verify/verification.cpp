@@ -25,7 +25,7 @@ ExplorationOptions options_for(const std::vector<std::uint32_t>& groups,
   return result;
 }
 
-void add_groups(const CompiledCatalog& catalog, const Condition& condition,
+void add_groups(const CompiledCatalog& catalog, const StateCondition& condition,
                 std::set<std::uint32_t>& groups) {
   const auto add_task = [&](TaskId task) { groups.insert(catalog.tasks[task].group); };
   const auto add_behavior = [&](BehaviorId behavior) { groups.insert(catalog.group_of(behavior)); };
@@ -38,7 +38,7 @@ void add_groups(const CompiledCatalog& catalog, const Condition& condition,
   for (const auto& own : condition.situation.behaviors) add_behavior(own.behavior);
 }
 
-void add_groups_of_variables(const CompiledCatalog& catalog, const Condition& condition,
+void add_groups_of_variables(const CompiledCatalog& catalog, const StateCondition& condition,
                              std::set<std::uint32_t>& groups) {
   for (const VariableValue& value : condition.situation.variables) {
     for (const FittingValue& fitting : catalog.fitting_values) {
@@ -58,7 +58,7 @@ std::string join(const std::vector<std::string>& parts, std::string_view between
   return text;
 }
 
-std::string describe(const CompiledCatalog& catalog, const Condition& condition) {
+std::string describe(const CompiledCatalog& catalog, const StateCondition& condition) {
   std::vector<std::string> parts;
   const auto task = [&](TaskId id) { return printable(catalog.name_of_task(id)); };
   const auto behavior = [&](BehaviorId id) { return printable(catalog.name_of_behavior(id)); };

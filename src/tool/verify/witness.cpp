@@ -172,7 +172,7 @@ Step step_of(const Move& move) {
 }
 
 /// The tasks that a condition is about.
-void add_tasks(const CompiledCatalog& catalog, const Condition& condition,
+void add_tasks(const CompiledCatalog& catalog, const StateCondition& condition,
                std::set<TaskId>& tasks) {
   for (const auto& running : condition.running) tasks.insert(running.task);
   for (const TaskId task : condition.stopped) tasks.insert(task);
