@@ -247,7 +247,7 @@ class Check {
   void check_fault_tree(std::size_t task) {
     const auto made = make_fault_tree(compiled_, id_of_task(task), ruled_out_);
     demand(std::holds_alternative<FaultTree>(made), "no fault tree");
-    const FaultTree& tree = std::get<FaultTree>(made);
+    const auto& tree = std::get<FaultTree>(made);
     const WrittenTree written(open_psa_text(compiled_, tree));
     if (!tree.gates.empty()) statistics_.count(tree.ways > 0 ? "with ways" : "without ways");
     const std::size_t behaviors = catalog_.behaviors.size();

@@ -178,7 +178,7 @@ TEST(FaultTree, LeavesOutWhatIsRuledOut) {
   ruled_out[test::behavior_id(catalog, "cable")] = true;
   ruled_out[test::behavior_id(catalog, "y")] = true;
   const auto made = make_fault_tree(catalog, task_id(catalog, "A"), ruled_out);
-  const FaultTree& tree = std::get<FaultTree>(made);
+  const auto& tree = std::get<FaultTree>(made);
   std::string names;
   for (const BehaviorId behavior : tree.faults) {
     names += std::string(catalog.name_of_behavior(behavior)) + ' ';

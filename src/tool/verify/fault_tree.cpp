@@ -32,10 +32,11 @@ class Cone {
     }
     if (!can_run(top)) return;
     is_in_[top] = true;
-    for (auto task = order.rbegin(); task != order.rend(); ++task) {
-      if (!is_in_[*task]) continue;
-      tasks_.push_back(*task);
-      for (const Value* value : values_[*task]) {
+    for (std::size_t place = order.size(); place-- > 0;) {
+      const TaskId task = order[place];
+      if (!is_in_[task]) continue;
+      tasks_.push_back(task);
+      for (const Value* value : values_[task]) {
         for (const CompiledRequirement& rule : catalog.requirements[value->behavior]) {
           is_in_[rule.task] = true;
         }
@@ -84,14 +85,16 @@ class Cone {
 class ExclusionMarks {
  public:
   ExclusionMarks(const CompiledCatalog& catalog, const Cone& cone, std::vector<bool>& marks)
-      : catalog_(catalog), cone_(cone), marks_(marks), columns_(catalog.tasks.size(), none) {
+      : catalog_(catalog), cone_(cone), marks_(marks), columns_(catalog.tasks.size(), none) {}
+
+  void find() {
     number_columns();
     if (lists_.empty()) return;
     find_reach();
-    for (const TaskId task : cone.tasks()) {
+    for (const TaskId task : cone_.tasks()) {
       if (columns_[task] != none) compare_with_tasks_below(task);
-      for (const Value* value : cone.values(task)) {
-        const auto& required = catalog.requirements[value->behavior];
+      for (const Value* value : cone_.values(task)) {
+        const auto& required = catalog_.requirements[value->behavior];
         if (required.size() < 2) continue;
         for (const std::vector<TaskId>& list : lists_) compare(required, list);
       }
@@ -364,7 +367,7 @@ class WaySearch {
 std::vector<bool> find_tangled(const CompiledCatalog& catalog, const Cone& cone,
                                const Minimums& minimums) {
   std::vector<bool> marks(catalog.tasks.size(), false);
-  ExclusionMarks(catalog, cone, marks);
+  ExclusionMarks(catalog, cone, marks).find();
   minimums.mark(marks);
   for (auto task = cone.tasks().rbegin(); task != cone.tasks().rend(); ++task) {
     for (const Value* value : cone.values(*task)) {
