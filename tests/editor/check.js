@@ -85,8 +85,10 @@ async function checkMistakes() {
   await expectMistake(script, priority, '  prio: 1\n  at: 0\n', 'Property prio is not allowed.');
   await expectMistake(script, '  at: 0\n', '  at: zero\n', 'Expected one of number, null.');
   const properties = 'target-following.properties.yaml';
-  const kind = '- can_start: ApproachTarget\n';
-  await expectMistake(properties, kind, `${kind}  prioriti: 1\n`, 'Property prioriti is not allowed.');
+  const name = '- name: high accelerations';
+  await expectMistake(properties, name, '- nam: high accelerations', 'Property nam is not allowed.');
+  const catalogKey = 'catalog: target-following.yaml\n';
+  await expectMistake(properties, catalogKey, 'catalog: [target-following.yaml]\n', 'Expected one of');
 }
 
 /** Where the text ends before a mark, as the language server counts. */

@@ -81,6 +81,7 @@ for mission in "$root$examples"/*.mission.yaml; do
   use cbc compile "$examples/$catalog.yaml" -o "$catalog.cbc"
   use cbc solve "$catalog.cbc" "$examples/$catalog.mission.yaml" | grep '^expectations: .* 0 failed$' ||
     fail "cbc solve $catalog.cbc"
+  use cbc lint --strict "$examples/$catalog.properties.yaml"
   [[ $(use cbc graph "$catalog.cbc") == "digraph "* ]] || fail "cbc graph $catalog.cbc"
   schema=$(sed -n '1s/.*\$schema=//p' "$root$examples/$catalog.yaml")
   [[ -f $root$examples/$schema ]] || fail "$catalog.yaml names the schema $schema, which is not there"
