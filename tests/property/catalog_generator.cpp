@@ -40,9 +40,11 @@ class CatalogGenerator {
   explicit CatalogGenerator(Random& random)
       : random_(random), unit_(pick_time_unit(random)), palette_(pick_palette(random)) {}
 
-  Catalog generate() {
+  /// `tasks`: 0 for a random number of them.
+  Catalog generate(std::size_t tasks) {
     choose_defaults();
-    std::size_t left = random_.percent(15) ? 1 + random_.below(4) : 5 + random_.below(8);
+    std::size_t left = tasks;
+    if (left == 0) left = random_.percent(15) ? 1 + random_.below(4) : 5 + random_.below(8);
     while (left > 0) {
       const std::size_t size = std::min(left, 1 + std::max(random_.below(7), random_.below(7)));
       add_block(size);
@@ -506,6 +508,10 @@ Microseconds pick_time_unit(Random& random) {
   return random.pick(units);
 }
 
-Catalog generate_catalog(Random& random) { return CatalogGenerator(random).generate(); }
+Catalog generate_catalog(Random& random) { return CatalogGenerator(random).generate(0); }
+
+Catalog generate_catalog(Random& random, std::size_t tasks) {
+  return CatalogGenerator(random).generate(tasks);
+}
 
 }  // namespace cbc::oracle

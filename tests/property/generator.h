@@ -1,6 +1,7 @@
 // Random catalogs and scripts. The same seed gives the same case, on any machine.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "model.h"
@@ -22,6 +23,8 @@ Case generate_case(std::uint64_t seed);
 Microseconds pick_time_unit(Random& random);
 
 Catalog generate_catalog(Random& random);
+// With at least one task, and as many as given.
+Catalog generate_catalog(Random& random, std::size_t tasks);
 Script generate_script(Random& random, const Catalog& catalog);
 
 }  // namespace cbc::oracle

@@ -1,0 +1,399 @@
+#include "plain_model.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "cbc/event.h"
+#include "coordinator/record.h"
+#include "demand.h"
+
+namespace cbc::plain {
+
+using oracle::contains;
+using oracle::demand;
+
+namespace {
+
+class FirstOutcome final : public EventListener {
+ public:
+  void on_event(const EventRecord& record) override {
+    demand(record.origin != Origin::timeout, "a timeout fired");
+    if (record.origin == Origin::fault) has_fault_finish = true;
+    if (!outcome && record.origin == Origin::script && form_of(record.verb).is_decided) {
+      outcome = record.outcome;
+    }
+    has_event = true;
+  }
+
+  std::optional<Outcome> outcome;
+  bool has_fault_finish = false;
+  bool has_event = false;
+};
+
+CoordinatorOptions plain_options() {
+  CoordinatorOptions options;
+  options.reactive_delay = reactive_delay;
+  options.find_conflicts = false;
+  return options;
+}
+
+template <typename Item>
+void erase_value(std::vector<Item>& items, const Item& item) {
+  items.erase(std::remove(items.begin(), items.end(), item), items.end());
+}
+
+/// Makes own(b) what it says.
+void set_own(Snapshot& state, BehaviorId behavior, bool available) {
+  erase_value(state.denied, behavior);
+  if (!available) state.denied.push_back(behavior);
+}
+
+bool agrees(const SituationPart& part, const Snapshot& state) {
+  return std::all_of(part.variables.begin(), part.variables.end(),
+                     [&](const VariableValue& entry) {
+                       return state.variables[entry.variable] == entry.value;
+                     }) &&
+         std::all_of(part.behaviors.begin(), part.behaviors.end(),
+                     [&](const SituationPart::Own& entry) {
+                       return contains(state.denied, entry.behavior) != entry.available;
+                     });
+}
+
+BehaviorId behavior_of(const CompiledCatalog& catalog, const Snapshot::RunningTask& entry) {
+  return catalog.values[entry.task][entry.value_index].behavior;
+}
+
+}  // namespace
+
+const Snapshot::RunningTask* find_running(const Snapshot& state, TaskId task) {
+  const auto found =
+      std::find_if(state.running.begin(), state.running.end(),
+                   [task](const Snapshot::RunningTask& entry) { return entry.task == task; });
+  return found == state.running.end() ? nullptr : &*found;
+}
+
+bool is_active(const Snapshot& state, BehaviorId behavior) {
+  return std::any_of(state.active.begin(), state.active.end(),
+                     [behavior](const auto& entry) { return entry.first == behavior; });
+}
+
+void handle_move(const CompiledCatalog& catalog, const Move& move, Coordinator& coordinator) {
+  Event event;
+  event.subject = move.subject;
+  const Availability own{move.subject, move.choice != 0};
+  const VariableValue value{move.subject, static_cast<std::uint32_t>(move.choice)};
+  switch (move.kind) {
+    case Move::Kind::start:
+      event.verb = Verb::start;
+      event.priority = move.choice;
+      break;
+    case Move::Kind::stop:
+      event.verb = Verb::stop;
+      break;
+    case Move::Kind::success:
+    case Move::Kind::failure:
+    case Move::Kind::situation_change:
+      event.verb = Verb::finish;
+      event.cause = move.kind == Move::Kind::success   ? FinishCause::goal_achieved
+                    : move.kind == Move::Kind::failure ? FinishCause::process_failure
+                                                       : FinishCause::situation_change;
+      demand(coordinator.state().is_active(catalog.behavior_ids[move.subject]),
+             "a behavior finishes that is not active");
+      break;
+    case Move::Kind::fault:
+      event.verb = Verb::fault;
+      break;
+    case Move::Kind::repair:
+      event.verb = Verb::repair;
+      break;
+    case Move::Kind::variable:
+      event.verb = Verb::situation;
+      event.variables = std::span(&value, 1);
+      break;
+    case Move::Kind::own:
+      event.verb = Verb::situation;
+      event.situation = std::span(&own, 1);
+      break;
+    case Move::Kind::due:
+      demand(coordinator.next_due() == coordinator.now(), "nothing is due");
+      demand(coordinator.settle() == Coordinator::Status::ok, coordinator.internal_error());
+      return;
+  }
+  demand(coordinator.handle(event) == Coordinator::Status::ok, coordinator.internal_error());
+}
+
+PlainModel::PlainModel(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
+                       const Assumptions& assumptions)
+    : catalog_(catalog), assumptions_(assumptions), groups_(groups) {
+  for (const TaskId task : catalog.task_ids) {
+    if (has_group(catalog.tasks[task].group)) tasks_.push_back(task);
+  }
+  for (const BehaviorId behavior : catalog.behavior_ids) {
+    if (!has_group(catalog.group_of(behavior))) continue;
+    behaviors_.push_back(behavior);
+    if (contains(assumptions.behaviors, behavior)) own_.push_back(behavior);
+    for (const FittingValue& fitting : catalog.fitting_values_of(behavior)) {
+      if (!contains(variables_, fitting.variable)) variables_.push_back(fitting.variable);
+    }
+  }
+  std::sort(variables_.begin(), variables_.end());
+  const auto is_fixed = [&](const SituationPart& part) {
+    return std::all_of(part.variables.begin(), part.variables.end(),
+                       [&](const VariableValue& entry) {
+                         return contains(variables_, entry.variable) ||
+                                !contains(assumptions.variables, entry.variable);
+                       }) &&
+           std::all_of(part.behaviors.begin(), part.behaviors.end(),
+                       [&](const SituationPart::Own& entry) {
+                         return contains(behaviors_, entry.behavior) ||
+                                !contains(assumptions.behaviors, entry.behavior);
+                       });
+  };
+  std::copy_if(assumptions.never.begin(), assumptions.never.end(), std::back_inserter(never_),
+               is_fixed);
+}
+
+bool PlainModel::has_group(std::uint32_t group) const { return contains(groups_, group); }
+
+Snapshot PlainModel::first_state() const {
+  std::vector<Availability> own;
+  for (const SituationPart::Own& entry : assumptions_.initially.behaviors) {
+    own.push_back({catalog_.behaviors[entry.behavior].catalog_index, entry.available});
+  }
+  FirstOutcome listener;
+  Coordinator coordinator(catalog_, plain_options(), listener);
+  coordinator.begin(own, assumptions_.initially.variables);
+  return as_state(coordinator.snapshot());
+}
+
+bool PlainModel::is_excluded(const Snapshot& state) const {
+  return std::any_of(never_.begin(), never_.end(),
+                     [&](const SituationPart& part) { return agrees(part, state); });
+}
+
+std::vector<Move> PlainModel::moves(const Snapshot& state) const {
+  std::vector<Move> moves;
+  add_starts(state, moves);
+  add_finishes(state, moves);
+  add_faults(state, moves);
+  add_situations(state, moves);
+  if (!state.queue.empty()) moves.push_back({Move::Kind::due, 0, 0});
+  return moves;
+}
+
+void PlainModel::add_starts(const Snapshot& state, std::vector<Move>& moves) const {
+  for (const TaskId task : tasks_) {
+    for (const Assumptions::Start& start : assumptions_.start) {
+      if (start.task != task) continue;
+      for (const std::int32_t priority : start.priorities) {
+        moves.push_back({Move::Kind::start, catalog_.tasks[task].catalog_index, priority});
+      }
+    }
+  }
+  for (const TaskId task : tasks_) {
+    const Snapshot::RunningTask* const entry = find_running(state, task);
+    if (!contains(assumptions_.stop, task) || entry == nullptr) continue;
+    if (!entry->request || entry->request->priority < 1) continue;
+    moves.push_back({Move::Kind::stop, catalog_.tasks[task].catalog_index, 0});
+  }
+}
+
+void PlainModel::add_finishes(const Snapshot& state, std::vector<Move>& moves) const {
+  const auto may_succeed = [&](BehaviorId behavior) {
+    return std::all_of(state.running.begin(), state.running.end(),
+                       [&](const Snapshot::RunningTask& entry) {
+                         return behavior_of(catalog_, entry) != behavior ||
+                                catalog_.tasks[entry.task].keep_running == 0;
+                       });
+  };
+  const auto add = [&](Move::Kind kind, auto&& may_finish) {
+    for (const BehaviorId behavior : behaviors_) {
+      if (!is_active(state, behavior) || !may_finish(behavior)) continue;
+      moves.push_back({kind, catalog_.behaviors[behavior].catalog_index, 0});
+    }
+  };
+  if (assumptions_.successes) add(Move::Kind::success, may_succeed);
+  if (assumptions_.failures) add(Move::Kind::failure, [](BehaviorId) { return true; });
+  add(Move::Kind::situation_change,
+      [&](BehaviorId behavior) { return contains(state.denied, behavior); });
+}
+
+void PlainModel::add_faults(const Snapshot& state, std::vector<Move>& moves) const {
+  for (const BehaviorId behavior : behaviors_) {
+    if (contains(state.faulty, behavior) || state.faulty.size() >= assumptions_.faults) continue;
+    moves.push_back({Move::Kind::fault, catalog_.behaviors[behavior].catalog_index, 0});
+  }
+  for (const BehaviorId behavior : behaviors_) {
+    if (!contains(state.faulty, behavior)) continue;
+    moves.push_back({Move::Kind::repair, catalog_.behaviors[behavior].catalog_index, 0});
+  }
+}
+
+void PlainModel::add_situations(const Snapshot& state, std::vector<Move>& moves) const {
+  for (const std::uint32_t variable : variables_) {
+    if (!contains(assumptions_.variables, variable)) continue;
+    for (std::uint32_t value = 0; value < catalog_.variables[variable].value_count; ++value) {
+      if (value == state.variables[variable]) continue;
+      Snapshot next = state;
+      next.variables[variable] = value;
+      if (is_excluded(next)) continue;
+      moves.push_back({Move::Kind::variable, variable, static_cast<std::int32_t>(value)});
+    }
+  }
+  for (const BehaviorId behavior : own_) {
+    const bool available = contains(state.denied, behavior);
+    Snapshot next = state;
+    set_own(next, behavior, available);
+    if (is_excluded(next)) continue;
+    moves.push_back(
+        {Move::Kind::own, catalog_.behaviors[behavior].catalog_index, available ? 1 : 0});
+  }
+}
+
+Step PlainModel::step(const Snapshot& state, const Move& move) const {
+  FirstOutcome listener;
+  Coordinator coordinator(catalog_, plain_options(), listener);
+  coordinator.resume(state);
+  if (move.kind == Move::Kind::due) {
+    // Nothing is due before the first set, which is due then.
+    demand(coordinator.advance_to(1) == Coordinator::Status::ok, coordinator.internal_error());
+  }
+  handle_move(catalog_, move, coordinator);
+  const Snapshot saved = coordinator.snapshot();
+  Step step;
+  step.next = as_state(saved);
+  step.outcome = listener.outcome;
+  step.has_fault_finish = listener.has_fault_finish;
+  step.is_silent = !listener.has_event;
+  for (const std::vector<TaskId>& set : sets_of_queue(step.next)) {
+    const auto entry = std::find_if(saved.queue.begin(), saved.queue.end(),
+                                    [&](const auto& one) { return one.first == set.front(); });
+    if (entry->second < reactive_delay) {
+      step.old_place.emplace_back(static_cast<std::size_t>(entry->second - 1));
+    } else {
+      step.old_place.emplace_back();
+    }
+  }
+  return step;
+}
+
+Snapshot PlainModel::as_state(Snapshot saved) const {
+  const auto is_foreign = [&](TaskId task) { return !has_group(catalog_.tasks[task].group); };
+  erase_if(saved.queue, [&](const auto& entry) { return is_foreign(entry.first); });
+  erase_if(saved.waiting, is_foreign);
+  std::vector<Snapshot::RunningTask> running;
+  std::vector<std::pair<BehaviorId, Microseconds>> active;
+  for (Snapshot::RunningTask& entry : saved.running) {
+    if (!is_foreign(entry.task)) running.push_back(std::move(entry));
+  }
+  for (const auto& entry : saved.active) {
+    if (has_group(catalog_.group_of(entry.first))) active.push_back(entry);
+  }
+  saved.running = std::move(running);
+  saved.active = std::move(active);
+
+  std::map<std::uint64_t, std::uint64_t> events;
+  std::map<Microseconds, Microseconds> times;
+  for (const Snapshot::RunningTask& entry : saved.running) {
+    if (entry.request) events.emplace(entry.request->event, 0);
+  }
+  for (const auto& entry : saved.queue) times.emplace(entry.second, 0);
+  saved.events = 0;
+  for (auto& entry : events) entry.second = ++saved.events;
+  Microseconds time = 0;
+  for (auto& entry : times) entry.second = ++time;
+
+  saved.now = 0;
+  saved.reactive_delay = reactive_delay;
+  for (Snapshot::RunningTask& entry : saved.running) {
+    entry.since = 0;
+    if (entry.request) entry.request->event = events[entry.request->event];
+  }
+  for (auto& entry : saved.active) entry.second = 0;
+  for (auto& entry : saved.queue) entry.second = times[entry.second];
+  return saved;
+}
+
+std::vector<std::vector<TaskId>> PlainModel::sets_of_queue(const Snapshot& state) {
+  std::map<Microseconds, std::vector<TaskId>> sets;
+  for (const auto& [task, due] : state.queue) sets[due].push_back(task);
+  std::vector<std::vector<TaskId>> queue;
+  for (auto& entry : sets) {
+    std::sort(entry.second.begin(), entry.second.end());
+    queue.push_back(std::move(entry.second));
+  }
+  return queue;
+}
+
+std::string PlainModel::key(const Snapshot& state) const {
+  std::string key;
+  const auto add = [&](auto number) { key += std::to_string(number) + ' '; };
+  const auto open = [&](const char* part) { key += part; };
+  open("values ");
+  std::map<std::pair<std::int32_t, std::uint64_t>, TaskId> requests;
+  for (const TaskId task : tasks_) {
+    const Snapshot::RunningTask* const entry = find_running(state, task);
+    entry == nullptr ? open("- ") : add(behavior_of(catalog_, *entry));
+    if (entry == nullptr || !entry->request) continue;
+    requests.emplace(std::pair(entry->request->priority, entry->request->event), task);
+  }
+  open("requests ");
+  for (const auto& [when, task] : requests) {
+    add(when.first);
+    add(task);
+  }
+  open("queue ");
+  for (const std::vector<TaskId>& set : sets_of_queue(state)) {
+    for (const TaskId task : set) add(task);
+    open("; ");
+  }
+  open("waiting ");
+  for (const TaskId task : tasks_) {
+    if (contains(state.waiting, task)) add(task);
+  }
+  open("variables ");
+  for (const std::uint32_t variable : variables_) add(state.variables[variable]);
+  open("denied ");
+  for (const BehaviorId behavior : own_) {
+    if (contains(state.denied, behavior)) add(behavior);
+  }
+  open("faulty ");
+  for (const BehaviorId behavior : behaviors_) {
+    if (contains(state.faulty, behavior)) add(behavior);
+  }
+  return key;
+}
+
+bool PlainModel::holds(const StateCondition& condition, const Snapshot& state) const {
+  const auto all = [](const auto& items, auto&& test) {
+    return std::all_of(items.begin(), items.end(), test);
+  };
+  return all(condition.running,
+             [&](const StateCondition::Running& part) {
+               const auto* const entry = find_running(state, part.task);
+               return entry != nullptr &&
+                      (part.behavior == none || behavior_of(catalog_, *entry) == part.behavior);
+             }) &&
+         all(condition.stopped,
+             [&](TaskId task) { return find_running(state, task) == nullptr; }) &&
+         all(condition.active, [&](BehaviorId behavior) { return is_active(state, behavior); }) &&
+         all(condition.faulty,
+             [&](BehaviorId behavior) { return contains(state.faulty, behavior); }) &&
+         all(condition.available,
+             [&](BehaviorId behavior) {
+               return !contains(state.denied, behavior) &&
+                      !catalog_.find_misfit(behavior, state.variables);
+             }) &&
+         all(condition.requested,
+             [&](const StateCondition::Requested& part) {
+               const auto* const entry = find_running(state, part.task);
+               return entry != nullptr && entry->request &&
+                      entry->request->priority >= part.priority;
+             }) &&
+         agrees(condition.situation, state);
+}
+
+}  // namespace cbc::plain

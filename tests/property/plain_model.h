@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "coordinator/coordinator.h"
+#include "coordinator/state.h"
+#include "verify/explore.h"
+#include "verify/properties.h"
+
+namespace cbc::plain {
+
+/// The delay of the models below. Moves take no time beside it, so no timeout of a catalog is due
+/// before hundreds of them.
+inline constexpr Microseconds reactive_delay = 1000;
+
+/// What a move led to.
+struct Step {
+  Snapshot next;
+  /// Of a start, stop or finish: of this event itself.
+  std::optional<Outcome> outcome;
+  /// By set of the new queue: its place in the queue before the move, or nothing if its tasks
+  /// joined by the move.
+  std::vector<std::optional<std::size_t>> old_place;
+  bool has_fault_finish = false;  ///< a rollback failed
+  bool is_silent = false;         ///< no event at all
+};
+
+/// States and moves of some groups as docs/verify.md defines them, one by one, by an ordinary
+/// coordinator that resumes from a state, handles one move, and is thrown away.
+///
+/// A state is a snapshot in which the clock is at 0, everything runs since then, requests are
+/// numbered from 1, and the k-th set of the queue is due at k microseconds. Only the given groups
+/// have anything in the queue.
+class PlainModel {
+ public:
+  /// The catalog and the assumptions must outlive the model.
+  PlainModel(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
+             const Assumptions& assumptions);
+
+  [[nodiscard]] Snapshot first_state() const;
+  /// Whether `never` excludes the situation of the state.
+  [[nodiscard]] bool is_excluded(const Snapshot& state) const;
+  /// In the order in which scripts are compared.
+  [[nodiscard]] std::vector<Move> moves(const Snapshot& state) const;
+  /// The move need not be one of moves(), but it must be possible.
+  [[nodiscard]] Step step(const Snapshot& state, const Move& move) const;
+
+  /// Brings what any coordinator for the catalog has saved into the form of a state.
+  [[nodiscard]] Snapshot as_state(Snapshot saved) const;
+  /// Equal for equal states, and no others.
+  [[nodiscard]] std::string key(const Snapshot& state) const;
+  /// The queue, in order of due time.
+  [[nodiscard]] static std::vector<std::vector<TaskId>> sets_of_queue(const Snapshot& state);
+
+  [[nodiscard]] bool holds(const StateCondition& condition, const Snapshot& state) const;
+
+  [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
+  [[nodiscard]] const Assumptions& assumptions() const { return assumptions_; }
+  /// Those of the groups, in catalog order.
+  [[nodiscard]] const std::vector<TaskId>& tasks() const { return tasks_; }
+  [[nodiscard]] const std::vector<BehaviorId>& behaviors() const { return behaviors_; }
+  /// Those that behaviors of the groups name, in catalog order.
+  [[nodiscard]] const std::vector<std::uint32_t>& variables() const { return variables_; }
+
+ private:
+  [[nodiscard]] bool has_group(std::uint32_t group) const;
+  void add_starts(const Snapshot& state, std::vector<Move>& moves) const;
+  void add_finishes(const Snapshot& state, std::vector<Move>& moves) const;
+  void add_faults(const Snapshot& state, std::vector<Move>& moves) const;
+  void add_situations(const Snapshot& state, std::vector<Move>& moves) const;
+
+  const CompiledCatalog& catalog_;
+  const Assumptions& assumptions_;
+  std::vector<std::uint32_t> groups_;
+  std::vector<TaskId> tasks_;
+  std::vector<BehaviorId> behaviors_;
+  std::vector<std::uint32_t> variables_;
+  std::vector<BehaviorId> own_;       ///< those of the groups whose own(b) may change
+  std::vector<SituationPart> never_;  ///< without those that exclude nothing
+};
+
+/// The entry of a task that runs, or null.
+[[nodiscard]] const Snapshot::RunningTask* find_running(const Snapshot& state, TaskId task);
+[[nodiscard]] bool is_active(const Snapshot& state, BehaviorId behavior);
+
+/// Handles one move at the present instant, for which the first set is due if the move is that.
+/// Throws std::runtime_error if the coordinator fails.
+void handle_move(const CompiledCatalog& catalog, const Move& move, Coordinator& coordinator);
+
+}  // namespace cbc::plain

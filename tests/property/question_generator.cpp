@@ -1,0 +1,277 @@
+#include "question_generator.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "demand.h"
+#include "plain_model.h"
+
+namespace cbc::plain {
+
+using oracle::contains;
+using oracle::Random;
+
+namespace {
+
+class QuestionGenerator {
+ public:
+  QuestionGenerator(Random& random, const CompiledCatalog& catalog)
+      : random_(random), catalog_(catalog) {}
+
+  Question generate() {
+    choose_groups();
+    question_.assumptions = default_assumptions(catalog_);
+    if (random_.percent(85)) choose_assumptions();
+    find_far_state();
+    const std::size_t wanted = 3 + random_.below(5);
+    while (question_.properties.size() < wanted) add_property();
+    return std::move(question_);
+  }
+
+ private:
+  /// Most often the largest group, which is the first of those.
+  void choose_groups() {
+    std::vector<std::uint32_t> groups(catalog_.group_count());
+    for (std::uint32_t group = 0; group < groups.size(); ++group) groups[group] = group;
+    const auto size = [&](std::uint32_t group) {
+      return catalog_.group_tasks[group + 1] - catalog_.group_tasks[group];
+    };
+    random_.shuffle(groups);
+    if (random_.percent(80)) {
+      std::stable_sort(groups.begin(), groups.end(),
+                       [&](std::uint32_t a, std::uint32_t b) { return size(a) > size(b); });
+    }
+    groups.resize(std::min<std::size_t>(groups.size(), random_.percent(50) ? 1 : 2));
+    std::sort(groups.begin(), groups.end());
+    question_.groups = groups;
+    const auto has = [&](std::uint32_t group) { return contains(groups, group); };
+    for (const TaskId task : catalog_.task_ids) {
+      if (has(catalog_.tasks[task].group)) tasks_.push_back(task);
+    }
+    for (const BehaviorId behavior : catalog_.behavior_ids) {
+      if (!has(catalog_.group_of(behavior))) continue;
+      behaviors_.push_back(behavior);
+      for (const FittingValue& fitting : catalog_.fitting_values_of(behavior)) {
+        if (!contains(variables_, fitting.variable)) variables_.push_back(fitting.variable);
+      }
+    }
+  }
+
+  template <typename Item>
+  void keep_some(std::vector<Item>& items, std::size_t percent) {
+    erase_if(items, [&](const Item&) { return !random_.percent(percent); });
+  }
+
+  void choose_assumptions() {
+    static const std::vector<std::vector<std::int32_t>> priorities = {
+        {1}, {1}, {1}, {2}, {1, 2}, {2, 1}, {3, 1}, {1, 3, 2}};
+    Assumptions& assumptions = question_.assumptions;
+    assumptions.start.clear();
+    for (const TaskId task : catalog_.task_ids) {
+      const bool is_usual = catalog_.tasks[task].start_on_request != 0;
+      if (!random_.percent(is_usual ? 85 : 12)) continue;
+      assumptions.start.push_back({task, random_.pick(priorities)});
+    }
+    assumptions.stop.clear();
+    for (const TaskId task : catalog_.task_ids) {
+      if (random_.percent(65)) assumptions.stop.push_back(task);
+    }
+    assumptions.successes = random_.percent(80);
+    assumptions.failures = random_.percent(80);
+    static const std::vector<std::uint32_t> faults = {0, 0, 0, 1, 1, 2};
+    assumptions.faults = random_.pick(faults);
+    keep_some(assumptions.variables, 85);
+    if (random_.percent(45)) {
+      for (const BehaviorId behavior : catalog_.behavior_ids) {
+        if (random_.percent(20)) assumptions.behaviors.push_back(behavior);
+      }
+    }
+    if (random_.percent(40)) {
+      const std::size_t wanted = 1 + random_.below(2);
+      for (std::size_t i = 0; i < wanted; ++i) add_never();
+    }
+    if (random_.percent(35)) {
+      const std::size_t wanted = 1 + random_.below(2);
+      for (std::size_t i = 0; i < wanted; ++i) add_initial();
+    }
+  }
+
+  /// Finds a state far from the first one, so that properties can ask for it.
+  void find_far_state() {
+    constexpr std::size_t most_states = 150;
+    const PlainModel model(catalog_, question_.groups, question_.assumptions);
+    state_ = model.first_state();
+    if (model.is_excluded(state_)) {
+      if (random_.percent(20)) return;
+      question_.assumptions.never.clear();
+    }
+    std::vector<Snapshot> found = {state_};
+    std::set<std::string> seen = {model.key(state_)};
+    for (std::size_t place = 0; place < found.size() && found.size() < most_states; ++place) {
+      const Snapshot state = found[place];
+      for (const Move& move : model.moves(state)) {
+        Snapshot next = model.step(state, move).next;
+        if (seen.insert(model.key(next)).second) found.push_back(std::move(next));
+      }
+    }
+    state_ = random_.percent(60) ? found.back() : random_.pick(found);
+  }
+
+  VariableValue draw_value(std::uint32_t variable) {
+    return {variable,
+            static_cast<std::uint32_t>(random_.below(catalog_.variables[variable].value_count))};
+  }
+
+  /// About variables and behaviors of the whole catalog.
+  void add_never() {
+    SituationPart part;
+    const std::size_t wanted = 1 + random_.below(2);
+    for (std::size_t i = 0; i < wanted; ++i) {
+      const std::size_t variables = catalog_.variables.size();
+      if (variables > 0 && random_.percent(70)) {
+        add_value(part, draw_value(static_cast<std::uint32_t>(random_.below(variables))));
+      } else if (!question_.assumptions.behaviors.empty() && random_.percent(80)) {
+        add_own(part, random_.pick(question_.assumptions.behaviors), random_.percent(30));
+      } else if (!catalog_.behavior_ids.empty()) {
+        add_own(part, catalog_.behavior_ids[random_.below(catalog_.behavior_ids.size())],
+                random_.percent(30));
+      }
+    }
+    if (!part.variables.empty() || !part.behaviors.empty()) {
+      question_.assumptions.never.push_back(part);
+    }
+  }
+
+  void add_initial() {
+    SituationPart& part = question_.assumptions.initially;
+    const std::size_t variables = catalog_.variables.size();
+    if (variables > 0 && random_.percent(60)) {
+      add_value(part, draw_value(static_cast<std::uint32_t>(random_.below(variables))));
+    } else if (!behaviors_.empty()) {
+      add_own(part, random_.pick(behaviors_), random_.percent(25));
+    }
+  }
+
+  static void add_value(SituationPart& part, VariableValue value) {
+    for (const VariableValue& entry : part.variables) {
+      if (entry.variable == value.variable) return;
+    }
+    part.variables.push_back(value);
+  }
+
+  static void add_own(SituationPart& part, BehaviorId behavior, bool available) {
+    for (const SituationPart::Own& entry : part.behaviors) {
+      if (entry.behavior == behavior) return;
+    }
+    part.behaviors.push_back({behavior, available});
+  }
+
+  void add_property() {
+    static const std::vector<Property::Kind> kinds = {Property::Kind::can_start,
+                                                      Property::Kind::always, Property::Kind::never,
+                                                      Property::Kind::reachable};
+    Property property;
+    property.kind = random_.pick(kinds);
+    property.name = "P" + std::to_string(question_.properties.size());
+    if (property.kind == Property::Kind::can_start) {
+      property.task = random_.pick(tasks_);
+      property.priority = static_cast<std::int32_t>(random_.between(1, 3));
+    } else {
+      const bool is_always = property.kind == Property::Kind::always;
+      if (is_always) {
+        property.condition = draw_condition(1);
+        if (random_.percent(80)) {
+          property.when = random_.percent(50) ? describe_state(1 + random_.below(3))
+                                              : draw_condition(1 + random_.below(2));
+        }
+      } else {
+        property.condition = random_.percent(60) ? describe_state(2 + random_.below(11))
+                                                 : draw_condition(1 + random_.below(3));
+      }
+      property.settled = random_.percent(35);
+    }
+    question_.properties.push_back(std::move(property));
+  }
+
+  StateCondition draw_condition(std::size_t parts) {
+    StateCondition condition;
+    for (std::size_t i = 0; i < parts; ++i) add_part(condition);
+    return condition;
+  }
+
+  /// Parts that the state far away satisfies.
+  StateCondition describe_state(std::size_t parts) {
+    StateCondition condition;
+    for (std::size_t i = 0; i < parts; ++i) add_fact(condition);
+    return condition;
+  }
+
+  void add_fact(StateCondition& condition) {
+    const TaskId task = random_.pick(tasks_);
+    const std::size_t kind = random_.below(100);
+    if (kind < 15 && !state_.faulty.empty()) {
+      condition.faulty.push_back(random_.pick(state_.faulty));
+    } else if (kind < 25 && !variables_.empty()) {
+      const std::uint32_t variable = random_.pick(variables_);
+      add_value(condition.situation, {variable, state_.variables[variable]});
+    } else if (kind < 32 && !behaviors_.empty()) {
+      const BehaviorId behavior = random_.pick(behaviors_);
+      add_own(condition.situation, behavior, !contains(state_.denied, behavior));
+    } else if (const auto* const entry = find_running(state_, task); entry == nullptr) {
+      condition.stopped.push_back(task);
+    } else if (const BehaviorId behavior = catalog_.values[task][entry->value_index].behavior;
+               entry->request && entry->request->priority > 0 && random_.percent(40)) {
+      condition.requested.push_back({task, entry->request->priority});
+    } else if (random_.percent(30)) {
+      condition.active.push_back(behavior);
+    } else {
+      condition.running.push_back({task, random_.percent(60) ? behavior : none});
+    }
+  }
+
+  void add_part(StateCondition& condition) {
+    static const std::vector<std::int32_t> priorities = {1, 1, 2, 3};
+    const TaskId task = random_.pick(tasks_);
+    const std::size_t kind = random_.below(100);
+    if (kind < 25 || behaviors_.empty()) {
+      const auto values = catalog_.values[task];
+      const bool is_any = values.empty() || random_.percent(50);
+      condition.running.push_back(
+          {task, is_any ? none : values[random_.below(values.size())].behavior});
+    } else if (kind < 45) {
+      condition.stopped.push_back(task);
+    } else if (kind < 58) {
+      condition.active.push_back(random_.pick(behaviors_));
+    } else if (kind < 66) {
+      condition.faulty.push_back(random_.pick(behaviors_));
+    } else if (kind < 74) {
+      condition.available.push_back(random_.pick(behaviors_));
+    } else if (kind < 87) {
+      condition.requested.push_back({task, random_.pick(priorities)});
+    } else if (kind < 95 && !variables_.empty()) {
+      add_value(condition.situation, draw_value(random_.pick(variables_)));
+    } else {
+      add_own(condition.situation, random_.pick(behaviors_), random_.percent(40));
+    }
+  }
+
+  Random& random_;
+  const CompiledCatalog& catalog_;
+  Question question_;
+  Snapshot state_;  ///< one to ask for
+  // Of the groups.
+  std::vector<TaskId> tasks_;
+  std::vector<BehaviorId> behaviors_;
+  std::vector<std::uint32_t> variables_;
+};
+
+}  // namespace
+
+Question generate_question(Random& random, const CompiledCatalog& catalog) {
+  return QuestionGenerator(random, catalog).generate();
+}
+
+}  // namespace cbc::plain

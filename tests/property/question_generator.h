@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "random.h"
+#include "verify/properties.h"
+
+namespace cbc::plain {
+
+/// What to verify of a catalog.
+struct Question {
+  std::vector<std::uint32_t> groups;  ///< ascending
+  Assumptions assumptions;            ///< about all groups
+  std::vector<Property> properties;   ///< about these groups
+};
+
+/// A random question about one group, or about several of them. Properties name only what is part
+/// of the state of the groups.
+[[nodiscard]] Question generate_question(oracle::Random& random, const CompiledCatalog& catalog);
+
+}  // namespace cbc::plain

@@ -1,0 +1,161 @@
+#include "verify_case.h"
+
+#include <cstddef>
+
+#include "compiled_text.h"
+#include "generator.h"
+#include "random.h"
+#include "yaml_text.h"
+
+namespace cbc::plain {
+
+std::vector<const Property*> VerifyCase::properties() const {
+  std::vector<const Property*> properties;
+  for (const Property& property : question.properties) properties.push_back(&property);
+  return properties;
+}
+
+VerifyCase generate_verify_case(std::uint64_t seed) {
+  oracle::Random random(seed);
+  static const std::vector<std::size_t> sizes = {1, 2, 3, 4, 4, 5, 5, 6, 6, 7, 7, 11};
+  oracle::Catalog catalog = oracle::generate_catalog(random, random.pick(sizes));
+  if (random.percent(50)) {
+    for (oracle::Task& task : catalog.tasks) {
+      if (task.listed && !task.start_on_request) task.reactive_start = random.percent(60);
+    }
+  }
+  VerifyCase sample;
+  sample.yaml = oracle::catalog_yaml(catalog, random);
+  sample.catalog = oracle::compile_yaml(sample.yaml).value();
+  sample.question = generate_question(random, sample.catalog);
+  return sample;
+}
+
+namespace {
+
+class Writer {
+ public:
+  explicit Writer(const CompiledCatalog& catalog) : catalog_(catalog) {}
+
+  [[nodiscard]] std::string move(const Move& move) const {
+    const auto task = [&] { return std::string(catalog_.task_names[move.subject]); };
+    const auto behavior = [&] { return std::string(catalog_.behavior_names[move.subject]); };
+    switch (move.kind) {
+      case Move::Kind::start:
+        return "start " + task() + " " + std::to_string(move.choice);
+      case Move::Kind::stop:
+        return "stop " + task();
+      case Move::Kind::success:
+        return "success " + behavior();
+      case Move::Kind::failure:
+        return "failure " + behavior();
+      case Move::Kind::situation_change:
+        return "situation change " + behavior();
+      case Move::Kind::fault:
+        return "fault " + behavior();
+      case Move::Kind::repair:
+        return "repair " + behavior();
+      case Move::Kind::variable:
+        return value({move.subject, static_cast<std::uint32_t>(move.choice)});
+      case Move::Kind::own:
+        return "own " + behavior() + (move.choice != 0 ? " true" : " false");
+      case Move::Kind::due:
+        return "due";
+    }
+    return {};
+  }
+
+  [[nodiscard]] std::string task(TaskId task) const {
+    return std::string(catalog_.name_of_task(task));
+  }
+  [[nodiscard]] std::string behavior(BehaviorId behavior) const {
+    return behavior == none ? "any" : std::string(catalog_.name_of_behavior(behavior));
+  }
+  [[nodiscard]] std::string value(VariableValue value) const {
+    return std::string(catalog_.name_of_variable(value.variable)) + " = " +
+           std::string(catalog_.name_of_value(value));
+  }
+
+  [[nodiscard]] std::string part(const SituationPart& part) const {
+    std::string text;
+    for (const VariableValue& entry : part.variables) text += " " + value(entry);
+    for (const SituationPart::Own& entry : part.behaviors) {
+      text += " own " + behavior(entry.behavior) + (entry.available ? " true" : " false");
+    }
+    return text;
+  }
+
+  [[nodiscard]] std::string condition(const StateCondition& condition) const {
+    std::string text;
+    for (const auto& entry : condition.running) {
+      text += " running " + task(entry.task) + ":" + behavior(entry.behavior);
+    }
+    for (const TaskId one : condition.stopped) text += " stopped " + task(one);
+    for (const BehaviorId one : condition.active) text += " active " + behavior(one);
+    for (const BehaviorId one : condition.faulty) text += " faulty " + behavior(one);
+    for (const BehaviorId one : condition.available) text += " available " + behavior(one);
+    for (const auto& entry : condition.requested) {
+      text += " requested " + task(entry.task) + ":" + std::to_string(entry.priority);
+    }
+    return text + part(condition.situation);
+  }
+
+  [[nodiscard]] std::string property(const Property& property) const {
+    static const char* const kinds[] = {"can_start", "always", "never", "reachable"};
+    std::string text = property.name + " " + kinds[static_cast<std::size_t>(property.kind)];
+    if (property.kind == Property::Kind::can_start) {
+      text += " " + task(property.task) + " " + std::to_string(property.priority);
+    }
+    text += condition(property.condition);
+    if (property.when) text += " when" + condition(*property.when);
+    return text + (property.settled ? " settled\n" : "\n");
+  }
+
+  [[nodiscard]] std::string assumptions(const Assumptions& assumptions) const {
+    std::string text = "start";
+    for (const Assumptions::Start& start : assumptions.start) {
+      text += " " + task(start.task) + ":";
+      for (const std::int32_t priority : start.priorities) text += " " + std::to_string(priority);
+    }
+    text += "\nstop";
+    for (const TaskId one : assumptions.stop) text += " " + task(one);
+    text += assumptions.successes ? "\nsuccesses" : "\nno successes";
+    text += assumptions.failures ? ", failures" : ", no failures";
+    text += ", faults " + std::to_string(assumptions.faults) + "\nchange";
+    for (const std::uint32_t variable : assumptions.variables) {
+      text += " " + std::string(catalog_.name_of_variable(variable));
+    }
+    for (const BehaviorId one : assumptions.behaviors) text += " " + behavior(one);
+    for (const SituationPart& entry : assumptions.never) text += "\nnever" + part(entry);
+    return text + "\ninitially" + part(assumptions.initially) + "\n";
+  }
+
+ private:
+  const CompiledCatalog& catalog_;
+};
+
+}  // namespace
+
+std::string text_of(const CompiledCatalog& catalog, const std::vector<Move>& script) {
+  const Writer writer(catalog);
+  std::string text;
+  for (const Move& move : script) text += "  " + writer.move(move) + "\n";
+  return text;
+}
+
+std::string text_of(const VerifyCase& sample) {
+  const Writer writer(sample.catalog);
+  std::string text = sample.yaml + "--- groups";
+  for (const std::uint32_t group : sample.question.groups) text += " " + std::to_string(group);
+  text += "\n" + writer.assumptions(sample.question.assumptions);
+  for (const Property& property : sample.question.properties) text += writer.property(property);
+  return text;
+}
+
+std::string text_of(const CompiledCatalog& catalog, const Verdict& verdict) {
+  static const char* const results[] = {"proved", "violated", "undecided"};
+  return std::string(results[static_cast<std::size_t>(verdict.result)]) +
+         (verdict.has_script ? ", by\n" : "\n") + text_of(catalog, verdict.script);
+}
+
+}  // namespace cbc::plain

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "question_generator.h"
+#include "verify/explore.h"
+#include "verify/properties.h"
+
+namespace cbc::plain {
+
+/// A random small catalog, and a question about it.
+struct VerifyCase {
+  std::string yaml;
+  CompiledCatalog catalog;
+  Question question;
+
+  [[nodiscard]] std::vector<const Property*> properties() const;
+};
+
+/// The same seed gives the same case. Throws std::runtime_error if the catalog is refused.
+[[nodiscard]] VerifyCase generate_verify_case(std::uint64_t seed);
+
+// For reports: one line for each move; the whole case; a verdict with its script.
+[[nodiscard]] std::string text_of(const CompiledCatalog& catalog, const std::vector<Move>& script);
+[[nodiscard]] std::string text_of(const VerifyCase& sample);
+[[nodiscard]] std::string text_of(const CompiledCatalog& catalog, const Verdict& verdict);
+
+}  // namespace cbc::plain

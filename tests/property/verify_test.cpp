@@ -1,0 +1,224 @@
+// The exploration of random small catalogs must find what the plain search finds: the same numbers,
+// verdicts and scripts, with any number of jobs. CBC_SEED and CBC_PROPERTY_CASES are as in
+// property_test.cpp.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "compiled_text.h"
+#include "demand.h"
+#include "plain_exploration.h"
+#include "question_generator.h"
+#include "random.h"
+#include "random_cases.h"
+#include "support/read_file.h"
+#include "verify/explore.h"
+#include "verify_case.h"
+
+namespace cbc::plain {
+namespace {
+
+using oracle::demand;
+
+constexpr std::uint64_t default_cases = 500;
+constexpr std::uint64_t most_states = 1500;
+constexpr std::uint64_t questions_of_each = 5;
+constexpr std::uint64_t states_of_each = 1000;
+
+template <typename Number>
+std::string list_of(const std::vector<Number>& numbers) {
+  std::string text;
+  for (const Number number : numbers) text += " " + std::to_string(number);
+  return text;
+}
+
+std::string list_of(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& depths) {
+  std::string text;
+  for (const auto& [index, depth] : depths) {
+    text += " " + std::to_string(index) + ":" + std::to_string(depth);
+  }
+  return text;
+}
+
+std::string list_of(const std::vector<Exploration::Together>& pairs) {
+  std::string text;
+  for (const Exploration::Together& pair : pairs) {
+    text += " " + std::to_string(pair.a) + "+" + std::to_string(pair.b) + ":" +
+            std::to_string(pair.depth);
+  }
+  return text;
+}
+
+/// Everything that two explorations have to agree on.
+std::vector<std::pair<std::string, std::string>> parts_of(const VerifyCase& sample,
+                                                          const Exploration& result) {
+  std::vector<std::pair<std::string, std::string>> parts = {
+      {"error", result.error ? "yes" : "no"},
+  };
+  if (result.error) return parts;
+  parts.insert(parts.end(), {{"groups", list_of(result.groups)},
+                             {"complete", result.complete ? "yes" : "no"},
+                             {"states", std::to_string(result.states)},
+                             {"states at depth", list_of(result.states_at_depth)},
+                             {"depth", std::to_string(result.depth)},
+                             {"transitions", std::to_string(result.transitions)},
+                             {"runs", list_of(result.runs)},
+                             {"active", list_of(result.active)},
+                             {"start refused", list_of(result.start_refused)},
+                             {"together", list_of(result.together)},
+                             {"verdicts", std::to_string(result.verdicts.size())}});
+  for (std::size_t i = 0; i < result.verdicts.size(); ++i) {
+    parts.emplace_back(sample.question.properties[i].name,
+                       text_of(sample.catalog, result.verdicts[i]));
+  }
+  return parts;
+}
+
+void demand_same(const VerifyCase& sample, const Exploration& result, const Exploration& expected,
+                 const std::string& what) {
+  const auto found = parts_of(sample, result);
+  const auto wanted = parts_of(sample, expected);
+  std::string differences;
+  for (std::size_t i = 0; i < std::min(wanted.size(), found.size()); ++i) {
+    if (wanted[i] == found[i]) continue;
+    differences += wanted[i].first + ": " + found[i].second + ", not " + wanted[i].second + "\n";
+  }
+  demand(differences.empty(), what + "\n" + differences);
+  demand(wanted.size() == found.size(), what + "\nanother number of parts");
+}
+
+void compare(const VerifyCase& sample, const Exploration& expected, unsigned jobs) {
+  ExplorationOptions options;
+  options.jobs = jobs;
+  const Exploration result = explore(sample.catalog, sample.question.groups,
+                                     sample.question.assumptions, sample.properties(), options);
+  demand_same(sample, result, expected, std::to_string(jobs) + " jobs");
+}
+
+/// The entries up to a depth, which is their last part.
+template <typename Entries, typename DepthOf>
+Entries up_to(std::uint32_t depth, const Entries& entries, DepthOf&& depth_of) {
+  Entries kept;
+  std::copy_if(entries.begin(), entries.end(), std::back_inserter(kept),
+               [&](const auto& entry) { return depth_of(entry) <= depth; });
+  return kept;
+}
+
+/// What both know who have expanded all states up to a depth.
+Exploration beginning_of(const VerifyCase& sample, Exploration result, std::uint32_t depth) {
+  const auto second = [](const auto& entry) { return entry.second; };
+  result.complete = false;
+  result.states = 0;
+  result.transitions = 0;
+  result.depth = depth;
+  result.states_at_depth.resize(depth + 1);
+  result.runs = up_to(depth, result.runs, second);
+  result.active = up_to(depth, result.active, second);
+  result.start_refused = up_to(depth, result.start_refused, second);
+  result.together =
+      up_to(depth, result.together, [](const Exploration::Together& entry) { return entry.depth; });
+  for (std::size_t i = 0; i < result.verdicts.size(); ++i) {
+    Verdict& verdict = result.verdicts[i];
+    const bool is_start = sample.question.properties[i].kind == Property::Kind::can_start;
+    const std::size_t length = verdict.script.size() - (is_start && verdict.has_script ? 1 : 0);
+    if (verdict.has_script && length <= depth) continue;
+    // If one of them is complete, the other one cannot know.
+    verdict = {};
+  }
+  return result;
+}
+
+/// Compares searches that ended at a limit. Returns the depth that was compared.
+std::uint32_t compare_beginnings(const VerifyCase& sample, const Exploration& expected) {
+  ExplorationOptions options;
+  options.limits.max_states = expected.states;
+  const auto explore_with = [&](unsigned jobs) {
+    options.jobs = jobs;
+    return explore(sample.catalog, sample.question.groups, sample.question.assumptions,
+                   sample.properties(), options);
+  };
+  const Exploration result = explore_with(1);
+  demand_same(sample, explore_with(3), result, "3 jobs, and not 1");
+  if (!result.complete) {
+    for (std::size_t i = 0; i < result.verdicts.size(); ++i) {
+      const bool is_decided = result.verdicts[i].result != Verdict::Result::undecided;
+      demand(is_decided == result.verdicts[i].has_script, "a verdict without reason");
+    }
+  }
+  const std::uint32_t depth = std::min(expected.depth, result.depth);
+  demand_same(sample, beginning_of(sample, result, depth), beginning_of(sample, expected, depth),
+              "up to depth " + std::to_string(depth));
+  return depth;
+}
+
+void run_case(std::uint64_t seed, oracle::Results& results) {
+  VerifyCase sample;
+  try {
+    sample = generate_verify_case(seed);
+    const Exploration expected =
+        explore_plainly(sample.catalog, sample.question.groups, sample.question.assumptions,
+                        sample.properties(), most_states);
+    if (expected.error || expected.complete) {
+      compare(sample, expected, 1);
+      compare(sample, expected, 3);
+      results.statistics.count(expected.error ? "excluded first state" : "compared");
+    } else {
+      compare_beginnings(sample, expected);
+      results.statistics.count("compared up to a limit");
+    }
+  } catch (const std::exception& error) {
+    results.faults.push_back({seed, "seed " + std::to_string(seed) + "\n--- catalog\n" +
+                                        text_of(sample) + "--- fault\n" + error.what() + "\n"});
+  }
+}
+
+const oracle::LowerBound lower_bounds[] = {
+    {"compared", 600},
+    {"compared up to a limit", 80},
+    {"excluded first state", 10},
+};
+
+TEST(Verify, FindsWhatThePlainSearchFinds) {
+  oracle::run_random_cases(default_cases, run_case, lower_bounds);
+}
+
+/// Random questions about catalogs that are too large to be searched plainly.
+TEST(Verify, BeginsAsThePlainSearchOnLargerCatalogs) {
+  std::size_t cases = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(CBC_SOURCE_DIR "/catalogs")) {
+    const std::filesystem::path& path = entry.path();
+    if (path.extension() != ".yaml" || path.stem().has_extension()) continue;
+    VerifyCase sample;
+    sample.catalog = oracle::compile_yaml(test::read_file(path)).value();
+    for (std::uint64_t seed = 1; seed <= questions_of_each; ++seed) {
+      oracle::Random random(seed);
+      sample.question = generate_question(random, sample.catalog);
+      const Exploration expected =
+          explore_plainly(sample.catalog, sample.question.groups, sample.question.assumptions,
+                          sample.properties(), states_of_each);
+      SCOPED_TRACE(path.filename().string() + ", " + std::to_string(seed));
+      try {
+        if (expected.complete) {
+          compare(sample, expected, 3);
+        } else if (!expected.error) {
+          compare_beginnings(sample, expected);
+        }
+        ++cases;
+      } catch (const std::exception& error) {
+        ADD_FAILURE() << text_of(sample) << error.what();
+      }
+    }
+  }
+  EXPECT_GE(cases, 8 * questions_of_each);
+}
+
+}  // namespace
+}  // namespace cbc::plain
