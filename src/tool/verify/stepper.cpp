@@ -375,7 +375,7 @@ void Stepper::settle_queue() {
   }
 }
 
-// Coordination (docs/semantics.md, "Coordination").
+// Coordination (docs/semantics.md, "Domains").
 
 bool Stepper::has_finished(const Trigger& trigger, std::uint32_t task) const {
   if (trigger.kind != Trigger::Kind::finish || now_.cells[task] == 0) return false;
