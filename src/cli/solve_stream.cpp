@@ -350,7 +350,7 @@ class Replay {
       return std::nullopt;
     }
     State first(catalog_);
-    apply(header->situation, catalog_, first);
+    first.change_situation(header->situation.availability, header->situation.variables);
     std::string text =
         stream_header(catalog_, header->catalog, header->reactive_delay, header->situation,
                       state ? state->variables : first.variables());

@@ -26,32 +26,14 @@ Coordinator::Coordinator(const CompiledCatalog& catalog, const CoordinatorOption
 
 void Coordinator::begin(std::span<const Availability> situation,
                         std::span<const VariableValue> variables) {
-  for (const Availability& entry : situation) {
-    state_.set_denied(catalog_.behavior_ids[entry.behavior], !entry.available);
-  }
-  for (const VariableValue& value : variables) state_.set_variable(value);
+  state_.change_situation(situation, variables);
   for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) enqueue_group(group);
 }
 
 void Coordinator::resume(const Snapshot& snapshot) {
   now_ = snapshot.now;
   record_.index = snapshot.events;
-  for (const BehaviorId behavior : snapshot.denied) state_.set_denied(behavior, true);
-  for (std::uint32_t variable = 0; variable < snapshot.variables.size(); ++variable) {
-    state_.set_variable({variable, snapshot.variables[variable]});
-  }
-  for (const BehaviorId behavior : snapshot.faulty) state_.set_faulty(behavior, true);
-  for (const auto& [behavior, time] : snapshot.active) state_.set_active(behavior, time);
-  for (const Snapshot::RunningTask& entry : snapshot.running) {
-    state_.set_value(entry.task, entry.value_index, entry.since);
-    if (const auto& request = entry.request) {
-      state_.set_request(entry.task, request->priority, request->event, request->parameters);
-    }
-    // With a time before all others, so that a timeout due right now is set, too.
-    if (entry.waits_for_timeout) state_.update_timeout(entry.task, -1);
-  }
-  for (const auto& [task, due] : snapshot.queue) state_.enqueue(task, due);
-  for (const TaskId task : snapshot.waiting) state_.set_waiting(task, true);
+  state_.restore(snapshot);
 }
 
 Snapshot Coordinator::snapshot() const {
@@ -300,10 +282,7 @@ Coordinator::Status Coordinator::finish(BehaviorId behavior, FinishCause cause) 
 /// active ones that do not fit any more finish, in catalog order.
 Coordinator::Status Coordinator::change_situation(const Event& event) {
   find_affected(event);
-  for (const Availability& entry : event.situation) {
-    state_.set_denied(catalog_.behavior_ids[entry.behavior], !entry.available);
-  }
-  for (const VariableValue& value : event.variables) state_.set_variable(value);
+  state_.change_situation(event.situation, event.variables);
   for (const auto& [behavior, was_available] : affected_) {
     if (!was_available && state_.is_available(behavior)) enqueue_group(catalog_.group_of(behavior));
     if (!state_.is_active(behavior) || state_.fits(behavior)) continue;

@@ -532,15 +532,6 @@ void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter
   fields.report_unknown(yaml::UnknownKeys::refused);
 }
 
-void resume(StepReader& reader, const CompiledCatalog& catalog, const Snapshot& snapshot) {
-  State state(catalog);
-  for (const BehaviorId behavior : snapshot.denied) state.set_denied(behavior, true);
-  for (std::uint32_t variable = 0; variable < snapshot.variables.size(); ++variable) {
-    state.set_variable({variable, snapshot.variables[variable]});
-  }
-  reader.resume(snapshot.now, state);
-}
-
 }  // namespace
 
 std::optional<std::string> catalog_of_script(const yaml::Document& document) {
@@ -558,7 +549,11 @@ std::optional<Script> read_script(const yaml::Document& document, const Compiled
                                   const Snapshot* state) {
   Reporter reporter(document.file(), diagnostics);
   StepReader reader(catalog, of_parameters);
-  if (state != nullptr) resume(reader, catalog, *state);
+  if (state != nullptr) {
+    State saved(catalog);
+    saved.restore(*state);
+    reader.resume(state->now, saved);
+  }
   Script script;
   script.file = document.file();
   const Node& root = document.root();

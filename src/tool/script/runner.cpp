@@ -170,13 +170,6 @@ void Runner::check(const Step& step) {
   }
 }
 
-void apply(const Situation& situation, const CompiledCatalog& catalog, State& state) {
-  for (const Availability& entry : situation.availability) {
-    state.set_denied(catalog.behavior_ids[entry.behavior], !entry.available);
-  }
-  for (const VariableValue value : situation.variables) state.set_variable(value);
-}
-
 Event event_of(const Step& step) {
   Event event;
   event.verb = step.verb;

@@ -7,8 +7,6 @@
 
 #include "cbc/event.h"
 #include "cbc/units.h"
-#include "compiled/compiled_catalog.h"
-#include "coordinator/state.h"
 #include "diagnostic/diagnostic.h"
 #include "yaml/values.h"
 
@@ -63,9 +61,6 @@ struct Step {
   FinishCause cause = FinishCause::goal_achieved;
   Situation situation;
 };
-
-/// Makes the changes in a state.
-void apply(const Situation& situation, const CompiledCatalog& catalog, State& state);
 
 /// A scripted mission, checked against its catalog. Tasks and behaviors are in catalog order.
 struct Script {
