@@ -89,8 +89,6 @@ std::string list_names(const CompiledCatalog& catalog, const std::vector<TaskId>
   return text;
 }
 
-constexpr std::size_t text_width = 80;
-constexpr std::size_t longest_name = 28;
 constexpr std::size_t columns_in_a_block = 5;
 
 /// The matrix as text, in as many parts as it takes for its columns to fit.
@@ -126,7 +124,7 @@ class TextMatrix {
         add_gap(line, column, first);
         line += fmt::format("{:>{}}", column + 1, digits_)[digit];
       }
-      text_ += style_.paint(style_.faint, line.substr(0, line.find_last_not_of(' ') + 1)) + "\n";
+      text_ += style_.paint(style_.faint, without_end_blanks(line)) + "\n";
     }
     for (std::size_t row = first; row < matrix_.size(); ++row) {
       text_ += fmt::format("  {:>{}} {}", row + 1, digits_, names_[row]);
@@ -223,74 +221,44 @@ std::string_view color_of(Together together) {
   return palette::paper;
 }
 
-class DotTable {
- public:
-  DotTable(const CompiledCatalog& catalog, const TogetherTable& table)
-      : catalog_(catalog), table_(table), matrix_(table) {}
-
-  std::string write() && {
-    text_ = fmt::format(
-        "graph together {{\n"
-        "  graph [bgcolor=\"{0}\", pad=0.2, fontname=\"Helvetica,Arial,sans-serif\"];\n"
-        "  node [shape=plain, fontname=\"Helvetica,Arial,sans-serif\", fontsize=11];\n"
-        "  table [label=<\n<TABLE BORDER=\"0\" CELLBORDER=\"0\" CELLSPACING=\"0\" "
-        "CELLPADDING=\"3\">\n",
-        palette::paper);
-    add_line(fmt::format("<B>{}</B>: {}", escape_html(draw::label_of(catalog_.file)),
-                         "which tasks can run together"));
-    if (matrix_.size() > 1) add_matrix();
-    for (const Together together : answers) {
-      if (table_.count(together) > 0) add_line(escape_html(legend_of(table_, together)));
-    }
-    if (!table_.never_run.empty()) {
-      add_line(escape_html("can never run: " + list_names(catalog_, table_.never_run)));
-    }
-    for_each_indirect(table_, [this](const TaskPair& pair) {
-      std::string line =
-          fmt::format("<B>{}</B>", escape_html(list_names(catalog_, {pair.first, pair.second})));
-      for (const std::string& reason : reasons_of(catalog_, pair)) {
-        line += "<BR ALIGN=\"LEFT\"/>   " + escape_html(reason);
-      }
-      add_line(line + "<BR ALIGN=\"LEFT\"/>");
-    });
-    return std::move(text_) + "</TABLE>>];\n}\n";
+/// The matrix for DotTable.
+std::vector<std::string> rows_of(const CompiledCatalog& catalog, const TogetherTable& table) {
+  const Matrix matrix(table);
+  std::vector<std::string> rows = {"<TD></TD>"};
+  for (std::size_t column = 0; column + 1 < matrix.size(); ++column) {
+    rows.front() += fmt::format("<TD>{}</TD>", column + 1);
   }
-
- private:
-  void add_line(const std::string& line) {
-    text_ += fmt::format("<TR><TD ALIGN=\"LEFT\" BALIGN=\"LEFT\">{}</TD></TR>\n", line);
-  }
-
-  void add_matrix() {
-    text_ +=
-        "<TR><TD ALIGN=\"LEFT\"><TABLE BORDER=\"0\" CELLBORDER=\"0\" CELLSPACING=\"1\" "
-        "CELLPADDING=\"2\">\n<TR><TD></TD>";
-    for (std::size_t column = 0; column + 1 < matrix_.size(); ++column) {
-      text_ += fmt::format("<TD>{}</TD>", column + 1);
+  for (std::size_t row = 0; row < matrix.size(); ++row) {
+    std::string& cells = rows.emplace_back(DotTable::name_cell(fmt::format(
+        "{} {}", row + 1, escape_html(draw::label_of(catalog.name_of_task(table.tasks[row]))))));
+    for (std::size_t column = 0; column < row; ++column) {
+      const Together together = matrix.at(row, column);
+      cells += DotTable::color_cell(color_of(together), sign_of(together));
     }
-    text_ += "</TR>\n";
-    for (std::size_t row = 0; row < matrix_.size(); ++row) {
-      text_ += fmt::format("<TR><TD ALIGN=\"LEFT\">{} {}</TD>", row + 1,
-                           escape_html(draw::label_of(catalog_.name_of_task(table_.tasks[row]))));
-      for (std::size_t column = 0; column < row; ++column) {
-        const Together together = matrix_.at(row, column);
-        text_ += fmt::format("<TD BGCOLOR=\"{}\">{}</TD>", color_of(together), sign_of(together));
-      }
-      text_ += "</TR>\n";
-    }
-    text_ += "</TABLE></TD></TR>\n";
   }
-
-  const CompiledCatalog& catalog_;
-  const TogetherTable& table_;
-  const Matrix matrix_;
-  std::string text_;
-};
+  return rows;
+}
 
 }  // namespace
 
 std::string together_dot(const CompiledCatalog& catalog, const TogetherTable& table) {
-  return DotTable(catalog, table).write();
+  DotTable dot("together", catalog, "which tasks can run together");
+  if (table.tasks.size() > 1) dot.add_matrix(2, rows_of(catalog, table));
+  for (const Together together : answers) {
+    if (table.count(together) > 0) dot.add_line(escape_html(legend_of(table, together)));
+  }
+  if (!table.never_run.empty()) {
+    dot.add_line(escape_html("can never run: " + list_names(catalog, table.never_run)));
+  }
+  for_each_indirect(table, [&](const TaskPair& pair) {
+    std::string line =
+        fmt::format("<B>{}</B>", escape_html(list_names(catalog, {pair.first, pair.second})));
+    for (const std::string& reason : reasons_of(catalog, pair)) {
+      line += "<BR ALIGN=\"LEFT\"/>   " + escape_html(reason);
+    }
+    dot.add_line(line + "<BR ALIGN=\"LEFT\"/>");
+  });
+  return std::move(dot).finish();
 }
 
 std::span<const TogetherFormat> together_formats() {
