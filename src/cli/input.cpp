@@ -20,7 +20,7 @@
 #include <fmt/core.h>
 
 #include "base/text.h"
-#include "catalog/format.h"
+#include "catalog/draft.h"
 #include "catalog/reader.h"
 #include "cbc/event.h"
 #include "cli/output.h"

@@ -14,7 +14,7 @@
 
 #include "base/text.h"
 #include "catalog/allowed_values.h"
-#include "catalog/conditions.h"
+#include "catalog/situation.h"
 
 namespace cbc {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "catalog/conditions.h"
+#include "catalog/situation.h"
 #include "page_files.h"
 #include "report/catalog_report.h"
 #include "report/sentences.h"
