@@ -97,7 +97,8 @@ std::optional<Microseconds> Coordinator::next_due() const {
   return std::min(timeouts.first_due(), queue.first_due());
 }
 
-/// At one instant timeouts come before reactive starts. Each counts, whether it is an event or not.
+/// At one instant, timeouts come before reactive starts. Each counts towards max_clock_events, even
+/// if it is a no-op, so that the limit bounds the time that a call takes.
 Coordinator::Status Coordinator::process_next_due() {
   const Timers& timeouts = state_.timeouts();
   const Timers& queue = state_.queue();
@@ -126,14 +127,14 @@ Coordinator::Status Coordinator::start_reactive(TaskId task) {
   return start(task, 0, std::string_view{}, true);
 }
 
-/// Whether a reactive task that is due starts, as far as can be told without search.
+/// Whether a reactive task that is due may start. True does not promise it: that takes a search.
 bool Coordinator::may_start(TaskId task) const {
   return !state_.is_running(task) && !state_.excludes_running_task(task) &&
          state_.has_available_behavior(task);
 }
 
-/// What follows an event at the same instant: behaviors that a rollback could not activate again
-/// finish right after the rejected event, and then those that a new situation does not fit.
+/// Handles what follows an event at the same instant: first the behaviors finish that a rollback
+/// could not activate again, then the active ones that no longer fit the situation.
 Coordinator::Status Coordinator::finish_pending() {
   while (!lost_.empty() || !misfits_.empty()) {
     Status status = Status::ok;
@@ -278,8 +279,9 @@ Coordinator::Status Coordinator::finish(BehaviorId behavior, FinishCause cause) 
   return coordinate(trigger);
 }
 
-/// Makes all changes at once. Then behaviors that become available let reactive tasks try, and
-/// active ones that do not fit any more finish, in catalog order.
+/// Makes all changes at once. Then the reactive tasks of groups in which a behavior has become
+/// available are queued, and active behaviors that no longer fit are noted, to finish in catalog
+/// order.
 Coordinator::Status Coordinator::change_situation(const Event& event) {
   find_affected(event);
   state_.change_situation(event.situation, event.variables);
@@ -388,7 +390,7 @@ const Problem* Coordinator::search(const Trigger& trigger) {
   }
 }
 
-/// The same, and measures its time.
+/// The same, with its time measured.
 const Problem* Coordinator::timed_search(const Trigger& trigger) {
   const auto begin = std::chrono::steady_clock::now();
   const Problem* const problem = search(trigger);
@@ -411,7 +413,8 @@ void Coordinator::note_domain_sizes(const Problem& problem) {
   }
 }
 
-/// The behavior that the started task keeps and that has to take over changed parameters, or none.
+/// The behavior that the started task keeps, if it has to restart to take over changed parameters;
+/// otherwise none.
 BehaviorId Coordinator::behavior_to_restart(const Trigger& trigger) const {
   if (trigger.kind != Trigger::Kind::start || !state_.is_running(trigger.task)) return none;
   const std::uint32_t index = solution_[trigger.task - catalog_.group_tasks[trigger.group]];
@@ -441,8 +444,8 @@ void Coordinator::accept(const Trigger& trigger, const Problem& problem) {
   if (state_.waiting_count() > 0) retry_waiting(trigger.group);
 }
 
-/// Explains the solution as far as the options ask for it. Makes no explainer where the options ask
-/// for displaced requests only and there are none.
+/// Explains the solution as far as the options ask for it. Creates the explainer only if there is
+/// something to explain, since it takes memory.
 void Coordinator::explain(const Trigger& trigger, const Problem& problem) {
   if (!options_.explain.asks_for_any() || search_.result.status != SearchStatus::optimal) return;
   const bool is_only_of_displaced =

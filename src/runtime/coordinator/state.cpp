@@ -121,7 +121,7 @@ void State::restore(const Snapshot& snapshot) {
     if (const auto& request = entry.request) {
       set_request(entry.task, request->priority, request->event, request->parameters);
     }
-    // With a time before all others, so that a timeout due right now is set, too.
+    // At an instant before all others, so that even a timeout that is due right now is set.
     if (entry.waits_for_timeout) update_timeout(entry.task, -1);
   }
   for (const auto& [task, due] : snapshot.queue) enqueue(task, due);

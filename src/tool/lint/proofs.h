@@ -17,12 +17,12 @@
 #include "solver/problem.h"
 #include "solver/solver.h"
 
-/// What the constraints of a catalog make impossible, or say in vain: decided exactly, by search.
+/// What the constraints of a catalog make impossible or redundant: decided exactly, by search.
 /// First the checks, then what they share.
 namespace cbc {
 
 /// All checks of a catalog whose names were all understood, and whose requirements have no cycle.
-/// `conflicts`: by behavior, whether a finding says already that it can never be active.
+/// `conflicts`: by behavior, whether a finding already says that it can never be active.
 void check_by_proof(const CatalogReading& reading, const CompiledCatalog& compiled,
                     const std::vector<bool>& conflicts, const LintOptions& options,
                     Reporter& reporter);
@@ -43,8 +43,8 @@ inline constexpr std::size_t most_constraints = 20'000;
 /// The requirement of a task by a behavior that has one; of several the strongest, or the first.
 [[nodiscard]] const Requirement& strongest_requirement(const Behavior& behavior, TaskIndex task);
 
-/// Answers questions about the assignments that satisfy all constraints of a catalog, every
-/// behavior available and every task free to run or not.
+/// Answers questions about the assignments that satisfy all constraints of a catalog. Every
+/// behavior is available, and every task is free to run or not.
 ///
 /// The effort of one object is bounded: past it, all answers are unknown.
 class AssignmentSearch {

@@ -23,11 +23,11 @@ inline constexpr std::size_t longest_name = 28;
 /// The text without the blanks at its end.
 [[nodiscard]] std::string_view without_end_blanks(std::string_view text);
 
-/// A text in a label of Graphviz that is like HTML.
+/// Escapes a text for the HTML-like labels of Graphviz.
 [[nodiscard]] std::string escape_html(std::string_view text);
 
 /// A graph for Graphviz's program `dot` that is nothing but lines of text and matrices, one below
-/// the other. All texts are those of labels that are like HTML.
+/// the other. Texts are in the syntax of HTML-like labels.
 class DotTable {
  public:
   /// `graph` names the graph. The first line has the file of the catalog, and says what this is.

@@ -26,7 +26,7 @@ class EventLines {
   struct Reading {
     std::optional<Step> step;
     std::string error;
-    std::vector<std::string> warnings;  ///< the step can be used nevertheless
+    std::vector<std::string> warnings;  ///< the step can still be used
   };
 
   /// The catalog must outlive this object.

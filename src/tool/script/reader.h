@@ -29,8 +29,8 @@ class NameIndex {
   /// The catalog must outlive this object.
   explicit NameIndex(const CompiledCatalog& catalog) : catalog_(catalog) {}
 
-  /// `what` is the key that the name is the value of. `beside`: the list or mapping that the name
-  /// stands in, whose other names are not suggested.
+  /// `what`: the key whose value the name is. `beside`: the list or mapping that has the name; the
+  /// other names in it are not suggested.
   [[nodiscard]] std::optional<std::uint32_t> find_task(const yaml::Node& node,
                                                        std::string_view what, Reporter& reporter,
                                                        const yaml::Node* beside = nullptr);
@@ -39,7 +39,7 @@ class NameIndex {
                                                            Reporter& reporter,
                                                            const yaml::Node* beside = nullptr);
 
-  /// Of a situation: a behavior, or a variable.
+  /// What an entry of a situation names: a behavior, or a variable.
   struct Part {
     bool is_variable = false;
     std::uint32_t place = 0;
@@ -143,7 +143,7 @@ class StepReader {
   Microseconds clock_ = 0;
   NameIndex names_;
   ParameterChecks parameter_checks_;
-  // At this place of the script.
+  // The situation at this place of the script.
   std::vector<bool> is_denied_;  ///< by behavior
   std::vector<std::uint32_t> variables_;
   bool knows_situation_ = true;
