@@ -48,7 +48,7 @@ void Coordinator::resume(const Snapshot& snapshot) {
       state_.set_request(entry.task, request->priority, request->event, request->parameters);
     }
     // With a time before all others, so that a timeout due right now is set, too.
-    if (entry.waits_for_timeout) state_.update_timeout(entry.task, -1);
+    if (entry.waits_for_timeout && options_.timeouts) state_.update_timeout(entry.task, -1);
   }
   for (const auto& [task, due] : snapshot.queue) state_.enqueue(task, due);
   for (const TaskId task : snapshot.waiting) state_.set_waiting(task, true);
@@ -59,6 +59,7 @@ Snapshot Coordinator::snapshot() const {
   snapshot.now = now_;
   snapshot.events = record_.index;
   snapshot.reactive_delay = options_.reactive_delay;
+  snapshot.timeouts = options_.timeouts;
   for (const std::uint32_t index : state_.running()) {
     const TaskId task = catalog_.task_ids[index];
     Snapshot::RunningTask& entry = snapshot.running.emplace_back();
@@ -531,6 +532,7 @@ void Coordinator::assign(const Trigger& trigger) {
 }
 
 void Coordinator::update_timeouts(std::uint32_t group) {
+  if (!options_.timeouts) return;
   for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
     state_.update_timeout(task, now_);
   }

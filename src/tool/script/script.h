@@ -71,7 +71,8 @@ void apply(const Situation& situation, const CompiledCatalog& catalog, State& st
 struct Script {
   std::string file;
   Microseconds reactive_delay = 80'000;
-  Situation situation;  ///< before the first event
+  bool timeouts = true;  ///< see CoordinatorOptions
+  Situation situation;   ///< before the first event
   std::vector<Step> steps;
 };
 
