@@ -68,7 +68,8 @@ bool has_lines_of_catalog(std::string_view text) {
 bool is_catalog(const yaml::Document& document) { return cbc::is_catalog(document.root()); }
 
 bool is_script(const yaml::Document& document) {
-  constexpr std::array<std::string_view, 3> keys = {"events", "catalog", "reactive_delay"};
+  constexpr std::array<std::string_view, 4> keys = {"events", "catalog", "reactive_delay",
+                                                    "timeouts"};
   constexpr std::array<std::string_view, 2> other_event_keys = {"expect", "at"};
   const yaml::Node& root = document.root();
   if (root.kind != yaml::Kind::sequence) {

@@ -110,6 +110,7 @@ std::string describe(const Script& script) {
 TEST(ScriptReader, ReadsEverything) {
   const Script script = read(R"(catalog: a.yaml
 reactive_delay: 0.5
+timeouts: no
 situation: {HOVER_PID: false, HOVER_MPC: yes}
 events:
 - start: TAKE_OFF
@@ -139,6 +140,7 @@ events:
 )");
   EXPECT_EQ(script.file, "s.yaml");
   EXPECT_EQ(script.reactive_delay, 500'000);
+  EXPECT_FALSE(script.timeouts);
   EXPECT_EQ(describe(script.situation), " 1- 2+");
   EXPECT_EQ(describe(script), R"(start 0 priority 2
 @4000000 finish 0 goal_achieved
@@ -154,7 +156,7 @@ repair 1
 expect accepted running 2=2 running 1=any stopped 0 active 2 3
 @8500000 expect active
 )");
-  EXPECT_EQ(show(script.steps.at(1).range), "7:3-4");
+  EXPECT_EQ(show(script.steps.at(1).range), "8:3-4");
 }
 
 TEST(ScriptReader, AScriptMayBeABareListOrJson) {
@@ -162,6 +164,7 @@ TEST(ScriptReader, AScriptMayBeABareListOrJson) {
   EXPECT_EQ(describe(read(R"({"events": [{"start": "LAND", "priority": 3, "wait": 1e1}]})")),
             "@10000000 start 1 priority 3\n");
   EXPECT_EQ(read("[]").reactive_delay, 80'000);
+  EXPECT_TRUE(read("[]").timeouts);
   EXPECT_EQ(describe(read("events: []")), "");
 }
 
@@ -224,6 +227,8 @@ TEST(ScriptReader, WrongScripts) {
       "3:12-17 error wrong-type: 'situation' must be a mapping of behaviors to true or false, "
       "or of situation variables to values, found 'HOVER'\n"
       "4:1-6 error unknown-key: unknown key 'delay' in a script\n");
+  EXPECT_EQ(findings("timeouts: 5\nevents: []\n"),
+            "1:11-12 error wrong-type: 'timeouts' must be true or false, found '5'\n");
   EXPECT_EQ(findings("delay: 1\nevents: []\n"),
             "1:1-6 error unknown-key: unknown key 'delay' in a script; did you mean "
             "'reactive_delay'?\n");

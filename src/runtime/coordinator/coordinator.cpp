@@ -41,6 +41,7 @@ Snapshot Coordinator::snapshot() const {
   snapshot.now = now_;
   snapshot.events = record_.index;
   snapshot.reactive_delay = options_.reactive_delay;
+  snapshot.timeouts = options_.timeouts;
   for (const std::uint32_t index : state_.running()) {
     const TaskId task = catalog_.task_ids[index];
     Snapshot::RunningTask& entry = snapshot.running.emplace_back();
@@ -513,6 +514,7 @@ void Coordinator::assign(const Trigger& trigger) {
 }
 
 void Coordinator::update_timeouts(std::uint32_t group) {
+  if (!options_.timeouts) return;
   for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
     state_.update_timeout(task, now_);
   }

@@ -23,6 +23,7 @@ namespace cbc {
 struct CoordinatorOptions {
   SearchOptions search;
   Microseconds reactive_delay = 80'000;        ///< over 0; see docs/semantics.md, "Reactive tasks"
+  bool timeouts = true;                        ///< false: the clock ends no behavior
   std::uint64_t max_clock_events = 1'000'000;  ///< timeouts and reactive starts, no-ops too
   bool find_conflicts = true;                  ///< of rejected events
   ExplanationOptions explain;                  ///< what to explain of accepted events
@@ -64,7 +65,8 @@ class Coordinator {
              std::span<const VariableValue> variables = {});
 
   /// Instead of begin: continues from the state of another coordinator, which find_inconsistency
-  /// accepts. The reactive delay is that of the options.
+  /// accepts. The reactive delay, and whether there are timeouts, are those of the options; they
+  /// should be those of the snapshot.
   void resume(const Snapshot& snapshot);
   /// All that another coordinator needs to continue, without the outcome. Only after a call that
   /// returned ok.

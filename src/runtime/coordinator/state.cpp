@@ -348,7 +348,8 @@ class SnapshotCheck {
 
   void check_timeout(const std::string& name, const Snapshot::RunningTask& entry) {
     const BehaviorId behavior = behavior_of(entry);
-    const Microseconds timeout = timeout_of(catalog_, entry.task, behavior);
+    const Microseconds timeout =
+        snapshot_.timeouts ? timeout_of(catalog_, entry.task, behavior) : 0;
     const Microseconds due =
         timeout == 0 ? never : std::max(entry.since, activated_at_[behavior]) + timeout;
     if (entry.waits_for_timeout ? due < snapshot_.now : due > snapshot_.now) {

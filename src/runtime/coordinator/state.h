@@ -196,6 +196,7 @@ struct Snapshot {
   Microseconds now = 0;
   std::uint64_t events = 0;  ///< number of the last one
   Microseconds reactive_delay = 0;
+  bool timeouts = true;            ///< see CoordinatorOptions; if false, no task waits for one
   std::optional<Outcome> outcome;  ///< of the last scripted start, stop or finish; see Runner
   std::vector<RunningTask> running;
   std::vector<std::pair<BehaviorId, Microseconds>> active;  ///< with the time of the activation

@@ -24,7 +24,8 @@ namespace {
 using yaml::Key;
 using yaml::Shape;
 
-constexpr Key script_keys[] = {{"catalog"}, {"reactive_delay"}, {"situation"}, {"events"}};
+constexpr Key script_keys[] = {
+    {"catalog"}, {"reactive_delay"}, {"timeouts"}, {"situation"}, {"events"}};
 constexpr auto event_keys = [] {
   constexpr std::string_view others[] = {"expect", "at", "priority", "parameters", "cause"};
   std::array<Key, verb_forms.size() + std::size(others)> keys{};
@@ -518,6 +519,9 @@ void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter
     if (const auto value = yaml::read_seconds(*delay, "reactive_delay", true, reporter)) {
       script.reactive_delay = *value;
     }
+  }
+  if (const Node* timeouts = fields.find("timeouts")) {
+    script.timeouts = yaml::read_boolean(*timeouts, "timeouts", reporter).value_or(true);
   }
   if (const Node* situation = fields.find("situation")) {
     script.situation = reader.read_situation(*situation, reporter);

@@ -187,6 +187,7 @@ RunResult run_script(const CompiledCatalog& catalog, const Script& script,
                      const CoordinatorOptions& options, RunListener& listener) {
   CoordinatorOptions of_script = options;
   of_script.reactive_delay = script.reactive_delay;
+  of_script.timeouts = script.timeouts;
   Runner runner(catalog, of_script, listener);
   runner.begin(script.situation);
   bool goes_on = true;

@@ -66,7 +66,8 @@ struct Step {
 struct Script {
   std::string file;
   Microseconds reactive_delay = 80'000;
-  Situation situation;  ///< before the first event
+  bool timeouts = true;  ///< see CoordinatorOptions
+  Situation situation;   ///< before the first event
   std::vector<Step> steps;
 };
 
