@@ -248,6 +248,25 @@ TEST(ScriptReader, OneVerbForEachEvent) {
       "6:3-4 error wrong-type: an event must be a mapping ('start: TASK'), found nothing\n");
 }
 
+/// What a key without a value says is nothing.
+TEST(ScriptReader, AVerbWithoutAValueIsAsIfAbsent) {
+  const Script script =
+      read("- {start: ~, at: 5}\n- {start: , stop: LAND}\n- {situation:, wait: 1}\n");
+  ASSERT_EQ(script.steps.size(), 3U);
+  EXPECT_EQ(script.steps[0].verb, Verb::wait);
+  EXPECT_EQ(script.steps[0].time, 5 * second);
+  EXPECT_EQ(script.steps[1].verb, Verb::stop);
+  EXPECT_EQ(script.steps[2].verb, Verb::wait);
+  EXPECT_EQ(findings("- {start: ~, at: 5, priority: 2}\n"),
+            "1:21-29 error unknown-key: 'priority' does not belong to 'wait', only to 'start' and "
+            "'stop'\n");
+}
+
+TEST(ScriptReader, OneMistakeOfASituationIsOneError) {
+  EXPECT_EQ(findings("- situation: {LIGHT: dark}\n"),
+            "1:15-20 error undefined-behavior: there is no behavior 'LIGHT'\n");
+}
+
 TEST(ScriptReader, UnknownKeysAreErrors) {
   EXPECT_EQ(findings("- strat: LAND\n- {finsh: HOVER_PID, at: 3}\n- {start: LAND, prioritty: 2}\n"
                      "- {wait: 1, for: 3}\n"),
@@ -524,6 +543,51 @@ TEST(ScriptReader, TheSituationIsThatOfThePlaceInTheScript) {
                      "situation: {HOVER_PID: no}\n"),
             still_available("4:12-21", "HOVER_PID") + still_available("5:12-21", "HOVER_MPC") +
                 still_available("11:12-21", "HOVER_PID"));
+}
+
+/// The finish of a task is that of the behavior that performs it.
+TEST(ScriptReader, AFinishByTaskOfWhatStaysAvailable) {
+  EXPECT_EQ(findings("- {finish: {task: HOVER}, cause: situation_change}\n"),
+            "1:19-24 warning still-available: every behavior that performs task 'HOVER' is still "
+            "available here, so that it can be chosen again at once; add an event 'situation' "
+            "before it that rules out the one that is active\n");
+  EXPECT_EQ(
+      findings("- {finish: {task: BOTH}, cause: situation_change}\n"),
+      "1:19-23 warning still-available: behavior 'BOTH', which performs task 'BOTH', is still "
+      "available here, so that it can be chosen again at once; add 'situation: {BOTH: "
+      "false}' before it\n");
+  // The one that performs it may be the one that is ruled out.
+  EXPECT_EQ(findings("- situation: {HOVER_MPC: false}\n"
+                     "- {finish: {task: HOVER}, cause: situation_change}\n"),
+            "");
+  EXPECT_EQ(findings("- {finish: {task: HOVER}, cause: time_out}\n- finish: {task: HOVER}\n"), "");
+}
+
+TEST(ScriptReader, AFinishByTheSituationOfWhatDependsOnVariables) {
+  const CompiledCatalog catalog = test::compile_text(R"(situation:
+- {variable: LIGHT, values: [day, dusk, night]}
+- {variable: GPS}
+behaviors:
+- {behavior: CAMERA, task: SEE, situation: {LIGHT: [day, night], GPS: true}}
+- {behavior: RECEIVER, task: LOCALIZE, situation: {GPS: true}}
+)");
+  Diagnostics diagnostics;
+  const auto document = yaml::parse(R"(- {finish: CAMERA, cause: situation_change}
+- {finish: {task: LOCALIZE}, cause: situation_change}
+- situation: {GPS: false}
+- {finish: CAMERA, cause: situation_change}
+- {finish: {task: LOCALIZE}, cause: situation_change}
+)",
+                                    "script.yaml", diagnostics);
+  ASSERT_NE(document, nullptr);
+  EXPECT_TRUE(read_script(*document, catalog, Severity::warning, diagnostics));
+  EXPECT_EQ(show(diagnostics),
+            "1:12-18 warning still-available: behavior 'CAMERA' is still available here, so that "
+            "it can be chosen again at once; write 'situation: {LIGHT: dusk}' in its place: the "
+            "behavior then finishes by itself\n"
+            "2:19-27 warning still-available: behavior 'RECEIVER', which performs task 'LOCALIZE', "
+            "is still available here, so that it can be chosen again at once; write 'situation: "
+            "{GPS: false}' in its place: the behavior then finishes by itself\n");
 }
 
 TEST(ScriptReader, ASituationThatIsNotUnderstoodMayMakeItUnavailable) {

@@ -191,11 +191,19 @@ Condition SituationReader::read_condition(std::uint32_t variable, const Node& ke
                          " is empty, so that the behavior never fits");
   }
   const std::vector<std::string_view> values(declared.values.begin(), declared.values.end());
+  std::unordered_map<std::uint32_t, Range> known;
   for (const Node* node : nodes) {
     const auto text = value_text(*node, declared.is_boolean);
     const auto found = text ? std::find(values.begin(), values.end(), *text) : values.end();
     if (found != values.end()) {
-      condition.values.push_back(static_cast<std::uint32_t>(found - values.begin()));
+      const auto place = static_cast<std::uint32_t>(found - values.begin());
+      condition.values.push_back(place);
+      const auto [first, is_new] = known.try_emplace(place, node->range);
+      if (!is_new) {
+        reporter_.report(rule::unused_situation, node->range,
+                         "value " + quote(*text) + " is listed twice",
+                         {reporter_.note(first->second, "first listed here")});
+      }
     } else if (!values.empty()) {  // otherwise they could not be read
       report_unknown_value(*node, declared.name, values, reporter_,
                            {reporter_.note(declared.range, "declared here")});

@@ -34,6 +34,10 @@ void check_on_request_requirements(const Catalog& catalog, const std::vector<boo
 
 class ProofContext;
 
+/// One of these checks: tasks and behaviors that the constraints allow, but that fit, with what
+/// they require, in no situation.
+void check_situations(ProofContext& proof);
+
 /// One of these checks: minimum performances that are reached anyway.
 void check_redundant_minimums(ProofContext& proof);
 
@@ -64,13 +68,14 @@ class AssignmentSearch {
   void rule_out(ValueId value);
 
   /// Whether there is an assignment with a value in which no task of `closed` runs. If so, it is in
-  /// `solution`, by task of the group.
+  /// `solution`, by task of the group. `situation`: values of all situation variables, in which its
+  /// behaviors have to fit; empty: any behavior will do.
   [[nodiscard]] Feasibility find(ValueId value, std::span<const TaskId> closed,
-                                 Assignment& solution);
+                                 Assignment& solution,
+                                 std::span<const std::uint32_t> situation = {});
 
-  /// Whether there is an assignment in which all of some tasks, which are of one group, run. If so,
-  /// it is in `solution`, by task of the group. `situation`: values of all situation variables, in
-  /// which its behaviors have to fit; empty: any behavior will do.
+  /// Whether there is an assignment in which all of some tasks, which are of one group, run; the
+  /// rest as for find().
   [[nodiscard]] Feasibility find_running(std::span<const TaskId> tasks,
                                          std::span<const std::uint32_t> situation,
                                          Assignment& solution);
@@ -195,6 +200,7 @@ class ProofContext {
 
  private:
   [[nodiscard]] Note note_of(const Reason& reason) const;
+  [[nodiscard]] Note note_of_condition(const Reason& reason) const;
 
   const Catalog& catalog_;
   AssignmentSearch& search_;

@@ -307,13 +307,13 @@ std::string_view find_verb(const Fields& fields, const Range& range, Reporter& r
         rule::invalid_value, fields.range_of(found[1]),
         "an event must have exactly one verb, found " + quote(found[0]) + " and " + quote(found[1]),
         {reporter.note(fields.range_of(found[0]), "the first one is here")});
-  } else if (!without_value.empty()) {
-    reporter.report(rule::missing_key, fields.range_of(without_value),
-                    quote(without_value) + " has no value");
   } else if (fields.has_unknown()) {
     // Probably a misspelt verb; it is reported as such.
   } else if (fields.find("at") != nullptr || fields.find("wait") != nullptr) {
     return name_of(Verb::wait);
+  } else if (!without_value.empty()) {
+    reporter.report(rule::missing_key, fields.range_of(without_value),
+                    quote(without_value) + " has no value");
   } else {
     reporter.report(rule::missing_key, range, "an event needs one of " + all_event_words());
   }
@@ -436,23 +436,70 @@ void StepReader::read_parts(const EventParts& parts, Step& step, Reporter& repor
   if (form.has_cause && parts.cause != nullptr) {
     const auto cause = read_word<FinishCause>(*parts.cause, "cause", reporter);
     if (cause) step.cause = *cause;
-    if (subject && !step.is_by_task && cause == FinishCause::situation_change) {
-      check_finish(*subject, parts.subject->range, reporter);
+    if (subject && cause == FinishCause::situation_change) {
+      const Node& name = step.is_by_task ? *parts.task : *parts.subject;
+      check_finish(*subject, step.is_by_task, name.range, reporter);
     }
   }
 }
 
-void StepReader::check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter) {
+/// Checks that the situation rules out a behavior that it finishes. Of a task it is not known which
+/// behavior performs it, so there is a finding only if all of them are available.
+void StepReader::check_finish(std::uint32_t subject, bool is_task, const Range& range,
+                              Reporter& reporter) {
+  if (!knows_situation_) return;
   const CompiledCatalog& catalog = names_.catalog();
-  if (!knows_situation_ || is_denied_[behavior] ||
-      catalog.find_misfit(catalog.behavior_ids[behavior], variables_)) {
-    return;
+  std::vector<BehaviorId> behaviors;
+  if (!is_task) {
+    behaviors.push_back(catalog.behavior_ids[subject]);
+  } else {
+    for (const Value& value : catalog.values[catalog.task_ids[subject]]) {
+      behaviors.push_back(value.behavior);
+    }
   }
-  const std::string_view name = catalog.behavior_names[behavior];
-  reporter.report(rule::still_available, range,
-                  "behavior " + quote(name) +
-                      " is still available here, so that it can be chosen again at once; add " +
-                      quote("situation: {" + std::string(name) + ": false}") + " before it");
+  const bool are_available =
+      std::all_of(behaviors.begin(), behaviors.end(), [&](BehaviorId behavior) {
+        return !is_denied_[catalog.behaviors[behavior].catalog_index] &&
+               !catalog.find_misfit(behavior, variables_);
+      });
+  if (behaviors.empty() || !are_available) return;
+  std::string message =
+      behaviors.size() > 1
+          ? concat("every behavior that performs task ", quote(catalog.task_names[subject]), " is")
+          : concat("behavior ", quote(catalog.name_of_behavior(behaviors.front())),
+                   is_task
+                       ? concat(", which performs task ", quote(catalog.task_names[subject]), ",")
+                       : "",
+                   " is");
+  message += " still available here, so that it can be chosen again at once; ";
+  if (behaviors.size() > 1) {
+    message += "add an event 'situation' before it that rules out the one that is active";
+  } else if (const auto value = find_unfit_value(behaviors.front())) {
+    message += concat("write ",
+                      quote(concat("situation: {", catalog.name_of_variable(value->variable), ": ",
+                                   catalog.name_of_value(*value), "}")),
+                      " in its place: the behavior then finishes by itself");
+  } else {
+    message += concat(
+        "add ",
+        quote(concat("situation: {", catalog.name_of_behavior(behaviors.front()), ": false}")),
+        " before it");
+  }
+  reporter.report(rule::still_available, range, std::move(message));
+}
+
+/// A value of a situation variable in which a behavior does not fit. Nothing if it always fits.
+std::optional<VariableValue> StepReader::find_unfit_value(BehaviorId behavior) const {
+  const CompiledCatalog& catalog = names_.catalog();
+  const std::span<const FittingValue> fitting = catalog.fitting_values_of(behavior);
+  for (const FittingValue& named : fitting) {
+    for (std::uint32_t value = 0; value < catalog.variables[named.variable].value_count; ++value) {
+      const bool fits = std::find(fitting.begin(), fitting.end(),
+                                  FittingValue{behavior, named.variable, value}) != fitting.end();
+      if (!fits) return VariableValue{named.variable, value};
+    }
+  }
+  return std::nullopt;
 }
 
 Situation StepReader::read_situation(const Node& node, Reporter& reporter) {
@@ -471,11 +518,9 @@ Situation StepReader::read_situation(const Node& node, Reporter& reporter) {
       read_value(part->place, *value, situation, reporter);
       continue;
     }
-    // The value of an unknown name may be one of a variable.
-    const bool is_behavior = part || names_.catalog().variables.empty();
-    const auto available =
-        is_behavior ? yaml::read_boolean(*value, key->text, reporter) : std::nullopt;
-    if (!part || !available) {
+    // The value of an unknown name may be one of a variable, which the catalog lacks.
+    const auto available = part ? yaml::read_boolean(*value, key->text, reporter) : std::nullopt;
+    if (!available) {
       doubt_situation();
       continue;
     }

@@ -138,7 +138,8 @@ class StepReader {
   void read_time(const yaml::Fields& fields, Step& step, Reporter& reporter);
   void read_value(std::uint32_t variable, const yaml::Node& node, Situation& situation,
                   Reporter& reporter);
-  void check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter);
+  void check_finish(std::uint32_t subject, bool is_task, const Range& range, Reporter& reporter);
+  [[nodiscard]] std::optional<VariableValue> find_unfit_value(BehaviorId behavior) const;
 
   Microseconds clock_ = 0;
   NameIndex names_;
