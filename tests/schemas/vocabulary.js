@@ -69,7 +69,8 @@ function isOptional(object, name) {
   if (name === 'variables') return !('groups' in object) && !('unconditional' in object);
   if (name === 'behavior') return object.kind === 'performance';
   if (name === 'error') return 'events' in object; // of a run; not of a line
-  return ['alternatives', 'parameters', 'priority', 'due', 'state', 'stats', 'waiting', 'why'].includes(name);
+  const others = ['alternatives', 'parameters', 'priority', 'due', 'state', 'stats', 'timeouts', 'waiting', 'why'];
+  return others.includes(name);
 }
 
 module.exports = {hasPattern, isFree, isOptional, mapsByName, mayBeEmpty, mayBeOfAnyType, mayBeTruth, words};
