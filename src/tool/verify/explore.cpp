@@ -190,8 +190,8 @@ struct Sightings {
 
 class GroupExpander final : public Expander {
  public:
-  GroupExpander(const Model& model, const std::vector<Goal>& goals)
-      : model_(model), goals_(goals), stepper_(model) {
+  GroupExpander(const Model& model, const std::vector<Goal>& goals, bool reduce)
+      : model_(model), goals_(goals), stepper_(model, reduce) {
     const std::size_t tasks = model.tasks().size();
     seen_.runs.assign(tasks, never_seen);
     seen_.active.assign(model.behaviors().size(), never_seen);
@@ -294,8 +294,9 @@ Move find_move(const Model& model, Stepper& stepper, const std::uint32_t* from,
   return {};
 }
 
-std::vector<Move> moves_to(const Model& model, const BreadthFirst& search, Number number) {
-  Stepper stepper(model);
+std::vector<Move> moves_to(const Model& model, const BreadthFirst& search, Number number,
+                           bool reduce) {
+  Stepper stepper(model, reduce);
   std::vector<Move> moves;
   const std::vector<Number> path = search.path_to(number);
   for (std::size_t place = 1; place < path.size(); ++place) {
@@ -335,7 +336,7 @@ void report_sightings(const Model& model, const BreadthFirst& search, const Sigh
 }
 
 Verdict verdict_of(const Model& model, const BreadthFirst& search, const Property& property,
-                   Number first) {
+                   Number first, bool reduce) {
   Verdict verdict;
   const bool is_reachable = property.kind == Property::Kind::reachable;
   if (first == never_seen) {
@@ -346,7 +347,7 @@ Verdict verdict_of(const Model& model, const BreadthFirst& search, const Propert
   }
   verdict.result = is_reachable ? Verdict::Result::proved : Verdict::Result::violated;
   verdict.has_script = true;
-  verdict.script = moves_to(model, search, first);
+  verdict.script = moves_to(model, search, first, reduce);
   if (property.kind == Property::Kind::can_start) {
     const std::uint32_t index = model.catalog().tasks[property.task].catalog_index;
     verdict.script.push_back({Move::Kind::start, index, property.priority});
@@ -378,7 +379,7 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint3
   std::vector<std::unique_ptr<Expander>> expanders;
   std::vector<const GroupExpander*> of_groups;
   for (unsigned job = 0; job < std::max(1U, options.jobs); ++job) {
-    auto expander = std::make_unique<GroupExpander>(model, goals);
+    auto expander = std::make_unique<GroupExpander>(model, goals, options.reduce);
     of_groups.push_back(expander.get());
     expanders.push_back(std::move(expander));
   }
@@ -400,7 +401,8 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint3
   result.bytes = search.store().bytes();
   report_sightings(model, search, seen, result);
   for (std::size_t place = 0; place < properties.size(); ++place) {
-    result.verdicts.push_back(verdict_of(model, search, *properties[place], seen.goals[place]));
+    result.verdicts.push_back(
+        verdict_of(model, search, *properties[place], seen.goals[place], options.reduce));
   }
   return result;
 }

@@ -36,7 +36,8 @@ struct MoveTrace {
 /// packed states, without records. Not for use by several threads.
 class Stepper {
  public:
-  explicit Stepper(const Model& model);
+  /// `reduce`: see ExplorationOptions.
+  explicit Stepper(const Model& model, bool reduce = false);
 
   /// Takes up a state. `packed` is read at once.
   void load(const std::uint32_t* packed);
@@ -141,6 +142,7 @@ class Stepper {
   bool change_situation(std::uint32_t cell, std::uint16_t value);
   void come_due();
   void settle_queue();
+  void merge_orders();
 
   void open_event(Verb verb, Origin origin, std::uint32_t subject);
   void note_outcome(Outcome outcome);
@@ -149,6 +151,7 @@ class Stepper {
   void close_event();
 
   const Model& model_;
+  const bool reduce_;
   Decisions decisions_;
   State before_;  ///< as loaded
   State now_;     ///< as the move leaves it
