@@ -190,8 +190,8 @@ struct Sightings {
 
 class GroupExpander final : public Expander {
  public:
-  GroupExpander(const Model& model, const std::vector<Goal>& goals, bool reduce)
-      : model_(model), goals_(goals), stepper_(model, reduce) {
+  GroupExpander(const Model& model, const std::vector<Goal>& goals, const Stepper::Options& options)
+      : model_(model), goals_(goals), stepper_(model, options) {
     const std::size_t tasks = model.tasks().size();
     seen_.runs.assign(tasks, never_seen);
     seen_.active.assign(model.behaviors().size(), never_seen);
@@ -296,7 +296,7 @@ Move find_move(const Model& model, Stepper& stepper, const std::uint32_t* from,
 
 std::vector<Move> moves_to(const Model& model, const BreadthFirst& search, Number number,
                            bool reduce) {
-  Stepper stepper(model, reduce);
+  Stepper stepper(model, {.reduce = reduce});
   std::vector<Move> moves;
   const std::vector<Number> path = search.path_to(number);
   for (std::size_t place = 1; place < path.size(); ++place) {
@@ -355,6 +355,19 @@ Verdict verdict_of(const Model& model, const BreadthFirst& search, const Propert
   return verdict;
 }
 
+/// Sets apart a quarter of the memory for remembered decisions.
+Stepper::Options share_memory(ExplorationOptions& options) {
+  Stepper::Options result;
+  result.reduce = options.reduce;
+  constexpr std::uint64_t most = std::uint64_t{256} << 20;
+  const std::uint64_t jobs = std::max(1U, options.jobs);
+  std::uint64_t& memory = options.limits.max_memory;
+  result.decision_bytes = memory == 0 ? most : std::min(most, memory / 4 / jobs);
+  // An array that grows takes twice its size for a while.
+  if (memory > 0) memory -= std::min(memory / 2, 2 * jobs * result.decision_bytes);
+  return result;
+}
+
 }  // namespace
 
 Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
@@ -375,11 +388,13 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint3
 
   std::vector<std::uint32_t> first(model.packed_words());
   model.pack(cells.data(), first.data());
-  BreadthFirst search(first, options);
+  ExplorationOptions of_search = options;
+  const Stepper::Options of_steppers = share_memory(of_search);
+  BreadthFirst search(first, of_search);
   std::vector<std::unique_ptr<Expander>> expanders;
   std::vector<const GroupExpander*> of_groups;
   for (unsigned job = 0; job < std::max(1U, options.jobs); ++job) {
-    auto expander = std::make_unique<GroupExpander>(model, goals, options.reduce);
+    auto expander = std::make_unique<GroupExpander>(model, goals, of_steppers);
     of_groups.push_back(expander.get());
     expanders.push_back(std::move(expander));
   }

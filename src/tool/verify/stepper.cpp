@@ -31,8 +31,8 @@ void copy_range(const Word* from, std::vector<Word>& to, BitRange range) {
 
 }  // namespace
 
-Stepper::Stepper(const Model& model, bool reduce)
-    : model_(model), reduce_(reduce), decisions_(model) {
+Stepper::Stepper(const Model& model, const Options& options)
+    : model_(model), reduce_(options.reduce), decisions_(model, options.decision_bytes) {
   const std::size_t values = words_for(model.value_count());
   const std::size_t tasks = words_for(model.tasks().size());
   const std::size_t behaviors = words_for(model.behaviors().size());

@@ -36,8 +36,13 @@ struct MoveTrace {
 /// packed states, without records. Not for use by several threads.
 class Stepper {
  public:
-  /// `reduce`: see ExplorationOptions.
-  explicit Stepper(const Model& model, bool reduce = false);
+  struct Options {
+    bool reduce = false;                                 ///< see ExplorationOptions
+    std::size_t decision_bytes = std::size_t{64} << 20;  ///< for remembered decisions
+  };
+
+  Stepper(const Model& model, const Options& options);
+  explicit Stepper(const Model& model) : Stepper(model, Options()) {}
 
   /// Takes up a state. `packed` is read at once.
   void load(const std::uint32_t* packed);
