@@ -90,11 +90,7 @@ void StateTest::add_variables(const Model& model, const StateCondition& conditio
       if (!of_any) is_false_ = true;
       continue;
     }
-    std::uint32_t initial = 0;
-    for (const VariableValue& other : assumptions.initially.variables) {
-      if (other.variable == value.variable) initial = other.value;
-    }
-    if (initial != value.value) is_false_ = true;
+    if (initial_value(assumptions, value.variable) != value.value) is_false_ = true;
   }
 }
 
@@ -138,8 +134,7 @@ class Goal {
   [[nodiscard]] std::uint32_t task() const { return task_; }
   [[nodiscard]] Model::Rank ranks() const { return ranks_; }
 
-  /// Whether the state is a counterexample or, of reachable, a witness. Asks for a start only where
-  /// the moves do not tell: the caller does that for those of the default priority.
+  /// Whether the state is a counterexample or, of reachable, a witness.
   [[nodiscard]] bool is_met(Stepper& state) const {
     if (is_start()) {
       return state.cells()[task_] == 0 && !state.would_start(task_, ranks_);
