@@ -116,6 +116,9 @@ class Stepper {
     bool is_reactive = false;
   };
 
+  /// The set of a task that has joined the queue during the present move.
+  static constexpr std::uint16_t joined_now = UINT16_MAX;
+
   void derive(State& state, bool situation_too) const;
   void derive_situation(State& state) const;
   [[nodiscard]] bool is_denied(const State& state, std::uint32_t behavior) const;
