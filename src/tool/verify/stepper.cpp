@@ -21,6 +21,7 @@ Stepper::Stepper(const Model& model, const Options& options)
   domains_.resize(values);
   present_.resize(values);
   must_run_.resize(tasks);
+  values_after_.resize(model.tasks().size());
   was_active_.resize(behaviors);
   active_.resize(behaviors);
   wanted_.resize(behaviors);

@@ -32,12 +32,6 @@ void copy_range(const Word* from, std::vector<Word>& to, BitRange range) {
 
 // Coordination (docs/semantics.md, "Domains").
 
-bool Stepper::has_finished(const Trigger& trigger, std::uint32_t task) const {
-  if (trigger.kind != Trigger::Kind::finish || now_.cells[task] == 0) return false;
-  const std::uint32_t value = model_.tasks()[task].values.begin + now_.cells[task] - 1;
-  return model_.behavior_of(value) == trigger.behavior;
-}
-
 /// Of a finish: requests of ranks below this are not protected at first.
 Model::Rank Stepper::first_protection(const Trigger& trigger) const {
   Model::Rank highest = 1;
@@ -234,13 +228,13 @@ void Stepper::accept(const Trigger& trigger, const Word* solution) {
   started_.clear();
   stopped_.clear();
   stopped_by_others_.clear();
-  const auto& tasks = model_.tasks();
+  std::fill(values_after_.begin(), values_after_.end(), std::uint16_t{0});
+  for_each_bit(solution, present_.size(), [&](std::uint32_t value) {
+    const std::uint32_t task = model_.task_of(value);
+    values_after_[task] = static_cast<std::uint16_t>(value - model_.tasks()[task].values.begin + 1);
+  });
   for (std::uint32_t task = group.tasks.begin; task < group.tasks.end; ++task) {
-    const BitRange values = tasks[task].values;
-    std::uint16_t after = 0;
-    for (std::uint32_t value = values.begin; value < values.end; ++value) {
-      if (has_bit(solution, value)) after = static_cast<std::uint16_t>(value - values.begin + 1);
-    }
+    const std::uint16_t after = values_after_[task];
     std::uint16_t& cell = now_.cells[task];
     if (after == 0 && cell != 0) {
       const bool finished = has_finished(trigger, task);
