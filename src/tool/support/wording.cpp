@@ -384,9 +384,8 @@ std::string difference_of(std::string_view name, std::string_view other) {
   }
   std::size_t place = 0;
   std::size_t number = 1;
-  for (;; ++number) {
+  for (; place < std::min(name.size(), other.size()); ++number) {
     const utf8::Decoded own = utf8::decode(name, place);
-    if (place >= std::min(name.size(), other.size())) break;
     if (own.character != utf8::decode(other, place).character) break;
     place += own.bytes;
   }
