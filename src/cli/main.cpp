@@ -40,6 +40,7 @@ int run(int argc, char** argv) {
   add_lint_command(program);
   add_compile_command(program);
   add_solve_command(program);
+  add_verify_command(program);
   add_graph_command(program);
   add_schema_command(program);
   add_completion_command(program, argc > 0 ? argv[0] : "");
