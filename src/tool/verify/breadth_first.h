@@ -65,6 +65,8 @@ class BreadthFirst {
   void run(const std::vector<std::unique_ptr<Expander>>& expanders);
 
   [[nodiscard]] bool is_complete() const { return expanded_ == store_.size(); }
+  /// The number of states that were expanded: those with lower numbers.
+  [[nodiscard]] StateStore::Number expanded() const { return expanded_; }
   [[nodiscard]] std::uint64_t transitions() const { return transitions_; }
   [[nodiscard]] const StateStore& store() const { return store_; }
   [[nodiscard]] std::uint32_t depth_of(StateStore::Number number) const;

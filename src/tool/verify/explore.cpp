@@ -165,6 +165,15 @@ struct Sightings {
   std::vector<Number> together;       ///< by two tasks
   std::vector<Number> goals;
 
+  /// Drops what was seen in this state and in later ones.
+  void drop_from(Number end) {
+    for (std::vector<Number>* const numbers : {&runs, &active, &start_refused, &together, &goals}) {
+      for (Number& number : *numbers) {
+        if (number >= end) number = never_seen;
+      }
+    }
+  }
+
   void add(const Sightings& other) {
     const auto lower = [](std::vector<Number>& mine, const std::vector<Number>& theirs) {
       for (std::size_t place = 0; place < mine.size(); ++place) {
@@ -381,6 +390,8 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint3
     result.decisions_remembered += expander->decisions().remembered();
     result.decisions_computed += expander->decisions().computed();
   }
+  // Of a batch that a limit cut short, some threads have seen more than others.
+  seen.drop_from(search.expanded());
   result.complete = search.is_complete();
   result.states = search.store().size();
   result.transitions = search.transitions();

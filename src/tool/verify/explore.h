@@ -16,7 +16,8 @@ namespace cbc {
 
 // The exploration of all reachable states of some groups (docs/verify.md, "States").
 
-/// One move. Moves are compared in the order of the kinds, then by `subject`, then by `choice`.
+/// One move. Moves are compared in the order of the kinds, then by `subject`, then by `choice` in
+/// the order in which priorities or values are listed.
 struct Move {
   enum class Kind : std::uint8_t {
     start,

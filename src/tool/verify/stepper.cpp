@@ -226,6 +226,7 @@ bool Stepper::take(const Model::Choice& choice) {
       come_due();
       break;
   }
+  close_event();
   settle_queue();
   return true;
 }
@@ -259,14 +260,15 @@ bool Stepper::start(std::uint32_t task, Model::Rank ranks, Model::Rank rank, boo
   return accepted;
 }
 
-/// The task runs with a request, whose priority the stop has.
+/// The stop has the priority of the task's request, 0 if it has none.
 bool Stepper::stop(std::uint32_t task) {
   open_event(Verb::stop, Origin::script, task);
+  if (now_.cells[task] == 0) return false;
   Trigger trigger;
   trigger.kind = Trigger::Kind::stop;
   trigger.group = model_.tasks()[task].group;
   trigger.task = task;
-  trigger.ranks = rank_in(now_, task);
+  trigger.ranks = std::max<Model::Rank>(1, rank_in(now_, task));
   const bool accepted = coordinate(trigger);
   finish_lost();
   return accepted;
@@ -375,7 +377,7 @@ void Stepper::settle_queue() {
   }
 }
 
-// Coordination (docs/semantics.md, "Coordination").
+// Coordination (docs/semantics.md, "Domains").
 
 bool Stepper::has_finished(const Trigger& trigger, std::uint32_t task) const {
   if (trigger.kind != Trigger::Kind::finish || now_.cells[task] == 0) return false;
@@ -674,10 +676,22 @@ void Stepper::retry_waiting(std::uint32_t group) {
 
 void Stepper::open_event(Verb verb, Origin origin, std::uint32_t subject) {
   if (trace_ == nullptr) return;
+  close_event();
   MoveTrace::Happening& event = trace_->events.emplace_back();
   event.verb = verb;
   event.origin = origin;
   event.subject = subject;
+}
+
+/// Notes what the last event has left in the queue.
+void Stepper::close_event() {
+  if (trace_ == nullptr || trace_->events.empty() || trace_->events.back().is_closed) return;
+  MoveTrace::Happening& event = trace_->events.back();
+  const Model::Layout& layout = model_.layout();
+  const auto cells = now_.cells.begin();
+  event.queue.assign(cells + layout.queue, cells + layout.queue + layout.reactive_count);
+  event.waiting.assign(cells + layout.waiting, cells + layout.waiting + layout.reactive_count);
+  event.is_closed = true;
 }
 
 void Stepper::note_outcome(Outcome outcome) {

@@ -25,6 +25,9 @@ struct MoveTrace {
     Outcome outcome = Outcome::unchanged;
     std::vector<Change> changes;
     std::vector<std::pair<std::uint32_t, FinishCause>> stopped;  ///< tasks
+    std::vector<std::uint16_t> queue;    ///< by reactive task: its set, or 0
+    std::vector<std::uint16_t> waiting;  ///< by reactive task
+    bool is_closed = false;              ///< nothing is added any more
   };
   std::vector<Happening> events;
 };
@@ -143,6 +146,7 @@ class Stepper {
   void note_outcome(Outcome outcome);
   void note_changes(const Word* wanted, std::uint32_t group, std::uint32_t failing);
   void note_stop(std::uint32_t task, FinishCause cause);
+  void close_event();
 
   const Model& model_;
   Decisions decisions_;

@@ -1,0 +1,540 @@
+#include "verify/same_as.h"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/disjoint_sets.h"
+#include "base/text.h"
+#include "verify/breadth_first.h"
+#include "verify/model.h"
+#include "verify/stepper.h"
+
+namespace cbc {
+
+namespace {
+
+using Number = StateStore::Number;
+
+/// The numbers that one catalog's tasks, behaviors and variables have in another; none: it does not
+/// have them. From TaskId to TaskId, BehaviorId to BehaviorId, place to place.
+struct Translation {
+  Translation(const CompiledCatalog& from, const CompiledCatalog& to) {
+    for (TaskId task = 0; task < from.tasks.size(); ++task) {
+      const auto found = to.find_task(from.name_of_task(task));
+      tasks.push_back(found ? to.task_ids[*found] : none);
+    }
+    for (BehaviorId behavior = 0; behavior < from.behaviors.size(); ++behavior) {
+      const auto found = to.find_behavior(from.name_of_behavior(behavior));
+      behaviors.push_back(found ? to.behavior_ids[*found] : none);
+    }
+    for (std::uint32_t variable = 0; variable < from.variables.size(); ++variable) {
+      const auto found = to.find_variable(from.name_of_variable(variable));
+      variables.push_back(found.value_or(none));
+      auto& of_variable = values.emplace_back(from.variables[variable].value_count, none);
+      for (std::uint32_t value = 0; found && value < of_variable.size(); ++value) {
+        of_variable[value] =
+            to.find_value(*found, from.name_of_value({variable, value})).value_or(none);
+      }
+    }
+  }
+
+  std::vector<TaskId> tasks;
+  std::vector<BehaviorId> behaviors;
+  std::vector<std::uint32_t> variables;
+  std::vector<std::vector<std::uint32_t>> values;  ///< by variable
+};
+
+void list_missing(const CompiledCatalog& catalog, const Translation& translation,
+                  std::vector<std::string>& names) {
+  for (const TaskId task : catalog.task_ids) {
+    if (translation.tasks[task] == none) {
+      names.push_back(fmt::format("task {}", printable(catalog.name_of_task(task))));
+    }
+  }
+  for (const BehaviorId behavior : catalog.behavior_ids) {
+    if (translation.behaviors[behavior] == none) {
+      names.push_back(fmt::format("behavior {}", printable(catalog.name_of_behavior(behavior))));
+    }
+  }
+  for (std::uint32_t variable = 0; variable < translation.variables.size(); ++variable) {
+    const std::string name = printable(catalog.name_of_variable(variable));
+    if (translation.variables[variable] == none) {
+      names.push_back(fmt::format("variable {}", name));
+      continue;
+    }
+    for (std::uint32_t value = 0; value < translation.values[variable].size(); ++value) {
+      if (translation.values[variable][value] != none) continue;
+      names.push_back(
+          fmt::format("value {} of {}", printable(catalog.name_of_value({variable, value})), name));
+    }
+  }
+}
+
+SituationPart translate(const SituationPart& part, const Translation& to, bool& is_whole) {
+  SituationPart result;
+  for (const VariableValue& value : part.variables) {
+    const std::uint32_t variable = to.variables[value.variable];
+    const std::uint32_t translated =
+        variable == none ? none : to.values[value.variable][value.value];
+    if (translated == none) {
+      is_whole = false;
+    } else {
+      result.variables.push_back({variable, translated});
+    }
+  }
+  for (const SituationPart::Own& own : part.behaviors) {
+    if (to.behaviors[own.behavior] == none) {
+      is_whole = false;
+    } else {
+      result.behaviors.push_back({to.behaviors[own.behavior], own.available});
+    }
+  }
+  return result;
+}
+
+/// The numbers of another catalog for those of a list, without what it does not have.
+std::vector<std::uint32_t> translate(const std::vector<std::uint32_t>& from,
+                                     const std::vector<std::uint32_t>& to) {
+  std::vector<std::uint32_t> result;
+  for (const std::uint32_t number : from) {
+    if (to[number] != none) result.push_back(to[number]);
+  }
+  return result;
+}
+
+Assumptions translate(const Assumptions& from, const Translation& to) {
+  Assumptions result = from;
+  result.start.clear();
+  for (const Assumptions::Start& start : from.start) {
+    if (to.tasks[start.task] == none) continue;
+    result.start.push_back({to.tasks[start.task], start.priorities});
+  }
+  result.stop = translate(from.stop, to.tasks);
+  result.variables = translate(from.variables, to.variables);
+  result.behaviors = translate(from.behaviors, to.behaviors);
+  result.never.clear();
+  for (const SituationPart& part : from.never) {
+    bool is_whole = true;
+    SituationPart translated = translate(part, to, is_whole);
+    if (is_whole) result.never.push_back(std::move(translated));
+  }
+  bool is_whole = true;
+  result.initially = translate(from.initially, to, is_whole);
+  return result;
+}
+
+/// Groups of both catalogs that are explored together.
+struct GroupPair {
+  std::vector<std::uint32_t> old_groups;
+  std::vector<std::uint32_t> new_groups;
+};
+
+std::vector<GroupPair> join_groups(const CompiledCatalog& old_catalog,
+                                   const CompiledCatalog& new_catalog, const Translation& to_old) {
+  const auto count = static_cast<std::uint32_t>(new_catalog.group_count());
+  const auto old_count = static_cast<std::uint32_t>(old_catalog.group_count());
+  DisjointSets sets(std::size_t{count} + old_count);
+  for (TaskId task = 0; task < new_catalog.tasks.size(); ++task) {
+    if (to_old.tasks[task] == none) continue;
+    sets.join(new_catalog.tasks[task].group, count + old_catalog.tasks[to_old.tasks[task]].group);
+  }
+  for (BehaviorId behavior = 0; behavior < new_catalog.behaviors.size(); ++behavior) {
+    if (to_old.behaviors[behavior] == none) continue;
+    sets.join(new_catalog.group_of(behavior),
+              count + old_catalog.group_of(to_old.behaviors[behavior]));
+  }
+  const std::vector<std::uint32_t> numbers = sets.numbers();
+  std::map<std::uint32_t, GroupPair> pairs;
+  for (std::uint32_t place = 0; place < numbers.size(); ++place) {
+    GroupPair& pair = pairs[numbers[place]];
+    place < count ? pair.new_groups.push_back(place) : pair.old_groups.push_back(place - count);
+  }
+  std::vector<GroupPair> result;
+  for (auto& [number, pair] : pairs) result.push_back(std::move(pair));
+  return result;
+}
+
+/// The models of both catalogs, and what is the same in them.
+struct ModelPair {
+  ModelPair(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
+            const GroupPair& groups, const Assumptions& old_assumptions,
+            const Assumptions& new_assumptions, const Translation& to_old)
+      : old_model(old_catalog, groups.old_groups, old_assumptions),
+        new_model(new_catalog, groups.new_groups, new_assumptions) {
+    for (const Model::Choice& choice : new_model.moves()) add_move(choice, to_old);
+    const auto is_due = [](const Model::Choice& choice) {
+      return choice.move.kind == Move::Kind::due;
+    };
+    const auto& old_moves = old_model.moves();
+    if (new_model.reactive().empty() && !old_moves.empty() && is_due(old_moves.back())) {
+      moves.emplace_back(nullptr, &old_moves.back());
+    }
+    // What only one model has gets a number that nothing in the other has.
+    for (const auto& behavior : new_model.behaviors()) new_behaviors.push_back(behavior.id);
+    for (const auto& task : new_model.tasks()) new_tasks.push_back(task.id);
+    const auto behavior_count = static_cast<std::uint32_t>(new_catalog.behaviors.size());
+    const auto task_count = static_cast<std::uint32_t>(new_catalog.tasks.size());
+    std::map<BehaviorId, BehaviorId> to_new_behavior;
+    for (BehaviorId id = 0; id < behavior_count; ++id) to_new_behavior[to_old.behaviors[id]] = id;
+    std::map<TaskId, TaskId> to_new_task;
+    for (TaskId id = 0; id < task_count; ++id) to_new_task[to_old.tasks[id]] = id;
+    for (const auto& behavior : old_model.behaviors()) {
+      const auto found = to_new_behavior.find(behavior.id);
+      old_behaviors.push_back(found != to_new_behavior.end() ? found->second
+                                                             : behavior_count + behavior.id);
+    }
+    for (const auto& task : old_model.tasks()) {
+      const auto found = to_new_task.find(task.id);
+      old_tasks.push_back(found != to_new_task.end() ? found->second : task_count + task.id);
+    }
+  }
+
+  Model old_model;
+  Model new_model;
+  /// The same move in both; null: that one does not have it.
+  std::vector<std::pair<const Model::Choice*, const Model::Choice*>> moves;
+  // By number in the model: a number that is the same in both.
+  std::vector<std::uint32_t> new_tasks;
+  std::vector<std::uint32_t> old_tasks;
+  std::vector<std::uint32_t> new_behaviors;
+  std::vector<std::uint32_t> old_behaviors;
+
+ private:
+  /// Adds a move of the new model together with that of the old one.
+  void add_move(const Model::Choice& choice, const Translation& to_old) {
+    const auto matches = [&](const Model::Choice& other) {
+      if (other.move.kind != choice.move.kind) return false;
+      switch (choice.move.kind) {
+        case Move::Kind::due:
+          return true;
+        case Move::Kind::start:
+        case Move::Kind::stop:
+          return other.move.choice == choice.move.choice &&
+                 old_model.tasks()[other.subject].id ==
+                     to_old.tasks[new_model.tasks()[choice.subject].id];
+        case Move::Kind::variable: {
+          const std::uint32_t variable = new_model.variables()[choice.subject].id;
+          return old_model.variables()[other.subject].id == to_old.variables[variable] &&
+                 other.choice == to_old.values[variable][choice.choice];
+        }
+        default:
+          return old_model.behaviors()[other.subject].id ==
+                 to_old.behaviors[new_model.behaviors()[choice.subject].id];
+      }
+    };
+    const auto& others = old_model.moves();
+    const auto found = std::find_if(others.begin(), others.end(), matches);
+    if (found != others.end()) {
+      moves.emplace_back(&choice, &*found);
+    } else if (choice.move.kind == Move::Kind::due || is_of_one(choice, to_old)) {
+      moves.emplace_back(&choice, nullptr);
+    }
+  }
+
+  /// Whether both catalogs have the variable and its value, but only the behaviors of the new
+  /// groups name it.
+  [[nodiscard]] bool is_of_one(const Model::Choice& choice, const Translation& to_old) const {
+    if (choice.move.kind != Move::Kind::variable) return false;
+    const std::uint32_t variable = new_model.variables()[choice.subject].id;
+    return to_old.variables[variable] != none && to_old.values[variable][choice.choice] != none;
+  }
+};
+
+/// The queue in numbers that are the same in both: reactive tasks with their sets, counted anew.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> queue_of(
+    const Model& model, const std::vector<std::uint32_t>& tasks,
+    const std::vector<std::uint16_t>& sets) {
+  std::vector<std::uint16_t> order;
+  for (const std::uint16_t set : sets) {
+    if (set != 0) order.push_back(set);
+  }
+  std::sort(order.begin(), order.end());
+  order.erase(std::unique(order.begin(), order.end()), order.end());
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> queue;
+  for (std::uint32_t reactive = 0; reactive < sets.size(); ++reactive) {
+    if (sets[reactive] == 0) continue;
+    const auto place = std::lower_bound(order.begin(), order.end(), sets[reactive]);
+    queue.emplace_back(tasks[model.reactive()[reactive]],
+                       static_cast<std::uint32_t>(place - order.begin()));
+  }
+  std::sort(queue.begin(), queue.end());
+  return queue;
+}
+
+std::vector<std::uint32_t> waiting_of(const Model& model, const std::vector<std::uint32_t>& tasks,
+                                      const std::vector<std::uint16_t>& waits) {
+  std::vector<std::uint32_t> waiting;
+  for (std::uint32_t reactive = 0; reactive < waits.size(); ++reactive) {
+    if (waits[reactive] != 0) waiting.push_back(tasks[model.reactive()[reactive]]);
+  }
+  std::sort(waiting.begin(), waiting.end());
+  return waiting;
+}
+
+class PairExpander final : public Expander {
+ public:
+  explicit PairExpander(const ModelPair& models)
+      : models_(models), old_(models.old_model), new_(models.new_model) {
+    old_.set_trace(&old_trace_);
+    new_.set_trace(&new_trace_);
+  }
+
+  void expand(const std::uint32_t* state, Number number, Successors& successors) override {
+    const std::size_t new_words = models_.new_model.packed_words();
+    new_.load(state);
+    old_.load(state + new_words);
+    for (const auto& [new_choice, old_choice] : models_.moves) {
+      const bool is_new = new_choice != nullptr && new_.has_move(*new_choice);
+      const bool is_old = old_choice != nullptr && old_.has_move(*old_choice);
+      if (!is_new && !is_old) continue;
+      if (!take(new_, new_choice, new_trace_) || !take(old_, old_choice, old_trace_)) continue;
+      std::uint32_t* const packed = successors.add();
+      new_choice != nullptr ? new_.pack(packed) : copy(new_, models_.new_model, packed);
+      old_choice != nullptr ? old_.pack(packed + new_words)
+                            : copy(old_, models_.old_model, packed + new_words);
+      if (first_difference_ == UINT32_MAX && differ(packed, packed + new_words)) {
+        first_difference_ = number;
+        difference_ = new_choice != nullptr ? new_choice->move : old_choice->move;
+        if (difference_.kind == Move::Kind::own) {
+          difference_.choice = new_.is_denied(new_choice->subject) ? 1 : 0;
+        }
+      }
+    }
+  }
+
+  /// The first state with a move that is decided differently, and that move; UINT32_MAX: none.
+  [[nodiscard]] Number first_difference() const { return first_difference_; }
+  [[nodiscard]] const Move& difference() const { return difference_; }
+
+ private:
+  static bool take(Stepper& stepper, const Model::Choice* choice, MoveTrace& trace) {
+    trace.events.clear();
+    return choice == nullptr || stepper.take(*choice);
+  }
+  static void copy(const Stepper& stepper, const Model& model, std::uint32_t* packed) {
+    model.pack(stepper.cells(), packed);
+  }
+
+  [[nodiscard]] bool differ(const std::uint32_t* new_packed, const std::uint32_t* old_packed) {
+    if (new_trace_.events.size() != old_trace_.events.size()) return true;
+    for (std::size_t place = 0; place < new_trace_.events.size(); ++place) {
+      if (differ(new_trace_.events[place], old_trace_.events[place])) return true;
+    }
+    return describe(models_.new_model, models_.new_tasks, models_.new_behaviors, new_packed) !=
+           describe(models_.old_model, models_.old_tasks, models_.old_behaviors, old_packed);
+  }
+
+  [[nodiscard]] bool differ(const MoveTrace::Happening& ours,
+                            const MoveTrace::Happening& theirs) const {
+    if (ours.verb != theirs.verb || ours.origin != theirs.origin ||
+        ours.outcome != theirs.outcome || ours.changes.size() != theirs.changes.size() ||
+        ours.stopped.size() != theirs.stopped.size()) {
+      return true;
+    }
+    const bool is_finish = ours.verb == Verb::finish;
+    const auto& new_subjects = is_finish ? models_.new_behaviors : models_.new_tasks;
+    const auto& old_subjects = is_finish ? models_.old_behaviors : models_.old_tasks;
+    if (new_subjects[ours.subject] != old_subjects[theirs.subject]) return true;
+    for (std::size_t place = 0; place < ours.changes.size(); ++place) {
+      const MoveTrace::Change& mine = ours.changes[place];
+      const MoveTrace::Change& other = theirs.changes[place];
+      if (mine.is_activation != other.is_activation || mine.success != other.success ||
+          models_.new_behaviors[mine.behavior] != models_.old_behaviors[other.behavior]) {
+        return true;
+      }
+    }
+    const auto stopped = [](const MoveTrace::Happening& event,
+                            const std::vector<std::uint32_t>& tasks) {
+      std::vector<std::pair<std::uint32_t, FinishCause>> result;
+      for (const auto& [task, cause] : event.stopped) result.emplace_back(tasks[task], cause);
+      std::sort(result.begin(), result.end());
+      return result;
+    };
+    return stopped(ours, models_.new_tasks) != stopped(theirs, models_.old_tasks) ||
+           queue_of(models_.new_model, models_.new_tasks, ours.queue) !=
+               queue_of(models_.old_model, models_.old_tasks, theirs.queue) ||
+           waiting_of(models_.new_model, models_.new_tasks, ours.waiting) !=
+               waiting_of(models_.old_model, models_.old_tasks, theirs.waiting);
+  }
+
+  struct Shown {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> running;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> queue;
+    std::vector<std::uint32_t> waiting;
+
+    bool operator==(const Shown&) const = default;
+  };
+  [[nodiscard]] static Shown describe(const Model& model, const std::vector<std::uint32_t>& tasks,
+                                      const std::vector<std::uint32_t>& behaviors,
+                                      const std::uint32_t* packed) {
+    std::vector<std::uint16_t> cells(model.layout().cells);
+    model.unpack(packed, cells.data());
+    const auto part = [&](std::uint32_t begin) {
+      return std::vector<std::uint16_t>(cells.begin() + begin,
+                                        cells.begin() + begin + model.layout().reactive_count);
+    };
+    Shown shown;
+    for (std::uint32_t task = 0; task < tasks.size(); ++task) {
+      if (cells[task] == 0) continue;
+      const std::uint32_t value = model.tasks()[task].values.begin + cells[task] - 1U;
+      shown.running.emplace_back(tasks[task], behaviors[model.behavior_of(value)]);
+    }
+    std::sort(shown.running.begin(), shown.running.end());
+    shown.queue = queue_of(model, tasks, part(model.layout().queue));
+    shown.waiting = waiting_of(model, tasks, part(model.layout().waiting));
+    return shown;
+  }
+
+  const ModelPair& models_;
+  Stepper old_;
+  Stepper new_;
+  MoveTrace old_trace_;
+  MoveTrace new_trace_;
+  Number first_difference_ = UINT32_MAX;
+  Move difference_;
+};
+
+/// The moves along a path of pairs, as the new catalog names them.
+std::vector<Move> moves_along(const ModelPair& models, const BreadthFirst& search, Number number) {
+  Stepper old_stepper(models.old_model);
+  Stepper new_stepper(models.new_model);
+  const std::size_t new_words = models.new_model.packed_words();
+  std::vector<std::uint32_t> packed(search.store().words());
+  const std::vector<Number> path = search.path_to(number);
+  std::vector<Move> moves;
+  for (std::size_t place = 1; place < path.size(); ++place) {
+    const std::uint32_t* const from = search.store().state(path[place - 1]);
+    new_stepper.load(from);
+    old_stepper.load(from + new_words);
+    for (const auto& [new_choice, old_choice] : models.moves) {
+      const bool is_new = new_choice != nullptr && new_stepper.has_move(*new_choice);
+      const bool is_old = old_choice != nullptr && old_stepper.has_move(*old_choice);
+      if (!is_new && !is_old) continue;
+      std::copy_n(from, packed.size(), packed.data());
+      if (new_choice != nullptr) {
+        if (!new_stepper.take(*new_choice)) continue;
+        new_stepper.pack(packed.data());
+      }
+      if (old_choice != nullptr) {
+        if (!old_stepper.take(*old_choice)) continue;
+        old_stepper.pack(packed.data() + new_words);
+      }
+      if (!std::equal(packed.begin(), packed.end(), search.store().state(path[place]))) continue;
+      moves.push_back(new_choice != nullptr ? new_choice->move : old_choice->move);
+      if (moves.back().kind == Move::Kind::own) {
+        moves.back().choice = new_stepper.is_denied(new_choice->subject) ? 1 : 0;
+      }
+      break;
+    }
+  }
+  return moves;
+}
+
+/// Whether one path comes before another: the shorter one, then the first in the order of moves.
+bool comes_first(const std::vector<Move>& a, const std::vector<Move>& b) {
+  if (a.size() != b.size()) return a.size() < b.size();
+  return std::lexicographical_compare(
+      a.begin(), a.end(), b.begin(), b.end(), [](const Move& one, const Move& other) {
+        return std::tie(one.kind, one.subject) < std::tie(other.kind, other.subject);
+      });
+}
+
+}  // namespace
+
+Assumptions common_assumptions(const CompiledCatalog& old_catalog,
+                               const CompiledCatalog& new_catalog) {
+  const Translation to_old(new_catalog, old_catalog);
+  Assumptions assumptions = default_assumptions(new_catalog);
+  assumptions.start.clear();
+  assumptions.stop.clear();
+  for (const TaskId task : new_catalog.task_ids) {
+    const TaskId other = to_old.tasks[task];
+    if (other == none) continue;
+    if (new_catalog.tasks[task].start_on_request == 0 &&
+        old_catalog.tasks[other].start_on_request == 0) {
+      continue;
+    }
+    assumptions.start.push_back({task, {1}});
+    assumptions.stop.push_back(task);
+  }
+  return assumptions;
+}
+
+Comparison compare_catalogs(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
+                            const Assumptions& assumptions, const VerificationOptions& options) {
+  Comparison result;
+  const Translation to_old(new_catalog, old_catalog);
+  const Translation to_new(old_catalog, new_catalog);
+  list_missing(old_catalog, to_new, result.names.only_old);
+  list_missing(new_catalog, to_old, result.names.only_new);
+  const Assumptions old_assumptions = translate(assumptions, to_old);
+  // What only the new catalog has does not move.
+  const Assumptions new_assumptions = translate(old_assumptions, to_new);
+  bool is_complete = true;
+  for (const GroupPair& groups : join_groups(old_catalog, new_catalog, to_old)) {
+    const ModelPair models(old_catalog, new_catalog, groups, old_assumptions, new_assumptions,
+                           to_old);
+    const std::vector<std::uint16_t> new_first = models.new_model.first_state();
+    const std::vector<std::uint16_t> old_first = models.old_model.first_state();
+    if (models.new_model.is_excluded(new_first.data()) ||
+        models.old_model.is_excluded(old_first.data())) {
+      result.error = "the first state is in a situation that 'never' excludes";
+      return result;
+    }
+    const std::size_t new_words = models.new_model.packed_words();
+    std::vector<std::uint32_t> first(new_words + models.old_model.packed_words());
+    models.new_model.pack(new_first.data(), first.data());
+    models.old_model.pack(old_first.data(), first.data() + new_words);
+
+    std::vector<std::unique_ptr<Expander>> expanders;
+    std::vector<const PairExpander*> of_pairs;
+    ExplorationOptions exploration;
+    exploration.limits = options.limits;
+    exploration.jobs = options.jobs;
+    // The first thread asks between parts of the frontier, which are handed out in order: all
+    // states before the first difference that it knows have been looked at when the search ends.
+    exploration.on_progress = [&](const ExplorationProgress& progress) {
+      if (of_pairs.front()->first_difference() != UINT32_MAX) return false;
+      return !options.on_progress || options.on_progress(groups.new_groups, progress);
+    };
+    for (unsigned job = 0; job < std::max(1U, options.jobs); ++job) {
+      auto expander = std::make_unique<PairExpander>(models);
+      of_pairs.push_back(expander.get());
+      expanders.push_back(std::move(expander));
+    }
+    BreadthFirst search(first, exploration);
+    search.run(expanders);
+    is_complete = is_complete && search.is_complete();
+    result.states += search.store().size();
+    result.transitions += search.transitions();
+    result.depth = std::max(result.depth, search.expanded_depth());
+
+    const PairExpander* const found = *std::min_element(
+        of_pairs.begin(), of_pairs.end(), [](const PairExpander* a, const PairExpander* b) {
+          return a->first_difference() < b->first_difference();
+        });
+    if (found->first_difference() == UINT32_MAX) continue;
+    std::vector<Move> moves = moves_along(models, search, found->first_difference());
+    moves.push_back(found->difference());
+    if (result.result == Verdict::Result::violated && !comes_first(moves, result.moves)) continue;
+    result.result = Verdict::Result::violated;
+    result.moves = std::move(moves);
+    result.witness =
+        make_witness(new_catalog, groups.new_groups, new_assumptions, result.moves, nullptr,
+                     fmt::format("Decided differently by {} and {}: the last event.\n"
+                                 "What is expected at the end is the answer of the latter.\n"
+                                 "Run it with: cbc solve CATALOG FILE\n",
+                                 printable(old_catalog.file), printable(new_catalog.file)));
+  }
+  if (result.result != Verdict::Result::violated && is_complete) {
+    result.result = Verdict::Result::proved;
+  }
+  return result;
+}
+
+}  // namespace cbc
