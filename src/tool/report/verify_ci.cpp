@@ -10,7 +10,6 @@
 #include "report/lint_report.h"
 #include "report/solve_report.h"
 #include "report/verify_report.h"
-#include "support/wording.h"
 
 namespace cbc {
 namespace {
@@ -21,17 +20,13 @@ const Exploration& exploration_of(const VerifyPart& part, const Answer& answer) 
   return part.verification.explorations[answer.exploration];
 }
 
-/// "violated after 4 events", "undecided: the exploration was interrupted: …".
+/// "violated after 4 events", "undecided: ended by --max-states 1000; …".
 std::string describe_fault(const VerifyResult& result, const VerifyPart& part,
                            const Answer& answer) {
-  const Exploration& exploration = exploration_of(part, answer);
   if (answer.verdict.result == Verdict::Result::undecided) {
-    return "undecided: " + describe_limit(result, exploration);
+    return "undecided: " + describe_limit(result, exploration_of(part, answer));
   }
-  if (!answer.witness) {
-    return fmt::format("violated: none of {} is one", quantity(exploration.states, "state"));
-  }
-  return fmt::format("violated after {}", quantity(answer.verdict.script.size(), "event"));
+  return describe_violation(answer, exploration_of(part, answer));
 }
 
 std::string file_of(const VerifyPart& part) { return part.file->path; }
@@ -40,6 +35,17 @@ std::size_t count(const VerifyPart& part, Verdict::Result result) {
   return static_cast<std::size_t>(std::count_if(
       part.answers.begin(), part.answers.end(),
       [&](const ReportedAnswer& reported) { return reported.answer->verdict.result == result; }));
+}
+
+/// With line ends that are easier to read than those of xml_text.
+std::string xml_lines(std::string_view text) {
+  std::string escaped;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    escaped += xml_text(text.substr(begin, end - begin)) + "\n";
+    begin = end + 1;
+  }
+  return escaped;
 }
 
 std::string test_case(const VerifyResult& result, const VerifyPart& part,
@@ -55,7 +61,7 @@ std::string test_case(const VerifyResult& result, const VerifyPart& part,
   std::string details = xml_text(describe(*result.catalog, *answer.property)) + "\n";
   if (reported.replay) {
     for (const std::string& line : reported.replay->story) details += xml_text(line) + "\n";
-    details += "\n" + xml_text(answer.witness->text);
+    details += "\n" + xml_lines(answer.witness->text);
   }
   return broken_case(
       name, file_of(part),

@@ -48,35 +48,44 @@ std::string title_of(const CompiledCatalog& catalog, const Property& property) {
 
 namespace {
 
-std::string describe_bytes(std::uint64_t bytes) {
-  constexpr std::uint64_t mebibyte = std::uint64_t{1} << 20U;
-  return fmt::format("{}M", std::max<std::uint64_t>(1, bytes / mebibyte));
+/// As --max-memory takes it: "512M".
+std::string describe_memory(std::uint64_t bytes) {
+  constexpr std::string_view units = " KMGT";
+  std::size_t unit = 0;
+  while (bytes % 1024 == 0 && unit + 1 < units.size()) {
+    bytes /= 1024;
+    ++unit;
+  }
+  return std::to_string(bytes) + std::string(unit > 0 ? units.substr(unit, 1) : "");
 }
 
 }  // namespace
 
+std::string describe_violation(const Answer& answer, const Exploration& exploration) {
+  if (!answer.witness) {
+    return fmt::format("violated: none of {} is one", quantity(exploration.states, "state"));
+  }
+  const std::size_t events = answer.verdict.script.size();
+  return events == 0 ? "violated in the first state"
+                     : "violated after " + quantity(events, "event");
+}
+
 std::string describe_limit(const VerifyResult& result, const Exploration& exploration) {
   const ExplorationLimits& limits = result.limits;
-  std::string reason = "it was interrupted";
-  std::string way_on;
-  if (!result.is_interrupted) {
-    if (limits.max_states > 0 && exploration.states >= limits.max_states) {
-      reason = fmt::format("it reached --max-states {}", limits.max_states);
-      way_on = "--max-states";
-    } else if (limits.max_memory > 0 && exploration.bytes >= limits.max_memory) {
-      reason = fmt::format("it reached --max-memory {}", describe_bytes(limits.max_memory));
-      way_on = "--max-memory";
-    } else if (limits.seconds > 0) {
-      reason = fmt::format("it reached --time-limit {}", limits.seconds);
-      way_on = "--time-limit";
-    } else {
-      reason = "there are more states than it can count";
-    }
+  std::string text;
+  if (result.is_interrupted) {
+    text = "interrupted";
+  } else if (limits.max_states > 0 && exploration.states >= limits.max_states) {
+    text = fmt::format("ended by --max-states {}", limits.max_states);
+  } else if (limits.max_memory > 0 && exploration.bytes >= limits.max_memory) {
+    text = fmt::format("ended by --max-memory {}", describe_memory(limits.max_memory));
+  } else if (limits.seconds > 0) {
+    text = fmt::format("ended by --time-limit {}", limits.seconds);
+  } else {
+    text = "ended, as there are more states than can be counted";
   }
-  std::string text =
-      fmt::format("{}; every state up to depth {} was visited", reason, exploration.depth);
-  if (!way_on.empty()) text += fmt::format(" (a higher {} goes on)", way_on);
-  return text;
+  return text + fmt::format("; every state up to depth {} was visited (a higher limit goes on)",
+                            exploration.depth);
 }
 
 namespace {
@@ -173,7 +182,7 @@ class GroupText {
     std::set<std::uint32_t> known;
     for (const auto& [task, depth] : exploration.start_refused) {
       known.insert(task);
-      refused.push_back(fmt::format("{} ({})", name_of_task(task), depth));
+      refused.push_back(fmt::format("{} after {}", name_of_task(task), quantity(depth, "event")));
     }
     std::vector<std::uint32_t> startable;
     for (const std::uint32_t task : tasks) {
@@ -341,20 +350,16 @@ class PropertyText {
     text_ += fmt::format("\n{}{}:{}: {}{}\n", style_.strong, printable(part_.file->path),
                          property.line, title_of(catalog_, property), style_.reset);
     if (!property.name.empty()) text_ += describe(catalog_, property) + "\n";
-    if (!reported.replay) {
-      const Exploration& exploration =
-          part_.verification.explorations[reported.answer->exploration];
-      text_ += fmt::format("none of {} is one\n", quantity(exploration.states, "state"));
-      return;
-    }
-    if (reported.script_path) {
-      text_ += fmt::format("script: {}\n", printable(*reported.script_path));
-    }
-    text_ += "\n" + reported.replay->text;
+    const Answer& answer = *reported.answer;
+    const Exploration& exploration = part_.verification.explorations[answer.exploration];
+    text_ += style_.paint(style_.bad, describe_violation(answer, exploration));
+    if (reported.script_path) text_ += fmt::format("; see {}", printable(*reported.script_path));
+    text_ += "\n";
+    if (!answer.verdict.script.empty()) text_ += "\n" + reported.replay->text;
   }
 
   void add_limit(const Exploration& exploration) {
-    text_ += fmt::format("\n{}not all states of {} were visited{}: {}\n", style_.warning,
+    text_ += fmt::format("\n{}exploration of {}{}: {}\n", style_.warning,
                          name_groups(exploration.groups), style_.reset,
                          describe_limit(result_, exploration));
   }
