@@ -51,11 +51,9 @@ std::string join(const std::vector<std::string>& words, std::string_view separat
 }
 
 std::string join_with_or(const std::vector<std::string>& words) {
-  std::string list = quote_if_split(words.front());
-  for (std::size_t i = 1; i < words.size(); ++i) {
-    list += (i + 1 < words.size() ? ", " : " or ") + quote_if_split(words[i]);
-  }
-  return list;
+  std::vector<std::string> quoted;
+  for (const std::string& word : words) quoted.push_back(quote_if_split(word));
+  return list_alternatives(quoted);
 }
 
 Values name_of(std::string placeholder, ValueKind kind) {

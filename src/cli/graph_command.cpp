@@ -26,6 +26,7 @@
 #include "diff/catalog_diff.h"
 #include "draw/catalog_graph.h"
 #include "draw/diagram.h"
+#include "lint/controls.h"
 #include "lint/together.h"
 #include "report/catalog_report.h"
 #include "report/situation_report.h"
@@ -344,8 +345,10 @@ constexpr const char* graph_footer =
     "\n"
     "--view together is a table, as text by default, of the pairs of tasks that start on "
     "request: + they can run together, - a list excludes them, x what they require excludes them, "
-    "with the reasons, s they fit in no common situation. A search decides it. It is not drawn as "
-    "mermaid; json is of the schema cbc.together/1.\n"
+    "X so does what fits in each situation, s they fit in no common situation, with the reasons; "
+    "! they can, though never_together in .cbc.yaml forbids it. A search decides it. If no task "
+    "starts on request, all tasks are in the table. It is not drawn as mermaid; json is of the "
+    "schema cbc.together/1.\n"
     "\n"
     "--view situation is a table, as text by default: + a behavior fits in a value, - it does not, "
     ". it does not name the variable; then the tasks without a behavior that fits. It "
@@ -377,18 +380,22 @@ struct TableView {
   std::string_view answer;  ///< what it shows, after "it is not known"
   std::vector<std::string> (*formats)();
   /// `format` is one of these; of one by Graphviz, the input of `dot`.
-  std::string (*write)(const CompiledCatalog& catalog, std::string_view format, const Style& style);
+  std::string (*write)(const CompiledCatalog& catalog, const SeveritySettings& settings,
+                       std::string_view format, const Style& style);
 };
 
-std::string write_situation_table(const CompiledCatalog& catalog, std::string_view format,
+std::string write_situation_table(const CompiledCatalog& catalog,
+                                  const SeveritySettings& /*settings*/, std::string_view format,
                                   const Style& style) {
   return find_named(situation_formats(), format)->write(catalog, style);
 }
 
-std::string write_table_of_pairs(const CompiledCatalog& catalog, std::string_view format,
-                                 const Style& style) {
+std::string write_table_of_pairs(const CompiledCatalog& catalog, const SeveritySettings& settings,
+                                 std::string_view format, const Style& style) {
+  TogetherOptions options;
+  options.never_together = settings.never_together();
   return find_named(together_formats(), format)
-      ->write(catalog, make_together_table(catalog, {}), style);
+      ->write(catalog, make_together_table(catalog, options), style);
 }
 
 constexpr TableView table_views[] = {
@@ -428,6 +435,10 @@ std::string find_misuse_of_table(const TableView& table, const GraphCommand& com
   if (command.is_diff) return fmt::format("--view {} cannot be used with --diff", table.name);
   if (command.state.script) {
     return fmt::format("--view {} cannot be used with --script", table.name);
+  }
+  if (!command.drawing.tasks.empty() || command.drawing.group) {
+    return fmt::format("{} cannot be used with --view {}: the table is of the whole catalog",
+                       command.drawing.group ? "--group" : "--task", table.name);
   }
   DrawingOptions drawing;
   drawing.view = command.drawing.view;
@@ -505,8 +516,11 @@ int draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& mom
 }
 
 int write_table(const TableView& table, const GraphCommand& command) {
-  const std::unique_ptr<Drawable> drawable = read_drawable(command.catalogs.front());
+  const std::string& catalog = command.catalogs.front();
+  const std::unique_ptr<Drawable> drawable = read_drawable(catalog);
   if (drawable == nullptr) return exit_unusable;
+  const std::optional<SeveritySettings> settings = SettingsFinder().find(catalog);
+  if (!settings) return exit_unusable;
   if (drawable->compiled == nullptr) {
     complain("catalog {} has errors, so it is not known {}", quote(drawable->graph.file),
              table.answer);
@@ -514,7 +528,7 @@ int write_table(const TableView& table, const GraphCommand& command) {
   }
   const std::string format = format_of(command);
   const Style style = output_of(command) == "-" ? style_for(stdout) : plain_style();
-  std::optional<std::string> content = table.write(*drawable->compiled, format, style);
+  std::optional<std::string> content = table.write(*drawable->compiled, *settings, format, style);
   const GraphFormat* const drawn = find_named(graph_formats(), format);
   if (drawn != nullptr && drawn->is_by_graphviz) content = run_graphviz(*content, format);
   return content ? write_output(output_of(command), *content) : exit_unusable;

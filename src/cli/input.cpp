@@ -20,7 +20,7 @@
 #include <fmt/core.h>
 
 #include "base/text.h"
-#include "catalog/format.h"
+#include "catalog/draft.h"
 #include "catalog/reader.h"
 #include "cbc/event.h"
 #include "cli/output.h"
@@ -68,7 +68,8 @@ bool has_lines_of_catalog(std::string_view text) {
 bool is_catalog(const yaml::Document& document) { return cbc::is_catalog(document.root()); }
 
 bool is_script(const yaml::Document& document) {
-  constexpr std::array<std::string_view, 3> keys = {"events", "catalog", "reactive_delay"};
+  constexpr std::array<std::string_view, 4> keys = {"events", "catalog", "reactive_delay",
+                                                    "timeouts"};
   constexpr std::array<std::string_view, 2> other_event_keys = {"expect", "at"};
   const yaml::Node& root = document.root();
   if (root.kind != yaml::Kind::sequence) {
@@ -259,17 +260,51 @@ InputFiles::CheckedFile InputFiles::check_catalog(const std::string& path,
                                                   const yaml::Document& document, Purpose purpose) {
   const std::optional<SeveritySettings> settings = settings_.find(path);
   if (!settings) return {};
-  if (purpose == Purpose::use && !settings->add_failures()) {
+  CheckedFile checked = check_by_rules(path, document, purpose, *settings);
+  const bool are_settings_good = check_settings(*settings, checked.reading.catalog);
+  if (purpose != Purpose::drawing) checked.is_usable &= are_settings_good;
+  return checked;
+}
+
+InputFiles::CheckedFile InputFiles::check_by_rules(const std::string& path,
+                                                   const yaml::Document& document, Purpose purpose,
+                                                   const SeveritySettings& settings) {
+  if (purpose == Purpose::drawing || (purpose == Purpose::use && !settings.add_failures())) {
     Diagnostics diagnostics;
     CatalogReading reading = understand_catalog(document, diagnostics);
     return {std::move(reading), take_findings(path, document, std::move(diagnostics), false)};
   }
   LintOptions options;
-  options.searches = settings->need_search();
+  options.searches = settings.need_search();
   CheckedCatalog checked =
-      cbc::check_catalog(document, text_of(document), *settings, options, Diagnostics());
-  const bool is_usable = keep(std::move(checked.findings), *settings);
+      cbc::check_catalog(document, text_of(document), settings, options, Diagnostics());
+  const bool is_usable = keep(std::move(checked.findings), settings);
   return {std::move(checked.reading), is_usable};
+}
+
+/// Adds the errors about names of tasks in the settings, each once. Returns whether there are none.
+/// A name that resembles no other may be that of a task of another catalog; only lint, which may
+/// see all of them, warns of it.
+bool InputFiles::check_settings(const SeveritySettings& settings, const Catalog& catalog) {
+  if (settings.never_together().empty() || catalog.tasks.empty()) return true;
+  std::vector<std::string_view> tasks;
+  for (const Task& task : catalog.tasks) tasks.emplace_back(task.name);
+  Diagnostics diagnostics;
+  check_never_together_names(settings.never_together(), tasks, diagnostics);
+  diagnostics.sort();
+  std::vector<Diagnostic> errors = diagnostics.release();
+  std::erase_if(errors,
+                [](const Diagnostic& finding) { return finding.severity != Severity::error; });
+  if (errors.empty()) return true;
+  const std::string& file = settings.never_together().front().file;
+  if (!texts_.contains(file)) texts_.emplace(file, read_input(file).value_or(""));
+  std::erase_if(errors, [this](const Diagnostic& finding) {
+    return std::any_of(findings_.begin(), findings_.end(), [&finding](const Diagnostic& known) {
+      return known.file == finding.file && known.range == finding.range;
+    });
+  });
+  (void)keep(std::move(errors), settings);
+  return false;
 }
 
 /// Returns whether there are no errors.
@@ -400,16 +435,13 @@ bool has_errors(const std::vector<Diagnostic>& findings) {
 
 /// Null if nothing can be drawn.
 std::unique_ptr<Drawable> from_text(InputFiles& files, const InputFile& file) {
-  // What can be drawn is drawn, whatever else lint would find.
-  Diagnostics diagnostics;
-  CatalogReading reading = understand_catalog(*file.document, diagnostics);
-  if (files.take_findings(file.path, *file.document, std::move(diagnostics), false)) {
-    return from_compiled(compile(reading.catalog));
-  }
+  InputFiles::CheckedFile checked =
+      files.check_catalog(file.path, *file.document, InputFiles::Purpose::drawing);
+  if (checked.is_usable) return from_compiled(compile(checked.reading.catalog));
   // If there is no error, the settings could not be read.
   if (!has_errors(files.findings())) return nullptr;
   auto drawable = std::make_unique<Drawable>();
-  drawable->reading = std::move(reading);
+  drawable->reading = std::move(checked.reading);
   drawable->graph = draw::to_graph(drawable->reading, files.findings());
   const draw::CatalogGraph& graph = drawable->graph;
   if (graph.tasks.empty() && graph.behaviors.empty()) return nullptr;

@@ -119,8 +119,9 @@ class InputFiles {
   };
   /// Reads a catalog as far as possible, and adds the findings in the same way. Other rules than
   /// those of reading are checked if the settings let them fail; for compilation, only those that
-  /// need a search depend on that.
-  enum class Purpose : std::uint8_t { use, compilation };
+  /// need a search depend on that. A drawing shows what can be read, whatever else is wrong: for
+  /// it, no other rules are checked, and names that are misspelt in the settings are only reported.
+  enum class Purpose : std::uint8_t { use, compilation, drawing };
   [[nodiscard]] CheckedFile check_catalog(const std::string& path, const yaml::Document& document,
                                           Purpose purpose);
 
@@ -131,6 +132,9 @@ class InputFiles {
   [[nodiscard]] const std::vector<Diagnostic>& findings() const { return findings_; }
 
  private:
+  [[nodiscard]] CheckedFile check_by_rules(const std::string& path, const yaml::Document& document,
+                                           Purpose purpose, const SeveritySettings& settings);
+  [[nodiscard]] bool check_settings(const SeveritySettings& settings, const Catalog& catalog);
   [[nodiscard]] bool keep(std::vector<Diagnostic> findings, const SeveritySettings& settings);
 
   const bool keeps_findings_;

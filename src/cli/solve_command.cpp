@@ -212,8 +212,8 @@ void add_solve_command(Program& program) {
   state.is_replaceable = true;
   command
       .option("--state-in", options->stream.state_in, state,
-              "Continue from a saved state of the same catalog, with its clock, situation and "
-              "reactive delay")
+              "Continue from a saved state of the same catalog, with its clock, situation, "
+              "reactive delay, and without timeouts if it has none")
       .only_with({"--format jsonl", "--replay"});
   command
       .option("--replay", options->stream.replay, input("LOG", ValueKind::file),

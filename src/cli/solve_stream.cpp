@@ -103,7 +103,7 @@ class Stream {
     } else {
       runner_.begin(situation);
     }
-    output_.write(stream_header(catalog_, catalog_.file, of_coordinator_.reactive_delay, situation,
+    output_.write(stream_header(catalog_, catalog_.file, of_coordinator_, situation,
                                 runner_.coordinator().state().variables()));
   }
 
@@ -222,6 +222,7 @@ int run_script_of(const Script& script, const CompiledCatalog& catalog, const So
   if (!knows_names(catalog, options.explain)) return exit_unusable;
   CoordinatorOptions coordinator = coordinator_options(options, catalog);
   coordinator.reactive_delay = state ? state->reactive_delay : script.reactive_delay;
+  coordinator.timeouts = state ? state->timeouts : script.timeouts;
   if (state && !script.situation.is_empty()) {
     return complain("script {} has a situation to begin with, but --state-in has one already",
                     quote(script.file));
@@ -248,7 +249,10 @@ int run_standard_input(const CompiledCatalog& catalog, const SolveOptions& optio
                        const std::optional<Snapshot>& state) {
   if (!knows_names(catalog, options.explain)) return exit_unusable;
   CoordinatorOptions coordinator = coordinator_options(options, catalog);
-  if (state) coordinator.reactive_delay = state->reactive_delay;
+  if (state) {
+    coordinator.reactive_delay = state->reactive_delay;
+    coordinator.timeouts = state->timeouts;
+  }
   Stream stream(catalog, options, coordinator, state, display_name("-"));
   stream.run_standard_input();
   return stream.end();
@@ -308,12 +312,15 @@ class Replay {
 
   int run(const std::optional<Snapshot>& state) {
     CoordinatorOptions of_coordinator = coordinator_options(options_, catalog_);
-    const auto header = read_header(state);
+    const auto header = read_header(state, of_coordinator);
     if (!header) return exit_unusable;
-    of_coordinator.reactive_delay = header->reactive_delay;
     catalog_.file = header->catalog;  // some messages name it
     if (state && state->reactive_delay != header->reactive_delay) {
       return refuse("its reactive delay is not that of the state");
+    }
+    if (state && state->timeouts != header->timeouts) {
+      return refuse(header->timeouts ? "it has timeouts, but the state has none"
+                                     : "it has no timeouts, but the state has");
     }
     EventStream events(
         catalog_, event_additions(options_), [this](std::string_view line) { compare(line); },
@@ -339,7 +346,9 @@ class Replay {
     EventLog::Entry entry;
   };
 
-  [[nodiscard]] std::optional<EventLog::Header> read_header(const std::optional<Snapshot>& state) {
+  /// Sets the options that the header has.
+  [[nodiscard]] std::optional<EventLog::Header> read_header(const std::optional<Snapshot>& state,
+                                                            CoordinatorOptions& of_coordinator) {
     if (input_.next() != LineInput::Status::line) {
       refuse("it has no header");
       return std::nullopt;
@@ -349,11 +358,12 @@ class Replay {
       refuse(log_.error());
       return std::nullopt;
     }
+    of_coordinator.reactive_delay = header->reactive_delay;
+    of_coordinator.timeouts = header->timeouts;
     State first(catalog_);
-    apply(header->situation, catalog_, first);
-    std::string text =
-        stream_header(catalog_, header->catalog, header->reactive_delay, header->situation,
-                      state ? state->variables : first.variables());
+    first.change_situation(header->situation.availability, header->situation.variables);
+    std::string text = stream_header(catalog_, header->catalog, of_coordinator, header->situation,
+                                     state ? state->variables : first.variables());
     output_.write(text);
     text.pop_back();
     if (text != input_.line()) {

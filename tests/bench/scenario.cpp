@@ -113,6 +113,7 @@ std::shared_ptr<const Scenario> plan(std::shared_ptr<const Mission> mission, std
   auto scenario = std::make_shared<Scenario>();
   scenario->options.search.max_solutions = m;
   scenario->options.reactive_delay = mission->script.reactive_delay;
+  scenario->options.timeouts = mission->script.timeouts;
   scenario->mission = std::move(mission);
   Planner(*scenario).run();
   return scenario;

@@ -479,6 +479,17 @@ class Page(unittest.TestCase):
             self.assertIn("restarts \u2013 its parameters changed", row)
         self.browser.screenshot(OUT / "restart.png")
 
+    def test_names_that_a_task_and_a_behavior_share(self):
+        case = "tests/golden/cases/solve_same_names/"
+        self.open(solve("same-names", case + "catalog.yaml", case + "script.yaml"))
+        rows = [self.text(f"#events > tbody > tr:nth-child({number})") for number in range(1, 5)]
+        self.assertIn("behavior LAND (LAND) takes the place of HOVER_WITH_PID (HOVER)", rows[1])
+        self.assertIn("task LAND was started with priority 1; task LAND excludes HOVER", rows[1])
+        self.assertIn("finish behavior LAND: goal achieved", rows[2])
+        self.assertIn("behavior LAND stops (LAND)", rows[2])
+        self.assertIn("fault behavior LAND", rows[3])
+        self.open(self.target)
+
     def test_situations_and_waiting_tasks(self):
         catalog = "tests/golden/cases/graph_situation/catalog.yaml"
         script = write("situations.mission.yaml", {

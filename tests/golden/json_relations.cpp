@@ -56,16 +56,19 @@ class Relations {
         const Json& pair = pairs[place];
         expect(pair.at("tasks") == Json::array({tasks[a], tasks[b]}), "the pairs are in order");
         const bool is_excluded = pair.at("together").get<std::string>().starts_with("excluded");
-        // A situation is no constraint.
-        const bool has_reasons = is_excluded && pair.at("together") != "excluded_by_situation";
-        expect(has_reasons != pair.at("reasons").empty(), "only excluded pairs have reasons");
+        expect(is_excluded != pair.at("reasons").empty(), "only excluded pairs have reasons");
         ++counts[pair.at("together")];
+        if (!pair.at("forbidden").get<bool>()) continue;
+        const bool is_possible = pair.at("together") == "possible";
+        expect(is_possible, "only what is possible is forbidden");
+        counts["forbidden"] += is_possible ? 1 : 0;
       }
     }
     expect(place == pairs.size() && place == tasks.size() * (tasks.size() - 1) / 2,
            "there are all pairs");
     for (const char* together :
-         {"possible", "excluded", "excluded_indirectly", "excluded_by_situation", "undecided"}) {
+         {"possible", "excluded", "excluded_indirectly", "excluded_in_each_situation",
+          "excluded_by_situation", "undecided", "forbidden"}) {
       expect(report.at(together) == counts[together],
              std::string(together) + " is not their number");
     }

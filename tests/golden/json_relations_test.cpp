@@ -92,10 +92,14 @@ TEST(JsonRelations, OfGraph) {
 
 TEST(JsonRelations, OfTogether) {
   expect_faults(R"({"schema":"cbc.together/1","tasks":["A","B"],"possible":0,"excluded":1,)"
-                R"("excluded_indirectly":0,"excluded_by_situation":0,"undecided":0,"pairs":[)"
-                R"({"tasks":["A","B"],"together":"excluded","reasons":[{"kind":"exclusive"}]}]})",
+                R"("excluded_indirectly":0,"excluded_in_each_situation":0,)"
+                R"("excluded_by_situation":0,"undecided":0,"forbidden":0,"pairs":[)"
+                R"({"tasks":["A","B"],"together":"excluded","forbidden":false,)"
+                R"("reasons":[{"kind":"exclusive"}]}]})",
                 {{R"("tasks":["A","B"],"possible")", R"("tasks":["A","C"],"possible")"},
                  {R"("excluded":1)", R"("excluded":2)"},
+                 {R"("forbidden":false)", R"("forbidden":true)"},
+                 {R"("forbidden":0)", R"("forbidden":1)"},
                  {R"([{"kind":"exclusive"}])", "[]"}});
 }
 

@@ -31,6 +31,9 @@ class System {
       for (const nlohmann::json& behavior : group["behaviors"]) {
         Names& required = requires_of[behavior["behavior"]];
         for (const nlohmann::json& entry : behavior["requires"]) required.insert(entry["task"]);
+        for (const auto& [variable, values] : behavior["situation"].items()) {
+          conditions_of[behavior["behavior"]].insert(variable);
+        }
       }
     }
   }
@@ -46,7 +49,8 @@ class System {
 
   static constexpr const char* folder = CBC_SOURCE_DIR "/catalogs";
   std::map<std::string, nlohmann::json> tasks;
-  std::map<std::string, Names> requires_of;  ///< of each behavior
+  std::map<std::string, Names> requires_of;    ///< of each behavior
+  std::map<std::string, Names> conditions_of;  ///< of each that has some: the situation variables
   std::vector<Names> exclusivity;
 };
 
@@ -78,10 +82,15 @@ TEST(Px4, HasTheModesAndTheirRequirements) {
   std::size_t pairs = 0;
   for (const std::string& mode : modes) {
     ASSERT_EQ(system.behaviors_of(mode), std::vector<std::string>{mode});
-    const Names& required = system.requires_of.at(mode);
+    // Two of the requirements are situations, in which the mode fits.
+    Names required = system.requires_of.at(mode);
+    if (const auto found = system.conditions_of.find(mode); found != system.conditions_of.end()) {
+      required.insert(found->second.begin(), found->second.end());
+    }
     requirements.insert(required.begin(), required.end());
     pairs += required.size();
   }
+  EXPECT_TRUE(requirements.contains("ARMED") && requirements.contains("MANUAL_CONTROL"));
   EXPECT_EQ(pairs, 87U);
   EXPECT_EQ(requirements.size(), 12U);
 }

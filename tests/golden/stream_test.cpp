@@ -557,6 +557,56 @@ TEST_F(StreamTest, ReplayGivesTheLogAgain) {
   }
 }
 
+TEST_F(StreamTest, ReplayAndContinuedStreamHaveNoTimeoutsIfTheScriptHasNone) {
+  const auto script = [this](const std::string& name, std::vector<std::string> more,
+                             const std::string& text) {
+    folder_.write(name, text);
+    more.insert(more.begin(), {"dock.yaml", name, "--format", "jsonl"});
+    return run(call(std::move(more)));
+  };
+  folder_.write("dock.yaml",
+                "behaviors: [{behavior: BLIND, task: DOCK, timeout: 10}]\n"
+                "tasks: [{task: DOCK}]\n");
+  const Result first = script("first.yaml", {"--state-out", "state.json"},
+                              "{timeouts: false, events: [{start: DOCK}, {at: 50}]}");
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_EQ(json::parse(lines_of(first.out).at(0))["timeouts"], false);
+  const json state = json::parse(folder_.read("state.json"));
+  EXPECT_EQ(state["timeouts"], false);
+  EXPECT_EQ(state["running"][0]["waits_for_timeout"], false);
+
+  const std::string again = "[{at: 100, expect: {running: {DOCK: any}}}, {start: DOCK, at: 101}]";
+  const Result second = script("second.yaml", {"--state-in", "state.json"}, again);
+  EXPECT_EQ(second.status, 0) << second.err;
+  EXPECT_EQ(lines_of(second.out).size(), 2U);
+  folder_.write("log.jsonl", second.out);
+  const Result replay =
+      run(call({"--replay", "log.jsonl", "dock.yaml", "--state-in", "state.json"}));
+  EXPECT_EQ(replay.status, 0) << replay.err;
+  EXPECT_EQ(replay.out, second.out);
+
+  std::string other = second.out;
+  other.erase(other.find(R"("timeouts":false,)"), 17);
+  folder_.write("log.jsonl", other);
+  const Result refused =
+      run(call({"--replay", "log.jsonl", "dock.yaml", "--state-in", "state.json"}));
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("it has timeouts, but the state has none"), std::string::npos)
+      << refused.err;
+
+  folder_.write("log.jsonl", first.out);
+  const Result whole = run(call({"--replay", "log.jsonl", "dock.yaml"}));
+  EXPECT_EQ(whole.status, 0) << whole.err;
+  EXPECT_EQ(whole.out, first.out);
+
+  // The state decides, not the script.
+  const Result on = script("third.yaml", {"--state-out", "state.json"}, "[{start: DOCK}]");
+  ASSERT_EQ(on.status, 0) << on.err;
+  const Result end =
+      script("end.yaml", {"--state-in", "state.json"}, "{timeouts: false, events: [{at: 50}]}");
+  EXPECT_EQ(json::parse(lines_of(end.out).at(1))["origin"], "timeout") << end.out;
+}
+
 TEST_F(StreamTest, ReplayGivesTheLogsOfRandomMissionsAgain) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const std::string log = feed(joined(random_lines(seed, 200))).out;

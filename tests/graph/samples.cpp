@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "catalog/conditions.h"
 #include "catalog/reader.h"
+#include "catalog/situation.h"
 #include "compile/compile.h"
 #include "diff/catalog_diff.h"
 #include "draw/catalog_graph.h"

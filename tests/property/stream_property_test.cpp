@@ -46,43 +46,47 @@ Mission make_mission(std::uint64_t seed) {
   const auto document =
       yaml::parse(script_yaml(sample.catalog, sample.script, forms), "script.yaml", diagnostics);
   mission.script = read_script(*document, mission.catalog, Severity::warning, diagnostics).value();
+  mission.script.timeouts = seed % 4 != 0;
   return mission;
+}
+
+/// Of a script, of the header of a log, or of a state.
+template <typename Source>
+CoordinatorOptions options_of(const Source& source) {
+  CoordinatorOptions options;
+  options.reactive_delay = source.reactive_delay;
+  options.timeouts = source.timeouts;
+  return options;
 }
 
 /// A run whose events become lines.
 class Recording {
  public:
-  Recording(const CompiledCatalog& catalog, Microseconds reactive_delay, Lines& lines)
+  Recording(const CompiledCatalog& catalog, const CoordinatorOptions& options, Lines& lines)
       : events_(
             catalog, {}, [&lines](std::string_view line) { lines.emplace_back(line); },
             [](const Failure&) {}),
-        runner_(catalog, options(reactive_delay), events_) {}
+        runner_(catalog, options, events_) {}
 
   [[nodiscard]] Runner& runner() { return runner_; }
 
  private:
-  static CoordinatorOptions options(Microseconds reactive_delay) {
-    CoordinatorOptions options;
-    options.reactive_delay = reactive_delay;
-    return options;
-  }
-
   EventStream events_;
   Runner runner_;
 };
 
 std::string header_of(const Mission& mission) {
   Lines lines;
-  Recording recording(mission.catalog, mission.script.reactive_delay, lines);
+  Recording recording(mission.catalog, options_of(mission.script), lines);
   recording.runner().begin(mission.script.situation);
-  return stream_header(mission.catalog, mission.catalog.file, mission.script.reactive_delay,
+  return stream_header(mission.catalog, mission.catalog.file, options_of(mission.script),
                        mission.script.situation,
                        recording.runner().coordinator().state().variables());
 }
 
 Lines run_whole(const Mission& mission) {
   Lines lines;
-  Recording recording(mission.catalog, mission.script.reactive_delay, lines);
+  Recording recording(mission.catalog, options_of(mission.script), lines);
   recording.runner().begin(mission.script.situation);
   for (const Step& step : mission.script.steps) EXPECT_TRUE(recording.runner().take(step));
   EXPECT_TRUE(recording.runner().settle());
@@ -92,9 +96,9 @@ Lines run_whole(const Mission& mission) {
 /// Saves and restores the state before one step in `one_in`.
 Lines run_in_pieces(const Mission& mission, Random& random, std::uint64_t one_in,
                     std::vector<std::string>& states) {
-  const Microseconds delay = mission.script.reactive_delay;
+  const CoordinatorOptions options = options_of(mission.script);
   Lines lines;
-  auto recording = std::make_unique<Recording>(mission.catalog, delay, lines);
+  auto recording = std::make_unique<Recording>(mission.catalog, options, lines);
   recording->runner().begin(mission.script.situation);
   for (const Step& step : mission.script.steps) {
     if (random.below(one_in) == 0) {
@@ -106,7 +110,7 @@ Lines run_in_pieces(const Mission& mission, Random& random, std::uint64_t one_in
       }
       EXPECT_EQ(write_state(mission.catalog, *reading.snapshot), states.back());
       recording =
-          std::make_unique<Recording>(mission.catalog, reading.snapshot->reactive_delay, lines);
+          std::make_unique<Recording>(mission.catalog, options_of(*reading.snapshot), lines);
       recording->runner().resume(*reading.snapshot);
     }
     EXPECT_TRUE(recording->runner().take(step));
@@ -136,7 +140,7 @@ TEST(StreamProperty, LogGivesTheSameEventsAgain) {
     const auto header = log.read_header(header_of(mission));
     ASSERT_TRUE(header) << log.error();
     Lines again;
-    Recording recording(mission.catalog, header->reactive_delay, again);
+    Recording recording(mission.catalog, options_of(*header), again);
     recording.runner().begin(header->situation);
     for (const std::string& line : lines) {
       const auto entry = log.read_entry(line, 2);
@@ -219,7 +223,7 @@ TEST(StreamProperty, DamagedStatesAreRefusedOrHarmless) {
           continue;
         }
         Lines lines;
-        Recording recording(mission.catalog, reading.snapshot->reactive_delay, lines);
+        Recording recording(mission.catalog, options_of(*reading.snapshot), lines);
         recording.runner().resume(*reading.snapshot);
         for (const Step& step : mission.script.steps) {
           if (step.time && *step.time < recording.runner().coordinator().now()) continue;

@@ -51,9 +51,15 @@ class Check {
   void check_table(const TogetherTable& table) const {
     std::vector<std::size_t> able;
     std::vector<std::size_t> unable;
+    const bool takes_all = std::none_of(catalog_.tasks.begin(), catalog_.tasks.end(),
+                                        [](const Task& task) { return task.start_on_request; });
     for (const std::size_t task : tasks_) {
-      if (catalog_.tasks[task].start_on_request) (can_run(task) ? able : unable).push_back(task);
+      if (catalog_.tasks[task].start_on_request || takes_all) {
+        (can_run(task) ? able : unable).push_back(task);
+      }
     }
+    demand(table.is_of_all_tasks == takes_all, "wrong about whether it is of all tasks");
+    if (takes_all) statistics_.count("of all tasks");
     demand(in_model(table.tasks) == able, "the table has other tasks");
     demand(in_model(table.never_run) == unable, "other tasks never run");
     std::size_t pair = 0;
@@ -239,6 +245,7 @@ const LowerBound lower_bounds[] = {
     {"possible", 300},           {"excluded", 100},
     {"excluded_indirectly", 50}, {"more than three reasons", 10},
     {"never-started", 100},      {"blocked-reactive", 20},
+    {"of all tasks", 5},
 };
 
 TEST(Together, IsWhatBruteForceFinds) { run_random_cases(default_cases, run_case, lower_bounds); }

@@ -7,7 +7,7 @@ const {readYaml} = require('./yaml');
 
 const catalogKeys = ['behaviors', 'tasks', 'exclusivity_constraints', 'default_values'];
 const propertyKeys = ['properties', 'assume'];
-const scriptKeys = ['events', 'reactive_delay', 'situation', 'catalog'];
+const scriptKeys = ['events', 'reactive_delay', 'timeouts', 'situation', 'catalog'];
 
 /** The schema that a text is for, told by its content, or by its name if it is not YAML. */
 function schemaOf(file, text) {

@@ -91,6 +91,7 @@ const noAnswer = {
 const lies = {
   events: [
     ['a reactive delay of 0', lineWith('schema'), {reactive_delay: 0}],
+    ['timeouts that are mentioned but on', lineWith('schema'), {timeouts: true}],
     ['a digest in capitals', lineWith('schema'), {digest: 'F'.repeat(32)}],
     ['an error in line 0', lineWith('error'), {line: 0}],
     ['totals of no event', kindOfTotals, {events: 0}],
@@ -214,6 +215,7 @@ const lies = {
 
   state: [
     ['a reactive delay of 0', whole, {reactive_delay_us: 0}],
+    ['timeouts that are mentioned but on', whole, {timeouts: true}],
     ['a time in seconds', whole, {time_us: 0.5}],
     ['a behavior that is faulty twice', whole, {faulty: ['GPS', 'GPS']}],
     ['a request of event 0', request, {event: 0}],

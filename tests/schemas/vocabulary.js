@@ -80,7 +80,19 @@ function isOptional(object, name) {
   if (name === 'behavior') return object.kind === 'performance';
   if (name === 'file' || name === 'groups') return 'group' in object; // of an exploration
   if (name === 'error') return 'events' in object; // of a run; not of a line
-  return ['alternatives', 'complete_order', 'parameters', 'priority', 'due', 'state', 'stats', 'waiting', 'why'].includes(name);
+  const others = [
+    'alternatives',
+    'complete_order',
+    'due',
+    'parameters',
+    'priority',
+    'state',
+    'stats',
+    'timeouts',
+    'waiting',
+    'why',
+  ];
+  return others.includes(name);
 }
 
 module.exports = {hasPattern, isFree, isOptional, mapsByName, mayBeEmpty, mayBeOfAnyType, mayBeTruth, words};

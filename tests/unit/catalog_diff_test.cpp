@@ -87,17 +87,17 @@ TEST(CatalogDiff, HasSituationVariablesAndConditions) {
   EXPECT_EQ(text_after("[far, near, 'by, the way']", "[near, far, 'by, the way']"),
             "~ situation variable TARGET: initial value far -> near\n");
   EXPECT_EQ(text_after(", 'by, the way'", ""),
-            "~ situation variable TARGET: values ['by, the way', far, near] -> [far, near]\n");
+            "~ situation variable TARGET: values [far, near, 'by, the way'] -> [far, near]\n");
   EXPECT_EQ(text_after("variable: GPS", "variable: GPS, values: ['true', 'false']"),
             "~ behavior HEAR: situation GPS false -> [false]\n"
             "~ behavior SEE: situation GPS true -> [true]\n"
-            "~ situation variable GPS: values none -> [false, true]\n");
+            "~ situation variable GPS: values none -> [true, false]\n");
   EXPECT_EQ(text_after("- {variable: GPS}\n", "- {variable: GPS}\n- {variable: WIND}\n"),
             "+ situation variable WIND\n");
   EXPECT_EQ(text_after("[far, near],", "far,"),
             "~ behavior SEE: situation TARGET [far, near] -> [far]\n");
   EXPECT_EQ(text_after(", situation: {TARGET: near, GPS: false}", ""),
-            "~ behavior HEAR: situation GPS false -> none, situation TARGET [near] -> none\n");
+            "~ behavior HEAR: situation GPS false -> any, situation TARGET [near] -> any\n");
 }
 
 TEST(CatalogDiff, WordsAreASetAndTwoNumbersARange) {

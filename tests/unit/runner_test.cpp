@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "script/event_lines.h"
 #include "script/reader.h"
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"
@@ -128,15 +129,18 @@ TEST(Runner, OutcomesAreThoseOfTheLastScriptedStartStopOrFinish) {
             "finish yet");
 }
 
+/// Keeps the failures only.
+struct Silent final : RunListener {
+  void on_event(const EventRecord& /*record*/, const Step* /*step*/,
+                const State& /*state*/) override {}
+  void on_failure(const Failure& failure) override { failed_after.push_back(failure.index); }
+  void on_end(const State& /*state*/) override {}
+  std::vector<std::uint64_t> failed_after;
+};
+
 TEST(Runner, GoesOnWithTheOutcomeOfTheLastEvent) {
   const CompiledCatalog catalog = test::compile_text(catalog_text);
-  struct Silent final : RunListener {
-    void on_event(const EventRecord& /*record*/, const Step* /*step*/,
-                  const State& /*state*/) override {}
-    void on_failure(const Failure& failure) override { failed_after.push_back(failure.index); }
-    void on_end(const State& /*state*/) override {}
-    std::vector<std::uint64_t> failed_after;
-  } listener;
+  Silent listener;
   Step start;
   start.verb = Verb::start;
   Step expectation;
@@ -169,6 +173,46 @@ events:
             "2 2000 script wait unchanged line 6 running 0\n"
             "3 2000 reactive start accepted running 1\n"
             "last running 1\nend 0 0");
+}
+
+TEST(Runner, NothingTimesOutInAScriptWithoutTimeouts) {
+  EXPECT_EQ(Protocol("{timeouts: false, events: [{start: A}, {at: 100}]}").text,
+            "1 0 script start accepted line 1 running 1\n"
+            "2 100000 script wait unchanged line 1 running 1\n"
+            "last running 1\nend 0 0");
+}
+
+TEST(Runner, NothingTimesOutAfterAStateWithoutTimeouts) {
+  const CompiledCatalog catalog = test::compile_text(catalog_text);
+  CoordinatorOptions options;
+  options.timeouts = false;
+  Silent listener;
+  Runner first(catalog, options, listener);
+  first.begin({});
+  Step start;
+  start.verb = Verb::start;
+  start.subject = catalog.find_task("A").value();
+  EXPECT_TRUE(first.take(start));
+  Step wait;
+  wait.time = 50'000'000;
+  EXPECT_TRUE(first.take(wait));
+  Snapshot snapshot = first.snapshot();
+  EXPECT_FALSE(snapshot.timeouts);
+  EXPECT_FALSE(snapshot.running.at(0).waits_for_timeout);
+  EXPECT_EQ(find_inconsistency(catalog, snapshot), std::nullopt);
+
+  const StateReading reading = read_state(write_state(catalog, snapshot), catalog);
+  ASSERT_TRUE(reading.snapshot) << reading.error;
+  EXPECT_FALSE(reading.snapshot->timeouts);
+  Runner second(catalog, options, listener);
+  second.resume(*reading.snapshot);
+  wait.time = 100'000'000;
+  EXPECT_TRUE(second.take(wait));
+  EXPECT_TRUE(second.settle());
+  EXPECT_EQ(second.snapshot().running.size(), 1U);
+
+  snapshot.running.at(0).waits_for_timeout = true;
+  EXPECT_EQ(find_inconsistency(catalog, snapshot), "task 'A' cannot wait for a timeout");
 }
 
 TEST(Runner, PassesPrioritiesParametersAndCausesOn) {

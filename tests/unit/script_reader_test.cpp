@@ -110,6 +110,7 @@ std::string describe(const Script& script) {
 TEST(ScriptReader, ReadsEverything) {
   const Script script = read(R"(catalog: a.yaml
 reactive_delay: 0.5
+timeouts: no
 situation: {HOVER_PID: false, HOVER_MPC: yes}
 events:
 - start: TAKE_OFF
@@ -139,6 +140,7 @@ events:
 )");
   EXPECT_EQ(script.file, "s.yaml");
   EXPECT_EQ(script.reactive_delay, 500'000);
+  EXPECT_FALSE(script.timeouts);
   EXPECT_EQ(describe(script.situation), " 1- 2+");
   EXPECT_EQ(describe(script), R"(start 0 priority 2
 @4000000 finish 0 goal_achieved
@@ -154,7 +156,7 @@ repair 1
 expect accepted running 2=2 running 1=any stopped 0 active 2 3
 @8500000 expect active
 )");
-  EXPECT_EQ(show(script.steps.at(1).range), "7:3-4");
+  EXPECT_EQ(show(script.steps.at(1).range), "8:3-4");
 }
 
 TEST(ScriptReader, AScriptMayBeABareListOrJson) {
@@ -162,6 +164,7 @@ TEST(ScriptReader, AScriptMayBeABareListOrJson) {
   EXPECT_EQ(describe(read(R"({"events": [{"start": "LAND", "priority": 3, "wait": 1e1}]})")),
             "@10000000 start 1 priority 3\n");
   EXPECT_EQ(read("[]").reactive_delay, 80'000);
+  EXPECT_TRUE(read("[]").timeouts);
   EXPECT_EQ(describe(read("events: []")), "");
 }
 
@@ -224,6 +227,8 @@ TEST(ScriptReader, WrongScripts) {
       "3:12-17 error wrong-type: 'situation' must be a mapping of behaviors to true or false, "
       "or of situation variables to values, found 'HOVER'\n"
       "4:1-6 error unknown-key: unknown key 'delay' in a script\n");
+  EXPECT_EQ(findings("timeouts: 5\nevents: []\n"),
+            "1:11-12 error wrong-type: 'timeouts' must be true or false, found '5'\n");
   EXPECT_EQ(findings("delay: 1\nevents: []\n"),
             "1:1-6 error unknown-key: unknown key 'delay' in a script; did you mean "
             "'reactive_delay'?\n");
@@ -241,6 +246,25 @@ TEST(ScriptReader, OneVerbForEachEvent) {
       "4:3-8 error missing-key: 'start' has no value\n"
       "5:3-4 error wrong-type: an event must be a mapping ('start: TASK'), found '7'\n"
       "6:3-4 error wrong-type: an event must be a mapping ('start: TASK'), found nothing\n");
+}
+
+/// What a key without a value says is nothing.
+TEST(ScriptReader, AVerbWithoutAValueIsAsIfAbsent) {
+  const Script script =
+      read("- {start: ~, at: 5}\n- {start: , stop: LAND}\n- {situation:, wait: 1}\n");
+  ASSERT_EQ(script.steps.size(), 3U);
+  EXPECT_EQ(script.steps[0].verb, Verb::wait);
+  EXPECT_EQ(script.steps[0].time, 5 * second);
+  EXPECT_EQ(script.steps[1].verb, Verb::stop);
+  EXPECT_EQ(script.steps[2].verb, Verb::wait);
+  EXPECT_EQ(findings("- {start: ~, at: 5, priority: 2}\n"),
+            "1:21-29 error unknown-key: 'priority' does not belong to 'wait', only to 'start' and "
+            "'stop'\n");
+}
+
+TEST(ScriptReader, OneMistakeOfASituationIsOneError) {
+  EXPECT_EQ(findings("- situation: {LIGHT: dark}\n"),
+            "1:15-20 error undefined-behavior: there is no behavior 'LIGHT'\n");
 }
 
 TEST(ScriptReader, UnknownKeysAreErrors) {
@@ -519,6 +543,51 @@ TEST(ScriptReader, TheSituationIsThatOfThePlaceInTheScript) {
                      "situation: {HOVER_PID: no}\n"),
             still_available("4:12-21", "HOVER_PID") + still_available("5:12-21", "HOVER_MPC") +
                 still_available("11:12-21", "HOVER_PID"));
+}
+
+/// The finish of a task is that of the behavior that performs it.
+TEST(ScriptReader, AFinishByTaskOfWhatStaysAvailable) {
+  EXPECT_EQ(findings("- {finish: {task: HOVER}, cause: situation_change}\n"),
+            "1:19-24 warning still-available: every behavior that performs task 'HOVER' is still "
+            "available here, so that it can be chosen again at once; add an event 'situation' "
+            "before it that rules out the one that is active\n");
+  EXPECT_EQ(
+      findings("- {finish: {task: BOTH}, cause: situation_change}\n"),
+      "1:19-23 warning still-available: behavior 'BOTH', which performs task 'BOTH', is still "
+      "available here, so that it can be chosen again at once; add 'situation: {BOTH: "
+      "false}' before it\n");
+  // The one that performs it may be the one that is ruled out.
+  EXPECT_EQ(findings("- situation: {HOVER_MPC: false}\n"
+                     "- {finish: {task: HOVER}, cause: situation_change}\n"),
+            "");
+  EXPECT_EQ(findings("- {finish: {task: HOVER}, cause: time_out}\n- finish: {task: HOVER}\n"), "");
+}
+
+TEST(ScriptReader, AFinishByTheSituationOfWhatDependsOnVariables) {
+  const CompiledCatalog catalog = test::compile_text(R"(situation:
+- {variable: LIGHT, values: [day, dusk, night]}
+- {variable: GPS}
+behaviors:
+- {behavior: CAMERA, task: SEE, situation: {LIGHT: [day, night], GPS: true}}
+- {behavior: RECEIVER, task: LOCALIZE, situation: {GPS: true}}
+)");
+  Diagnostics diagnostics;
+  const auto document = yaml::parse(R"(- {finish: CAMERA, cause: situation_change}
+- {finish: {task: LOCALIZE}, cause: situation_change}
+- situation: {GPS: false}
+- {finish: CAMERA, cause: situation_change}
+- {finish: {task: LOCALIZE}, cause: situation_change}
+)",
+                                    "script.yaml", diagnostics);
+  ASSERT_NE(document, nullptr);
+  EXPECT_TRUE(read_script(*document, catalog, Severity::warning, diagnostics));
+  EXPECT_EQ(show(diagnostics),
+            "1:12-18 warning still-available: behavior 'CAMERA' is still available here, so that "
+            "it can be chosen again at once; write 'situation: {LIGHT: dusk}' in its place: the "
+            "behavior then finishes by itself\n"
+            "2:19-27 warning still-available: behavior 'RECEIVER', which performs task 'LOCALIZE', "
+            "is still available here, so that it can be chosen again at once; write 'situation: "
+            "{GPS: false}' in its place: the behavior then finishes by itself\n");
 }
 
 TEST(ScriptReader, ASituationThatIsNotUnderstoodMayMakeItUnavailable) {

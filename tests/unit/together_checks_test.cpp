@@ -198,6 +198,16 @@ tasks: [{task: A}, {task: B}]
   EXPECT_EQ(lint(without, "never_together: [[A, B]]\n"), "");
 }
 
+TEST(CanRunTogether, SaysWhetherATaskOrABehaviorIsMeant) {
+  EXPECT_EQ(lint("behaviors: [{behavior: LAND, task: LAND}, {behavior: BLINK, task: SIGNAL}]\n"
+                 "tasks: [{task: LAND}, {task: SIGNAL}]\n",
+                 "never_together: [[LAND, SIGNAL]]\n"),
+            "2:16-20 error can-run-together: task 'LAND' can run beside 'SIGNAL': task 'LAND' with "
+            "behavior 'LAND', 'SIGNAL' with 'BLINK'\n"
+            "  2:30-36 'SIGNAL' is defined here\n"
+            "  1:19-31 these tasks must never run together\n");
+}
+
 TEST(CanRunTogether, PassesOverNamesOfOtherCatalogs) {
   EXPECT_EQ(lint(flying, "never_together: [[LAND, DIVE], [DIVE, DOCK]]\n"), "");
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -119,7 +120,57 @@ TEST(TogetherText, FitsIntoEightyColumns) {
 TEST(TogetherText, OfNoTasks) {
   const CompiledCatalog catalog = test::compile_text(
       "behaviors: [{behavior: b, task: T}]\ntasks: [{task: T, start_on_request: FALSE}]\n");
-  EXPECT_EQ(text_of(catalog), std::string(catalog.file) + "\n  0 tasks on request, 0 pairs\n");
+  EXPECT_EQ(together_text(catalog, TogetherTable{}, plain_style()),
+            std::string(catalog.file) + "\n  0 tasks on request, 0 pairs\n");
+}
+
+/// Any task may be requested, so a catalog in which none waits for a request has its pairs, too.
+TEST(TogetherText, OfAllTasks) {
+  const CompiledCatalog catalog = test::compile_text(R"(default_values:
+  tasks: {start_on_request: FALSE}
+behaviors: [{behavior: a, task: A}, {behavior: b, task: B}, {behavior: c, task: C}]
+tasks: [{task: A}, {task: B}, {task: C}]
+exclusivity_constraints: [{mutually_exclusive: [A, C]}]
+)");
+  EXPECT_EQ(text_of(catalog),
+            std::string(catalog.file) +
+                "\n  3 tasks, 3 pairs; no task has start_on_request, so all tasks "
+                "are here\n"
+                "    + can run together: 2\n"
+                "    - excluded by a list: 1\n"
+                "\n"
+                "      12\n"
+                "  1 A\n"
+                "  2 B +\n"
+                "  3 C -+\n");
+  EXPECT_EQ(Json::parse(together_json(catalog, table_of(catalog)))["all_tasks"], true);
+  LintedFile file{"a.yaml", "", {}, summarize(catalog)};
+  file.together = summarize_together(catalog, LintOptions().max_nodes);
+  EXPECT_NE(lint_summary(file, plain_style()).find("  pairs of tasks             3\n"),
+            std::string::npos);
+}
+
+TEST(TogetherText, MarksWhatTheSettingsForbid) {
+  const CompiledCatalog catalog = robot();
+  const std::vector<NeverTogether> lists{{"", {}, {"HOVER", "LAND", "BLINK", "DIVE"}, {}}};
+  TogetherOptions options;
+  options.never_together = lists;
+  const TogetherTable table = make_together_table(catalog, options);
+  const std::string text = together_text(catalog, table, plain_style());
+  EXPECT_NE(text.find("    + can run together: 1\n"
+                      "    ! can run together, which the settings forbid: 2\n"
+                      "    - excluded by a list: 1\n"),
+            std::string::npos)
+      << text;
+  // What cannot happen need not be forbidden.
+  EXPECT_NE(text.find("  2 BLINK !\n  3 LAND  x!\n  4 MOVE  -+x\n"), std::string::npos) << text;
+  const Json json = Json::parse(together_json(catalog, table));
+  EXPECT_EQ(json["possible"], 3);
+  EXPECT_EQ(json["forbidden"], 2);
+  EXPECT_EQ(json["pairs"][0]["forbidden"], true);
+  EXPECT_EQ(json["pairs"][1]["forbidden"], false);
+  const std::string dot = together_dot(catalog, table);
+  EXPECT_NE(dot.find("\">!</TD>"), std::string::npos) << dot;
 }
 
 TEST(TogetherTable, LeavesOpenWhatTakesTooLong) {
@@ -194,9 +245,67 @@ tasks:
   EXPECT_NE(text.find("  2 AT_NIGHT s\n"
                       "  3 AT_DUSK  ++\n"
                       "  4 FLY      ++s\n"
-                      "  5 REST     ++++\n"),
+                      "  5 REST     ++++\n"
+                      "\n"
+                      "BY_DAY, AT_NIGHT\n"
+                      "  a fits only where LIGHT is day or dusk\n"
+                      "  b fits only where LIGHT is night\n"
+                      "\n"
+                      "AT_DUSK, FLY\n"
+                      "  c fits only where DRY is false\n"
+                      "  c fits only where LIGHT is dusk or night\n"
+                      "  d requires SEE ("),
             std::string::npos)
       << text;
+}
+
+TEST(TogetherTable, TellsExclusionsInEachSituation) {
+  // By day A takes P and B takes Q, at night the other way around.
+  const CompiledCatalog catalog = test::compile_text(R"(situation:
+- {variable: LIGHT, values: [day, night]}
+behaviors:
+- {behavior: a1, task: A, requires: [{task: P}], situation: {LIGHT: day}}
+- {behavior: a2, task: A, requires: [{task: Q}], situation: {LIGHT: night}}
+- {behavior: b1, task: B, requires: [{task: Q}], situation: {LIGHT: day}}
+- {behavior: b2, task: B, requires: [{task: P}], situation: {LIGHT: night}}
+- {behavior: p, task: P}
+- {behavior: q, task: Q}
+tasks:
+- task: A
+- task: B
+- {task: P, start_on_request: FALSE, execution_goal: keep_running}
+- {task: Q, start_on_request: FALSE, execution_goal: keep_running}
+exclusivity_constraints:
+- mutually_exclusive: [P, Q]
+)");
+  const TogetherTable table = table_of(catalog);
+  ASSERT_EQ(table.pairs.size(), 1U);
+  EXPECT_EQ(table.pairs[0].together, Together::excluded_in_each_situation);
+  // All requirements, all conditions, and the exclusion.
+  EXPECT_EQ(table.pairs[0].reasons.size(), 9U);
+  const std::string text = together_text(catalog, table, plain_style());
+  EXPECT_NE(text.find("    X excluded in each situation, by what fits in it: 1\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("\n  2 B X\n"), std::string::npos) << text;
+}
+
+TEST(TogetherTable, LeavesOutWhatFitsInNoSituation) {
+  const CompiledCatalog catalog = test::compile_text(R"(situation:
+- {variable: LIGHT, values: [day, night]}
+behaviors:
+- {behavior: a, task: FLY, requires: [{task: SEE}], situation: {LIGHT: night}}
+- {behavior: b, task: SEE, situation: {LIGHT: day}}
+- {behavior: c, task: REST}
+tasks:
+- task: FLY
+- task: REST
+- {task: SEE, start_on_request: FALSE, execution_goal: keep_running}
+)");
+  const TogetherTable table = table_of(catalog);
+  EXPECT_EQ(table.tasks.size(), 1U);
+  ASSERT_EQ(table.never_run.size(), 1U);
+  EXPECT_EQ(catalog.name_of_task(table.never_run[0]), "FLY");
 }
 
 TEST(TogetherJson, HasAllPairs) {
@@ -264,9 +373,11 @@ TEST(LintJson, HasTasksThatCanRunTogether) {
   EXPECT_FALSE(Json::parse(lint_json({file}))["files"][0]["summary"].contains("together"));
   file.together = summarize_together(catalog, LintOptions().max_nodes);
   EXPECT_EQ(Json::parse(lint_json({file}))["files"][0]["summary"]["together"], Json::parse(R"({
+    "all_tasks": false,
     "tasks": ["HOVER", "BLINK", "LAND", "MOVE"], "never_run": ["SPIN"],
     "possible": [["HOVER", "BLINK"], ["BLINK", "LAND"], ["BLINK", "MOVE"]],
-    "excluded": 1, "excluded_indirectly": 2, "excluded_by_situation": 0, "undecided": 0})"));
+    "excluded": 1, "excluded_indirectly": 2, "excluded_in_each_situation": 0,
+    "excluded_by_situation": 0, "undecided": 0})"));
 }
 
 }  // namespace

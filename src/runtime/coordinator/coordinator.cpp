@@ -26,32 +26,14 @@ Coordinator::Coordinator(const CompiledCatalog& catalog, const CoordinatorOption
 
 void Coordinator::begin(std::span<const Availability> situation,
                         std::span<const VariableValue> variables) {
-  for (const Availability& entry : situation) {
-    state_.set_denied(catalog_.behavior_ids[entry.behavior], !entry.available);
-  }
-  for (const VariableValue& value : variables) state_.set_variable(value);
+  state_.change_situation(situation, variables);
   for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) enqueue_group(group);
 }
 
 void Coordinator::resume(const Snapshot& snapshot) {
   now_ = snapshot.now;
   record_.index = snapshot.events;
-  for (const BehaviorId behavior : snapshot.denied) state_.set_denied(behavior, true);
-  for (std::uint32_t variable = 0; variable < snapshot.variables.size(); ++variable) {
-    state_.set_variable({variable, snapshot.variables[variable]});
-  }
-  for (const BehaviorId behavior : snapshot.faulty) state_.set_faulty(behavior, true);
-  for (const auto& [behavior, time] : snapshot.active) state_.set_active(behavior, time);
-  for (const Snapshot::RunningTask& entry : snapshot.running) {
-    state_.set_value(entry.task, entry.value_index, entry.since);
-    if (const auto& request = entry.request) {
-      state_.set_request(entry.task, request->priority, request->event, request->parameters);
-    }
-    // With a time before all others, so that a timeout due right now is set, too.
-    if (entry.waits_for_timeout) state_.update_timeout(entry.task, -1);
-  }
-  for (const auto& [task, due] : snapshot.queue) state_.enqueue(task, due);
-  for (const TaskId task : snapshot.waiting) state_.set_waiting(task, true);
+  state_.restore(snapshot);
 }
 
 Snapshot Coordinator::snapshot() const {
@@ -59,6 +41,7 @@ Snapshot Coordinator::snapshot() const {
   snapshot.now = now_;
   snapshot.events = record_.index;
   snapshot.reactive_delay = options_.reactive_delay;
+  snapshot.timeouts = options_.timeouts;
   for (const std::uint32_t index : state_.running()) {
     const TaskId task = catalog_.task_ids[index];
     Snapshot::RunningTask& entry = snapshot.running.emplace_back();
@@ -115,7 +98,8 @@ std::optional<Microseconds> Coordinator::next_due() const {
   return std::min(timeouts.first_due(), queue.first_due());
 }
 
-/// At one instant timeouts come before reactive starts. Each counts, whether it is an event or not.
+/// At one instant, timeouts come before reactive starts. Each counts towards max_clock_events, even
+/// if it is a no-op, so that the limit bounds the time that a call takes.
 Coordinator::Status Coordinator::process_next_due() {
   const Timers& timeouts = state_.timeouts();
   const Timers& queue = state_.queue();
@@ -144,14 +128,14 @@ Coordinator::Status Coordinator::start_reactive(TaskId task) {
   return start(task, 0, std::string_view{}, true);
 }
 
-/// Whether a reactive task that is due starts, as far as can be told without search.
+/// Whether a reactive task that is due may start. True does not promise it: that takes a search.
 bool Coordinator::may_start(TaskId task) const {
   return !state_.is_running(task) && !state_.excludes_running_task(task) &&
          state_.has_available_behavior(task);
 }
 
-/// What follows an event at the same instant: behaviors that a rollback could not activate again
-/// finish right after the rejected event, and then those that a new situation does not fit.
+/// Handles what follows an event at the same instant: first the behaviors finish that a rollback
+/// could not activate again, then the active ones that no longer fit the situation.
 Coordinator::Status Coordinator::finish_pending() {
   while (!lost_.empty() || !misfits_.empty()) {
     Status status = Status::ok;
@@ -296,14 +280,12 @@ Coordinator::Status Coordinator::finish(BehaviorId behavior, FinishCause cause) 
   return coordinate(trigger);
 }
 
-/// Makes all changes at once. Then behaviors that become available let reactive tasks try, and
-/// active ones that do not fit any more finish, in catalog order.
+/// Makes all changes at once. Then the reactive tasks of groups in which a behavior has become
+/// available are queued, and active behaviors that no longer fit are noted, to finish in catalog
+/// order.
 Coordinator::Status Coordinator::change_situation(const Event& event) {
   find_affected(event);
-  for (const Availability& entry : event.situation) {
-    state_.set_denied(catalog_.behavior_ids[entry.behavior], !entry.available);
-  }
-  for (const VariableValue& value : event.variables) state_.set_variable(value);
+  state_.change_situation(event.situation, event.variables);
   for (const auto& [behavior, was_available] : affected_) {
     if (!was_available && state_.is_available(behavior)) enqueue_group(catalog_.group_of(behavior));
     if (!state_.is_active(behavior) || state_.fits(behavior)) continue;
@@ -409,7 +391,7 @@ const Problem* Coordinator::search(const Trigger& trigger) {
   }
 }
 
-/// The same, and measures its time.
+/// The same, with its time measured.
 const Problem* Coordinator::timed_search(const Trigger& trigger) {
   const auto begin = std::chrono::steady_clock::now();
   const Problem* const problem = search(trigger);
@@ -432,7 +414,8 @@ void Coordinator::note_domain_sizes(const Problem& problem) {
   }
 }
 
-/// The behavior that the started task keeps and that has to take over changed parameters, or none.
+/// The behavior that the started task keeps, if it has to restart to take over changed parameters;
+/// otherwise none.
 BehaviorId Coordinator::behavior_to_restart(const Trigger& trigger) const {
   if (trigger.kind != Trigger::Kind::start || !state_.is_running(trigger.task)) return none;
   const std::uint32_t index = solution_[trigger.task - catalog_.group_tasks[trigger.group]];
@@ -462,8 +445,8 @@ void Coordinator::accept(const Trigger& trigger, const Problem& problem) {
   if (state_.waiting_count() > 0) retry_waiting(trigger.group);
 }
 
-/// Explains the solution as far as the options ask for it. Makes no explainer where the options ask
-/// for displaced requests only and there are none.
+/// Explains the solution as far as the options ask for it. Creates the explainer only if there is
+/// something to explain, since it takes memory.
 void Coordinator::explain(const Trigger& trigger, const Problem& problem) {
   if (!options_.explain.asks_for_any() || search_.result.status != SearchStatus::optimal) return;
   const bool is_only_of_displaced =
@@ -531,6 +514,7 @@ void Coordinator::assign(const Trigger& trigger) {
 }
 
 void Coordinator::update_timeouts(std::uint32_t group) {
+  if (!options_.timeouts) return;
   for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
     state_.update_timeout(task, now_);
   }

@@ -23,7 +23,8 @@ namespace cbc {
 struct CoordinatorOptions {
   SearchOptions search;
   Microseconds reactive_delay = 80'000;        ///< over 0; see docs/semantics.md, "Reactive tasks"
-  std::uint64_t max_clock_events = 1'000'000;  ///< timeouts and reactive starts, silent ones, too
+  bool timeouts = true;                        ///< false: the clock ends no behavior
+  std::uint64_t max_clock_events = 1'000'000;  ///< timeouts and reactive starts, no-ops too
   bool find_conflicts = true;                  ///< of rejected events
   ExplanationOptions explain;                  ///< what to explain of accepted events
   bool measure_time = false;                   ///< records the time of searches
@@ -64,7 +65,8 @@ class Coordinator {
              std::span<const VariableValue> variables = {});
 
   /// Instead of begin: continues from the state of another coordinator, which find_inconsistency
-  /// accepts. The reactive delay is that of the options.
+  /// accepts. The reactive delay, and whether there are timeouts, are those of the options; they
+  /// should be those of the snapshot.
   void resume(const Snapshot& snapshot);
   /// All that another coordinator needs to continue, without the outcome. Only after a call that
   /// returned ok.
@@ -143,7 +145,7 @@ class Coordinator {
   /// The behaviors that a situation may affect, and whether they were available before it.
   std::vector<std::pair<BehaviorId, bool>> affected_;
   std::vector<BehaviorId> lost_;  ///< of a failed rollback; the last one finishes next
-  /// Active behaviors that may not fit any more, by catalog index; the last one is looked at next.
+  /// Active behaviors that may no longer fit, by catalog index; the last one is checked next.
   std::vector<std::uint32_t> misfits_;
   Microseconds now_ = 0;
   std::uint64_t clock_events_ = 0;

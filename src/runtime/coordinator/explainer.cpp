@@ -87,7 +87,8 @@ class Candidates {
     }
   }
 
-  /// Before the event, whose changes may have been applied by now; a finished behavior not counted.
+  /// Whether the behavior was active before the event, apart from one that has finished. Read off
+  /// the tasks: the event may have changed what is active, but not yet the values of tasks.
   [[nodiscard]] bool was_active(BehaviorId behavior) const {
     const auto values = catalog_.performs[behavior];
     return std::any_of(values.begin(), values.end(), [&](ValueId value) {
@@ -127,8 +128,8 @@ class ConflictSearches {
  public:
   explicit ConflictSearches(std::vector<ConflictSearch>& searches) : searches_(searches) {}
 
-  /// Whether one of the ways has a solution. Yes where that is unknown, so that no reason is left
-  /// out by mistake.
+  /// Whether one of the ways has a solution. Unknown counts as yes, so that no reason is left out
+  /// by mistake.
   [[nodiscard]] bool has_solution(std::span<const Reason> reasons) {
     return std::any_of(searches_.begin(), searches_.end(), [&](ConflictSearch& search) {
       if (is_exhausted()) return true;
@@ -182,8 +183,8 @@ Demands demands_of(const CompiledCatalog& catalog, const State& state, const Tri
   return demands;
 }
 
-/// By task of the group, the value index that it may keep though its behavior is unavailable: the
-/// present one, unless that has just finished.
+/// By task of the group: the value index that it may keep although its behavior is unavailable,
+/// which is the present one unless that behavior has just finished.
 std::vector<std::uint32_t> present_values(const CompiledCatalog& catalog,
                                           const Circumstances& circumstances) {
   const Trigger& trigger = circumstances.trigger;

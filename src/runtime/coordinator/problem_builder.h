@@ -39,7 +39,7 @@ class ProblemBuilder {
  public:
   ProblemBuilder(const CompiledCatalog& catalog, const State& state);
 
-  /// Takes up a trigger. `event` is its number, higher than that of any request.
+  /// Begins an event. `event` is its number, higher than that of any request.
   void load(const Trigger& trigger, std::uint64_t event);
 
   /// Removes a behavior from all domains of this event.

@@ -109,6 +109,25 @@ State::State(const CompiledCatalog& catalog)
   }
 }
 
+void State::restore(const Snapshot& snapshot) {
+  for (const BehaviorId behavior : snapshot.denied) set_denied(behavior, true);
+  for (std::uint32_t variable = 0; variable < snapshot.variables.size(); ++variable) {
+    set_variable({variable, snapshot.variables[variable]});
+  }
+  for (const BehaviorId behavior : snapshot.faulty) set_faulty(behavior, true);
+  for (const auto& [behavior, time] : snapshot.active) set_active(behavior, time);
+  for (const Snapshot::RunningTask& entry : snapshot.running) {
+    set_value(entry.task, entry.value_index, entry.since);
+    if (const auto& request = entry.request) {
+      set_request(entry.task, request->priority, request->event, request->parameters);
+    }
+    // At an instant before all others, so that even a timeout that is due right now is set.
+    if (entry.waits_for_timeout) update_timeout(entry.task, -1);
+  }
+  for (const auto& [task, due] : snapshot.queue) enqueue(task, due);
+  for (const TaskId task : snapshot.waiting) set_waiting(task, true);
+}
+
 void State::set_value(TaskId task, std::uint32_t index, Microseconds now) {
   if (assignment_[task] == index) return;
   const bool was_running = is_running(task);
@@ -152,6 +171,14 @@ void State::set_request(TaskId task, std::int32_t priority, std::uint64_t event,
 void State::set_denied(BehaviorId behavior, bool denied) {
   denied_[behavior] = denied ? 1 : 0;
   update_available(behavior);
+}
+
+void State::change_situation(std::span<const Availability> availability,
+                             std::span<const VariableValue> variables) {
+  for (const Availability& entry : availability) {
+    set_denied(catalog_.behavior_ids[entry.behavior], !entry.available);
+  }
+  for (const VariableValue& value : variables) set_variable(value);
 }
 
 void State::set_variable(VariableValue value) {
@@ -321,7 +348,8 @@ class SnapshotCheck {
 
   void check_timeout(const std::string& name, const Snapshot::RunningTask& entry) {
     const BehaviorId behavior = behavior_of(entry);
-    const Microseconds timeout = timeout_of(catalog_, entry.task, behavior);
+    const Microseconds timeout =
+        snapshot_.timeouts ? timeout_of(catalog_, entry.task, behavior) : 0;
     const Microseconds due =
         timeout == 0 ? never : std::max(entry.since, activated_at_[behavior]) + timeout;
     if (entry.waits_for_timeout ? due < snapshot_.now : due > snapshot_.now) {

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -50,11 +52,16 @@ struct Request {
   std::string parameters;   ///< canonical form
 };
 
+struct Snapshot;
+
 /// State of a coordinator (docs/semantics.md, "State"): what runs, what was requested, what can be
 /// activated, and what falls due.
 class State {
  public:
   explicit State(const CompiledCatalog& catalog);
+
+  /// Takes over a state that find_inconsistency accepts. Only for a new State.
+  void restore(const Snapshot& snapshot);
 
   // Values of the tasks.
 
@@ -105,8 +112,12 @@ class State {
     return available_words_;
   }
 
-  // Situation variables.
+  // The situation.
 
+  /// Denies or permits the behaviors, and gives the variables their values. Everything is given by
+  /// catalog index; what is not named stays as it is.
+  void change_situation(std::span<const Availability> availability,
+                        std::span<const VariableValue> variables);
   [[nodiscard]] std::uint32_t value_of(std::uint32_t variable) const { return values_[variable]; }
   [[nodiscard]] const std::vector<std::uint32_t>& variables() const { return values_; }
   void set_variable(VariableValue value);
@@ -185,6 +196,7 @@ struct Snapshot {
   Microseconds now = 0;
   std::uint64_t events = 0;  ///< number of the last one
   Microseconds reactive_delay = 0;
+  bool timeouts = true;            ///< see CoordinatorOptions; if false, no task waits for one
   std::optional<Outcome> outcome;  ///< of the last scripted start, stop or finish; see Runner
   std::vector<RunningTask> running;
   std::vector<std::pair<BehaviorId, Microseconds>> active;  ///< with the time of the activation

@@ -130,7 +130,7 @@ Change& Transition::add_change(bool is_activation, BehaviorId behavior) {
   return change;
 }
 
-/// The change is the last one.
+/// Adds a task to a change, which must be the last one: its tasks end the list.
 void Transition::add_task(Change& change, TaskId task) {
   record_.tasks_of_changes.push_back(task);
   ++change.task_count;
@@ -141,7 +141,7 @@ BehaviorId Transition::behavior_in(const Assignment& solution, TaskId task) cons
   return index == none ? none : catalog_.values[task][index].behavior;
 }
 
-/// The tasks that the behavior performs in the solution or, in a rollback, before the event.
+/// Finds the tasks that the behavior performs in the solution or, in a rollback, before the event.
 void Transition::find_tasks_of_activation(Change& change, const Assignment* solution) {
   for (const ValueId value : catalog_.performs[change.behavior]) {
     const TaskId task = catalog_.task_of(value);
@@ -151,7 +151,7 @@ void Transition::find_tasks_of_activation(Change& change, const Assignment* solu
   }
 }
 
-/// The tasks of its last activation within the event, or else those that it performed before.
+/// Finds the tasks of its last activation within the event, or else those that it performed before.
 void Transition::find_tasks_of_deactivation(Change& change) {
   for (auto earlier = record_.changes.rbegin() + 1; earlier != record_.changes.rend(); ++earlier) {
     if (earlier->is_activation && earlier->success && earlier->behavior == change.behavior) {
@@ -195,7 +195,7 @@ std::optional<std::int32_t> Transition::priority_before(TaskId task) const {
   return request != nullptr ? std::optional(request->priority) : std::nullopt;
 }
 
-/// Of a task that runs in the solution.
+/// The priority of a task that runs in the solution, after the event.
 std::optional<std::int32_t> Transition::priority_after(TaskId task) const {
   if (trigger_.kind == Trigger::Kind::start && task == trigger_.task) return trigger_.priority;
   return priority_before(task);

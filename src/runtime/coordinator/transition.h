@@ -19,7 +19,7 @@ class Transition {
   /// `record` receives the changes of the event.
   Transition(const CompiledCatalog& catalog, State& state, EventRecord& record);
 
-  /// Takes up an event. `active_before` outlives the transition of the event.
+  /// Begins an event. `active_before` must outlive the transition.
   void load(const Trigger& trigger, const std::vector<BehaviorId>& active_before);
 
   /// Applies a solution to what is active now. `restart`: an active behavior that has to take over

@@ -57,7 +57,7 @@ class Comparison {
   Comparison(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks)
       : catalog_(catalog), order_(catalog, ranks) {}
 
-  /// Takes up a problem, which must outlive its use. `elsewhere`: the objectives of all other
+  /// Sets the problem, which must outlive its use. `elsewhere`: the objectives of all other
   /// groups, but for idle_total, which is that of the whole catalog.
   void load(const Problem& problem, const ObjectiveValues& elsewhere);
 
@@ -86,7 +86,7 @@ class ConfigurationSearch {
   /// `ranks`: those of the solver whose answers are explained. Both must outlive the search.
   ConfigurationSearch(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks);
 
-  /// Takes up a problem, which must outlive its use. See Comparison for `elsewhere`.
+  /// Sets the problem, which must outlive its use. See Comparison for `elsewhere`.
   void load(const Problem& problem, const ObjectiveValues& elsewhere);
 
   /// The best of the solutions that meet the demands of one of the `ways`; none if there is none.

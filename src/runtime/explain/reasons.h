@@ -56,7 +56,7 @@ struct Reason {
       false;  ///< of is_protected: whatever the priority, at a reactive start
   Millionths minimum_performance = 0;  ///< of performance
   std::uint32_t variable = none;       ///< of situation: one that the behavior does not fit
-  std::uint32_t value = 0;             ///< of situation: its present value
+  std::uint32_t value = 0;             ///< of situation: its present value; none: any misfit
   std::uint32_t line = 0;              ///< of the catalog; 0 if no line states the reason
 };
 

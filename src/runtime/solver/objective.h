@@ -36,7 +36,7 @@ class CanonicalOrder {
   /// `ranks`: by value, its rank in the task; empty: as the values stand.
   CanonicalOrder(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks);
 
-  /// Takes up a problem. Allocates nothing.
+  /// Sets the problem. Allocates nothing.
   void load(const Problem& problem);
 
   /// Rank of a value (or none) of a task: lower is better, and no two values have the same.

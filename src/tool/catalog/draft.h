@@ -28,6 +28,22 @@ extern const yaml::Shape variable;
 
 }  // namespace cbc::shape
 
+/// How catalogs are told from other YAML files, and those of an older format that is not supported.
+namespace cbc {
+
+/// Whether a file is a catalog: it has the key `behaviors`, or two other sections of a catalog with
+/// values of the right kinds, or is one of the older format.
+[[nodiscard]] bool is_catalog(const yaml::Node& root);
+
+/// Whether a file would be a catalog but for misspelt keys.
+[[nodiscard]] bool resembles_catalog(const yaml::Node& root);
+
+/// The key that shows that a catalog has the format with capabilities, which is older than tasks.
+/// Null if it does not.
+[[nodiscard]] const yaml::Node* find_older_format(const yaml::Node& root);
+
+}  // namespace cbc
+
 /// A catalog as it stands in the file: entry by entry, without names resolved or defaults applied.
 /// Only the reader of catalogs uses it. The texts are views of the document.
 namespace cbc::draft {

@@ -191,11 +191,19 @@ Condition SituationReader::read_condition(std::uint32_t variable, const Node& ke
                          " is empty, so that the behavior never fits");
   }
   const std::vector<std::string_view> values(declared.values.begin(), declared.values.end());
+  std::unordered_map<std::uint32_t, Range> known;
   for (const Node* node : nodes) {
     const auto text = value_text(*node, declared.is_boolean);
     const auto found = text ? std::find(values.begin(), values.end(), *text) : values.end();
     if (found != values.end()) {
-      condition.values.push_back(static_cast<std::uint32_t>(found - values.begin()));
+      const auto place = static_cast<std::uint32_t>(found - values.begin());
+      condition.values.push_back(place);
+      const auto [first, is_new] = known.try_emplace(place, node->range);
+      if (!is_new) {
+        reporter_.report(rule::unused_situation, node->range,
+                         "value " + quote(*text) + " is listed twice",
+                         {reporter_.note(first->second, "first listed here")});
+      }
     } else if (!values.empty()) {  // otherwise they could not be read
       report_unknown_value(*node, declared.name, values, reporter_,
                            {reporter_.note(declared.range, "declared here")});
@@ -236,6 +244,52 @@ void SituationReader::check_names(const std::vector<Behavior>& behaviors) {
     reporter_.report(rule::unused_situation, variable.range,
                      "no behavior names situation variable " + quote(variable.name));
   }
+}
+
+std::vector<NamedCondition> conditions_of(const CompiledCatalog& catalog, BehaviorId behavior) {
+  std::vector<NamedCondition> conditions;
+  std::uint32_t variable = none;
+  for (const FittingValue& fitting : catalog.fitting_values_of(behavior)) {
+    if (fitting.variable != variable) {
+      variable = fitting.variable;
+      NamedCondition& condition = conditions.emplace_back();
+      condition.variable = catalog.name_of_variable(variable);
+      condition.is_boolean = catalog.variables[variable].is_boolean != 0;
+    }
+    conditions.back().values.push_back(catalog.name_of_value({variable, fitting.value}));
+  }
+  return conditions;
+}
+
+std::vector<NamedCondition> conditions_of(const Catalog& catalog, const Behavior& behavior) {
+  std::vector<Condition> sorted = behavior.situation;
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Condition& a, const Condition& b) { return a.variable < b.variable; });
+  std::vector<NamedCondition> conditions;
+  for (const Condition& from : sorted) {
+    const Variable& variable = catalog.variables[from.variable];
+    NamedCondition& condition = conditions.emplace_back();
+    condition.variable = variable.name;
+    condition.is_boolean = variable.is_boolean;
+    for (const std::uint32_t value : from.values) {
+      condition.values.emplace_back(variable.values[value]);
+    }
+  }
+  return conditions;
+}
+
+std::string describe(const NamedCondition& condition) {
+  const std::string variable = printable(condition.variable);
+  if (condition.is_boolean && condition.values.size() == 1) {
+    return condition.values.front() == "true" ? variable : "not " + variable;
+  }
+  if (condition.values.empty()) return variable + ": no value";
+  std::string text = variable + ":";
+  for (const std::string_view value : condition.values) {
+    text += text.back() == ':' ? " " : ", ";
+    text += printable(value);
+  }
+  return text;
 }
 
 }  // namespace cbc

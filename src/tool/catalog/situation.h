@@ -3,14 +3,18 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
 #include "catalog/catalog.h"
+#include "compiled/compiled_catalog.h"
 #include "diagnostic/diagnostic.h"
 #include "yaml/document.h"
 
+/// Situation variables, and the conditions of behaviors on them: how they are read, and what they
+/// are called in pictures, lists and comparisons.
 namespace cbc {
 
 /// Reads the situation variables of a catalog, and the conditions of behaviors on them, with
@@ -54,5 +58,23 @@ class SituationReader {
 void report_unknown_value(const yaml::Node& node, std::string_view variable,
                           std::span<const std::string_view> values, Reporter& reporter,
                           std::vector<Note> notes = {});
+
+/// The values of a situation variable in which a behavior fits. The names are views of the catalog.
+struct NamedCondition {
+  std::string_view variable;
+  bool is_boolean = false;               ///< the variable was declared without values
+  std::vector<std::string_view> values;  ///< in catalog order; empty only in a bad catalog
+
+  bool operator==(const NamedCondition&) const = default;
+};
+
+/// The conditions of a behavior, in the order of the variables.
+[[nodiscard]] std::vector<NamedCondition> conditions_of(const CompiledCatalog& catalog,
+                                                        BehaviorId behavior);
+[[nodiscard]] std::vector<NamedCondition> conditions_of(const Catalog& catalog,
+                                                        const Behavior& behavior);
+
+/// "TARGET: near, far"; "GPS" or "not GPS" for a variable without values of its own.
+[[nodiscard]] std::string describe(const NamedCondition& condition);
 
 }  // namespace cbc

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -62,11 +64,21 @@ constexpr std::size_t stride = 256;
 
 bool is_continuation(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
 
-// Bytes that begin a character. Texts that are not valid UTF-8 are refused at the first bad byte,
-// so it does not matter how stray continuation bytes count.
+// Bytes that begin a character, eight at a time: every byte of every input is counted here. Texts
+// that are not valid UTF-8 are refused at the first bad byte, so it does not matter how stray
+// continuation bytes count.
 std::size_t count_beginnings(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char byte) { return !is_continuation(byte); }));
+  constexpr std::uint64_t lowest_bits = 0x0101'0101'0101'0101;
+  std::size_t count = text.size();
+  std::size_t at = 0;
+  for (; at + 8 <= text.size(); at += 8) {
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, text.data() + at, 8);
+    const std::uint64_t continuations = (bytes >> 7) & ~(bytes >> 6) & lowest_bits;
+    count -= (continuations * lowest_bits) >> 56;  // the product adds all bytes up in the highest
+  }
+  for (; at < text.size(); ++at) count -= is_continuation(text[at]) ? 1U : 0U;
+  return count;
 }
 
 }  // namespace

@@ -443,7 +443,10 @@ const Rule still_available = {
   cause: situation_change
   at: 12.5
 )",
-    .mending = "Add 'situation: {BEHAVIOR: false}' before the behavior finishes.",
+    .mending =
+        "Add 'situation: {BEHAVIOR: false}' before the behavior finishes. If the behavior depends "
+        "on situation variables, set one of them to a value in which it does not fit, in place of "
+        "the finish: the behavior then finishes by itself.",
     .mended = R"(events:
 - start: ROTATE
 - situation: {GPS: false}

@@ -119,8 +119,9 @@ const Rule unused_situation = {
     .summary = "A situation variable, or a condition on one, has no effect.",
     .explanation =
         "A variable that no behavior names changes nothing, whatever its value is. A behavior that "
-        "names all the values of a variable fits in any of them. Both are often left over from an "
-        "earlier version of the catalog.",
+        "names all the values of a variable fits in any of them, and one value twice is the same "
+        "as "
+        "once. All of these are often left over from an earlier version of the catalog.",
     .example = R"(behaviors:
 - behavior: FOLLOW_WITH_CAMERA
   task: FOLLOW

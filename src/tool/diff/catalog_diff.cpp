@@ -14,10 +14,13 @@
 
 #include "base/text.h"
 #include "catalog/allowed_values.h"
-#include "catalog/conditions.h"
+#include "catalog/situation.h"
 
 namespace cbc {
 namespace {
+
+/// The beginning of the name of an attribute that is a condition on a situation variable.
+constexpr std::string_view condition_prefix = "situation ";
 
 std::string describe_value(const AttributeValue& value) {
   if (const bool* const truth = std::get_if<bool>(&value)) return *truth ? "true" : "false";
@@ -37,8 +40,14 @@ std::string describe_value(const AttributeValue& value) {
 
 std::string describe(const CatalogChange& change, const AttributeChange& attribute) {
   const std::string name = printable(attribute.name);
-  const std::string before = describe_value(attribute.before);
-  const std::string after = describe_value(attribute.after);
+  // A behavior that does not name a situation variable fits in any of its values.
+  const auto value_of = [&](const AttributeValue& value) {
+    const bool is_absent = std::holds_alternative<std::monostate>(value);
+    return is_absent && attribute.name.starts_with(condition_prefix) ? "any"
+                                                                     : describe_value(value);
+  };
+  const std::string before = value_of(attribute.before);
+  const std::string after = value_of(attribute.after);
   switch (change.kind) {
     case CatalogChange::Kind::removed:
       return fmt::format("{} {}", name, before);
@@ -195,7 +204,8 @@ using ChangeSubject = CatalogChange::Subject;
 /// An attribute and its value.
 struct Attribute {
   std::string name;
-  AttributeValue value;
+  AttributeValue value;    ///< what is compared
+  std::string shown = {};  ///< if not empty, what is shown of it
 };
 using Attributes = std::vector<Attribute>;  ///< in the order of names
 
@@ -272,9 +282,8 @@ Attributes attributes_of_task(const CompiledCatalog& catalog, std::uint32_t inde
   return attributes;
 }
 
-/// Values of a situation variable, whose order does not count: "[far, near]".
-std::string list_values(std::vector<std::string_view> values) {
-  std::sort(values.begin(), values.end());
+/// "[far, near]"
+std::string list_values(const std::vector<std::string_view>& values) {
   std::string text;
   for (const std::string_view value : values) {
     text += (text.empty() ? "" : ", ") + spell(std::string(value));
@@ -282,11 +291,19 @@ std::string list_values(std::vector<std::string_view> values) {
   return "[" + text + "]";
 }
 
+/// Values of a situation variable, whose order does not count; they are shown in catalog order.
+Attribute set_of_values(std::string name, std::vector<std::string_view> values) {
+  std::string shown = list_values(values);
+  std::sort(values.begin(), values.end());
+  return {std::move(name), list_values(values), std::move(shown)};
+}
+
 /// True or false for a variable without values of its own.
-AttributeValue value_of(const NamedCondition& condition) {
+Attribute attribute_of(const NamedCondition& condition) {
+  std::string name = std::string(condition_prefix) + std::string(condition.variable);
   const bool is_truth = condition.is_boolean && condition.values.size() == 1;
-  if (is_truth) return condition.values.front() == "true";
-  return list_values(condition.values);
+  if (is_truth) return {std::move(name), condition.values.front() == "true"};
+  return set_of_values(std::move(name), condition.values);
 }
 
 Attributes attributes_of_behavior(const CompiledCatalog& catalog, std::uint32_t index) {
@@ -296,7 +313,7 @@ Attributes attributes_of_behavior(const CompiledCatalog& catalog, std::uint32_t 
       {"package", package.empty() ? AttributeValue() : AttributeValue(std::string(package))},
       {"timeout", unless_zero(catalog.behaviors[id].timeout)}};
   for (const NamedCondition& condition : conditions_of(catalog, id)) {
-    attributes.push_back({"situation " + std::string(condition.variable), value_of(condition)});
+    attributes.push_back(attribute_of(condition));
   }
   std::sort(attributes.begin(), attributes.end(),
             [](const Attribute& a, const Attribute& b) { return a.name < b.name; });
@@ -313,7 +330,7 @@ Attributes attributes_of_variable(const CompiledCatalog& catalog, std::uint32_t 
   const std::string initial(values.front());
   const bool has_own = variable.is_boolean == 0;
   return {{"initial value", initial},
-          {"values", has_own ? AttributeValue(list_values(std::move(values))) : AttributeValue()}};
+          has_own ? set_of_values("values", std::move(values)) : Attribute{"values", {}}};
 }
 
 std::vector<Fact> facts(const CompiledCatalog& catalog, ChangeSubject subject) {
@@ -385,15 +402,17 @@ void walk(const std::vector<Item>& before, const std::vector<Item>& after, const
 /// The attributes that differ. Both lists are in the order of names; either may be empty.
 std::vector<AttributeChange> compare(const Attributes& before, const Attributes& after) {
   std::vector<AttributeChange> changes;
-  const auto add = [&](const std::string& name, const AttributeValue& old,
-                       const AttributeValue& now) {
-    if (old != now) changes.push_back({name, old, now});
+  const auto shown = [](const Attribute& attribute) {
+    return attribute.shown.empty() ? attribute.value : AttributeValue(attribute.shown);
+  };
+  const auto add = [&](const Attribute& old, const Attribute& now) {
+    if (old.value == now.value) return;
+    changes.push_back({old.name.empty() ? now.name : old.name, shown(old), shown(now)});
   };
   walk(
       before, after, [](const Attribute& a, const Attribute& b) { return a.name < b.name; },
-      [&](const Attribute& old) { add(old.name, old.value, {}); },
-      [&](const Attribute& now) { add(now.name, {}, now.value); },
-      [&](const Attribute& old, const Attribute& now) { add(now.name, old.value, now.value); });
+      [&](const Attribute& old) { add(old, {}); }, [&](const Attribute& now) { add({}, now); },
+      add);
   return changes;
 }
 

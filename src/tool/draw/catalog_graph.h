@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "catalog/conditions.h"
 #include "catalog/reader.h"
+#include "catalog/situation.h"
 #include "cbc/units.h"
 #include "compile/compile.h"
 #include "compiled/compiled_catalog.h"

@@ -134,7 +134,7 @@ struct CommentedFile {
 
 /// Removes the findings of a file that comments of the file allow:
 ///
-///     # cbc: allow required-goal, dead-task -- the reason, as far as anybody cares
+///     # cbc: allow required-goal, dead-task -- the reason, for people
 ///     - task: A
 ///       timeout: 5   # cbc: allow no-timeout-effect
 ///

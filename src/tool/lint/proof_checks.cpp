@@ -575,6 +575,7 @@ void check_by_proof(const CatalogReading& reading, const CompiledCatalog& compil
   OnRequestCheck(proof).check();
   // A value that could not be read excludes nothing, so more requirements may seem redundant.
   if (reading.is_complete) {
+    check_situations(proof);
     RedundancyCheck(proof).check();
     if (options.checks_off_rules) check_redundant_minimums(proof);
   }

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/text.h"
 #include "diagnostic/rules.h"
+#include "support/wording.h"
 
 namespace cbc {
 namespace {
@@ -51,12 +54,13 @@ void AssignmentSearch::rule_out(ValueId value) {
 }
 
 Feasibility AssignmentSearch::find(ValueId value, std::span<const TaskId> closed,
-                                   Assignment& solution) {
+                                   Assignment& solution, std::span<const std::uint32_t> situation) {
   const TaskId task = catalog_.task_of(value);
   open_group(catalog_.tasks[task].group);
   for (const TaskId other : closed) close(other);
   close(task);
   allow(value);
+  if (!situation.empty()) close_misfits(situation);
   must_run(task);
   return solve(any_, solution);
 }
@@ -400,7 +404,24 @@ Range range_of_list(const Catalog& catalog, TaskIndex a, TaskIndex b) {
 
 }  // namespace
 
+/// A condition of a behavior on a situation variable.
+Note ProofContext::note_of_condition(const Reason& reason) const {
+  const Behavior& fitting = behavior(reason.behavior);
+  const auto condition =
+      std::find_if(fitting.situation.begin(), fitting.situation.end(),
+                   [&reason](const Condition& one) { return one.variable == reason.variable; });
+  const Variable& variable = catalog_.variables[reason.variable];
+  std::vector<std::string> values;
+  for (const std::uint32_t value : condition->values) {
+    values.push_back(quote(variable.values[value]));
+  }
+  return reporter_.note(condition->range, "behavior " + quote(fitting.name) + " fits only where " +
+                                              quote(variable.name) + " is " +
+                                              list_alternatives(values));
+}
+
 Note ProofContext::note_of(const Reason& reason) const {
+  if (reason.kind == Reason::Kind::situation) return note_of_condition(reason);
   const TaskIndex task_index = compiled().tasks[reason.task].catalog_index;
   const Task& required = task(reason.task);
   if (reason.kind == Reason::Kind::exclusive) {

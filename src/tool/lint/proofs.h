@@ -17,12 +17,12 @@
 #include "solver/problem.h"
 #include "solver/solver.h"
 
-/// What the constraints of a catalog make impossible, or say in vain: decided exactly, by search.
+/// What the constraints of a catalog make impossible or redundant: decided exactly, by search.
 /// First the checks, then what they share.
 namespace cbc {
 
 /// All checks of a catalog whose names were all understood, and whose requirements have no cycle.
-/// `conflicts`: by behavior, whether a finding says already that it can never be active.
+/// `conflicts`: by behavior, whether a finding already says that it can never be active.
 void check_by_proof(const CatalogReading& reading, const CompiledCatalog& compiled,
                     const std::vector<bool>& conflicts, const LintOptions& options,
                     Reporter& reporter);
@@ -34,6 +34,10 @@ void check_on_request_requirements(const Catalog& catalog, const std::vector<boo
 
 class ProofContext;
 
+/// One of these checks: tasks and behaviors that the constraints allow, but that fit, with what
+/// they require, in no situation.
+void check_situations(ProofContext& proof);
+
 /// One of these checks: minimum performances that are reached anyway.
 void check_redundant_minimums(ProofContext& proof);
 
@@ -43,8 +47,8 @@ inline constexpr std::size_t most_constraints = 20'000;
 /// The requirement of a task by a behavior that has one; of several the strongest, or the first.
 [[nodiscard]] const Requirement& strongest_requirement(const Behavior& behavior, TaskIndex task);
 
-/// Answers questions about the assignments that satisfy all constraints of a catalog, every
-/// behavior available and every task free to run or not.
+/// Answers questions about the assignments that satisfy all constraints of a catalog. Every
+/// behavior is available, and every task is free to run or not.
 ///
 /// The effort of one object is bounded: past it, all answers are unknown.
 class AssignmentSearch {
@@ -64,13 +68,14 @@ class AssignmentSearch {
   void rule_out(ValueId value);
 
   /// Whether there is an assignment with a value in which no task of `closed` runs. If so, it is in
-  /// `solution`, by task of the group.
+  /// `solution`, by task of the group. `situation`: values of all situation variables, in which its
+  /// behaviors have to fit; empty: any behavior will do.
   [[nodiscard]] Feasibility find(ValueId value, std::span<const TaskId> closed,
-                                 Assignment& solution);
+                                 Assignment& solution,
+                                 std::span<const std::uint32_t> situation = {});
 
-  /// Whether there is an assignment in which all of some tasks, which are of one group, run. If so,
-  /// it is in `solution`, by task of the group. `situation`: values of all situation variables, in
-  /// which its behaviors have to fit; empty: any behavior will do.
+  /// Whether there is an assignment in which all of some tasks, which are of one group, run; the
+  /// rest as for find().
   [[nodiscard]] Feasibility find_running(std::span<const TaskId> tasks,
                                          std::span<const std::uint32_t> situation,
                                          Assignment& solution);
@@ -195,6 +200,7 @@ class ProofContext {
 
  private:
   [[nodiscard]] Note note_of(const Reason& reason) const;
+  [[nodiscard]] Note note_of_condition(const Reason& reason) const;
 
   const Catalog& catalog_;
   AssignmentSearch& search_;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "lint/situations.h"
 #include "lint/together_search.h"
 
 namespace cbc {
@@ -18,8 +19,8 @@ std::uint64_t key_of(TaskId a, TaskId b) {
   return (std::uint64_t{std::min(a, b)} << 32U) | std::max(a, b);
 }
 
-/// Takes the requirements that lead down from a task out of `reasons`, each after what leads to
-/// it.
+/// Takes the requirements that lead down from a task, and the conditions of behaviors, out of
+/// `reasons`, each after what leads to it.
 std::vector<Reason> take_requirements_below(const CompiledCatalog& catalog, TaskId task,
                                             std::vector<Reason>& reasons) {
   std::vector<Reason> taken;
@@ -27,15 +28,21 @@ std::vector<Reason> take_requirements_below(const CompiledCatalog& catalog, Task
   for (std::size_t next = 0; next < open.size(); ++next) {
     const TaskId above = open[next];
     const auto is_of_it = [&](const Reason& reason) {
-      if (reason.kind != Reason::Kind::requires_task) return false;
+      if (reason.kind != Reason::Kind::requires_task && reason.kind != Reason::Kind::situation) {
+        return false;
+      }
       const auto values = catalog.performs[reason.behavior];
       return std::any_of(values.begin(), values.end(),
                          [&](ValueId value) { return catalog.task_of(value) == above; });
     };
     const auto rest = std::stable_partition(
         reasons.begin(), reasons.end(), [&](const Reason& reason) { return !is_of_it(reason); });
+    std::stable_sort(rest, reasons.end(), [&catalog](const Reason& one, const Reason& other) {
+      return catalog.behaviors[one.behavior].catalog_index <
+             catalog.behaviors[other.behavior].catalog_index;
+    });
     for (auto reason = rest; reason != reasons.end(); ++reason) {
-      open.push_back(reason->task);
+      if (reason->kind == Reason::Kind::requires_task) open.push_back(reason->task);
       taken.push_back(*reason);
     }
     reasons.erase(rest, reasons.end());
@@ -43,11 +50,25 @@ std::vector<Reason> take_requirements_below(const CompiledCatalog& catalog, Task
   return taken;
 }
 
+/// Puts a set of reasons why two tasks do not run together into the order of a chain.
+std::vector<Reason> chain_of(const CompiledCatalog& catalog, TaskId a, TaskId b,
+                             std::vector<Reason> reasons) {
+  std::vector<Reason> chain = take_requirements_below(catalog, a, reasons);
+  const std::vector<Reason> end = take_requirements_below(catalog, b, reasons);
+  chain.insert(chain.end(), reasons.begin(), reasons.end());
+  chain.insert(chain.end(), end.begin(), end.end());
+  return chain;
+}
+
 }  // namespace
 
 std::string_view name_of(Together together) {
-  static constexpr std::array<std::string_view, 5> names{
-      "possible", "excluded", "excluded_indirectly", "excluded_by_situation", "undecided"};
+  static constexpr std::array<std::string_view, 6> names{"possible",
+                                                         "excluded",
+                                                         "excluded_indirectly",
+                                                         "excluded_in_each_situation",
+                                                         "excluded_by_situation",
+                                                         "undecided"};
   return names[static_cast<std::size_t>(together)];
 }
 
@@ -72,11 +93,21 @@ Together TogetherSearch::decide(TaskId a, TaskId b) {
   Feasibility answer = decide_by_constraints(a, b);
   if (answer == Feasibility::no) return Together::excluded_indirectly;
   if (answer == Feasibility::yes) {
-    const std::vector<std::uint32_t> variables = variables_of(a, b);
+    const std::vector<std::uint32_t> variables = variables_of(catalog_, std::array{a, b});
     if (!variables.empty()) answer = decide_by_situations(a, b, variables);
+    if (answer == Feasibility::no) return why_not_in_situations(a, b, variables);
   }
-  if (answer == Feasibility::no) return Together::excluded_by_situation;
   return answer == Feasibility::yes ? Together::possible : Together::undecided;
+}
+
+Feasibility TogetherSearch::can_run(TaskId task) {
+  if (is_dead(task)) return Feasibility::no;
+  const std::vector<std::uint32_t> variables = variables_of(catalog_, {&task, 1});
+  // Of what is not dead it may be open whether it can run.
+  if (variables.empty()) return Feasibility::yes;
+  return ask_in_situations(catalog_, variables, [&](std::span<const std::uint32_t> situation) {
+    return find_alone(task, situation);
+  });
 }
 
 Feasibility TogetherSearch::decide_by_constraints(TaskId a, TaskId b) {
@@ -95,38 +126,26 @@ Feasibility TogetherSearch::decide_by_constraints(TaskId a, TaskId b) {
 /// Looks at all situations. `variables`: those that matter.
 Feasibility TogetherSearch::decide_by_situations(TaskId a, TaskId b,
                                                  const std::vector<std::uint32_t>& variables) {
-  constexpr std::size_t most_situations = 10'000;
-  std::vector<std::uint32_t> situation(catalog_.variables.size(), 0);
-  for (std::size_t tried = 0; tried < most_situations; ++tried) {
-    const Feasibility answer = find(a, b, situation);
-    if (answer != Feasibility::no) return answer;
-    std::size_t place = 0;
-    while (place < variables.size() &&
-           ++situation[variables[place]] == catalog_.variables[variables[place]].value_count) {
-      situation[variables[place++]] = 0;
-    }
-    if (place == variables.size()) return Feasibility::no;
-  }
-  return Feasibility::unknown;
+  return ask_in_situations(catalog_, variables, [&](std::span<const std::uint32_t> situation) {
+    return find(a, b, situation);
+  });
 }
 
-/// The situation variables that behaviors name with which the tasks, and what these require, run.
-std::vector<std::uint32_t> TogetherSearch::variables_of(TaskId a, TaskId b) const {
-  if (catalog_.variables.empty()) return {};
-  std::vector<std::uint32_t> variables;
-  for (const TaskId task : {a, b}) {
-    RelevantTasks relevant(catalog_, catalog_.tasks[task].group);
-    relevant.add(task);
-    relevant.close();
-    for (const BehaviorId behavior : relevant.behaviors()) {
-      for (const FittingValue& value : catalog_.fitting_values_of(behavior)) {
-        variables.push_back(value.variable);
-      }
-    }
-  }
-  std::sort(variables.begin(), variables.end());
-  variables.erase(std::unique(variables.begin(), variables.end()), variables.end());
-  return variables;
+/// Of tasks that run together in no situation: whether there is one in which either can run.
+Together TogetherSearch::why_not_in_situations(TaskId a, TaskId b,
+                                               const std::vector<std::uint32_t>& variables) {
+  const Feasibility have_common =
+      ask_in_situations(catalog_, variables, [&](std::span<const std::uint32_t> situation) {
+        const Feasibility answer = find_alone(a, situation);
+        return answer == Feasibility::no ? answer : find_alone(b, situation);
+      });
+  // In doubt, the weaker statement is the true one.
+  return have_common == Feasibility::no ? Together::excluded_by_situation
+                                        : Together::excluded_in_each_situation;
+}
+
+Feasibility TogetherSearch::find_alone(TaskId task, std::span<const std::uint32_t> situation) {
+  return search_.find_running({&task, 1}, situation, solution_);
 }
 
 /// Whether both tasks run in an assignment. If so, its behaviors are the witness.
@@ -143,7 +162,7 @@ Feasibility TogetherSearch::find(TaskId a, TaskId b, std::span<const std::uint32
   }
   Witness witness;
   for (const TaskId& task : both) {
-    const Feasibility answer = search_.find_running({&task, 1}, situation, solution_);
+    const Feasibility answer = find_alone(task, situation);
     if (answer != Feasibility::yes) return answer;
     (task == a ? witness.a : witness.b) = behavior_of(task);
   }
@@ -165,7 +184,7 @@ void TogetherSearch::note_running(TaskId first_of_group) {
 }
 
 TogetherSearch::Witness TogetherSearch::find_witness(TaskId a, TaskId b) {
-  const std::vector<std::uint32_t> variables = variables_of(a, b);
+  const std::vector<std::uint32_t> variables = variables_of(catalog_, std::array{a, b});
   witness_ = {};
   static_cast<void>(variables.empty() ? find(a, b, {}) : decide_by_situations(a, b, variables));
   return witness_;
@@ -207,11 +226,12 @@ std::vector<Reason> TogetherSearch::find_reasons(TaskId a, TaskId b) {
   std::vector<Reason> minimal = minimal_conflict_set(
       used, [&](std::span<const Reason> some) { return solve(problem, some) != Feasibility::no; });
   if (effort_left_ == 0) return {};
-  std::vector<Reason> chain = take_requirements_below(catalog_, a, minimal);
-  const std::vector<Reason> end = take_requirements_below(catalog_, b, minimal);
-  chain.insert(chain.end(), minimal.begin(), minimal.end());
-  chain.insert(chain.end(), end.begin(), end.end());
-  return chain;
+  return chain_of(catalog_, a, b, std::move(minimal));
+}
+
+std::vector<Reason> TogetherSearch::find_reasons_in_situations(TaskId a, TaskId b) {
+  const Demands both{{Demand::Kind::run, a, none}, {Demand::Kind::run, b, none}};
+  return chain_of(catalog_, a, b, conflict_in_all_situations(catalog_, both, effort_left_));
 }
 
 std::size_t TogetherTable::count(Together together) const {
@@ -220,12 +240,21 @@ std::size_t TogetherTable::count(Together together) const {
                     [together](const TaskPair& pair) { return pair.together == together; }));
 }
 
+std::size_t TogetherTable::count_forbidden() const {
+  return static_cast<std::size_t>(std::count_if(
+      pairs.begin(), pairs.end(), [](const TaskPair& pair) { return pair.is_forbidden; }));
+}
+
 namespace {
 
 std::vector<Reason> reasons_of(const TaskPair& pair, const CompiledCatalog& catalog,
                                TogetherSearch& together) {
   if (pair.together == Together::excluded_indirectly) {
     return together.find_reasons(pair.first, pair.second);
+  }
+  if (pair.together == Together::excluded_in_each_situation ||
+      pair.together == Together::excluded_by_situation) {
+    return together.find_reasons_in_situations(pair.first, pair.second);
   }
   if (pair.together != Together::excluded) return {};
   Reason reason;
@@ -236,6 +265,18 @@ std::vector<Reason> reasons_of(const TaskPair& pair, const CompiledCatalog& cata
   return {reason};
 }
 
+/// Whether a list of the settings has both tasks.
+bool is_forbidden(const CompiledCatalog& catalog, const TaskPair& pair,
+                  std::span<const NeverTogether> lists) {
+  return std::any_of(lists.begin(), lists.end(), [&](const NeverTogether& list) {
+    const auto has = [&](TaskId task) {
+      return std::find(list.tasks.begin(), list.tasks.end(), catalog.name_of_task(task)) !=
+             list.tasks.end();
+    };
+    return has(pair.first) && has(pair.second);
+  });
+}
+
 }  // namespace
 
 TogetherTable make_together_table(const CompiledCatalog& catalog, const TogetherOptions& options) {
@@ -243,15 +284,20 @@ TogetherTable make_together_table(const CompiledCatalog& catalog, const Together
   const Liveness liveness(search);
   TogetherSearch together(search, liveness);
   TogetherTable table;
+  table.is_of_all_tasks =
+      std::none_of(catalog.tasks.begin(), catalog.tasks.end(),
+                   [](const CompiledTask& task) { return task.start_on_request != 0; });
   for (const TaskId task : catalog.task_ids) {
-    if (catalog.tasks[task].start_on_request == 0) continue;
-    const bool is_dead = liveness.of_task(task) == Liveness::State::dead;
-    (is_dead ? table.never_run : table.tasks).push_back(task);
+    if (catalog.tasks[task].start_on_request == 0 && !table.is_of_all_tasks) continue;
+    const bool never_runs = together.can_run(task) == Feasibility::no;
+    (never_runs ? table.never_run : table.tasks).push_back(task);
   }
   for (std::size_t a = 0; a < table.tasks.size(); ++a) {
     for (std::size_t b = a + 1; b < table.tasks.size(); ++b) {
-      TaskPair pair{table.tasks[a], table.tasks[b], {}, {}};
+      TaskPair pair{table.tasks[a], table.tasks[b], {}, {}, false};
       pair.together = together.decide(pair.first, pair.second);
+      pair.is_forbidden = pair.together == Together::possible &&
+                          is_forbidden(catalog, pair, options.never_together);
       if (options.with_reasons) pair.reasons = reasons_of(pair, catalog, together);
       table.pairs.push_back(std::move(pair));
     }
@@ -260,8 +306,9 @@ TogetherTable make_together_table(const CompiledCatalog& catalog, const Together
 }
 
 TogetherSummary summarize_together(const CompiledCatalog& catalog, std::uint64_t max_nodes) {
-  const TogetherTable table = make_together_table(catalog, {max_nodes, false});
+  const TogetherTable table = make_together_table(catalog, {max_nodes, false, {}});
   TogetherSummary summary;
+  summary.is_of_all_tasks = table.is_of_all_tasks;
   for (const TaskId task : table.tasks) summary.tasks.emplace_back(catalog.name_of_task(task));
   for (const TaskId task : table.never_run) {
     summary.never_run.emplace_back(catalog.name_of_task(task));
@@ -273,6 +320,7 @@ TogetherSummary summarize_together(const CompiledCatalog& catalog, std::uint64_t
   }
   summary.excluded = table.count(Together::excluded);
   summary.excluded_indirectly = table.count(Together::excluded_indirectly);
+  summary.excluded_in_each_situation = table.count(Together::excluded_in_each_situation);
   summary.excluded_by_situation = table.count(Together::excluded_by_situation);
   summary.undecided = table.count(Together::undecided);
   return summary;

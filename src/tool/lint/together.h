@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "compiled/compiled_catalog.h"
 #include "explain/reasons.h"
+#include "lint/controls.h"
 
 /// Which tasks can run at the same time. A search decides, since exclusivity lists alone do not
 /// tell: what two tasks require may exclude one another.
@@ -16,14 +18,18 @@ namespace cbc {
 
 /// Whether two tasks can run at the same time.
 enum class Together : std::uint8_t {
-  possible,               ///< some assignment that satisfies all constraints runs both
-  excluded,               ///< an exclusivity list has both
-  excluded_indirectly,    ///< no assignment runs both, though no list has both
-  excluded_by_situation,  ///< none whose behaviors all fit in one situation does
+  possible,             ///< some assignment that satisfies all constraints runs both
+  excluded,             ///< an exclusivity list has both
+  excluded_indirectly,  ///< no assignment runs both, though no list has both
+  /// Some assignment runs both, but with behaviors that fit in no common situation; there are
+  /// situations in which either task can run.
+  excluded_in_each_situation,
+  excluded_by_situation,  ///< the same, and there is no situation in which either task can run
   undecided               ///< the search reached its limit
 };
 
-/// "possible", "excluded", "excluded_indirectly", "excluded_by_situation", "undecided".
+/// "possible", "excluded", "excluded_indirectly", "excluded_in_each_situation",
+/// "excluded_by_situation", "undecided".
 [[nodiscard]] std::string_view name_of(Together together);
 
 /// Two tasks, and whether they can run at the same time.
@@ -32,23 +38,29 @@ struct TaskPair {
   TaskId second = 0;
   Together together = Together::possible;
   /// Why not: of two tasks in a list this exclusion; otherwise a minimal set of constraints, in the
-  /// order of the chain that they form, or nothing if it takes too long to find.
+  /// order of the chain that they form, or nothing if it takes too long to find. A condition of a
+  /// behavior is of the kind `situation`, without a value.
   std::vector<Reason> reasons;
+  bool is_forbidden = false;  ///< possible, though the settings say that it must not be
 };
 
-/// All pairs of the tasks that start on request.
+/// All pairs of the tasks that start on request; of all tasks if none does.
 struct TogetherTable {
+  bool is_of_all_tasks = false;
   std::vector<TaskId> tasks;      ///< those that can run, in catalog order
   std::vector<TaskId> never_run;  ///< those that cannot, in catalog order
   std::vector<TaskPair> pairs;    ///< of `tasks`: by the first one, then by the second one
 
   [[nodiscard]] std::size_t count(Together together) const;
+  [[nodiscard]] std::size_t count_forbidden() const;
 };
 
 /// How the pairs are decided.
 struct TogetherOptions {
   std::uint64_t max_nodes = 100'000;  ///< decisions that the search for one answer may take
   bool with_reasons = true;           ///< also find the reasons of exclusions
+  /// What the settings forbid.
+  std::span<const NeverTogether> never_together = {};
 };
 
 [[nodiscard]] TogetherTable make_together_table(const CompiledCatalog& catalog,
@@ -56,11 +68,13 @@ struct TogetherOptions {
 
 /// The same in short, by names.
 struct TogetherSummary {
+  bool is_of_all_tasks = false;
   std::vector<std::string> tasks;
   std::vector<std::string> never_run;
   std::vector<std::pair<std::string, std::string>> possible;  ///< the pairs that can run together
   std::size_t excluded = 0;                                   ///< numbers of the other pairs
   std::size_t excluded_indirectly = 0;
+  std::size_t excluded_in_each_situation = 0;
   std::size_t excluded_by_situation = 0;
   std::size_t undecided = 0;
 };

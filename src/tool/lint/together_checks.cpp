@@ -15,6 +15,14 @@
 namespace cbc {
 namespace {
 
+/// The names in messages: a task and a behavior may have the same one.
+std::string name_of_task(const ProofContext& proof, const Task& task) {
+  return (proof.compiled().find_behavior(task.name) ? "task " : "") + quote(task.name);
+}
+std::string name_of_behavior(const ProofContext& proof, const Behavior& behavior) {
+  return (proof.compiled().find_task(behavior.name) ? "behavior " : "") + quote(behavior.name);
+}
+
 /// Reactive tasks that must wait while a task runs that no exclusivity list names with them.
 class BlockedReactiveCheck {
  public:
@@ -62,7 +70,7 @@ class BlockedReactiveCheck {
     for (std::size_t i = 0; i < named; ++i) {
       const bool is_last = i + 1 == blocking.size();
       if (i > 0) names += is_last ? " or " : ", ";
-      names += quote(proof_.task(blocking[i]).name);
+      names += name_of_task(proof_, proof_.task(blocking[i]));
       for (const Reason& reason : together_.find_reasons(reactive, blocking[i])) {
         if (!contains(reasons, reason)) reasons.push_back(reason);
       }
@@ -89,7 +97,7 @@ class BlockedReactiveCheck {
     if (undecided_ == 0) return;
     const Task& reactive = proof_.task(first_undecided_.first);
     std::string question = "whether reactive task " + quote(reactive.name) + " can run beside " +
-                           quote(proof_.task(first_undecided_.second).name);
+                           name_of_task(proof_, proof_.task(first_undecided_.second));
     if (undecided_ > 1)
       question += ", and the same of " + quantity(undecided_ - 1, "other pair") + ",";
     proof_.report_undecided(reactive.range, question);
@@ -132,21 +140,23 @@ class NeverTogetherCheck {
     const Task& second = proof_.task(b);
     const Together answer = together_.decide(a, b);
     if (answer == Together::undecided) {
-      proof_.report_undecided(
-          first.range, "whether " + quote(first.name) + " can run beside " + quote(second.name));
+      proof_.report_undecided(first.range, "whether " + name_of_task(proof_, first) +
+                                               " can run beside " + name_of_task(proof_, second));
     }
     if (answer != Together::possible) return;
     const TogetherSearch::Witness witness = together_.find_witness(a, b);
     const auto with = [this](const Task& task, BehaviorId behavior) {
-      return quote(task.name) + " with " + quote(proof_.behavior(behavior).name);
+      return name_of_task(proof_, task) + " with " +
+             name_of_behavior(proof_, proof_.behavior(behavior));
     };
-    std::string message = quote(first.name) + " can run beside " + quote(second.name);
+    std::string message =
+        name_of_task(proof_, first) + " can run beside " + name_of_task(proof_, second);
     if (witness.a != none && witness.b != none) {
       message += ": " + with(first, witness.a) + ", " + with(second, witness.b);
     }
     proof_.reporter().report(
         rule::can_run_together, first.range, std::move(message),
-        {proof_.reporter().note(second.range, quote(second.name) + " is defined here"),
+        {proof_.reporter().note(second.range, name_of_task(proof_, second) + " is defined here"),
          {list.file, list.range, "these tasks must never run together"}});
   }
 

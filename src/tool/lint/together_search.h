@@ -32,14 +32,20 @@ class TogetherSearch {
   /// dead.
   [[nodiscard]] Feasibility decide_by_constraints(TaskId a, TaskId b);
 
+  /// Whether a task can run at all, in some situation.
+  [[nodiscard]] Feasibility can_run(TaskId task);
+
   /// Place in CompiledCatalog::cliques of the first exclusivity list that has both tasks.
   [[nodiscard]] std::optional<std::uint32_t> find_list(TaskId a, TaskId b) const;
 
   /// Why two tasks never run together: a minimal set of constraints, in the order of the chain that
   /// they form. It begins with what `a` requires, then come exclusions and minimum performances,
-  /// and last what `b` requires. Empty if it takes too long to find, or if the tasks can run
-  /// together.
+  /// and last what `b` requires. Empty if it takes too long to find, or if the constraints allow
+  /// both.
   [[nodiscard]] std::vector<Reason> find_reasons(TaskId a, TaskId b);
+  /// The same where the constraints allow both, but not with behaviors that fit in one situation:
+  /// with the conditions of behaviors.
+  [[nodiscard]] std::vector<Reason> find_reasons_in_situations(TaskId a, TaskId b);
 
   /// Behaviors with which both tasks run. They can run together.
   struct Witness {
@@ -54,8 +60,10 @@ class TogetherSearch {
   }
   [[nodiscard]] Feasibility decide_by_situations(TaskId a, TaskId b,
                                                  const std::vector<std::uint32_t>& variables);
+  [[nodiscard]] Together why_not_in_situations(TaskId a, TaskId b,
+                                               const std::vector<std::uint32_t>& variables);
   [[nodiscard]] Feasibility find(TaskId a, TaskId b, std::span<const std::uint32_t> situation);
-  [[nodiscard]] std::vector<std::uint32_t> variables_of(TaskId a, TaskId b) const;
+  [[nodiscard]] Feasibility find_alone(TaskId task, std::span<const std::uint32_t> situation);
   [[nodiscard]] Feasibility solve(ConflictSearch& problem, std::span<const Reason> reasons);
   void note_running(TaskId first_of_group);
 

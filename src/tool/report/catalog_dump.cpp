@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 #include "catalog/allowed_values.h"
-#include "catalog/conditions.h"
+#include "catalog/situation.h"
 #include "cbc/units.h"
 #include "compile/compile.h"
 #include "report/catalog_report.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "catalog/conditions.h"
+#include "catalog/situation.h"
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
 #include "diagnostic/diagnostic.h"

@@ -304,13 +304,15 @@ void append_event(std::string& text, const CompiledCatalog& catalog, const Event
 }
 
 std::string stream_header(const CompiledCatalog& catalog, std::string_view catalog_name,
-                          Microseconds reactive_delay, const Situation& situation,
+                          const CoordinatorOptions& options, const Situation& situation,
                           std::span<const std::uint32_t> variables) {
   return json_line([&](JsonWriter& json) {
     json.write_members({{"schema", "cbc.events/1"},
                         {"catalog", catalog_name},
                         {"digest", to_hex(identity_of(catalog))}});
-    json.write_seconds("reactive_delay", reactive_delay);
+    json.write_seconds("reactive_delay", options.reactive_delay);
+    // Only then, so that logs of older versions can be replayed.
+    if (!options.timeouts) json.write("timeouts", false);
     write_situation(json, catalog, situation);
     if (!catalog.variables.empty()) {
       write_variables(json, catalog, "variables", variables);

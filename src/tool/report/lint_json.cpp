@@ -112,6 +112,7 @@ void write_finding(JsonWriter& json, const Diagnostic& finding) {
 /// The tasks that start on request, and which of them can run together.
 void write_together(JsonWriter& json, const TogetherSummary& together) {
   json.open("together", '{');
+  json.write("all_tasks", together.is_of_all_tasks);
   json.write_list("tasks", together.tasks);
   json.write_list("never_run", together.never_run);
   json.write_list("possible", together.possible, [&](const auto& pair) {
@@ -122,6 +123,7 @@ void write_together(JsonWriter& json, const TogetherSummary& together) {
   });
   json.write_members({{"excluded", together.excluded},
                       {"excluded_indirectly", together.excluded_indirectly},
+                      {"excluded_in_each_situation", together.excluded_in_each_situation},
                       {"excluded_by_situation", together.excluded_by_situation},
                       {"undecided", together.undecided}});
   json.close('}');

@@ -218,16 +218,15 @@ void add_groups(Table& table, const std::vector<CatalogNumbers>& groups) {
 /// that it can run with.
 void add_together(Table& table, const TogetherSummary& together) {
   constexpr std::size_t most_tasks = 10;
-  const std::size_t excluded =
-      together.excluded + together.excluded_indirectly + together.excluded_by_situation;
+  const std::size_t by_situation =
+      together.excluded_in_each_situation + together.excluded_by_situation;
+  const std::size_t excluded = together.excluded + together.excluded_indirectly + by_situation;
   const std::size_t pairs = together.possible.size() + excluded + together.undecided;
   if (pairs == 0) return;
-  table.add("pairs on request", pairs);
+  table.add(together.is_of_all_tasks ? "pairs of tasks" : "pairs on request", pairs);
   table.add("  excluded by lists", together.excluded);
   table.add("  excluded otherwise", together.excluded_indirectly);
-  if (together.excluded_by_situation > 0) {
-    table.add("  by their situation", together.excluded_by_situation);
-  }
+  if (by_situation > 0) table.add("  by their situation", by_situation);
   if (together.undecided > 0) table.add("  undecided", together.undecided);
   table.add("  can run together", together.possible.size());
   std::size_t tasks = 0;

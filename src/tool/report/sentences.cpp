@@ -10,6 +10,7 @@
 
 #include "base/natural.h"
 #include "base/text.h"
+#include "support/wording.h"
 
 namespace cbc {
 namespace {
@@ -104,6 +105,16 @@ double to_seconds(Microseconds time) {
   return static_cast<double>(time) / static_cast<double>(second);
 }
 
+std::string task_name(const CompiledCatalog& catalog, TaskId task) {
+  const std::string_view name = catalog.name_of_task(task);
+  return (catalog.find_behavior(name) ? "task " : "") + printable(name);
+}
+
+std::string behavior_name(const CompiledCatalog& catalog, BehaviorId behavior) {
+  const std::string_view name = catalog.name_of_behavior(behavior);
+  return (catalog.find_task(name) ? "behavior " : "") + printable(name);
+}
+
 namespace {
 
 /// Joins texts with commas.
@@ -180,7 +191,7 @@ std::string describe_event(const CompiledCatalog& catalog, const EventRecord& re
     if (form.has_priority) text += fmt::format(", priority {}", record.priority);
   }
   if (record.behavior != none && record.task == none) {
-    text += " " + printable(catalog.name_of_behavior(record.behavior));
+    text += " " + behavior_name(catalog, record.behavior);
   }
   if (form.has_cause) text += fmt::format(", {}", name_of(record.cause));
   if (step != nullptr && record.verb == Verb::situation) {
@@ -208,18 +219,30 @@ std::string describe_expectation(const CompiledCatalog& catalog, const Expectati
 
 namespace {
 
-/// Names in sentences: a task and a behavior may have the same one.
-std::string task_name(const CompiledCatalog& catalog, TaskId task) {
-  const std::string_view name = catalog.name_of_task(task);
-  return (catalog.find_behavior(name) ? "task " : "") + printable(name);
-}
-std::string behavior_name(const CompiledCatalog& catalog, BehaviorId behavior) {
-  const std::string_view name = catalog.name_of_behavior(behavior);
-  return (catalog.find_task(name) ? "behavior " : "") + printable(name);
-}
-
 std::string place(const CompiledCatalog& catalog, const Reason& reason) {
   return fmt::format(" ({}:{})", printable(catalog.file), reason.line);
+}
+
+/// "day, dusk or night": the values of a variable in which a behavior fits.
+std::string fitting_values(const CompiledCatalog& catalog, const Reason& condition) {
+  std::vector<std::string> names;
+  for (const FittingValue& fitting : catalog.fitting_values_of(condition.behavior)) {
+    if (fitting.variable != condition.variable) continue;
+    names.push_back(printable(catalog.name_of_value({fitting.variable, fitting.value})));
+  }
+  return list_alternatives(names);
+}
+
+std::string describe_misfit(const CompiledCatalog& catalog, const Reason& reason,
+                            const std::string& behavior) {
+  if (reason.variable == none) return behavior + " does not fit the situation";
+  if (reason.value != none) {
+    return fmt::format("{} does not fit: {}", behavior,
+                       describe_value(catalog, {reason.variable, reason.value}));
+  }
+  return fmt::format("{} fits only where {} is {}", behavior,
+                     printable(catalog.name_of_variable(reason.variable)),
+                     fitting_values(catalog, reason));
 }
 
 std::string describe_protection(const EventRecord& record, const Reason& reason) {
@@ -263,10 +286,7 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
     case Reason::Kind::unavailable:
       return fmt::format("{} is unavailable in the current situation", behavior);
     case Reason::Kind::situation:
-      return reason.variable == none
-                 ? fmt::format("{} does not fit the situation", behavior)
-                 : fmt::format("{} does not fit: {}", behavior,
-                               describe_value(catalog, {reason.variable, reason.value}));
+      return describe_misfit(catalog, reason, behavior);
     case Reason::Kind::faulty:
       return fmt::format("{} is faulty", behavior);
     case Reason::Kind::finished:
@@ -547,9 +567,8 @@ void FailureStory::note_waits(const EventRecord& record, const State& state) {
   if (record.origin != Origin::reactive || record.outcome != Outcome::rejected) return;
   if (!state.is_waiting(record.task)) return;
   std::vector<std::string>& lines = waits_[record.task];
-  lines = {fmt::format(
-      "{} waits since event {} at {} s:", printable(catalog_->name_of_task(record.task)),
-      record.index, format_time(record.time))};
+  lines = {fmt::format("{} waits since event {} at {} s:", task_name(*catalog_, record.task),
+                       record.index, format_time(record.time))};
   for (const std::string& reason : describe_rejection(*catalog_, record)) {
     lines.push_back("  " + reason);
   }
@@ -572,8 +591,7 @@ std::vector<std::string> FailureStory::tell(const Expectation& failed) const {
     if (found == stops_.end()) continue;
     const Stop& stop = found->second;
     if (stop.event != last_->index) {
-      lines.push_back(printable(catalog_->task_names[expected.task]) + " stopped with " +
-                      stop.what);
+      lines.push_back(task_name(*catalog_, task) + " stopped with " + stop.what);
     }
     lines.insert(lines.end(), stop.lines.begin(), stop.lines.end());
   }

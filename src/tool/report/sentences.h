@@ -40,6 +40,10 @@ namespace cbc {
 /// Seconds with 3 decimals, or 6 if the time is not a whole number of milliseconds.
 [[nodiscard]] std::string format_time(Microseconds time);
 
+/// Names in sentences: "task LAND" and "behavior LAND" if the catalog has both, otherwise "LAND".
+[[nodiscard]] std::string task_name(const CompiledCatalog& catalog, TaskId task);
+[[nodiscard]] std::string behavior_name(const CompiledCatalog& catalog, BehaviorId behavior);
+
 /// What happened: "start HOVER, priority 2". `step` is the scripted one, or null.
 [[nodiscard]] std::string describe_event(const CompiledCatalog& catalog, const EventRecord& record,
                                          const Step* step);

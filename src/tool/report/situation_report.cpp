@@ -125,8 +125,6 @@ std::vector<std::string> describe_gaps(const CompiledCatalog& catalog,
 
 constexpr std::string_view gaps_title = "tasks without a behavior that fits";
 
-constexpr std::size_t text_width = 80;
-constexpr std::size_t longest_name = 28;
 constexpr std::string_view gap = "  ";
 
 /// The rows and columns as text, in as many parts as it takes for the columns to fit. A part has
@@ -184,7 +182,7 @@ class TextTable {
   }
 
   void add_line(const std::string& line, std::string_view color) {
-    text_ += style_.paint(color, line.substr(0, line.find_last_not_of(' ') + 1)) + "\n";
+    text_ += style_.paint(color, without_end_blanks(line)) + "\n";
   }
 
   /// Writes the columns that have been collected.
@@ -316,71 +314,48 @@ std::string_view color_of(Fit fit) {
   return palette::paper;
 }
 
-class DotTable {
- public:
-  explicit DotTable(const CompiledCatalog& catalog) : catalog_(catalog), table_(catalog) {}
+/// A text that the catalog gives.
+std::string html_label(std::string_view text) { return escape_html(draw::label_of(text)); }
 
-  std::string write() && {
-    text_ = fmt::format(
-        "graph situation {{\n"
-        "  graph [bgcolor=\"{0}\", pad=0.2, fontname=\"Helvetica,Arial,sans-serif\"];\n"
-        "  node [shape=plain, fontname=\"Helvetica,Arial,sans-serif\", fontsize=11];\n"
-        "  table [label=<\n<TABLE BORDER=\"0\" CELLBORDER=\"0\" CELLSPACING=\"0\" "
-        "CELLPADDING=\"3\">\n",
-        palette::paper);
-    add_line(fmt::format("<B>{}</B>: {}", escape_html(draw::label_of(catalog_.file)),
-                         describe_size(catalog_, table_)));
-    if (!table_.behaviors().empty()) {
-      add_matrix();
-      for (const std::string_view line : legend) add_line(escape_html(line));
-    }
-    const std::vector<std::string> gaps = describe_gaps(catalog_, table_);
-    if (!gaps.empty()) add_line(fmt::format("<B>{}</B>", gaps_title));
-    for (const std::string& line : gaps) add_line(escape_html(line));
-    return std::move(text_) + "</TABLE>>];\n}\n";
+/// The rows and columns for DotTable.
+std::vector<std::string> matrix_of(const CompiledCatalog& catalog, const SituationTable& table) {
+  std::string variables = "<TD></TD>";
+  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+    variables +=
+        fmt::format("<TD COLSPAN=\"{}\"><B>{}</B></TD>", catalog.variables[variable].value_count,
+                    html_label(catalog.name_of_variable(variable)));
   }
-
- private:
-  void add_line(const std::string& line) {
-    text_ += fmt::format("<TR><TD ALIGN=\"LEFT\">{}</TD></TR>\n", line);
+  std::string titles = "<TD></TD>";
+  const std::vector<VariableValue> values = table.values();
+  for (const VariableValue value : values) {
+    titles += fmt::format("<TD>{}</TD>", html_label(catalog.name_of_value(value)));
   }
-
-  void add_matrix() {
-    text_ +=
-        "<TR><TD ALIGN=\"LEFT\"><TABLE BORDER=\"0\" CELLBORDER=\"0\" CELLSPACING=\"1\" "
-        "CELLPADDING=\"3\">\n<TR><TD></TD>";
-    for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
-      text_ +=
-          fmt::format("<TD COLSPAN=\"{}\"><B>{}</B></TD>", catalog_.variables[variable].value_count,
-                      escape_html(draw::label_of(catalog_.name_of_variable(variable))));
-    }
-    text_ += "</TR>\n<TR><TD></TD>";
-    const std::vector<VariableValue> values = table_.values();
+  std::vector<std::string> rows = {variables, titles};
+  for (const BehaviorId behavior : table.behaviors()) {
+    std::string& row =
+        rows.emplace_back(DotTable::name_cell(html_label(catalog.name_of_behavior(behavior))));
     for (const VariableValue value : values) {
-      text_ +=
-          fmt::format("<TD>{}</TD>", escape_html(draw::label_of(catalog_.name_of_value(value))));
+      const Fit fit = table.fit(behavior, value);
+      row += DotTable::color_cell(color_of(fit), sign_of(fit));
     }
-    text_ += "</TR>\n";
-    for (const BehaviorId behavior : table_.behaviors()) {
-      text_ += fmt::format("<TR><TD ALIGN=\"LEFT\">{}</TD>",
-                           escape_html(draw::label_of(catalog_.name_of_behavior(behavior))));
-      for (const VariableValue value : values) {
-        const Fit fit = table_.fit(behavior, value);
-        text_ += fmt::format("<TD BGCOLOR=\"{}\">{}</TD>", color_of(fit), sign_of(fit));
-      }
-      text_ += "</TR>\n";
-    }
-    text_ += "</TABLE></TD></TR>\n";
   }
-
-  const CompiledCatalog& catalog_;
-  const SituationTable table_;
-  std::string text_;
-};
+  return rows;
+}
 
 }  // namespace
 
-std::string situation_dot(const CompiledCatalog& catalog) { return DotTable(catalog).write(); }
+std::string situation_dot(const CompiledCatalog& catalog) {
+  const SituationTable table(catalog);
+  DotTable dot("situation", catalog, describe_size(catalog, table));
+  if (!table.behaviors().empty()) {
+    dot.add_matrix(3, matrix_of(catalog, table));
+    for (const std::string_view line : legend) dot.add_line(escape_html(line));
+  }
+  const std::vector<std::string> gaps = describe_gaps(catalog, table);
+  if (!gaps.empty()) dot.add_line(fmt::format("<B>{}</B>", gaps_title));
+  for (const std::string& line : gaps) dot.add_line(escape_html(line));
+  return std::move(dot).finish();
+}
 
 std::span<const SituationFormat> situation_formats() {
   constexpr auto as_dot = [](const CompiledCatalog& catalog, const Style& /*style*/) {

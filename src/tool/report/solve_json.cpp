@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "catalog/conditions.h"
+#include "catalog/situation.h"
 #include "page_files.h"
 #include "report/catalog_report.h"
 #include "report/sentences.h"
@@ -125,7 +125,7 @@ StateRecorder::StateRecorder(const CompiledCatalog& catalog, const Script& scrip
   moment_.script = script.file;
   has_passed_ = wanted.index == 0;
   State state(catalog);
-  apply(script.situation, catalog, state);
+  state.change_situation(script.situation.availability, script.situation.variables);
   note_behaviors(state);
 }
 

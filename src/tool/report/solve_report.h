@@ -111,9 +111,10 @@ void append_event(std::string& text, const CompiledCatalog& catalog, const Event
 // The lines of an event stream (schema cbc.events/1), each with its line end.
 
 /// `catalog_name`: the path of the catalog as the user gave it. `variables`: the values of the
-/// situation variables.
+/// situation variables. Of the options a replay needs those that a script sets.
 [[nodiscard]] std::string stream_header(const CompiledCatalog& catalog,
-                                        std::string_view catalog_name, Microseconds reactive_delay,
+                                        std::string_view catalog_name,
+                                        const CoordinatorOptions& options,
                                         const Situation& situation,
                                         std::span<const std::uint32_t> variables);
 /// The answer to an input line that is not an event.

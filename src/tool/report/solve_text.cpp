@@ -186,9 +186,9 @@ void TextReport::on_event(const EventRecord& record, const Step* step, const Sta
     for (const std::string& sentence : describe_rejection(*catalog_, record)) {
       fmt::print(out_, "{}{}\n", text_indent, sentence);
     }
-    if (record.task != none && state.is_waiting(record.task)) {
+    if (record.origin == Origin::reactive && state.is_waiting(record.task)) {
       fmt::print(out_, "{}{} waits, and tries again after each accepted event of its group\n",
-                 text_indent, printable(catalog_->name_of_task(record.task)));
+                 text_indent, task_name(*catalog_, record.task));
     }
   }
   for (const Change& change : record.changes) write_change(record, change);

@@ -1,6 +1,12 @@
 #include "report/table_parts.h"
 
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "base/text.h"
+#include "draw/diagram.h"
+#include "report/catalog_report.h"
 
 namespace cbc {
 
@@ -25,6 +31,10 @@ std::string cut_to(std::size_t columns, std::string text) {
     offset += decoded.bytes;
   }
   return text.substr(0, offset) + "...";
+}
+
+std::string_view without_end_blanks(std::string_view text) {
+  return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
 std::string escape_html(std::string_view text) {
@@ -52,5 +62,39 @@ std::string escape_html(std::string_view text) {
   }
   return escaped;
 }
+
+DotTable::DotTable(std::string_view graph, const CompiledCatalog& catalog, std::string_view what)
+    : text_(fmt::format(
+          "graph {} {{\n"
+          "  graph [bgcolor=\"{}\", pad=0.2, fontname=\"Helvetica,Arial,sans-serif\"];\n"
+          "  node [shape=plain, fontname=\"Helvetica,Arial,sans-serif\", fontsize=11];\n"
+          "  table [label=<\n<TABLE BORDER=\"0\" CELLBORDER=\"0\" CELLSPACING=\"0\" "
+          "CELLPADDING=\"3\">\n",
+          graph, palette::paper)) {
+  add_line(fmt::format("<B>{}</B>: {}", escape_html(draw::label_of(catalog.file)), what));
+}
+
+void DotTable::add_line(std::string_view text) {
+  text_ += fmt::format("<TR><TD ALIGN=\"LEFT\" BALIGN=\"LEFT\">{}</TD></TR>\n", text);
+}
+
+void DotTable::add_matrix(int padding, const std::vector<std::string>& rows) {
+  text_ += fmt::format(
+      "<TR><TD ALIGN=\"LEFT\"><TABLE BORDER=\"0\" CELLBORDER=\"0\" CELLSPACING=\"1\" "
+      "CELLPADDING=\"{}\">\n",
+      padding);
+  for (const std::string& row : rows) text_ += fmt::format("<TR>{}</TR>\n", row);
+  text_ += "</TABLE></TD></TR>\n";
+}
+
+std::string DotTable::name_cell(std::string_view name) {
+  return fmt::format("<TD ALIGN=\"LEFT\">{}</TD>", name);
+}
+
+std::string DotTable::color_cell(std::string_view color, char sign) {
+  return fmt::format("<TD BGCOLOR=\"{}\">{}</TD>", color, sign);
+}
+
+std::string DotTable::finish() && { return std::move(text_) + "</TABLE>>];\n}\n"; }
 
 }  // namespace cbc

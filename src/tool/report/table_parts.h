@@ -3,9 +3,16 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
 
 /// What tables are made of, as text and in pictures.
 namespace cbc {
+
+/// Tables as text are at most this wide, and cut names to `longest_name`.
+inline constexpr std::size_t text_width = 80;
+inline constexpr std::size_t longest_name = 28;
 
 /// The number of columns that a text takes in a terminal.
 [[nodiscard]] std::size_t width_of(std::string_view text);
@@ -13,7 +20,31 @@ namespace cbc {
 /// A text of at most `columns` columns (4 or more): a longer one ends with "...".
 [[nodiscard]] std::string cut_to(std::size_t columns, std::string text);
 
-/// A text in a label of Graphviz that is like HTML.
+/// The text without the blanks at its end.
+[[nodiscard]] std::string_view without_end_blanks(std::string_view text);
+
+/// Escapes a text for the HTML-like labels of Graphviz.
 [[nodiscard]] std::string escape_html(std::string_view text);
+
+/// A graph for Graphviz's program `dot` that is nothing but lines of text and matrices, one below
+/// the other. Texts are in the syntax of HTML-like labels.
+class DotTable {
+ public:
+  /// `graph` names the graph. The first line has the file of the catalog, and says what this is.
+  DotTable(std::string_view graph, const CompiledCatalog& catalog, std::string_view what);
+
+  void add_line(std::string_view text);
+  /// The rows are sequences of cells; `padding` is the space in a cell.
+  void add_matrix(int padding, const std::vector<std::string>& rows);
+
+  /// Cells of a row.
+  [[nodiscard]] static std::string name_cell(std::string_view name);
+  [[nodiscard]] static std::string color_cell(std::string_view color, char sign);
+
+  [[nodiscard]] std::string finish() &&;
+
+ private:
+  std::string text_;
+};
 
 }  // namespace cbc

@@ -22,13 +22,22 @@
 namespace cbc {
 namespace {
 
-constexpr std::array answers = {Together::possible, Together::excluded,
-                                Together::excluded_indirectly, Together::excluded_by_situation,
+constexpr std::array answers = {Together::possible,
+                                Together::excluded,
+                                Together::excluded_indirectly,
+                                Together::excluded_in_each_situation,
+                                Together::excluded_by_situation,
                                 Together::undecided};
 
 char sign_of(Together together) {
-  constexpr char signs[] = {'+', '-', 'x', 's', '?'};
+  constexpr char signs[] = {'+', '-', 'x', 'X', 's', '?'};
   return signs[static_cast<std::size_t>(together)];
+}
+
+constexpr char forbidden_sign = '!';
+
+char sign_of(const TaskPair& pair) {
+  return pair.is_forbidden ? forbidden_sign : sign_of(pair.together);
 }
 
 std::string_view meaning_of(Together together) {
@@ -39,6 +48,8 @@ std::string_view meaning_of(Together together) {
       return "excluded by a list";
     case Together::excluded_indirectly:
       return "excluded by what they require";
+    case Together::excluded_in_each_situation:
+      return "excluded in each situation, by what fits in it";
     case Together::excluded_by_situation:
       return "fit in no common situation";
     case Together::undecided:
@@ -53,10 +64,10 @@ class Matrix {
   explicit Matrix(const TogetherTable& table) : table_(table) {}
 
   [[nodiscard]] std::size_t size() const { return table_.tasks.size(); }
-  [[nodiscard]] Together at(std::size_t row, std::size_t column) const {
+  [[nodiscard]] const TaskPair& at(std::size_t row, std::size_t column) const {
     // Before the pairs of a column come those of all columns before.
     const std::size_t before = column * (2 * size() - column - 1) / 2;
-    return table_.pairs[before + row - column - 1].together;
+    return table_.pairs[before + row - column - 1];
   }
 
  private:
@@ -73,10 +84,14 @@ std::vector<std::string> reasons_of(const CompiledCatalog& catalog, const TaskPa
   return sentences;
 }
 
+/// The pairs whose exclusion no list says.
 template <typename Action>
 void for_each_indirect(const TogetherTable& table, const Action& action) {
   for (const TaskPair& pair : table.pairs) {
-    if (pair.together == Together::excluded_indirectly) action(pair);
+    if (pair.together != Together::possible && pair.together != Together::excluded &&
+        pair.together != Together::undecided) {
+      action(pair);
+    }
   }
 }
 
@@ -89,8 +104,6 @@ std::string list_names(const CompiledCatalog& catalog, const std::vector<TaskId>
   return text;
 }
 
-constexpr std::size_t text_width = 80;
-constexpr std::size_t longest_name = 28;
 constexpr std::size_t columns_in_a_block = 5;
 
 /// The matrix as text, in as many parts as it takes for its columns to fit.
@@ -126,7 +139,7 @@ class TextMatrix {
         add_gap(line, column, first);
         line += fmt::format("{:>{}}", column + 1, digits_)[digit];
       }
-      text_ += style_.paint(style_.faint, line.substr(0, line.find_last_not_of(' ') + 1)) + "\n";
+      text_ += style_.paint(style_.faint, without_end_blanks(line)) + "\n";
     }
     for (std::size_t row = first; row < matrix_.size(); ++row) {
       text_ += fmt::format("  {:>{}} {}", row + 1, digits_, names_[row]);
@@ -143,11 +156,12 @@ class TextMatrix {
     if (column > first && (column - first) % columns_in_a_block == 0) line += ' ';
   }
 
-  [[nodiscard]] std::string cell(Together together) const {
-    const std::string sign(1, sign_of(together));
-    if (together == Together::possible) return style_.paint(style_.good, sign);
-    if (together == Together::undecided) return style_.paint(style_.warning, sign);
-    return together == Together::excluded ? style_.paint(style_.faint, sign) : sign;
+  [[nodiscard]] std::string cell(const TaskPair& pair) const {
+    const std::string sign(1, sign_of(pair));
+    if (pair.is_forbidden) return style_.paint(style_.error, sign);
+    if (pair.together == Together::possible) return style_.paint(style_.good, sign);
+    if (pair.together == Together::undecided) return style_.paint(style_.warning, sign);
+    return pair.together == Together::excluded ? style_.paint(style_.faint, sign) : sign;
   }
 
   const Matrix matrix_;
@@ -158,9 +172,27 @@ class TextMatrix {
   std::string text_;
 };
 
-std::string legend_of(const TogetherTable& table, Together together) {
-  return fmt::format("{} {}", sign_of(together), meaning_of(together)) +
-         fmt::format(": {}", table.count(together));
+/// What each sign of the table means, and how often it stands there.
+std::vector<std::string> legend_of(const TogetherTable& table) {
+  std::vector<std::string> lines;
+  const auto add = [&lines](char sign, std::string_view meaning, std::size_t count) {
+    if (count > 0) lines.push_back(fmt::format("{} {}: {}", sign, meaning, count));
+  };
+  const std::size_t forbidden = table.count_forbidden();
+  for (const Together together : answers) {
+    const std::size_t count = table.count(together);
+    const bool is_possible = together == Together::possible;
+    add(sign_of(together), meaning_of(together), is_possible ? count - forbidden : count);
+    if (is_possible) add(forbidden_sign, "can run together, which the settings forbid", forbidden);
+  }
+  return lines;
+}
+
+/// "4 tasks on request, 6 pairs"
+std::string size_of(const TogetherTable& table) {
+  return quantity(table.tasks.size(), "task") + (table.is_of_all_tasks ? ", " : " on request, ") +
+         quantity(table.pairs.size(), "pair") +
+         (table.is_of_all_tasks ? "; no task has start_on_request, so all tasks are here" : "");
 }
 
 }  // namespace
@@ -168,11 +200,8 @@ std::string legend_of(const TogetherTable& table, Together together) {
 std::string together_text(const CompiledCatalog& catalog, const TogetherTable& table,
                           const Style& style) {
   std::string text = style.paint(style.strong, printable(catalog.file)) + "\n";
-  text += fmt::format("  {}, {}\n", quantity(table.tasks.size(), "task") + " on request",
-                      quantity(table.pairs.size(), "pair"));
-  for (const Together together : answers) {
-    if (table.count(together) > 0) text += "    " + legend_of(table, together) + "\n";
-  }
+  text += "  " + size_of(table) + "\n";
+  for (const std::string& line : legend_of(table)) text += "    " + line + "\n";
   if (!table.never_run.empty()) {
     text += "  left out, since they can never run: " + list_names(catalog, table.never_run) + "\n";
   }
@@ -190,13 +219,16 @@ std::string together_json(const CompiledCatalog& catalog, const TogetherTable& t
   };
   return json_line([&](JsonWriter& json) {
     json.write_members({{"schema", "cbc.together/1"}, {"catalog", catalog.file}});
+    json.write("all_tasks", table.is_of_all_tasks);
     write_names(json, "tasks", table.tasks);
     write_names(json, "never_run", table.never_run);
     for (const Together together : answers) json.write(name_of(together), table.count(together));
+    json.write("forbidden", table.count_forbidden());
     json.write_list("pairs", table.pairs, [&](const TaskPair& pair) {
       json.on_new_line().open('{');
       write_names(json, "tasks", std::array{pair.first, pair.second});
       json.write("together", name_of(pair.together));
+      json.write("forbidden", pair.is_forbidden);
       json.write_list("reasons", pair.reasons, [&](const Reason& reason) {
         write_reason(json, catalog, EventRecord(), reason);
       });
@@ -207,14 +239,16 @@ std::string together_json(const CompiledCatalog& catalog, const TogetherTable& t
 
 namespace {
 
-std::string_view color_of(Together together) {
-  switch (together) {
+std::string_view color_of(const TaskPair& pair) {
+  if (pair.is_forbidden) return palette::groups[2].fill;  // reddish purple
+  switch (pair.together) {
     case Together::possible:
       return palette::groups[1].fill;  // bluish green
     case Together::excluded:
       return "#EEEEEE";
     case Together::excluded_indirectly:
       return palette::groups[0].fill;  // orange
+    case Together::excluded_in_each_situation:
     case Together::excluded_by_situation:
       return palette::groups[3].fill;  // yellow
     case Together::undecided:
@@ -223,74 +257,43 @@ std::string_view color_of(Together together) {
   return palette::paper;
 }
 
-class DotTable {
- public:
-  DotTable(const CompiledCatalog& catalog, const TogetherTable& table)
-      : catalog_(catalog), table_(table), matrix_(table) {}
-
-  std::string write() && {
-    text_ = fmt::format(
-        "graph together {{\n"
-        "  graph [bgcolor=\"{0}\", pad=0.2, fontname=\"Helvetica,Arial,sans-serif\"];\n"
-        "  node [shape=plain, fontname=\"Helvetica,Arial,sans-serif\", fontsize=11];\n"
-        "  table [label=<\n<TABLE BORDER=\"0\" CELLBORDER=\"0\" CELLSPACING=\"0\" "
-        "CELLPADDING=\"3\">\n",
-        palette::paper);
-    add_line(fmt::format("<B>{}</B>: {}", escape_html(draw::label_of(catalog_.file)),
-                         "which tasks can run together"));
-    if (matrix_.size() > 1) add_matrix();
-    for (const Together together : answers) {
-      if (table_.count(together) > 0) add_line(escape_html(legend_of(table_, together)));
-    }
-    if (!table_.never_run.empty()) {
-      add_line(escape_html("can never run: " + list_names(catalog_, table_.never_run)));
-    }
-    for_each_indirect(table_, [this](const TaskPair& pair) {
-      std::string line =
-          fmt::format("<B>{}</B>", escape_html(list_names(catalog_, {pair.first, pair.second})));
-      for (const std::string& reason : reasons_of(catalog_, pair)) {
-        line += "<BR ALIGN=\"LEFT\"/>   " + escape_html(reason);
-      }
-      add_line(line + "<BR ALIGN=\"LEFT\"/>");
-    });
-    return std::move(text_) + "</TABLE>>];\n}\n";
+/// The matrix for DotTable.
+std::vector<std::string> rows_of(const CompiledCatalog& catalog, const TogetherTable& table) {
+  const Matrix matrix(table);
+  std::vector<std::string> rows = {"<TD></TD>"};
+  for (std::size_t column = 0; column + 1 < matrix.size(); ++column) {
+    rows.front() += fmt::format("<TD>{}</TD>", column + 1);
   }
-
- private:
-  void add_line(const std::string& line) {
-    text_ += fmt::format("<TR><TD ALIGN=\"LEFT\" BALIGN=\"LEFT\">{}</TD></TR>\n", line);
-  }
-
-  void add_matrix() {
-    text_ +=
-        "<TR><TD ALIGN=\"LEFT\"><TABLE BORDER=\"0\" CELLBORDER=\"0\" CELLSPACING=\"1\" "
-        "CELLPADDING=\"2\">\n<TR><TD></TD>";
-    for (std::size_t column = 0; column + 1 < matrix_.size(); ++column) {
-      text_ += fmt::format("<TD>{}</TD>", column + 1);
+  for (std::size_t row = 0; row < matrix.size(); ++row) {
+    std::string& cells = rows.emplace_back(DotTable::name_cell(fmt::format(
+        "{} {}", row + 1, escape_html(draw::label_of(catalog.name_of_task(table.tasks[row]))))));
+    for (std::size_t column = 0; column < row; ++column) {
+      const TaskPair& pair = matrix.at(row, column);
+      cells += DotTable::color_cell(color_of(pair), sign_of(pair));
     }
-    text_ += "</TR>\n";
-    for (std::size_t row = 0; row < matrix_.size(); ++row) {
-      text_ += fmt::format("<TR><TD ALIGN=\"LEFT\">{} {}</TD>", row + 1,
-                           escape_html(draw::label_of(catalog_.name_of_task(table_.tasks[row]))));
-      for (std::size_t column = 0; column < row; ++column) {
-        const Together together = matrix_.at(row, column);
-        text_ += fmt::format("<TD BGCOLOR=\"{}\">{}</TD>", color_of(together), sign_of(together));
-      }
-      text_ += "</TR>\n";
-    }
-    text_ += "</TABLE></TD></TR>\n";
   }
-
-  const CompiledCatalog& catalog_;
-  const TogetherTable& table_;
-  const Matrix matrix_;
-  std::string text_;
-};
+  return rows;
+}
 
 }  // namespace
 
 std::string together_dot(const CompiledCatalog& catalog, const TogetherTable& table) {
-  return DotTable(catalog, table).write();
+  DotTable dot("together", catalog, "which tasks can run together");
+  if (table.tasks.size() > 1) dot.add_matrix(2, rows_of(catalog, table));
+  if (table.is_of_all_tasks) dot.add_line(escape_html(size_of(table)));
+  for (const std::string& line : legend_of(table)) dot.add_line(escape_html(line));
+  if (!table.never_run.empty()) {
+    dot.add_line(escape_html("can never run: " + list_names(catalog, table.never_run)));
+  }
+  for_each_indirect(table, [&](const TaskPair& pair) {
+    std::string line =
+        fmt::format("<B>{}</B>", escape_html(list_names(catalog, {pair.first, pair.second})));
+    for (const std::string& reason : reasons_of(catalog, pair)) {
+      line += "<BR ALIGN=\"LEFT\"/>   " + escape_html(reason);
+    }
+    dot.add_line(line + "<BR ALIGN=\"LEFT\"/>");
+  });
+  return std::move(dot).finish();
 }
 
 std::span<const TogetherFormat> together_formats() {

@@ -101,6 +101,9 @@ std::optional<EventLog::Header> EventLog::read_header(std::string_view line) {
       header.reactive_delay =
           yaml::read_seconds(*delay, "reactive_delay", true, reporter).value_or(1);
     }
+    if (const Node* const timeouts = root->find("timeouts")) {
+      header.timeouts = yaml::read_boolean(*timeouts, "timeouts", reporter).value_or(true);
+    }
     if (const Node* const situation = require(*root, "situation", reporter)) {
       header.situation = reader_.read_situation(*situation, reporter);
     }
@@ -203,6 +206,7 @@ class StateReader {
     out_.now = root_["time_us"].integer<Microseconds>();
     out_.events = root_["events"].integer<std::uint64_t>();
     out_.reactive_delay = root_["reactive_delay_us"].integer<Microseconds>();
+    if (const auto timeouts = root_.find("timeouts")) out_.timeouts = timeouts->truth();
     if (const JsonValue outcome = root_["outcome"]; !outcome.is_null()) {
       out_.outcome = find_word<Outcome>(outcome.text());
       if (!out_.outcome) throw JsonFault("there is no outcome " + quote(outcome.text()));
@@ -339,8 +343,9 @@ std::string write_state(const CompiledCatalog& catalog, const Snapshot& snapshot
                         {"digest", to_hex(identity_of(catalog))},
                         {"time_us", snapshot.now},
                         {"events", snapshot.events},
-                        {"reactive_delay_us", snapshot.reactive_delay},
-                        {"outcome", outcome ? std::optional(name_of(*outcome)) : std::nullopt}});
+                        {"reactive_delay_us", snapshot.reactive_delay}});
+    if (!snapshot.timeouts) json.write("timeouts", false);
+    json.write("outcome", outcome ? std::optional(name_of(*outcome)) : std::nullopt);
     json.write_list("running", snapshot.running, [&](const Snapshot::RunningTask& entry) {
       write_running(json, catalog, entry);
     });

@@ -26,7 +26,7 @@ class EventLines {
   struct Reading {
     std::optional<Step> step;
     std::string error;
-    std::vector<std::string> warnings;  ///< the step can be used nevertheless
+    std::vector<std::string> warnings;  ///< the step can still be used
   };
 
   /// The catalog must outlive this object.
@@ -48,6 +48,7 @@ class EventLog {
   struct Header {
     std::string catalog;  ///< its path, as the user gave it
     Microseconds reactive_delay = 0;
+    bool timeouts = true;
     Situation situation;  ///< with the values of all variables
   };
   struct Entry {
@@ -84,6 +85,7 @@ class EventLog {
 ///      "digest": "…",                       of the catalog, see identity_of
 ///      "time_us": 4080000, "events": 12,    the clock, and the number of the last event
 ///      "reactive_delay_us": 80000,
+///      "timeouts": false,                   only if they are off
 ///      "running": [{"task": "HOVER", "behavior": "HOVER_WITH_MPC", "since_us": 4000000,
 ///                   "waits_for_timeout": false,
 ///                   "request": {"priority": 2, "event": 9, "parameters": "…"}}],   or null

@@ -128,12 +128,10 @@ std::optional<Situation> read_situation(const yaml::Node& node, NameIndex& names
       is_understood &= read.has_value();
       continue;
     }
-    // The value of an unknown name may be one of a variable.
-    const bool is_behavior = part || names.catalog().variables.empty();
-    const auto available =
-        is_behavior ? yaml::read_boolean(*value, key->text, reporter) : std::nullopt;
-    if (part && available) situation.availability.push_back({part->place, *available});
-    is_understood &= part && available;
+    // The value of an unknown name may be one of a variable, which the catalog lacks.
+    const auto available = part ? yaml::read_boolean(*value, key->text, reporter) : std::nullopt;
+    if (available) situation.availability.push_back({part->place, *available});
+    is_understood &= available.has_value();
   }
   return is_understood ? std::optional(std::move(situation)) : std::nullopt;
 }

@@ -24,7 +24,8 @@ namespace {
 using yaml::Key;
 using yaml::Shape;
 
-constexpr Key script_keys[] = {{"catalog"}, {"reactive_delay"}, {"situation"}, {"events"}};
+constexpr Key script_keys[] = {
+    {"catalog"}, {"reactive_delay"}, {"timeouts"}, {"situation"}, {"events"}};
 constexpr auto event_keys = [] {
   constexpr std::string_view others[] = {"expect", "at", "priority", "parameters", "cause"};
   std::array<Key, verb_forms.size() + std::size(others)> keys{};
@@ -112,6 +113,9 @@ std::string_view find_verb(const Fields& fields, const Range& range, Reporter& r
     // Probably a misspelt verb; it is reported as such.
   } else if (fields.find("at") != nullptr || fields.find("wait") != nullptr) {
     return name_of(Verb::wait);
+  } else if (!chosen.without_value.empty()) {
+    reporter.report(rule::missing_key, fields.range_of(chosen.without_value),
+                    quote(chosen.without_value) + " has no value");
   } else {
     reporter.report(rule::missing_key, range, "an event needs one of " + all_event_words());
   }
@@ -234,23 +238,70 @@ void StepReader::read_parts(const EventParts& parts, Step& step, Reporter& repor
   if (form.has_cause && parts.cause != nullptr) {
     const auto cause = read_word<FinishCause>(*parts.cause, "cause", reporter);
     if (cause) step.cause = *cause;
-    if (subject && !step.is_by_task && cause == FinishCause::situation_change) {
-      check_finish(*subject, parts.subject->range, reporter);
+    if (subject && cause == FinishCause::situation_change) {
+      const Node& name = step.is_by_task ? *parts.task : *parts.subject;
+      check_finish(*subject, step.is_by_task, name.range, reporter);
     }
   }
 }
 
-void StepReader::check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter) {
+/// Checks that the situation rules out a behavior that it finishes. Of a task it is not known which
+/// behavior performs it, so there is a finding only if all of them are available.
+void StepReader::check_finish(std::uint32_t subject, bool is_task, const Range& range,
+                              Reporter& reporter) {
+  if (!knows_situation_) return;
   const CompiledCatalog& catalog = names_.catalog();
-  if (!knows_situation_ || is_denied_[behavior] ||
-      catalog.find_misfit(catalog.behavior_ids[behavior], variables_)) {
-    return;
+  std::vector<BehaviorId> behaviors;
+  if (!is_task) {
+    behaviors.push_back(catalog.behavior_ids[subject]);
+  } else {
+    for (const Value& value : catalog.values[catalog.task_ids[subject]]) {
+      behaviors.push_back(value.behavior);
+    }
   }
-  const std::string_view name = catalog.behavior_names[behavior];
-  reporter.report(rule::still_available, range,
-                  "behavior " + quote(name) +
-                      " is still available here, so that it can be chosen again at once; add " +
-                      quote("situation: {" + std::string(name) + ": false}") + " before it");
+  const bool are_available =
+      std::all_of(behaviors.begin(), behaviors.end(), [&](BehaviorId behavior) {
+        return !is_denied_[catalog.behaviors[behavior].catalog_index] &&
+               !catalog.find_misfit(behavior, variables_);
+      });
+  if (behaviors.empty() || !are_available) return;
+  std::string message =
+      behaviors.size() > 1
+          ? concat("every behavior that performs task ", quote(catalog.task_names[subject]), " is")
+          : concat("behavior ", quote(catalog.name_of_behavior(behaviors.front())),
+                   is_task
+                       ? concat(", which performs task ", quote(catalog.task_names[subject]), ",")
+                       : "",
+                   " is");
+  message += " still available here, so that it can be chosen again at once; ";
+  if (behaviors.size() > 1) {
+    message += "add an event 'situation' before it that rules out the one that is active";
+  } else if (const auto value = find_unfit_value(behaviors.front())) {
+    message += concat("write ",
+                      quote(concat("situation: {", catalog.name_of_variable(value->variable), ": ",
+                                   catalog.name_of_value(*value), "}")),
+                      " in its place: the behavior then finishes by itself");
+  } else {
+    message += concat(
+        "add ",
+        quote(concat("situation: {", catalog.name_of_behavior(behaviors.front()), ": false}")),
+        " before it");
+  }
+  reporter.report(rule::still_available, range, std::move(message));
+}
+
+/// A value of a situation variable in which a behavior does not fit. Nothing if it always fits.
+std::optional<VariableValue> StepReader::find_unfit_value(BehaviorId behavior) const {
+  const CompiledCatalog& catalog = names_.catalog();
+  const std::span<const FittingValue> fitting = catalog.fitting_values_of(behavior);
+  for (const FittingValue& named : fitting) {
+    for (std::uint32_t value = 0; value < catalog.variables[named.variable].value_count; ++value) {
+      const bool fits = std::find(fitting.begin(), fitting.end(),
+                                  FittingValue{behavior, named.variable, value}) != fitting.end();
+      if (!fits) return VariableValue{named.variable, value};
+    }
+  }
+  return std::nullopt;
 }
 
 Situation StepReader::read_situation(const Node& node, Reporter& reporter) {
@@ -283,6 +334,9 @@ void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter
       script.reactive_delay = *value;
     }
   }
+  if (const Node* timeouts = fields.find("timeouts")) {
+    script.timeouts = yaml::read_boolean(*timeouts, "timeouts", reporter).value_or(true);
+  }
   if (const Node* situation = fields.find("situation")) {
     script.situation = reader.read_situation(*situation, reporter);
   } else if (fields.has_unknown()) {
@@ -294,15 +348,6 @@ void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter
     read_steps(*events, reader, script, reporter);
   }
   fields.report_unknown(yaml::UnknownKeys::refused);
-}
-
-void resume(StepReader& reader, const CompiledCatalog& catalog, const Snapshot& snapshot) {
-  State state(catalog);
-  for (const BehaviorId behavior : snapshot.denied) state.set_denied(behavior, true);
-  for (std::uint32_t variable = 0; variable < snapshot.variables.size(); ++variable) {
-    state.set_variable({variable, snapshot.variables[variable]});
-  }
-  reader.resume(snapshot.now, state);
 }
 
 }  // namespace
@@ -322,7 +367,11 @@ std::optional<Script> read_script(const yaml::Document& document, const Compiled
                                   const Snapshot* state) {
   Reporter reporter(document.file(), diagnostics);
   StepReader reader(catalog, of_parameters);
-  if (state != nullptr) resume(reader, catalog, *state);
+  if (state != nullptr) {
+    State saved(catalog);
+    saved.restore(*state);
+    reader.resume(state->now, saved);
+  }
   Script script;
   script.file = document.file();
   const Node& root = document.root();

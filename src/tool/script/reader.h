@@ -102,12 +102,13 @@ class StepReader {
 
  private:
   void read_time(const yaml::Fields& fields, Step& step, Reporter& reporter);
-  void check_finish(std::uint32_t behavior, const Range& range, Reporter& reporter);
+  void check_finish(std::uint32_t subject, bool is_task, const Range& range, Reporter& reporter);
+  [[nodiscard]] std::optional<VariableValue> find_unfit_value(BehaviorId behavior) const;
 
   Microseconds clock_ = 0;
   NameIndex names_;
   ParameterChecks parameter_checks_;
-  // At this place of the script.
+  // The situation at this place of the script.
   std::vector<bool> is_denied_;  ///< by behavior
   std::vector<std::uint32_t> variables_;
   bool knows_situation_ = true;

@@ -170,13 +170,6 @@ void Runner::check(const Step& step) {
   }
 }
 
-void apply(const Situation& situation, const CompiledCatalog& catalog, State& state) {
-  for (const Availability& entry : situation.availability) {
-    state.set_denied(catalog.behavior_ids[entry.behavior], !entry.available);
-  }
-  for (const VariableValue value : situation.variables) state.set_variable(value);
-}
-
 Event event_of(const Step& step) {
   Event event;
   event.verb = step.verb;
@@ -194,6 +187,7 @@ RunResult run_script(const CompiledCatalog& catalog, const Script& script,
                      const CoordinatorOptions& options, RunListener& listener) {
   CoordinatorOptions of_script = options;
   of_script.reactive_delay = script.reactive_delay;
+  of_script.timeouts = script.timeouts;
   Runner runner(catalog, of_script, listener);
   runner.begin(script.situation);
   bool goes_on = true;

@@ -117,7 +117,7 @@ class Runner final : private EventListener {
     if (options.measure_time) result_.totals.emplace();
   }
 
-  /// Call one of the two first: see Coordinator.
+  /// Call begin() or resume() before anything else: see Coordinator.
   void begin(const Situation& situation) {
     coordinator_.begin(situation.availability, situation.variables);
   }
@@ -129,7 +129,7 @@ class Runner final : private EventListener {
   [[nodiscard]] bool take(const Step& step);
   /// Handles what is due at the present instant; false as in take().
   [[nodiscard]] bool settle() { return note(coordinator_.settle()); }
-  /// See Coordinator: the count of events that no script asked for.
+  /// Allows the full number of clock events from here on: see CoordinatorOptions.
   void restart_count() { coordinator_.restart_count(); }
 
   [[nodiscard]] const RunResult& result() const { return result_; }

@@ -7,8 +7,6 @@
 
 #include "cbc/event.h"
 #include "cbc/units.h"
-#include "compiled/compiled_catalog.h"
-#include "coordinator/state.h"
 #include "diagnostic/diagnostic.h"
 #include "yaml/values.h"
 
@@ -64,15 +62,12 @@ struct Step {
   Situation situation;
 };
 
-/// Makes the changes in a state.
-void apply(const Situation& situation, const CompiledCatalog& catalog, State& state);
-
 /// A scripted mission, checked against its catalog. Tasks and behaviors are in catalog order.
 struct Script {
   std::string file;
   Microseconds reactive_delay = 80'000;
-  bool timeouts = true;  ///< false: none fires by the clock
-  Situation situation;  ///< before the first event
+  bool timeouts = true;  ///< see CoordinatorOptions
+  Situation situation;   ///< before the first event
   std::vector<Step> steps;
 };
 

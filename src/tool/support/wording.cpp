@@ -303,6 +303,14 @@ bool stands_for_itself(char byte) {
 
 }  // namespace
 
+std::string list_alternatives(std::span<const std::string> words) {
+  std::string list = words.front();
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    list += (i + 1 < words.size() ? ", " : " or ") + words[i];
+  }
+  return list;
+}
+
 std::string percent_encode(std::string_view path) {
   std::string encoded;
   for (const char byte : path) {

@@ -56,6 +56,9 @@ class Suggestions {
   return std::to_string(number) + " " + std::string(noun) + (number == 1 ? "" : "s");
 }
 
+/// "day, dusk or night"; there is one word at least.
+[[nodiscard]] std::string list_alternatives(std::span<const std::string> words);
+
 /// Breaks a long name into lines of about equal length, after a blank or one of "_-./" and before
 /// the capitals of CamelCase. A line may be longer than `width` characters if it has no such place.
 /// The lines, joined, are the name.

@@ -247,7 +247,7 @@ struct SweepCounts {
   std::vector<BehaviorCounts> behaviors;          ///< in catalog order
   std::map<RejectionReason, std::uint64_t> reasons;
 
-  /// Counts an event, but for the runs of tasks.
+  /// Counts an event, except for the runs of tasks.
   void add(const CompiledCatalog& catalog, const EventRecord& record);
   /// `other` is of the same catalog.
   void add(const SweepCounts& other);

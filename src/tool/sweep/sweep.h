@@ -13,13 +13,13 @@
 
 namespace cbc {
 
-/// The event of a sweep that took most, in nodes or in time.
+/// The most expensive event of a sweep, in nodes or in time.
 struct SlowestEvent {
   std::uint64_t sequence = 0;  ///< counts from 1
   std::uint64_t event = 0;     ///< index in its sequence
   std::uint64_t cost = 0;      ///< nodes, or nanoseconds
   std::string what;            ///< "start ROTATE"
-  std::string script;          ///< that has this event as its last, or nearly so
+  std::string script;          ///< ends with this event, or soon after it
 };
 
 /// The results that depend on the machine. Times are those of whole events that took a search: the

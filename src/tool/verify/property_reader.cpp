@@ -292,8 +292,12 @@ class PropertyReader {
           std::find(property_kinds.begin(), property_kinds.end(), chosen.name);
       return static_cast<Property::Kind>(found - property_kinds.begin());
     }
+    if (chosen.is_reported) return std::nullopt;
     // An unknown key is probably the kind, misspelt.
-    if (!chosen.is_reported && !fields.has_unknown()) {
+    if (!chosen.without_value.empty()) {
+      reporter_.report(rule::missing_key, fields.range_of(chosen.without_value),
+                       quote(chosen.without_value) + " has no value");
+    } else if (!fields.has_unknown()) {
       reporter_.report(rule::missing_key, range,
                        "a property needs one of 'can_start', 'always', 'never' and 'reachable'");
     }

@@ -101,6 +101,35 @@ std::string too_deep() {
   return "nested too deeply: more than " + std::to_string(maximum_depth) + " levels";
 }
 
+/// YAML looks no farther for the ':' behind a key. yaml-cpp then takes the key for something else.
+constexpr std::size_t longest_key = 1024;
+
+std::string too_long_key() {
+  return "a key is too long: YAML allows " + std::to_string(longest_key) + " characters";
+}
+
+/// Whether the text of a line between `begin` and a ':' is a key that is too long.
+bool is_long_key(std::string_view key) {
+  return key.size() > longest_key && key.find(": ") == std::string_view::npos;
+}
+
+/// The text before an offset on its line, without what opens the mapping in which it may be a key.
+std::string_view key_before(std::string_view text, std::size_t offset) {
+  std::string_view key = text.substr(0, offset);
+  const std::size_t line_break = key.rfind('\n');
+  if (line_break != std::string_view::npos) key.remove_prefix(line_break + 1);
+  key.remove_prefix(std::min(key.find_first_not_of("- "), key.size()));
+  return key;
+}
+
+/// The text from an offset to the next ':' that may end a key, on the same line; empty if there is
+/// none.
+std::string_view key_from(std::string_view text, std::size_t offset) {
+  const std::string_view line = text.substr(offset, text.find('\n', offset) - offset);
+  const std::size_t colon = line.find(": ");
+  return colon == std::string_view::npos ? std::string_view() : line.substr(0, colon);
+}
+
 // Puts a message of yaml-cpp, which is about its grammar, in terms of the text. Its exceptions
 // differ in nothing but their messages, which it declares as constants.
 std::string explain(const std::string& message) {
@@ -203,6 +232,9 @@ class Builder : public YAML::EventHandler {
     const std::size_t begin = skip_properties(text_, offset(mark));
     const std::size_t end = end_of_null(text_, begin);
     const bool written = end > begin && begin >= last_end_;
+    if (!written && expects_key() && is_long_key(key_from(text_, begin))) {
+      throw Refusal(range_at(begin, begin + 1), too_long_key());
+    }
     const Range range = written ? range_at(begin, end) : range_of_missing(offset(mark));
     if (written) last_end_ = end;
     add(create(Kind::null, range), anchor, {1, 0});
@@ -370,14 +402,15 @@ class Builder : public YAML::EventHandler {
     }
   }
 
+  [[nodiscard]] bool expects_key() const {
+    return !frames_.empty() && frames_.back().node->kind == Kind::mapping &&
+           frames_.back().key == nullptr && frames_.back().merge_key == nullptr;
+  }
+
   // Refuses a collection in the place of a key. At the end of the text, the parser also takes an
   // unclosed collection in brackets for a key.
   void refuse_as_key(const Range& range, std::size_t bracket) const {
-    if (frames_.empty()) return;
-    const Frame& frame = frames_.back();
-    if (frame.node->kind != Kind::mapping || frame.key != nullptr || frame.merge_key != nullptr) {
-      return;
-    }
+    if (!expects_key()) return;
     if (bracket < text_.size() && !is_closed(text_, bracket)) {
       throw Refusal(range, quote(text_.substr(bracket, 1)) + " is not closed");
     }
@@ -522,6 +555,12 @@ void check_characters(std::string_view text, const PositionMap& positions) {
   std::vector<Note> notes;
   const std::optional<Range> bracket = builder.open_bracket();
   if (bracket && offset >= text.size()) notes.push_back({file, *bracket, "opened here"});
+  if (exception.msg == YAML::ErrorMsg::MAP_VALUE) {
+    const std::string_view key = key_before(text, offset);
+    if (is_long_key(key)) {
+      throw Refusal(builder.range_at(offset - key.size(), offset), too_long_key());
+    }
+  }
   throw Refusal(builder.range_at(offset, offset + 1), explain(exception.msg), std::move(notes));
 }
 

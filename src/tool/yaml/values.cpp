@@ -425,7 +425,7 @@ ChosenKey choose_key(const Fields& fields, std::span<const std::string_view> key
       without_value = key;
     }
   }
-  if (found.size() == 1) return {found.front(), false};
+  if (found.size() == 1) return {found.front(), false, {}};
   if (found.size() > 1) {
     std::sort(found.begin(), found.end(), [&fields](std::string_view a, std::string_view b) {
       return fields.range_of(a) < fields.range_of(b);
@@ -433,12 +433,9 @@ ChosenKey choose_key(const Fields& fields, std::span<const std::string_view> key
     reporter.report(rule::invalid_value, fields.range_of(found[1]),
                     concat(what, ", found ", quote(found[0]), " and ", quote(found[1])),
                     {reporter.note(fields.range_of(found[0]), "the first one is here")});
-    return {{}, true};
+    return {{}, true, {}};
   }
-  if (without_value.empty()) return {};
-  reporter.report(rule::missing_key, fields.range_of(without_value),
-                  quote(without_value) + " has no value");
-  return {{}, true};
+  return {{}, false, without_value};
 }
 
 }  // namespace cbc::yaml

@@ -102,8 +102,9 @@ class Fields {
 
 /// Which of some keys a mapping has.
 struct ChosenKey {
-  std::string_view name;     ///< empty: none of them, or several
-  bool is_reported = false;  ///< that there are several, or that one has no value
+  std::string_view name;           ///< empty: none of them, or several
+  bool is_reported = false;        ///< that there are several
+  std::string_view without_value;  ///< if there is none: one that has no value
 };
 
 /// Finds the only one of some keys that has a value. `what` begins the message about several: "an

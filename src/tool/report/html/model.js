@@ -50,6 +50,19 @@ class Catalog {
     return this.behaviors.get(behavior)?.performs.find((entry) => entry.task === task)?.suitability;
   }
 
+  /** Names in sentences: a task and a behavior may have the same one. */
+  task(name) {
+    return this.behaviors.has(name) ? `task ${name}` : name;
+  }
+
+  behavior(name) {
+    return this.performers.has(name) ? `behavior ${name}` : name;
+  }
+
+  taskList(names) {
+    return names.map((name) => this.task(name)).join(', ');
+  }
+
   sortTasks(names) {
     return [...names].sort((a, b) => this.taskPlace.get(a) - this.taskPlace.get(b));
   }
@@ -77,14 +90,15 @@ const describeSituation = (situation, variables) =>
 const situationOf = (event) => describeSituation(event.situation ?? {}, event.variables ?? {});
 
 /** An event in a line, without its outcome. */
-function describeEvent(event) {
+function describeEvent(event, catalog) {
   let text = event.verb;
   if (event.verb === 'wait') return 'wait';
   if (event.verb === 'situation') return `situation: ${situationOf(event)}`;
   if (event.task !== undefined) {
     text += ` task ${event.task}` + (event.name === null ? ', which nothing performs' : ` (${event.name})`);
   } else if (event.name !== undefined) {
-    text += ` ${event.name}`;
+    const isOfTask = event.verb === 'start' || event.verb === 'stop';
+    text += ` ${isOfTask ? event.name : catalog.behavior(event.name)}`;
   }
   if (event.priority !== undefined) text += `, priority ${event.priority}`;
   if (event.verb === 'finish') text += `: ${words(event.cause)}`;
@@ -97,7 +111,7 @@ function describeEvent(event) {
 }
 
 /** The same for a place where it says elsewhere what the situation is. */
-const nameEvent = (event) => (event.verb === 'situation' ? 'situation' : describeEvent(event));
+const nameEvent = (event, catalog) => (event.verb === 'situation' ? 'situation' : describeEvent(event, catalog));
 
 /** Causes of spans, as in the changes: by the request of the task. */
 function causeOf(priority) {
@@ -327,15 +341,16 @@ class Run {
   whyReplaced(number, link) {
     const event = this.event(number);
     const { task, behavior } = link.from;
+    const named = this.catalog.behavior(behavior);
     if (event.verb === 'finish' && event.name === behavior) {
-      return event.origin === 'situation' ? '' : `${behavior} finished: ${words(event.cause)}`;
+      return event.origin === 'situation' ? '' : `${named} finished: ${words(event.cause)}`;
     }
     const lost = (this.catalog.behaviors.get(behavior)?.requires ?? [])
       .filter((name) => get(event.running, name) === undefined);
-    if (lost.length > 0) return `${behavior} requires ${lost.join(', ')}, which no longer runs`;
+    if (lost.length > 0) return `${named} requires ${this.catalog.taskList(lost)}, which no longer runs`;
     const old = this.catalog.suitability(behavior, task);
     const present = this.catalog.suitability(link.to.behavior, task);
-    if (present > old) return `it suits ${task} better, ${present} % instead of ${old} %`;
+    if (present > old) return `it suits ${this.catalog.task(task)} better, ${present} % instead of ${old} %`;
     return '';
   }
 
@@ -345,15 +360,16 @@ class Run {
     const { task, behavior } = link.from;
     const reasons = [];
     if (event.verb === 'finish' && event.name === behavior) {
-      reasons.push(`${behavior} finished: ${words(event.cause)}`);
+      reasons.push(`${this.catalog.behavior(behavior)} finished: ${words(event.cause)}`);
     }
     const requirers = this.requirers(number, link.to.task);
+    const follower = this.catalog.task(link.to.task);
     if (event.verb === 'start' && event.name === link.to.task) {
-      reasons.push(`${link.to.task} was started with priority ${event.priority}`);
+      reasons.push(`${follower} was started with priority ${event.priority}`);
     } else if (requirers.length > 0) {
-      reasons.push(`${link.to.task} is now required by ${requirers.join(', ')}`);
+      reasons.push(`${follower} is now required by ${this.catalog.taskList(requirers)}`);
     }
-    reasons.push(`${link.to.task} excludes ${task}`);
+    reasons.push(`${follower} excludes ${this.catalog.task(task)}`);
     return reasons.join('; ');
   }
 
@@ -363,6 +379,7 @@ class Run {
     const before = this.running(number - 1);
     const after = event.running;
     const list = [];
+    const nameOf = (behavior) => this.catalog.behavior(behavior);
     const say = (text, why = '', isBad = false) => list.push({ text, why, isBad });
     if (event.verb === 'situation') say(situationOf(event));
     if (event.origin === 'situation') say(this.describeMisfit(number, event.name));
@@ -372,29 +389,29 @@ class Run {
       say('no consistent set of behaviors; finding the reasons would have taken too long', '', true);
     }
     if (this.beginsToWait(number)) {
-      say(`${event.name} waits, and tries again after each accepted event of its group`);
+      say(`${this.catalog.task(event.name)} waits, and tries again after each accepted event of its group`);
     }
     for (const change of event.changes) {
-      if (!change.success) say(`${change.behavior} could not be ${change.op}d`, '', true);
+      if (!change.success) say(`${nameOf(change.behavior)} could not be ${change.op}d`, '', true);
     }
     const told = new Set();
     for (const link of this.linksOf[number]) {
       told.add(link.from.task).add(link.to.task);
       if (link.kind === 'replaced') {
-        say(`${link.to.behavior} replaces ${link.from.behavior} (${link.from.task})`,
+        say(`${nameOf(link.to.behavior)} replaces ${nameOf(link.from.behavior)} (${link.from.task})`,
             this.whyReplaced(number, link));
       } else if (link.from.behavior === link.to.behavior) {
-        say(`${link.from.behavior} passes from ${link.from.task} to ${link.to.task}`,
+        say(`${nameOf(link.from.behavior)} passes from ${this.catalog.task(link.from.task)} to ${this.catalog.task(link.to.task)}`,
             this.whyGaveWay(number, link));
       } else {
-        say(`${link.to.behavior} (${link.to.task}) takes the place of ` +
-            `${link.from.behavior} (${link.from.task})`, this.whyGaveWay(number, link));
+        say(`${nameOf(link.to.behavior)} (${link.to.task}) takes the place of ` +
+            `${nameOf(link.from.behavior)} (${link.from.task})`, this.whyGaveWay(number, link));
       }
     }
     for (const [task, behavior] of Object.entries(after)) {
       const was = get(before, task);
       if (was === undefined && !told.has(task)) {
-        say(`${behavior} starts (${task})`, this.whyRuns(number, task));
+        say(`${nameOf(behavior)} starts (${task})`, this.whyRuns(number, task));
       } else if (was === behavior) {
         this.tellRequest(number, task, say);
       }
@@ -402,11 +419,11 @@ class Run {
     const causes = new Map(event.stopped_tasks.map((stopped) => [stopped.task, stopped.cause]));
     for (const [task, behavior] of Object.entries(before)) {
       if (get(after, task) !== undefined || told.has(task)) continue;
-      say(`${behavior} stops (${task})`, this.whyStopped(number, task, causes.get(task)));
+      say(`${nameOf(behavior)} stops (${task})`, this.whyStopped(number, task, causes.get(task)));
     }
     for (const change of event.changes) {
       if (change.cause === 'restarted' && change.op === 'activate' && change.success) {
-        say(`${change.behavior} restarts`, 'its parameters changed');
+        say(`${nameOf(change.behavior)} restarts`, 'its parameters changed');
       }
     }
     return list;
@@ -416,14 +433,14 @@ class Run {
   describeMisfit(number, behavior) {
     const values = this.values[number];
     const variable = this.catalog.findMisfit(behavior, values);
-    return `${behavior} does not fit: ${describeValue(variable, values.get(variable))}`;
+    return `${this.catalog.behavior(behavior)} does not fit: ${describeValue(variable, values.get(variable))}`;
   }
 
   whyRuns(number, task) {
     const priority = get(this.requests(number), task);
     if (priority !== undefined) return priority === 0 ? 'reactive' : `requested, priority ${priority}`;
     const requirers = this.requirers(number, task);
-    return requirers.length > 0 ? `required by ${requirers.join(', ')}` : '';
+    return requirers.length > 0 ? `required by ${this.catalog.taskList(requirers)}` : '';
   }
 
   tellRequest(number, task, say) {
@@ -431,9 +448,9 @@ class Run {
     const present = get(this.requests(number), task);
     if (old === present) return;
     if (present === undefined) {
-      say(`${task} has no request any more`);
+      say(`${this.catalog.task(task)} has no request any more`);
     } else {
-      say(`${task}, which runs already, is requested with priority ${present}`);
+      say(`${this.catalog.task(task)}, which runs already, is requested with priority ${present}`);
     }
   }
 
@@ -445,7 +462,7 @@ class Run {
     const lost = (this.catalog.behaviors.get(behavior)?.requires ?? [])
       .filter((name) => get(event.running, name) === undefined);
     if (get(this.requests(number - 1), task) === undefined) return 'nothing requires it any more';
-    return lost.length > 0 ? `it requires ${lost.join(', ')}, which does not run` : 'displaced';
+    return lost.length > 0 ? `it requires ${this.catalog.taskList(lost)}, which does not run` : 'displaced';
   }
 
   /** What became of the behavior of a change: who replaced it, or whom it replaced. */

@@ -136,7 +136,7 @@ class Page {
     this.mark(number, true);
     const event = run.event(number);
     const outcome = isAsked(event) ? ` \u00b7 ${event.outcome}` : '';
-    const text = `Event ${number} of ${run.size} \u00b7 ${formatTime(event.time)} s \u00b7 ${describeEvent(event)}${outcome}`;
+    const text = `Event ${number} of ${run.size} \u00b7 ${formatTime(event.time)} s \u00b7 ${describeEvent(event, run.catalog)}${outcome}`;
     byId('status').textContent = text;
     this.slider.value = number;
     this.slider.setAttribute('aria-valuetext', text);

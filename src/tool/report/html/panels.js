@@ -50,7 +50,7 @@ function fillTable(body, run) {
     const row = html('tr', event.outcome === 'rejected' ? 'rejected' : '',
       html('td', '', button),
       html('td', '', formatTime(event.time)),
-      html('td', '', breakable(nameEvent(event))),
+      html('td', '', breakable(nameEvent(event, run.catalog))),
       html('td', '', outcomeElement(event)),
       html('td', '', ...reasonElements(event), ...sentenceElements(run, number)));
     row.dataset.event = number;
@@ -120,7 +120,7 @@ function searchPairs(search) {
 function fillDetail(elements, run, number) {
   const event = run.event(number);
   elements.title.textContent = `Event ${number} at ${formatTime(event.time)} s`;
-  const parts = [html('p', 'headline', nameEvent(event)), outcomeElement(event)];
+  const parts = [html('p', 'headline', nameEvent(event, run.catalog)), outcomeElement(event)];
   parts.push(...sentenceElements(run, number));
   const add = (title, element) => parts.push(html('h3', '', title), element);
   if (event.conflict.length > 0) {
@@ -179,7 +179,7 @@ function fillState(body, run, number) {
 function tipContent(run, span, number) {
   const event = run.event(number);
   if (span === null) {
-    return [html('strong', '', `${number} \u00b7 ${formatTime(event.time)} s \u00b7 ${nameEvent(event)} `),
+    return [html('strong', '', `${number} \u00b7 ${formatTime(event.time)} s \u00b7 ${nameEvent(event, run.catalog)} `),
             outcomeElement(event), ...reasonElements(event), ...sentenceElements(run, number)];
   }
   const end = span.to === null ? 'the end of the run' : `${formatTime(run.event(span.to).time)} s (event ${span.to})`;

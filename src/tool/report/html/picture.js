@@ -553,7 +553,7 @@ class Picture {
   drawMarkText(mark, limit) {
     const event = this.run.event(mark.number);
     const begin = Math.max(mark.x + mark.width + 6, this.left + 4);
-    const text = fitting([describeEvent(event), [event.verb, event.name ?? ''].join(' ')], Math.min(limit, this.width) - begin - 6);
+    const text = fitting([describeEvent(event, this.run.catalog), [event.verb, event.name ?? ''].join(' ')], Math.min(limit, this.width) - begin - 6);
     if (text === null) return;
     const y = this.yOfLane(mark.lane) + 13;
     this.add('text', { x: begin, y, class: `mark-text ${event.outcome}`, 'data-event': mark.number }, text);
