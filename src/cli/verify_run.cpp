@@ -219,16 +219,18 @@ class Call {
     VerificationOptions of_verification;
     of_verification.limits = result_.limits;
     of_verification.jobs = thread_count(options_.jobs);
-    const std::vector<std::uint32_t>* explored = nullptr;
+    std::vector<std::uint32_t> explored;
+    std::uint64_t states = 0;
     std::chrono::steady_clock::time_point begin;
     of_verification.on_progress = [&](const std::vector<std::uint32_t>& groups,
                                       const ExplorationProgress& so_far) {
       const auto now = std::chrono::steady_clock::now();
-      if (explored != &groups || so_far.transitions == 0) {
-        explored = &groups;
+      if (explored != groups || so_far.states < states) {
+        explored = groups;
         begin = now;
         progress.begin(name_groups(groups));
       }
+      states = so_far.states;
       progress.show(describe_progress(so_far, now - begin));
       return !signals_.have_come();
     };
@@ -251,8 +253,8 @@ class Call {
                                        std::chrono::duration<double> elapsed) {
     const double rate =
         elapsed.count() > 0 ? static_cast<double>(so_far.transitions) / elapsed.count() : 0;
-    return fmt::format(" ({} states, {} waiting, depth {}, {:.0f} transitions/s)", so_far.states,
-                       so_far.waiting, so_far.depth, rate);
+    return fmt::format(" (depth {}, {} states, {} waiting, {:.0f} moves/s)", so_far.depth,
+                       so_far.states, so_far.waiting, rate);
   }
 
   /// About a question that has no answer; empty if there is none.
