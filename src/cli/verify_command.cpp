@@ -65,10 +65,9 @@ Values situation_entry() {
 }
 
 constexpr const char* verify_examples =
-    "  cbc verify robot.yaml                     what can happen at all, group by group\n"
+    "  cbc verify robot.yaml                     what can happen at all\n"
     "  cbc verify robot.yaml robot.properties.yaml\n"
-    "                                            prove properties, or show what breaks\n"
-    "                                            them\n"
+    "                                            prove properties, or break them\n"
     "  cbc verify robot.yaml --cut-sets LAND     faults that together end LAND\n";
 
 constexpr const char* verify_footer =
