@@ -119,7 +119,11 @@ bool BreadthFirst::may_go_on() {
   const ExplorationLimits& limits = options_.limits;
   if (limits.max_states > 0 && store_.size() >= limits.max_states) return false;
   if (store_.size() >= StateStore::most_states - batch_size * 64) return false;
-  if (limits.max_memory > 0 && store_.bytes() >= limits.max_memory) return false;
+  // With as many new states as a batch usually finds.
+  constexpr std::uint64_t room = std::uint64_t{batch_size} * 8;
+  if (limits.max_memory > 0 && store_.bytes_for(store_.size() + room) > limits.max_memory) {
+    return false;
+  }
   if (deadline_ > 0 && seconds_now() >= deadline_) return false;
   if (!options_.on_progress) return true;
   return options_.on_progress({store_.size(), transitions_, store_.size() - expanded_,

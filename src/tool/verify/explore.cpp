@@ -90,11 +90,7 @@ void StateTest::add_variables(const Model& model, const StateCondition& conditio
       if (!of_any) is_false_ = true;
       continue;
     }
-    std::uint32_t initial = 0;
-    for (const VariableValue& other : assumptions.initially.variables) {
-      if (other.variable == value.variable) initial = other.value;
-    }
-    if (initial != value.value) is_false_ = true;
+    if (initial_value(assumptions, value.variable) != value.value) is_false_ = true;
   }
 }
 
@@ -138,8 +134,7 @@ class Goal {
   [[nodiscard]] std::uint32_t task() const { return task_; }
   [[nodiscard]] Model::Rank ranks() const { return ranks_; }
 
-  /// Whether the state is a counterexample or, of reachable, a witness. Asks for a start only where
-  /// the moves do not tell: the caller does that for those of the default priority.
+  /// Whether the state is a counterexample or, of reachable, a witness.
   [[nodiscard]] bool is_met(Stepper& state) const {
     if (is_start()) {
       return state.cells()[task_] == 0 && !state.would_start(task_, ranks_);
@@ -190,8 +185,8 @@ struct Sightings {
 
 class GroupExpander final : public Expander {
  public:
-  GroupExpander(const Model& model, const std::vector<Goal>& goals)
-      : model_(model), goals_(goals), stepper_(model) {
+  GroupExpander(const Model& model, const std::vector<Goal>& goals, const Stepper::Options& options)
+      : model_(model), goals_(goals), stepper_(model, options) {
     const std::size_t tasks = model.tasks().size();
     seen_.runs.assign(tasks, never_seen);
     seen_.active.assign(model.behaviors().size(), never_seen);
@@ -294,8 +289,9 @@ Move find_move(const Model& model, Stepper& stepper, const std::uint32_t* from,
   return {};
 }
 
-std::vector<Move> moves_to(const Model& model, const BreadthFirst& search, Number number) {
-  Stepper stepper(model);
+std::vector<Move> moves_to(const Model& model, const BreadthFirst& search, Number number,
+                           bool reduce) {
+  Stepper stepper(model, {.reduce = reduce});
   std::vector<Move> moves;
   const std::vector<Number> path = search.path_to(number);
   for (std::size_t place = 1; place < path.size(); ++place) {
@@ -335,7 +331,7 @@ void report_sightings(const Model& model, const BreadthFirst& search, const Sigh
 }
 
 Verdict verdict_of(const Model& model, const BreadthFirst& search, const Property& property,
-                   Number first) {
+                   Number first, bool reduce) {
   Verdict verdict;
   const bool is_reachable = property.kind == Property::Kind::reachable;
   if (first == never_seen) {
@@ -346,12 +342,25 @@ Verdict verdict_of(const Model& model, const BreadthFirst& search, const Propert
   }
   verdict.result = is_reachable ? Verdict::Result::proved : Verdict::Result::violated;
   verdict.has_script = true;
-  verdict.script = moves_to(model, search, first);
+  verdict.script = moves_to(model, search, first, reduce);
   if (property.kind == Property::Kind::can_start) {
     const std::uint32_t index = model.catalog().tasks[property.task].catalog_index;
     verdict.script.push_back({Move::Kind::start, index, property.priority});
   }
   return verdict;
+}
+
+/// Sets apart a quarter of the memory for remembered decisions.
+Stepper::Options share_memory(ExplorationOptions& options) {
+  Stepper::Options result;
+  result.reduce = options.reduce;
+  constexpr std::uint64_t most = std::uint64_t{256} << 20;
+  const std::uint64_t jobs = std::max(1U, options.jobs);
+  std::uint64_t& memory = options.limits.max_memory;
+  result.decision_bytes = memory == 0 ? most : std::min(most, memory / 4 / jobs);
+  // An array that grows takes twice its size for a while.
+  if (memory > 0) memory -= std::min(memory / 2, 2 * jobs * result.decision_bytes);
+  return result;
 }
 
 }  // namespace
@@ -374,11 +383,13 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint3
 
   std::vector<std::uint32_t> first(model.packed_words());
   model.pack(cells.data(), first.data());
-  BreadthFirst search(first, options);
+  ExplorationOptions of_search = options;
+  const Stepper::Options of_steppers = share_memory(of_search);
+  BreadthFirst search(first, of_search);
   std::vector<std::unique_ptr<Expander>> expanders;
   std::vector<const GroupExpander*> of_groups;
   for (unsigned job = 0; job < std::max(1U, options.jobs); ++job) {
-    auto expander = std::make_unique<GroupExpander>(model, goals);
+    auto expander = std::make_unique<GroupExpander>(model, goals, of_steppers);
     of_groups.push_back(expander.get());
     expanders.push_back(std::move(expander));
   }
@@ -400,7 +411,8 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint3
   result.bytes = search.store().bytes();
   report_sightings(model, search, seen, result);
   for (std::size_t place = 0; place < properties.size(); ++place) {
-    result.verdicts.push_back(verdict_of(model, search, *properties[place], seen.goals[place]));
+    result.verdicts.push_back(
+        verdict_of(model, search, *properties[place], seen.goals[place], options.reduce));
   }
   return result;
 }

@@ -43,7 +43,7 @@ struct Move {
 /// Where an exploration ends although states are left. 0: no limit.
 struct ExplorationLimits {
   std::uint64_t max_states = 0;
-  std::uint64_t max_memory = 0;  ///< bytes
+  std::uint64_t max_memory = 0;  ///< bytes, of states, their index and remembered decisions
   double seconds = 0;
 };
 
@@ -57,6 +57,11 @@ struct ExplorationProgress {
 struct ExplorationOptions {
   ExplorationLimits limits;
   unsigned jobs = 1;
+  /// Takes states for the same that differ only in the order of requests of equal priority that
+  /// cannot interact (Model::interaction_classes). They have the same moves, to the same states in
+  /// this sense: verdicts, scripts and least numbers of moves stay as they are, and only the counts
+  /// of states and transitions, and the depth, are those of what is left.
+  bool reduce = false;
   /// Called now and then by one thread; false ends the exploration as a limit does. May be empty.
   std::function<bool(const ExplorationProgress&)> on_progress;
 };

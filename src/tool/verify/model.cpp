@@ -17,6 +17,10 @@ std::uint32_t find_number(const List& list, Key key) {
   return found == list.end() ? none : static_cast<std::uint32_t>(found - list.begin());
 }
 
+bool contains(const std::vector<std::uint32_t>& list, std::uint32_t item) {
+  return std::find(list.begin(), list.end(), item) != list.end();
+}
+
 }  // namespace
 
 Model::Model(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
@@ -169,9 +173,8 @@ void Model::find_interactions() {
 
 void Model::add_variables() {
   denied_.assign(words_for(behaviors_.size()), 0);
-  for (const SituationPart::Own& own : assumptions_.initially.behaviors) {
-    const std::uint32_t behavior = find_behavior(own.behavior);
-    if (behavior != none && !own.available) set_bit(denied_.data(), behavior);
+  for (std::uint32_t place = 0; place < behaviors_.size(); ++place) {
+    if (!is_available_at_first(assumptions_, behaviors_[place].id)) set_bit(denied_.data(), place);
   }
   std::set<std::uint32_t> named;
   for (const Behavior& behavior : behaviors_) {
@@ -183,9 +186,7 @@ void Model::add_variables() {
     Variable& variable = variables_.emplace_back();
     variable.id = id;
     variable.values = catalog_.variables[id].value_count;
-    for (const VariableValue& value : assumptions_.initially.variables) {
-      if (value.variable == id) variable.initial = value.value;
-    }
+    variable.initial = initial_value(assumptions_, id);
     variable.misfits.assign(variable.values, std::vector<Word>(denied_.size(), 0));
   }
   for (std::uint32_t behavior = 0; behavior < behaviors_.size(); ++behavior) {
@@ -286,15 +287,13 @@ void Model::lay_out() {
   for (std::uint32_t task = 0; task < layout_.reactive_count; ++task) add(1);
   layout_.variables = here();
   for (Variable& variable : variables_) {
-    const auto& changing = assumptions_.variables;
-    if (std::find(changing.begin(), changing.end(), variable.id) == changing.end()) continue;
+    if (!contains(assumptions_.variables, variable.id)) continue;
     variable.cell = here();
     add(variable.values - 1);
   }
   layout_.own = here();
   for (Behavior& behavior : behaviors_) {
-    const auto& changing = assumptions_.behaviors;
-    if (std::find(changing.begin(), changing.end(), behavior.id) == changing.end()) continue;
+    if (!contains(assumptions_.behaviors, behavior.id)) continue;
     behavior.own = layout_.own_count++;
     add(1);
   }
@@ -313,38 +312,22 @@ void Model::add_never() {
     Excluded excluded;
     bool occurs = true;
     for (const VariableValue& value : part.variables) {
-      const std::uint32_t place = find_variable(value.variable);
-      const auto& changing = assumptions_.variables;
-      const bool changes =
-          std::find(changing.begin(), changing.end(), value.variable) != changing.end();
-      if (changes && place == none) {
-        occurs = false;  // it is not part of the state
-      } else if (changes) {
-        excluded.emplace_back(variables_[place].cell, value.value);
-      } else {
-        std::uint32_t initial = 0;
-        for (const VariableValue& other : assumptions_.initially.variables) {
-          if (other.variable == value.variable) initial = other.value;
-        }
-        occurs = occurs && initial == value.value;
+      if (!contains(assumptions_.variables, value.variable)) {
+        occurs = occurs && initial_value(assumptions_, value.variable) == value.value;
+        continue;
       }
+      const std::uint32_t place = find_variable(value.variable);
+      occurs = occurs && place != none;  // otherwise it is not part of the state
+      if (occurs) excluded.emplace_back(variables_[place].cell, value.value);
     }
     for (const SituationPart::Own& own : part.behaviors) {
-      const std::uint32_t place = find_behavior(own.behavior);
-      const auto& changing = assumptions_.behaviors;
-      const bool changes =
-          std::find(changing.begin(), changing.end(), own.behavior) != changing.end();
-      if (changes && place == none) {
-        occurs = false;
-      } else if (changes) {
-        excluded.emplace_back(layout_.own + behaviors_[place].own, own.available ? 0 : 1);
-      } else {
-        bool initial = true;
-        for (const SituationPart::Own& other : assumptions_.initially.behaviors) {
-          if (other.behavior == own.behavior) initial = other.available;
-        }
-        occurs = occurs && initial == own.available;
+      if (!contains(assumptions_.behaviors, own.behavior)) {
+        occurs = occurs && is_available_at_first(assumptions_, own.behavior) == own.available;
+        continue;
       }
+      const std::uint32_t place = find_behavior(own.behavior);
+      occurs = occurs && place != none;
+      if (occurs) excluded.emplace_back(layout_.own + behaviors_[place].own, own.available ? 0 : 1);
     }
     if (occurs) excluded_.push_back(std::move(excluded));
   }
@@ -367,8 +350,7 @@ void Model::add_moves() {
     }
   }
   for (const std::uint32_t task : tasks_in_order_) {
-    const auto& stop = assumptions_.stop;
-    if (std::find(stop.begin(), stop.end(), tasks_[task].id) == stop.end()) continue;
+    if (!contains(assumptions_.stop, tasks_[task].id)) continue;
     moves_.push_back({{Move::Kind::stop, index_of_task(task), 0}, task, 0});
   }
   const auto add_for_behaviors = [&](Move::Kind kind) {

@@ -147,12 +147,10 @@ class Model {
   [[nodiscard]] std::uint32_t find_task(TaskId task) const;
   [[nodiscard]] std::uint32_t find_behavior(BehaviorId behavior) const;
   [[nodiscard]] std::uint32_t find_variable(std::uint32_t variable) const;
-  /// The highest rank of a priority that is at most `priority`, plus 1; so the ranks below it are
-  /// those of lower or equal priorities.
+  /// The number of ranks whose priorities are at most this one; these are the lowest ones.
   [[nodiscard]] Rank ranks_up_to(std::int32_t priority) const;
+  /// The lowest rank whose priority is at least this one; the number of ranks if there is none.
   [[nodiscard]] Rank rank_of(std::int32_t priority) const;
-  /// The rank of 1 with which a stop of a request counts (rank 0 is a reactive start).
-  [[nodiscard]] std::int32_t priority_of(Rank rank) const { return priorities_[rank]; }
 
   /// Own(b) at first.
   [[nodiscard]] const std::vector<Word>& denied() const { return denied_; }

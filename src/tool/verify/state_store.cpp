@@ -5,9 +5,11 @@ namespace cbc {
 StateStore::StateStore(std::size_t words)
     : words_(words), buckets_(64), bucket_mask_(buckets_.size() - 1) {}
 
-std::uint64_t StateStore::bytes() const {
-  return states_.size() * segment * (words_ + 1) * sizeof(std::uint32_t) +
-         buckets_.size() * sizeof(Bucket);
+std::uint64_t StateStore::bytes_for(std::uint64_t states) const {
+  std::size_t buckets = buckets_.size();
+  while (is_crowded(states, buckets)) buckets *= 2;
+  const std::uint64_t segments = (states + segment - 1) / segment;
+  return segments * segment * (words_ + 1) * sizeof(std::uint32_t) + buckets * sizeof(Bucket);
 }
 
 std::uint64_t StateStore::hash(const std::uint32_t* state) const {
@@ -54,8 +56,7 @@ bool StateStore::insert(const std::uint32_t* state, std::uint64_t hash, Number p
   std::copy_n(state, words_, states_.back().get() + offset * words_);
   parents_.back()[offset] = parent;
   add_to_bucket(bucket, hash, size_++);
-  // At most 5 of 6 places are taken, so that few buckets overflow.
-  if (size_ > buckets_.size() * (bucket_size - 2)) grow();
+  if (is_crowded(size_, buckets_.size())) grow();
   return true;
 }
 

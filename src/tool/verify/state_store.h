@@ -29,7 +29,9 @@ class StateStore {
   [[nodiscard]] Number parent(Number number) const {
     return parents_[number / segment][number % segment];
   }
-  [[nodiscard]] std::uint64_t bytes() const;
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_for(size_); }
+  /// Memory that so many states take.
+  [[nodiscard]] std::uint64_t bytes_for(std::uint64_t states) const;
 
   [[nodiscard]] std::uint64_t hash(const std::uint32_t* state) const;
   void prefetch(std::uint64_t hash) const { __builtin_prefetch(&buckets_[hash & bucket_mask_]); }
@@ -58,6 +60,10 @@ class StateStore {
   [[nodiscard]] std::size_t find(const std::uint32_t* state, std::uint64_t hash,
                                  bool& is_found) const;
   void add_to_bucket(std::size_t bucket, std::uint64_t hash, Number number);
+  /// At most 5 of 6 places are taken, so that few buckets overflow.
+  [[nodiscard]] static bool is_crowded(std::uint64_t states, std::size_t buckets) {
+    return states > buckets * (bucket_size - 2);
+  }
   void grow();
 
   const std::size_t words_;

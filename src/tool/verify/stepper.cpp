@@ -31,7 +31,8 @@ void copy_range(const Word* from, std::vector<Word>& to, BitRange range) {
 
 }  // namespace
 
-Stepper::Stepper(const Model& model) : model_(model), decisions_(model) {
+Stepper::Stepper(const Model& model, const Options& options)
+    : model_(model), reduce_(options.reduce), decisions_(model, options.decision_bytes) {
   const std::size_t values = words_for(model.value_count());
   const std::size_t tasks = words_for(model.tasks().size());
   const std::size_t behaviors = words_for(model.behaviors().size());
@@ -228,6 +229,7 @@ bool Stepper::take(const Model::Choice& choice) {
   }
   close_event();
   settle_queue();
+  if (reduce_) merge_orders();
   return true;
 }
 
@@ -373,6 +375,22 @@ void Stepper::settle_queue() {
     if (next == last) continue;
     for (std::uint32_t place = 0; place < layout.reactive_count; ++place) {
       if (sets[place] == next) sets[place] = last;
+    }
+  }
+}
+
+/// Sorts requests of equal priority by interaction class, and keeps the order in each class.
+void Stepper::merge_orders() {
+  const Model::Layout& layout = model_.layout();
+  const auto& classes = model_.interaction_classes();
+  std::uint16_t* const requests = now_.cells.data() + layout.requests;
+  const std::uint16_t* const ranks = now_.cells.data() + layout.ranks;
+  for (std::uint32_t end = 1; end < layout.request_count && requests[end] != 0; ++end) {
+    for (std::uint32_t place = end;
+         place > 0 && ranks[place] == ranks[place - 1] &&
+         classes[requests[place] - 1U] < classes[requests[place - 1] - 1U];
+         --place) {
+      std::swap(requests[place], requests[place - 1]);
     }
   }
 }

@@ -36,7 +36,13 @@ struct MoveTrace {
 /// packed states, without records. Not for use by several threads.
 class Stepper {
  public:
-  explicit Stepper(const Model& model);
+  struct Options {
+    bool reduce = false;                                 ///< see ExplorationOptions
+    std::size_t decision_bytes = std::size_t{64} << 20;  ///< for remembered decisions
+  };
+
+  Stepper(const Model& model, const Options& options);
+  explicit Stepper(const Model& model) : Stepper(model, Options()) {}
 
   /// Takes up a state. `packed` is read at once.
   void load(const std::uint32_t* packed);
@@ -141,6 +147,7 @@ class Stepper {
   bool change_situation(std::uint32_t cell, std::uint16_t value);
   void come_due();
   void settle_queue();
+  void merge_orders();
 
   void open_event(Verb verb, Origin origin, std::uint32_t subject);
   void note_outcome(Outcome outcome);
@@ -149,6 +156,7 @@ class Stepper {
   void close_event();
 
   const Model& model_;
+  const bool reduce_;
   Decisions decisions_;
   State before_;  ///< as loaded
   State now_;     ///< as the move leaves it

@@ -17,6 +17,7 @@ ExplorationOptions options_for(const std::vector<std::uint32_t>& groups,
   ExplorationOptions result;
   result.limits = options.limits;
   result.jobs = options.jobs;
+  result.reduce = options.reduce;
   if (options.on_progress) {
     result.on_progress = [&groups, &options](const ExplorationProgress& progress) {
       return options.on_progress(groups, progress);

@@ -36,6 +36,7 @@ struct Verification {
 struct VerificationOptions {
   ExplorationLimits limits;  ///< of each exploration
   unsigned jobs = 1;
+  bool reduce = false;  ///< see ExplorationOptions
   std::function<bool(const std::vector<std::uint32_t>& groups, const ExplorationProgress&)>
       on_progress;
 };
