@@ -128,7 +128,6 @@ class Call {
     explore();
     if (const std::string error = first_error(); !error.empty()) return complain(error);
     if (const int status = find_cut_sets(); status != exit_ok) return status;
-    result_.is_interrupted = signals_.have_come();
     if (const int status = replay_scripts(); status != exit_ok) return status;
     return report();
   }

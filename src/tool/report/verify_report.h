@@ -67,7 +67,6 @@ struct VerifyResult {
   std::vector<TaskCutSets> cut_sets;
   bool wants_cut_sets = false;
   ExplorationLimits limits;
-  bool is_interrupted = false;
 
   /// Whether all properties are proved, and all groups without properties explored, and no limit
   /// ended a search for cut sets.

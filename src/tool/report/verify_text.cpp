@@ -70,22 +70,36 @@ std::string describe_violation(const Answer& answer, const Exploration& explorat
                      : "violated after " + quantity(events, "event");
 }
 
-std::string describe_limit(const VerifyResult& result, const Exploration& exploration) {
-  const ExplorationLimits& limits = result.limits;
-  std::string text;
-  if (result.is_interrupted) {
-    text = "interrupted";
-  } else if (limits.max_states > 0 && exploration.states >= limits.max_states) {
-    text = fmt::format("ended by --max-states {}", limits.max_states);
-  } else if (limits.max_memory > 0 && exploration.bytes >= limits.max_memory) {
-    text = fmt::format("ended by --max-memory {}", describe_memory(limits.max_memory));
-  } else if (limits.seconds > 0) {
-    text = fmt::format("ended by --time-limit {}", limits.seconds);
-  } else {
-    text = "ended, as there are more states than can be counted";
+namespace {
+
+std::string describe_end(ExplorationEnd end, const ExplorationLimits& limits) {
+  switch (end) {
+    case ExplorationEnd::max_states:
+      return fmt::format("ended by --max-states {}", limits.max_states);
+    case ExplorationEnd::max_memory:
+      return fmt::format("ended by --max-memory {}", describe_memory(limits.max_memory));
+    case ExplorationEnd::time_limit:
+      return fmt::format("ended by --time-limit {}", limits.seconds);
+    case ExplorationEnd::too_many:
+      return "ended, as there are more states than can be counted";
+    case ExplorationEnd::stopped:
+      break;
   }
-  return text + fmt::format("; every state up to depth {} was visited (a higher limit goes on)",
-                            exploration.depth);
+  return "interrupted";
+}
+
+bool has_higher_limit(ExplorationEnd end) {
+  return end == ExplorationEnd::max_states || end == ExplorationEnd::max_memory ||
+         end == ExplorationEnd::time_limit;
+}
+
+}  // namespace
+
+std::string describe_limit(const VerifyResult& result, const Exploration& exploration) {
+  const ExplorationEnd end = exploration.end.value_or(ExplorationEnd::stopped);
+  return fmt::format("{}; every state up to depth {} was visited{}",
+                     describe_end(end, result.limits), exploration.depth,
+                     has_higher_limit(end) ? " (a higher limit goes on)" : "");
 }
 
 namespace {
