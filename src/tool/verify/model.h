@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -206,5 +207,21 @@ class Model {
   std::vector<Choice> moves_;
   std::vector<Excluded> excluded_;
 };
+
+inline void Model::pack(const std::uint16_t* cells, std::uint32_t* packed) const {
+  std::fill(packed, packed + packed_words_, 0);
+  const Field* field = fields_.data();
+  for (std::uint32_t cell = 0; cell < layout_.cells; ++cell, ++field) {
+    packed[field->word] |= std::uint32_t{cells[cell]} << field->shift;
+  }
+}
+
+inline void Model::unpack(const std::uint32_t* packed, std::uint16_t* cells) const {
+  const Field* field = fields_.data();
+  for (std::uint32_t cell = 0; cell < layout_.cells; ++cell, ++field) {
+    cells[cell] = static_cast<std::uint16_t>((packed[field->word] >> field->shift) &
+                                             ((std::uint32_t{1} << field->width) - 1));
+  }
+}
 
 }  // namespace cbc

@@ -116,6 +116,9 @@ class Stepper {
     bool is_reactive = false;
   };
 
+  /// The set of a task that has joined the queue during the present move.
+  static constexpr std::uint16_t joined_now = UINT16_MAX;
+
   void derive(State& state, bool situation_too) const;
   void derive_situation(State& state) const;
   [[nodiscard]] bool is_denied(const State& state, std::uint32_t behavior) const;
@@ -127,7 +130,11 @@ class Stepper {
   [[nodiscard]] const Word* ask(const Trigger& trigger, Model::Rank ranks);
   void find_domains(const Trigger& trigger);
   void rank_requests(const Trigger& trigger);
-  [[nodiscard]] bool has_finished(const Trigger& trigger, std::uint32_t task) const;
+  [[nodiscard]] bool has_finished(const Trigger& trigger, std::uint32_t task) const {
+    if (trigger.kind != Trigger::Kind::finish || now_.cells[task] == 0) return false;
+    const std::uint32_t value = model_.tasks()[task].values.begin + now_.cells[task] - 1;
+    return model_.behavior_of(value) == trigger.behavior;
+  }
   [[nodiscard]] Model::Rank first_protection(const Trigger& trigger) const;
   void find_wanted(const Word* solution);
   [[nodiscard]] std::uint32_t first_failure() const;
@@ -173,6 +180,7 @@ class Stepper {
   std::vector<Word> was_active_;  ///< before the event, without a behavior that has finished
   std::vector<Word> active_;      ///< in the course of the event
   std::vector<Word> wanted_;      ///< by the solution
+  std::vector<std::uint16_t> values_after_;  ///< by task, as cells
   std::vector<std::uint32_t> stopped_;
   std::vector<std::uint32_t> stopped_by_others_;
   std::vector<std::uint32_t> started_;
