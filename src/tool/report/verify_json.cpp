@@ -98,8 +98,10 @@ class Writer {
       json_.on_new_line().open('{');
       json_.write_members(
           {{"task", catalog_.name_of_task(of_task.task)}, {"order", of_task.order}});
+      const std::uint32_t incomplete = of_task.found.incomplete_size;
       if (!of_task.found.complete) {
-        json_.write("complete_order", of_task.found.incomplete_size - 1);
+        json_.write("complete_order",
+                    incomplete > 0 ? std::optional(incomplete - 1) : std::nullopt);
       }
       json_.write_list("sets", of_task.found.sets, [&](const std::vector<BehaviorId>& set) {
         json_.open('[');

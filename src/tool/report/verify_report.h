@@ -112,7 +112,8 @@ struct VerifyResult {
 ///        {"task": "LAND", "order": 2, "sets": [["B1"], ["B2", "B3"]]}]}
 ///
 /// "file" is also a member of groups that were explored for one of several property files. A search
-/// for cut sets that a limit ended has "complete_order": all sets up to this size are there.
+/// for cut sets that a limit ended has "complete_order": all sets up to this size are there, which
+/// is null if it is not even known whether the task can run without faults.
 [[nodiscard]] std::string verify_to_json(const VerifyResult& result);
 
 /// The properties as JUnit XML: a file is a test suite, a property a test case. One that is

@@ -412,9 +412,12 @@ std::string cut_sets_text(const CompiledCatalog& catalog, const TaskCutSets& of_
   const std::size_t count = found.sets.size();
   if (count > 1) text += fmt::format("  {}\n", quantity(count, "set"));
   if (!found.complete) {
-    text += style.paint(style.warning, fmt::format("  a limit ended the search: all sets of fewer "
-                                                   "than {} are there\n",
-                                                   quantity(found.incomplete_size, "behavior")));
+    const std::uint32_t size = found.incomplete_size;
+    text += style.paint(
+        style.warning, size == 0 ? std::string("  a limit ended the search at its beginning\n")
+                                 : fmt::format("  a limit ended the search: all sets of fewer than "
+                                               "{} are there\n",
+                                               quantity(size, "behavior")));
   }
   return text;
 }
