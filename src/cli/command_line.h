@@ -222,6 +222,7 @@ class Program {
 void add_lint_command(Program& program);
 void add_compile_command(Program& program);
 void add_solve_command(Program& program);
+void add_verify_command(Program& program);
 void add_graph_command(Program& program);
 void add_schema_command(Program& program);
 /// `called_as`: the path or name under which the program was called, which its scripts complete.

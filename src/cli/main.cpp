@@ -22,11 +22,13 @@ constexpr const char* description =
 constexpr const char* program_examples =
     "  cbc lint robot.yaml                 every mistake, with its reason\n"
     "  cbc solve robot.yaml mission.yaml   what the robot would do, event by event\n"
+    "  cbc verify robot.yaml               what it can do at all, and what it cannot\n"
     "  cbc graph robot.yaml -o robot.svg   a picture of the catalog\n";
 
 constexpr const char* program_footer =
     "Exit status: 0 success, 1 lint found an error, a compiled catalog is not up to date, two "
-    "catalogs differ, or an expectation failed, 2 the input or the usage is wrong, 3 an internal "
+    "catalogs differ, an expectation failed, or a property is not proved, 2 the input or the usage "
+    "is wrong, 3 an internal "
     "error.\n"
     "\n"
     "Read more: 'cbc COMMAND --help', man cbc, man cbc-catalog (how to write a catalog)";
@@ -40,6 +42,7 @@ int run(int argc, char** argv) {
   add_lint_command(program);
   add_compile_command(program);
   add_solve_command(program);
+  add_verify_command(program);
   add_graph_command(program);
   add_schema_command(program);
   add_completion_command(program, argc > 0 ? argv[0] : "");

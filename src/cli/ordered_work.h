@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -13,6 +15,13 @@
 #include <vector>
 
 namespace cbc::cli {
+
+/// The number of threads that may work at once, at least 1. `jobs`: what --jobs says.
+[[nodiscard]] inline unsigned thread_count(std::optional<std::uint64_t> jobs) {
+  constexpr std::uint64_t most_threads = 256;  // more would only cost memory
+  if (jobs) return static_cast<unsigned>(std::min(*jobs, most_threads));
+  return std::max(1U, std::thread::hardware_concurrency());
+}
 
 /// Makes items on several threads and hands them out in order. No thread runs far ahead of the
 /// items handed out, so there are never more than a few items per thread.

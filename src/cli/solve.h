@@ -76,9 +76,6 @@ struct SolveOptions {
 /// The optional members of events in JSON.
 [[nodiscard]] EventAdditions event_additions(const SolveOptions& options);
 
-/// The number of threads that may work at once; at least 1.
-[[nodiscard]] std::size_t thread_count(const SolveOptions& options);
-
 void add_sweep_options(Command& command, SweepOptions& options);
 
 /// Runs a sweep on the catalog of the path, or merges the shards there. Returns the exit status.

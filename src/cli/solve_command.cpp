@@ -3,7 +3,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -61,12 +60,6 @@ CoordinatorOptions coordinator_options(const SolveOptions& options,
 
 EventAdditions event_additions(const SolveOptions& options) {
   return {!options.explain.why.empty(), options.explain.alternatives > 0};
-}
-
-std::size_t thread_count(const SolveOptions& options) {
-  constexpr std::uint64_t most_threads = 256;  // more would only cost memory
-  if (options.jobs) return std::min(*options.jobs, most_threads);
-  return std::max(1U, std::thread::hardware_concurrency());
 }
 
 bool knows_names(const CompiledCatalog& catalog, const ExplainOptions& options) {

@@ -242,7 +242,7 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
     if (!reason.empty()) complain_of_run(mission, result, reason);
     status = std::max(status, status_of(result));
   };
-  run_all(missions, thread_count(options), report, run, after_run);
+  run_all(missions, thread_count(options.jobs), report, run, after_run);
   return status;
 }
 

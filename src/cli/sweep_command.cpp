@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "cli/command_line.h"
 #include "cli/input.h"
+#include "cli/ordered_work.h"
 #include "cli/output.h"
 #include "cli/solve.h"
 #include "report/solve_report.h"
@@ -211,9 +212,10 @@ int run_sweep(const SolveOptions& options) {
   const SequenceRange range = sequences_of(settings);
   Progress progress("sweeping", 1);
   progress.begin(std::string(catalog->file));
-  SweepOutcome outcome = sweep(*catalog, settings, thread_count(options), [&](std::uint64_t done) {
-    progress.show(fmt::format(" ({} %)", done * 100 / (range.end - range.first)));
-  });
+  SweepOutcome outcome =
+      sweep(*catalog, settings, thread_count(options.jobs), [&](std::uint64_t done) {
+        progress.show(fmt::format(" ({} %)", done * 100 / (range.end - range.first)));
+      });
   progress.clear();
   if (outcome.failure) return report_failure(*outcome.failure, settings);
   return report(std::move(outcome.result), options);

@@ -32,6 +32,8 @@ class Relations {
       check_together(report);
     } else if (schema == "cbc.situation/1") {
       check_situation(report);
+    } else if (schema == "cbc.verify/1") {
+      check_verify(report);
     } else {
       faults_.push_back("the schema is '" + schema + "'");
     }
@@ -162,6 +164,45 @@ class Relations {
              "the diagnostics of " + where + " are not in the order of their places");
       expect(end >= begin, "a diagnostic of " + where + " ends before it begins");
       last = begin;
+    }
+  }
+
+  void check_verify(const Json& report) {
+    for (const Json& exploration : report.at("groups")) check_exploration(exploration);
+    if (report.at("cut_sets").is_null()) return;
+    for (const Json& of_task : report.at("cut_sets")) {
+      std::size_t size = 0;
+      for (const Json& set : of_task.at("sets")) {
+        expect(set.size() >= size && of_task.at("order") >= set.size(),
+               "the cut sets are not ordered by size, up to their order");
+        size = set.size();
+      }
+    }
+  }
+
+  void check_exploration(const Json& exploration) {
+    const Json& tasks = exploration.at("tasks");
+    const Json& runs = exploration.at("runs");
+    const bool is_complete = exploration.at("complete");
+    const std::uint64_t depth = exploration.at("depth");
+    const auto check_depths = [&](const Json& depths, const std::string& what) {
+      for (const auto& [name, moves] : depths.items()) {
+        expect(!is_complete || moves <= depth, what + " is deeper than all states: " + name);
+      }
+    };
+    check_depths(runs, "a run");
+    check_depths(exploration.at("active"), "an active behavior");
+    check_depths(exploration.at("start_refused"), "a refused start");
+    for (const auto& [name, moves] : runs.items()) {
+      expect(std::find(tasks.begin(), tasks.end(), name) != tasks.end(),
+             "a task runs that is none of the group: " + name);
+    }
+    for (const Json& pair : exploration.at("together")) {
+      const std::uint64_t moves = pair.at(2);
+      for (const std::size_t place : {std::size_t{0}, std::size_t{1}}) {
+        expect(runs.at(pair.at(place).get<std::string>()) <= moves,
+               "a task runs together before it runs");
+      }
     }
   }
 

@@ -146,6 +146,7 @@ const least = {
   state: 40,
   sweep: 10,
   together: 3,
+  verify: 15,
 };
 for (const name of written) {
   const found = documents.filter((item) => item.schema === name).length;

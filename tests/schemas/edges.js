@@ -167,6 +167,7 @@ const catalogs = {
 
 const scripts = {
   good: [
+    event('start: ~, at: 5'),
     '[]',
     'events: []',
     'events: []\nx-note: 1\ncatalog: ~\nreactive_delay:\nsituation: ~',
@@ -215,7 +216,6 @@ const scripts = {
     event(''),
     event('x-why: because'),
     event('start: ~'),
-    event('start: ~, at: 5'),
     event('start: ""'),
     event('start: [HOVER]'),
     event('stat: HOVER'),

@@ -52,6 +52,11 @@ const attributeOf = (name) => ({changes}) => {
   const attributes = changes.flatMap((change) => change.attributes);
   return attributes.find((attribute) => attribute.name === name);
 };
+const propertyWhere =
+  (result, kind) =>
+  ({properties}) =>
+    properties.find((item) => item.result === result && (!kind || item.kind === kind));
+const cutSets = (report) => report.cut_sets && report.cut_sets[0];
 const edgeOf = (kind) => (graph) => graph.edges.find((item) => item.kind === kind);
 const finding = ({files}) => files[0].diagnostics[0];
 const summary = ({files}) => files[0].summary;
@@ -190,6 +195,22 @@ const lies = {
     ['a number that did not occur', histogram, (numbers) => numbers.push([9999, 0])],
     ['a histogram of single numbers', histogram, (numbers) => numbers.push([9999])],
     ['a histogram of triples', histogram, (numbers) => numbers.push([9999, 1, 1])],
+  ],
+
+  verify: [
+    ['an undecided property with a script', propertyWhere('undecided'), {length: 1, script: ''}],
+    ['a violated property without a script', propertyWhere('violated', 'never'), {script: null}],
+    ['a witness without a length', propertyWhere('proved', 'reachable'), {length: null}],
+    ['a proved property with a script', propertyWhere('proved', 'can_start'), {length: 1, script: ''}],
+    ['a refused start without reasons', propertyWhere('violated', 'can_start'), {conflict: []}],
+    ['a property in line 0', ({properties}) => properties[0], {line: 0}],
+    ['an exploration without states', group, {states: 0}],
+    ['one group explored together', group, {groups: [0]}],
+    ['a pair of three tasks', of(group, (item) => item.together[0]), (pair) => pair.push('A')],
+    ['a set of the same behavior twice', cutSets, ({sets}) => sets.push(['A', 'A'])],
+    ['a set of cut sets twice', cutSets, ({sets}) => sets.push(sets[0])],
+    ['sets of no behavior', cutSets, {order: 0}],
+    ['no task with cut sets', whole, {cut_sets: []}],
   ],
 
   state: [

@@ -17,6 +17,7 @@ const schemaOf = {
   'cbc.state/1': 'state',
   'cbc.sweep/1': 'sweep',
   'cbc.together/1': 'together',
+  'cbc.verify/1': 'verify',
 };
 
 /** A text that names its schema at its beginning, or nothing if it does not. */
@@ -65,6 +66,15 @@ class Runs {
     yield* this.labelled('graph', catalog, '--format', 'json', '--view', 'together');
     yield* this.labelled('lint', catalog, '--format', 'json', '--summary');
     yield* this.labelled('graph', catalog, '--format', 'json', '--view', 'situation');
+  }
+
+  *verify(catalog) {
+    const limits = ['--max-states', '3000', '--format', 'json'];
+    yield* this.labelled('verify', catalog, ...limits);
+    const properties = catalog.replace(/yaml$/, 'properties.yaml');
+    if (fs.existsSync(path.join(this.root, properties))) {
+      yield* this.labelled('verify', properties, ...limits);
+    }
   }
 
   /** A state of a mission, and what the catalog has in common with another one. */
@@ -131,6 +141,7 @@ function* textsOfCatalog(runs, file) {
       yield* runs.marks(file, script);
     }
   }
+  if (file.startsWith('catalogs/')) yield* runs.verify(file);
   if (swept.has(file)) {
     yield* runs.sweep(file);
     yield* runs.graph(file);

@@ -2,7 +2,16 @@
 'use strict';
 
 /** Objects whose members have the names of tasks, behaviors or situation variables. */
-const mapsByName = new Set(['active', 'queue', 'requests', 'running', 'situation', 'variables']);
+const mapsByName = new Set([
+  'active',
+  'queue',
+  'requests',
+  'running',
+  'runs',
+  'situation',
+  'start_refused',
+  'variables',
+]);
 
 /** Texts of which there are few. */
 const words = new Set([
@@ -13,6 +22,7 @@ const words = new Set([
   'op',
   'origin',
   'outcome',
+  'result',
   'rule',
   'schema',
   'severity',
@@ -68,8 +78,20 @@ function isOptional(object, name) {
   if (name === 'situation') return object.kind === 'behavior' || 'event' in object;
   if (name === 'variables') return !('groups' in object) && !('unconditional' in object);
   if (name === 'behavior') return object.kind === 'performance';
+  if (name === 'file' || name === 'groups') return 'group' in object; // of an exploration
   if (name === 'error') return 'events' in object; // of a run; not of a line
-  const others = ['alternatives', 'parameters', 'priority', 'due', 'state', 'stats', 'timeouts', 'waiting', 'why'];
+  const others = [
+    'alternatives',
+    'complete_order',
+    'due',
+    'parameters',
+    'priority',
+    'state',
+    'stats',
+    'timeouts',
+    'waiting',
+    'why',
+  ];
   return others.includes(name);
 }
 

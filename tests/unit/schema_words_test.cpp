@@ -19,6 +19,7 @@
 #include "explain/reasons.h"
 #include "lint/controls.h"
 #include "lint/together.h"
+#include "report/verify_report.h"
 #include "script/runner.h"
 #include "script/script.h"
 #include "support/read_file.h"
@@ -132,6 +133,13 @@ TEST(SchemaWords, OfSweeps) {
             names_up_to(SweepKind::lost));
   // That a behavior finished is a reason of no rejection.
   EXPECT_EQ(words_in_list(sweep, "/$defs/reason/oneOf", "kind"), names_up_to(Reason::Kind::faulty));
+}
+
+TEST(SchemaWords, OfVerifications) {
+  const Json verify = schema("verify");
+  EXPECT_EQ(words_at(verify, "/$defs/property/properties/kind"),
+            names_up_to(Property::Kind::reachable));
+  EXPECT_EQ(words_at(verify, "/$defs/result"), names_up_to(Verdict::Result::undecided));
 }
 
 TEST(SchemaWords, OfLint) {

@@ -1,88 +1,21 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 
 #include <fmt/format.h>
 
-#include "base/text.h"
+#include "report/junit_parts.h"
 #include "report/lint_report.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
 
 namespace cbc {
-namespace {
 
-/// As a character reference: parsers turn a plain line end in an attribute into a blank.
-constexpr std::string_view line_end = "&#10;";
-
-std::string escape(std::string_view character, char32_t code) {
-  switch (code) {
-    case '&':
-      return "&amp;";
-    case '<':
-      return "&lt;";
-    case '>':
-      return "&gt;";
-    case '"':
-      return "&quot;";
-    case '\n':
-      return std::string(line_end);
-    case 0xFFFE:
-      return "\\ufffe";
-    case 0xFFFF:
-      return "\\uffff";
-    default:
-      return printable(character);
-  }
-}
-
-}  // namespace
-
-std::string xml_text(std::string_view text) {
-  std::string escaped;
-  for (std::size_t offset = 0; offset < text.size();) {
-    const utf8::Decoded decoded = utf8::decode(text, offset);
-    escaped += escape(text.substr(offset, decoded.bytes), decoded.character);
-    offset += decoded.bytes;
-  }
-  return escaped;
-}
-
-namespace {
-
-/// A problem of a test case: failure or error.
-std::string problem(std::string_view element, std::string_view type, const std::string& message,
-                    const std::string& details) {
-  return fmt::format(R"(<{0} type="{1}" message="{2}">{3}</{0}>)", element, type, xml_text(message),
-                     details);
-}
-
-std::string open_suite(const std::string& file, std::uint64_t tests, std::uint64_t failures,
-                       std::uint64_t errors, std::uint64_t skipped) {
-  const std::string name = xml_text(file);
-  return fmt::format(
-      "<testsuite name=\"{0}\" tests=\"{1}\" failures=\"{2}\" errors=\"{3}\" skipped=\"{4}\" "
-      "file=\"{0}\">\n",
-      name, tests, failures, errors, skipped);
-}
-
-std::string broken_case(const std::string& name, const std::string& file,
-                        const std::string& error) {
-  return fmt::format("<testcase name=\"{}\" classname=\"{}\">\n{}\n</testcase>\n", name,
-                     xml_text(file), error);
-}
-
-std::string describe_finding(const Diagnostic& finding) {
-  return fmt::format("{}:{}:{}: {}", finding.file, finding.range.begin.line,
-                     finding.range.begin.column, finding.message);
-}
-
-}  // namespace
+constexpr std::string_view junit_command = "cbc solve";
 
 JunitReport::JunitReport(std::FILE* out, bool is_part) : out_(out) {
   if (is_part) return;
-  fmt::print(out_, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"cbc solve\">\n");
+  fmt::print(out_, "{}", open_junit(junit_command));
 }
 
 void JunitReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
@@ -118,9 +51,9 @@ void JunitReport::end_run(const RunResult& result, const std::string& error) {
   if (!error.empty()) {
     fmt::print(out_, "{}",
                broken_case("runs to its end", script_->file,
-                           problem("error", "run", error, xml_text(error))));
+                           junit_problem("error", "run", error, xml_text(error))));
   }
-  fmt::print(out_, "</testsuite>\n");
+  fmt::print(out_, "{}", close_suite());
 }
 
 /// Expectations are checked in the order of the script, so if a run ends early, the first ones are
@@ -139,7 +72,7 @@ void JunitReport::write_cases(const RunResult& result) const {
     --to_come;
     if (failed != failed_.end() && failed->step == &step) {
       fmt::print(out_, ">\n{}\n</testcase>\n",
-                 problem("failure", "expectation", failed->message, failed->details));
+                 junit_problem("failure", "expectation", failed->message, failed->details));
       ++failed;
     } else {
       fmt::print(out_, "/>\n");
@@ -147,7 +80,7 @@ void JunitReport::write_cases(const RunResult& result) const {
   }
 }
 
-void JunitReport::end() { fmt::print(out_, "</testsuites>\n"); }
+void JunitReport::end() { fmt::print(out_, "{}", close_junit()); }
 
 std::unique_ptr<SolveReport> JunitReport::make_part(std::FILE* out) const {
   return std::unique_ptr<SolveReport>(new JunitReport(out, true));
@@ -158,25 +91,7 @@ void JunitReport::add_part(std::string_view text, const RunResult& /*result*/) {
 }
 
 void JunitReport::report_unreadable(std::FILE* out, const std::vector<Diagnostic>& findings) {
-  const auto write_suite = [out](const std::string& file, const std::string& message,
-                                 const std::string& details) {
-    fmt::print(out, "{}{}</testsuite>\n", open_suite(file, 1, 0, 1, 0),
-               broken_case("can be read", file, problem("error", "input", message, details)));
-  };
-  JunitReport report(out);
-  std::map<std::string, std::vector<const Diagnostic*>> by_file;
-  for (const Diagnostic& finding : findings) {
-    if (finding.severity == Severity::error) by_file[finding.file].push_back(&finding);
-  }
-  if (by_file.empty()) {
-    write_suite("<input>", "the input cannot be read; standard error has the reason", "");
-  }
-  for (const auto& [file, errors] : by_file) {
-    std::string details;
-    for (const Diagnostic* error : errors) details += xml_text(describe_finding(*error)) + "\n";
-    write_suite(file, errors.front()->message, details);
-  }
-  report.end();
+  fmt::print(out, "{}", junit_of_unreadable(junit_command, findings));
 }
 
 void GithubReport::begin_run(const CompiledCatalog& catalog, const Script& script) {

@@ -117,17 +117,26 @@ void BreadthFirst::insert(const Successors& successors) {
 
 bool BreadthFirst::may_go_on() {
   const ExplorationLimits& limits = options_.limits;
-  if (limits.max_states > 0 && store_.size() >= limits.max_states) return false;
-  if (store_.size() >= StateStore::most_states - batch_size * 64) return false;
+  const auto end_by = [this](ExplorationEnd end) {
+    end_ = end;
+    return false;
+  };
+  if (limits.max_states > 0 && store_.size() >= limits.max_states) {
+    return end_by(ExplorationEnd::max_states);
+  }
+  if (store_.size() >= StateStore::most_states - batch_size * 64) {
+    return end_by(ExplorationEnd::too_many);
+  }
   // With as many new states as a batch usually finds.
   constexpr std::uint64_t room = std::uint64_t{batch_size} * 8;
   if (limits.max_memory > 0 && store_.bytes_for(store_.size() + room) > limits.max_memory) {
-    return false;
+    return end_by(ExplorationEnd::max_memory);
   }
-  if (deadline_ > 0 && seconds_now() >= deadline_) return false;
+  if (deadline_ > 0 && seconds_now() >= deadline_) return end_by(ExplorationEnd::time_limit);
   if (!options_.on_progress) return true;
   return options_.on_progress({store_.size(), transitions_, store_.size() - expanded_,
-                               static_cast<std::uint32_t>(level_begin_.size() - 1)});
+                               static_cast<std::uint32_t>(level_begin_.size() - 1)}) ||
+         end_by(ExplorationEnd::stopped);
 }
 
 std::uint32_t BreadthFirst::depth_of(StateStore::Number number) const {

@@ -65,6 +65,8 @@ class BreadthFirst {
   void run(const std::vector<std::unique_ptr<Expander>>& expanders);
 
   [[nodiscard]] bool is_complete() const { return expanded_ == store_.size(); }
+  /// What ended it; means something only if it is not complete.
+  [[nodiscard]] ExplorationEnd end() const { return end_; }
   /// The number of states that were expanded: those with lower numbers.
   [[nodiscard]] StateStore::Number expanded() const { return expanded_; }
   [[nodiscard]] std::uint64_t transitions() const { return transitions_; }
@@ -91,6 +93,7 @@ class BreadthFirst {
   StateStore::Number expanded_ = 0;
   std::uint64_t transitions_ = 0;
   double deadline_ = 0;
+  ExplorationEnd end_ = ExplorationEnd::stopped;
 };
 
 }  // namespace cbc

@@ -47,6 +47,15 @@ struct ExplorationLimits {
   double seconds = 0;
 };
 
+/// What ended an exploration before its end.
+enum class ExplorationEnd : std::uint8_t {
+  max_states,
+  max_memory,
+  time_limit,
+  too_many,  ///< there are no numbers left for states
+  stopped    ///< by on_progress
+};
+
 struct ExplorationProgress {
   std::uint64_t states = 0;
   std::uint64_t transitions = 0;
@@ -80,6 +89,7 @@ struct Verdict {
 struct Exploration {
   std::vector<std::uint32_t> groups;  ///< ascending
   bool complete = false;              ///< false: a limit ended it
+  std::optional<ExplorationEnd> end;  ///< which one; if not complete
   std::uint64_t states = 0;
   std::uint64_t transitions = 0;
   /// The length of the longest shortest path. Not complete: every state up to this depth was

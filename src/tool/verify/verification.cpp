@@ -145,14 +145,24 @@ std::string describe(const CompiledCatalog& catalog, const Property& property) {
   return text;
 }
 
-Verification verify_groups(const CompiledCatalog& catalog, const VerificationOptions& options) {
-  Verification result;
-  const Assumptions assumptions = default_assumptions(catalog);
+namespace {
+
+std::vector<Exploration> explore_groups(const CompiledCatalog& catalog,
+                                        const Assumptions& assumptions,
+                                        const VerificationOptions& options) {
+  std::vector<Exploration> explorations;
   for (std::uint32_t group = 0; group < catalog.group_count(); ++group) {
     const std::vector<std::uint32_t> groups{group};
-    result.explorations.push_back(
-        explore(catalog, groups, assumptions, {}, options_for(groups, options)));
+    explorations.push_back(explore(catalog, groups, assumptions, {}, options_for(groups, options)));
   }
+  return explorations;
+}
+
+}  // namespace
+
+Verification verify_groups(const CompiledCatalog& catalog, const VerificationOptions& options) {
+  Verification result;
+  result.explorations = explore_groups(catalog, default_assumptions(catalog), options);
   return result;
 }
 
@@ -160,6 +170,10 @@ Verification verify_properties(const CompiledCatalog& catalog, const PropertyFil
                                const VerificationOptions& options) {
   Verification result;
   result.file = &file;
+  if (file.properties.empty()) {
+    result.explorations = explore_groups(catalog, file.assumptions, options);
+    return result;
+  }
   result.answers.resize(file.properties.size());
   std::map<std::vector<std::uint32_t>, std::vector<std::size_t>> by_groups;
   for (std::size_t place = 0; place < file.properties.size(); ++place) {

@@ -46,7 +46,8 @@ struct VerificationOptions {
                                          const VerificationOptions& options);
 
 /// Answers the properties of a file. Properties about the same groups are answered by the same
-/// exploration.
+/// exploration. Without properties each group is explored by itself under the assumptions of the
+/// file.
 [[nodiscard]] Verification verify_properties(const CompiledCatalog& catalog,
                                              const PropertyFile& file,
                                              const VerificationOptions& options);

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/input.h"
+#include "compiled/compiled_catalog.h"
+#include "verify/properties.h"
+
+namespace cbc::cli {
+
+/// The options of `cbc verify`.
+struct VerifyOptions {
+  std::vector<std::string> paths;
+  std::string format = "text";
+  std::string output = "-";
+  std::optional<std::string> scripts;
+  std::optional<std::string> html;
+  std::optional<std::uint64_t> jobs;
+  std::uint64_t max_states = 0;
+  std::string max_memory;
+  std::string time_limit;
+  std::vector<std::string> cut_sets;  ///< names of tasks
+  std::uint32_t order = 2;
+  std::vector<std::string> situation;  ///< KEY=VALUE
+  std::optional<std::string> open_psa;
+};
+
+/// A size of memory, as "512M", in bytes; empty if the text is none.
+[[nodiscard]] std::optional<std::uint64_t> parse_memory(const std::string& text);
+
+/// What a command line asks about, checked before anything is explored.
+struct VerifyQuestions {
+  std::shared_ptr<const CompiledCatalog> catalog;
+  std::optional<std::string> named_catalog;  ///< path of the catalog that the property files name
+  std::vector<std::unique_ptr<const PropertyFile>> files;
+};
+
+/// Reads the files of a command line. Findings and other problems go to standard error.
+class QuestionLoader {
+ public:
+  /// `paths`: a catalog, which may be missing if the property files name theirs, then property
+  /// files; "-" is standard input. Empty if anything is wrong.
+  [[nodiscard]] std::optional<VerifyQuestions> load(const std::vector<std::string>& paths);
+
+  /// The findings about the files.
+  [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }
+
+ private:
+  void add_first(const std::string& path);
+  void add_path(const std::string& path);
+  void add_properties(const std::string& path, const yaml::Document& document);
+  [[nodiscard]] bool find_catalog(const std::string& path, const yaml::Document& document);
+  void refuse(const std::string& path, const char* what);
+
+  InputFiles files_;
+  CatalogLoader catalogs_{files_};
+  VerifyQuestions questions_;
+  bool is_given_ = false;  ///< the catalog, on the command line
+  bool has_failed_ = false;
+};
+
+/// Answers what the command line asks, and writes the report. Returns the exit status.
+[[nodiscard]] int verify(const VerifyOptions& options);
+
+}  // namespace cbc::cli

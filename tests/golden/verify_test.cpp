@@ -1,0 +1,192 @@
+// `cbc verify` from outside: the files that it writes, what must not depend on the machine, and the
+// properties of the published catalogs.
+#include <filesystem>
+#include <set>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "golden/process.h"
+#include "support/catalog_files.h"
+#include "support/scratch_folder.h"
+
+namespace cbc::golden {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+class Verify : public testing::Test {
+ protected:
+  static Result verify(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "verify");
+    return run({arguments, CBC_SOURCE_DIR});
+  }
+
+  const std::string catalog = "tests/golden/cases/verify_groups/catalog.yaml";
+  const std::string properties = "tests/golden/cases/verify_properties/robot.properties.yaml";
+  test::ScratchFolder scratch;
+};
+
+TEST_F(Verify, WritesScriptsThatSolveRepeats) {
+  const std::string folder = scratch / "new/scripts";
+  const Result result = verify({properties, "--scripts", folder});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.err, "");
+  Names names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.insert(entry.path().filename().string());
+    const Result solved = run({{"solve", catalog, entry.path().string()}, CBC_SOURCE_DIR});
+    EXPECT_EQ(solved.status, 0) << solved.out << solved.err;
+    EXPECT_NE(solved.out.find("expectations: 1 passed, 0 failed"), std::string::npos);
+  }
+  EXPECT_EQ(names,
+            (Names{"robot.13.mission.yaml", "robot.14.mission.yaml", "robot.16.mission.yaml",
+                   "robot.18.mission.yaml", "robot.5.mission.yaml", "robot.9.mission.yaml"}));
+  EXPECT_NE(result.out.find("violated after 2 events; see " + folder + "/robot.5.mission.yaml\n"),
+            std::string::npos);
+}
+
+TEST_F(Verify, NamesScriptsInJson) {
+  const Result result = verify({properties, "--scripts", scratch.path(), "--format", "json"});
+  const nlohmann::json report = nlohmann::json::parse(result.out);
+  EXPECT_EQ(report["properties"][0]["script"], scratch / "robot.5.mission.yaml");
+  EXPECT_TRUE(report["properties"][1]["script"].is_null());
+}
+
+TEST_F(Verify, GivesEachScriptANameOfItsOwn) {
+  fs::create_directory(scratch / "a");
+  scratch.write("a/x.yaml",
+                "properties: [{reachable: {running: [PING]}}, "
+                "{reachable: {running: [LAND]}}]\n");
+  scratch.write("x.properties.yaml", "properties: [{reachable: {running: [PING]}}]\n");
+  const Result result = verify({catalog, scratch / "a/x.yaml", scratch / "x.properties.yaml",
+                                "--scripts", scratch / "scripts"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  Names names;
+  for (const auto& entry : fs::directory_iterator(scratch / "scripts")) {
+    names.insert(entry.path().filename().string());
+  }
+  EXPECT_EQ(names, (Names{"x.1.mission.yaml", "x.1-2.mission.yaml", "x.1-3.mission.yaml"}));
+}
+
+TEST_F(Verify, DrawsCounterexamplesAndWitnesses) {
+  const Result alone = verify({properties});
+  const Result result = verify({properties, "--html", scratch / "page.html"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.out, alone.out);
+  const std::string page = scratch.read("page.html");
+  EXPECT_EQ(page.rfind("<!DOCTYPE html>", 0), 0U);
+  EXPECT_NE(page.find(properties + ":5: landing is always possible"), std::string::npos);
+  EXPECT_NE(page.find(properties + ":14: dead reckoning helps out"), std::string::npos);
+  EXPECT_EQ(page.find(properties + ":7:"), std::string::npos);
+}
+
+TEST_F(Verify, DrawsAPageWithoutCounterexamples) {
+  scratch.write("x.yaml", "properties: [{can_start: PING}]\n");
+  const Result result = verify({catalog, scratch / "x.yaml", "--html", scratch / "page.html"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(scratch.read("page.html").rfind("<!DOCTYPE html>", 0), 0U);
+}
+
+TEST_F(Verify, WritesAFaultTree) {
+  const Result alone = verify({catalog, "--cut-sets", "FOLLOW_PATH"});
+  const Result result =
+      verify({catalog, "--cut-sets", "FOLLOW_PATH", "--open-psa", scratch / "tree.xml"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.out, alone.out);
+  const std::string tree = scratch.read("tree.xml");
+  EXPECT_NE(tree.find("<opsa-mef>"), std::string::npos);
+  EXPECT_NE(tree.find("CAMERA is faulty"), std::string::npos);
+  static_cast<void>(verify({catalog, "--cut-sets", "FOLLOW_PATH", "--situation", "LIGHT=dark",
+                            "--open-psa", scratch / "tree.xml"}));
+  EXPECT_EQ(scratch.read("tree.xml").find("CAMERA is faulty"), std::string::npos);
+}
+
+TEST_F(Verify, WritesItsReportToAFile) {
+  for (const char* const format : {"text", "json", "junit", "github"}) {
+    const Result shown = verify({properties, "--format", format});
+    const Result written = verify({properties, "--format", format, "-o", scratch / "report"});
+    EXPECT_EQ(written.status, shown.status);
+    EXPECT_EQ(written.out, "");
+    EXPECT_EQ(scratch.read("report"), shown.out) << format;
+  }
+}
+
+TEST_F(Verify, TakesCompiledCatalogs) {
+  const std::string compiled = scratch / "robot.cbc";
+  ASSERT_EQ(run({{"compile", catalog, "-o", compiled}, CBC_SOURCE_DIR}).status, 0);
+  EXPECT_EQ(verify({compiled}).out, verify({catalog}).out);
+  EXPECT_EQ(verify({compiled, properties}).out, verify({catalog, properties}).out);
+}
+
+TEST_F(Verify, ReportsTheSameWhateverTheJobs) {
+  const std::vector<std::vector<std::string>> calls = {
+      {properties, "--format", "json"},
+      {catalog, "--format", "json"},
+      {"catalogs/mobile-manipulator.properties.yaml", "--format", "json"},
+  };
+  for (std::vector<std::string> call : calls) {
+    call.insert(call.end(), {"--jobs", "1"});
+    const Result one = verify(call);
+    call.back() = "5";
+    EXPECT_EQ(verify(call).out, one.out);
+  }
+}
+
+/// A catalog of one group with more states than anyone waits for.
+std::string endless_catalog() {
+  constexpr int tasks = 60;
+  std::string behaviors = "behaviors:\n";
+  std::string pairs = "exclusivity_constraints:\n";
+  for (int task = 0; task < tasks; ++task) {
+    const std::string name = "T" + std::to_string(task);
+    behaviors += "- {behavior: " + name + ", task: " + name + "}\n";
+    if (task == 0) continue;
+    pairs += "- mutually_exclusive: [T" + std::to_string(task - 1) + ", " + name + "]\n";
+  }
+  return behaviors + pairs;
+}
+
+TEST_F(Verify, TellsHowFarItIsAndWhatItKnowsWhenInterrupted) {
+  scratch.write("endless.yaml", endless_catalog());
+  Result result;
+  try {
+    result =
+        run_on_terminal_until({{"verify", "endless.yaml", "--max-memory", "1G"}, scratch.path()},
+                              "\rexploring 1 of 1: group 0 (");
+  } catch (const std::system_error& error) {
+    GTEST_SKIP() << "no terminal here: " << error.what();
+  }
+  EXPECT_EQ(result.status, 1) << result.out;
+  EXPECT_NE(result.out.find("interrupted; every state up to depth"), std::string::npos);
+  EXPECT_NE(result.out.find(" moves/s)"), std::string::npos);
+}
+
+TEST_F(Verify, EndsAtTheTimeLimit) {
+  scratch.write("endless.yaml", endless_catalog());
+  const Result result = verify({scratch / "endless.yaml", "--time-limit", "0.05"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.out.find("ended by --time-limit 0.05;"), std::string::npos);
+}
+
+/// Whoever changes a published catalog finds out here whether its properties still hold.
+TEST(PublishedProperties, Hold) {
+  for (const fs::path& file : test::catalog_files(CBC_SOURCE_DIR "/catalogs")) {
+    const std::string name = "catalogs/" + file.stem().string() + ".properties.yaml";
+    const Result result = run({{"verify", name, "--format", "json"}, CBC_SOURCE_DIR});
+    EXPECT_EQ(result.status, 0) << result.out;
+    EXPECT_EQ(result.err, "") << name;
+    const nlohmann::json report = nlohmann::json::parse(result.out);
+    EXPECT_GE(report["properties"].size(), 3U) << name;
+    for (const nlohmann::json& property : report["properties"]) {
+      EXPECT_EQ(property["result"], "proved") << name << ":" << property["line"];
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cbc::golden
