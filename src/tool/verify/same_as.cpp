@@ -465,9 +465,11 @@ Assumptions common_assumptions(const CompiledCatalog& old_catalog,
   return assumptions;
 }
 
-Comparison compare_catalogs(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
-                            const Assumptions& assumptions, const VerificationOptions& options) {
-  Comparison result;
+CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
+                                   const CompiledCatalog& new_catalog,
+                                   const Assumptions& assumptions,
+                                   const VerificationOptions& options) {
+  CatalogComparison result;
   const Translation to_old(new_catalog, old_catalog);
   const Translation to_new(old_catalog, new_catalog);
   list_missing(old_catalog, to_new, result.names.only_old);
