@@ -320,11 +320,14 @@ class PairExpander final : public Expander {
       const bool is_new = new_choice != nullptr && new_.has_move(*new_choice);
       const bool is_old = old_choice != nullptr && old_.has_move(*old_choice);
       if (!is_new && !is_old) continue;
-      if (!take(new_, new_choice, new_trace_) || !take(old_, old_choice, old_trace_)) continue;
+      const bool is_situation = move.kind == Move::Kind::variable;
+      if (!take(new_, new_choice, is_situation, new_trace_) ||
+          !take(old_, old_choice, is_situation, old_trace_)) {
+        continue;
+      }
       std::uint32_t* const packed = successors.add();
-      new_choice != nullptr ? new_.pack(packed) : copy(new_, models_.new_model, packed);
-      old_choice != nullptr ? old_.pack(packed + new_words)
-                            : copy(old_, models_.old_model, packed + new_words);
+      new_.pack(packed);
+      old_.pack(packed + new_words);
       if (first_difference_ == UINT32_MAX && differ(packed, packed + new_words)) {
         first_difference_ = number;
         difference_ = move;
@@ -340,12 +343,12 @@ class PairExpander final : public Expander {
   [[nodiscard]] const Move& difference() const { return difference_; }
 
  private:
-  static bool take(Stepper& stepper, const Model::Choice* choice, MoveTrace& trace) {
+  static bool take(Stepper& stepper, const Model::Choice* choice, bool is_situation,
+                   MoveTrace& trace) {
     trace.events.clear();
-    return choice == nullptr || stepper.take(*choice);
-  }
-  static void copy(const Stepper& stepper, const Model& model, std::uint32_t* packed) {
-    model.pack(stepper.cells(), packed);
+    if (choice != nullptr) return stepper.take(*choice);
+    stepper.stay(is_situation);
+    return true;
   }
 
   [[nodiscard]] bool differ(const std::uint32_t* new_packed, const std::uint32_t* old_packed) {
@@ -364,10 +367,12 @@ class PairExpander final : public Expander {
         ours.stopped.size() != theirs.stopped.size()) {
       return true;
     }
-    const bool is_finish = ours.verb == Verb::finish;
-    const auto& new_subjects = is_finish ? models_.new_behaviors : models_.new_tasks;
-    const auto& old_subjects = is_finish ? models_.old_behaviors : models_.old_tasks;
-    if (new_subjects[ours.subject] != old_subjects[theirs.subject]) return true;
+    if (ours.verb != Verb::situation) {
+      const bool is_finish = ours.verb == Verb::finish;
+      const auto& new_subjects = is_finish ? models_.new_behaviors : models_.new_tasks;
+      const auto& old_subjects = is_finish ? models_.old_behaviors : models_.old_tasks;
+      if (new_subjects[ours.subject] != old_subjects[theirs.subject]) return true;
+    }
     for (std::size_t place = 0; place < ours.changes.size(); ++place) {
       const MoveTrace::Change& mine = ours.changes[place];
       const MoveTrace::Change& other = theirs.changes[place];
