@@ -13,8 +13,9 @@ constexpr std::size_t requests_in_word = 4;
 
 }  // namespace
 
-Decisions::Decisions(const Model& model)
+Decisions::Decisions(const Model& model, std::size_t most_bytes)
     : model_(model),
+      most_bytes_(most_bytes),
       solver_(model.catalog(), SearchOptions{}, ranks_),
       value_words_(words_for(model.value_count())),
       task_words_(words_for(model.tasks().size())),
@@ -72,7 +73,7 @@ const Word* Decisions::look_up(std::uint64_t hash, std::size_t& slot) const {
 
 /// Remembers the solution under the key. Returns the entry.
 const Word* Decisions::remember(Memory memory) {
-  if (entries_.size() * sizeof(Word) > most_bytes) forget();
+  if (entries_.size() * sizeof(Word) > most_bytes_) forget();
   const std::size_t number = entries_.size() / entry_words_;
   if ((number + 1) * 2 > slots_.size()) grow();
   const std::uint64_t hash = this->hash();

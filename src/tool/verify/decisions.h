@@ -28,7 +28,8 @@ struct Question {
 /// nothing: such an answer holds for all orders. Not for use by several threads.
 class Decisions {
  public:
-  explicit Decisions(const Model& model);
+  /// Beyond `most_bytes` of answers, all are forgotten.
+  explicit Decisions(const Model& model, std::size_t most_bytes = std::size_t{256} << 20U);
   Decisions(const Decisions&) = delete;
   Decisions& operator=(const Decisions&) = delete;
 
@@ -54,10 +55,8 @@ class Decisions {
   void grow();
   void forget();
 
-  /// Beyond this, all answers are forgotten.
-  static constexpr std::size_t most_bytes = std::size_t{256} << 20;
-
   const Model& model_;
+  const std::size_t most_bytes_;
   const std::vector<std::uint32_t> ranks_;  ///< as the values stand
   Solver solver_;
   Problem problem_;
