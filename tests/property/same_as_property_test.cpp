@@ -198,5 +198,40 @@ TEST(SameAs, ACatalogDecidesAsItself) {
   EXPECT_GE(count, 2U);
 }
 
+/// Z needs the last five of eight tasks that start on request only, and the order of its behaviors
+/// differs.
+std::string late_difference(const std::string& behaviors_of_z) {
+  std::string text = "behaviors:\n";
+  for (int i = 1; i <= 8; ++i) {
+    const std::string name = "A" + std::to_string(i);
+    text += "- {behavior: " + name + "_BY, task: " + name + "}\n";
+  }
+  for (const char letter : behaviors_of_z) {
+    text += std::string("- {behavior: Z_BY_") + letter +
+            ", task: Z, requires: [{task: A4}, {task: A5}, {task: A6}, {task: A7}, {task: A8}]}\n";
+  }
+  return text + "exclusivity_constraints:\n- mutually_exclusive: [Z, A1]\n" +
+         "- mutually_exclusive: [Z, A2]\n- mutually_exclusive: [Z, A3]\n";
+}
+
+// Thousands of states come before it, and every order of the five starts leads to one.
+TEST(SameAs, TheFirstDifferenceDoesNotDependOnTheNumberOfJobs) {
+  PairCase pair;
+  pair.old_catalog = oracle::compile_yaml(late_difference("ab")).value();
+  pair.sample.catalog = oracle::compile_yaml(late_difference("ba")).value();
+  pair.assumptions = common_assumptions(pair.old_catalog, pair.sample.catalog);
+  std::vector<Move> expected;
+  for (const std::uint32_t task : {3U, 4U, 5U, 6U, 7U, 8U}) {
+    expected.push_back({Move::Kind::start, task, 1});
+  }
+  for (const unsigned jobs : {1U, 2U, 5U}) {
+    const CatalogComparison result = compare_with(pair, jobs);
+    EXPECT_EQ(result.result, Verdict::Result::violated);
+    EXPECT_EQ(result.moves, expected);
+    EXPECT_GT(result.states, 1000U);
+    EXPECT_NO_THROW(check_witness(pair, result));
+  }
+}
+
 }  // namespace
 }  // namespace cbc::plain
