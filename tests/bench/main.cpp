@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
   cbc::bench::register_stream_benchmarks();
   cbc::bench::register_sweep_benchmarks();
   cbc::bench::register_cut_set_benchmarks();
+  cbc::bench::register_exploration_benchmarks();
   cbc::bench::register_fleet_benchmarks();
   cbc::bench::TableReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

@@ -176,6 +176,10 @@ constexpr Kind kinds[] = {
     {"start_on_request", change_start_on_request},
     {"reactive_start", change_reactive_start},
     {"execution_goal", change_goal},
+    // More often: only few of these leave a variable to one of the two catalogs.
+    {"situation", change_situation},
+    {"situation", change_situation},
+    {"situation", change_situation},
     {"situation", change_situation},
     {"initial value", change_initial_value},
     {"name", change_name},

@@ -224,7 +224,7 @@ TEST(SameAs, TheFirstDifferenceDoesNotDependOnTheNumberOfJobs) {
   for (const std::uint32_t task : {3U, 4U, 5U, 6U, 7U, 8U}) {
     expected.push_back({Move::Kind::start, task, 1});
   }
-  for (const unsigned jobs : {1U, 2U, 5U}) {
+  for (const unsigned jobs : {1U, 2U, 2U, 2U, 2U, 5U, 5U}) {
     const CatalogComparison result = compare_with(pair, jobs);
     EXPECT_EQ(result.result, Verdict::Result::violated);
     EXPECT_EQ(result.moves, expected);

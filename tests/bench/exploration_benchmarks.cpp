@@ -1,0 +1,53 @@
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/benchmarks.h"
+#include "bench/inputs.h"
+#include "verify/explore.h"
+
+namespace cbc::bench {
+namespace {
+
+/// One group, with up to so many faulty behaviors at a time.
+void register_exploration(const std::string& name, std::shared_ptr<const CompiledCatalog> catalog,
+                          std::uint32_t group, std::uint32_t faults, unsigned jobs) {
+  const auto run = [=, catalog = std::move(catalog)](benchmark::State& state) {
+    Assumptions assumptions = default_assumptions(*catalog);
+    assumptions.faults = faults;
+    ExplorationOptions options;
+    options.jobs = jobs;
+    Exploration result;
+    for ([[maybe_unused]] const auto iteration : state) {
+      result = explore(*catalog, {group}, assumptions, {}, options);
+    }
+    const auto count = [](std::uint64_t number) { return static_cast<double>(number); };
+    state.counters["states"] = count(result.states);
+    state.counters["transitions"] = benchmark::Counter(
+        count(result.transitions), benchmark::Counter::kIsIterationInvariantRate);
+    state.counters["remembered"] = count(result.decisions_remembered) /
+                                   count(result.decisions_remembered + result.decisions_computed);
+    state.counters["bytes"] = count(result.bytes) / count(result.states);
+  };
+  benchmark::RegisterBenchmark(
+      fmt::format("explore/{}/faults:{}/jobs:{}", name, faults, jobs).c_str(), run)
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime();
+}
+
+}  // namespace
+
+void register_exploration_benchmarks() {
+  const auto quadrotor = load_mission("quadrotor")->catalog;
+  const TaskId land = quadrotor->task_ids[quadrotor->find_task("LAND").value()];
+  for (const std::uint32_t faults : {1U, 2U}) {
+    for (const unsigned jobs : {1U, 2U}) {
+      register_exploration("quadrotor", quadrotor, quadrotor->tasks[land].group, faults, jobs);
+    }
+  }
+}
+
+}  // namespace cbc::bench
