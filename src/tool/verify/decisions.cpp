@@ -118,6 +118,9 @@ void Decisions::write_key(const Question& question, bool is_ordered) {
 /// few.
 void Decisions::sort_by_class() {
   const auto& classes = model_.interaction_classes();
+  // A property may ask for a start that no move makes.
+  const auto has_none = [&](std::uint16_t task) { return classes[task] == none; };
+  if (std::any_of(sorted_.begin(), sorted_.end(), has_none)) return;
   for (std::size_t end = 1; end < sorted_.size(); ++end) {
     for (std::size_t place = end;
          place > 0 && classes[sorted_[place]] < classes[sorted_[place - 1]]; --place) {

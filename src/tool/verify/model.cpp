@@ -168,7 +168,9 @@ void Model::find_interactions() {
       if (shares_minimum || meet(rivals[a], needs[b])) classes.join(a, b);
     }
   }
-  classes_ = classes.numbers();
+  const std::vector<std::uint32_t> numbers = classes.numbers();
+  classes_.assign(count, none);
+  for (const std::uint32_t task : requestable) classes_[task] = numbers[task];
 }
 
 void Model::add_variables() {

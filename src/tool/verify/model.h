@@ -129,8 +129,8 @@ class Model {
   [[nodiscard]] std::size_t value_count() const { return task_of_.size(); }
   /// Reactive tasks, by their numbers.
   [[nodiscard]] const std::vector<std::uint32_t>& reactive() const { return reactive_; }
-  /// By task: its interaction class. Two requests of equal priority in different classes decide
-  /// the same in either order.
+  /// By task: its interaction class, or none if no move can request it. Two requests of equal
+  /// priority in different classes decide the same in either order.
   ///
   /// The order of requests decides only which of them are satisfied where not all can be
   /// (docs/semantics.md, "Objectives"). Take what a task may need: the tasks that it requires,
