@@ -271,6 +271,28 @@ Result task_of_no_behavior(const CatalogOutline& catalog, Random& random) {
       {at(lines, "task-without-behavior", before.last_line + 1, column + 8, "'UNHEARD_OF'")}};
 }
 
+/// Adds a task whose name differs from that of another task in upper and lower case only.
+Result task_in_other_case(const CatalogOutline& catalog, Random& random) {
+  if (catalog.root().find("tasks") == nullptr) return std::nullopt;
+  const Task* task = pick_listed(catalog, random);
+  if (task == nullptr) return std::nullopt;
+  std::string name = task->name;
+  for (char& c : name) {
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (is_letter) c = static_cast<char>(c ^ 0x20);
+  }
+  const bool is_known = std::any_of(catalog.tasks().begin(), catalog.tasks().end(),
+                                    [&name](const Task& other) { return other.name == name; });
+  if (is_known) return std::nullopt;
+  Lines lines = catalog.lines();
+  const std::size_t column = catalog.root().find("tasks")->value.column;
+  const std::size_t line = task->entry->last_line + 1;
+  lines.insert_after(line - 1, spaces(column) + "- task: " + name);
+  return Mutation{lines.text(),
+                  {at(lines, "task-without-behavior", line, column + 8, in_quotes(name)),
+                   at(lines, "confusable-name", line, column + 8, in_quotes(name))}};
+}
+
 /// Takes the entry of a task away, so that only behaviors name it.
 Result task_not_listed(const CatalogOutline& catalog, Random& random) {
   const Field* section = catalog.root().find("tasks");
@@ -314,7 +336,7 @@ Result performed_task_misspelt(const CatalogOutline& catalog, Random& random) {
   Lines lines = catalog.lines();
   set_value(lines, field, wrong);
   std::set<std::string_view> also = changes_of_meaning;
-  also.insert({"task-without-behavior", "no-timeout-effect"});
+  also.insert({"task-without-behavior", "no-timeout-effect", "confusable-name"});
   return Mutation{lines.text(),
                   {at(lines, "implicit-task", field.line, field.value.column, in_quotes(wrong))},
                   also};
@@ -337,6 +359,7 @@ std::vector<MistakeKind> name_mistakes() {
           {"exclusion of nothing", excludes_nothing},
           {"exclusion given again", excludes_again},
           {"task of no behavior", task_of_no_behavior},
+          {"task in other case", task_in_other_case},
           {"task not listed", task_not_listed},
           {"performed task misspelt", performed_task_misspelt}};
 }

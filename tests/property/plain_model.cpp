@@ -26,11 +26,19 @@ class FirstOutcome final : public EventListener {
       outcome = record.outcome;
     }
     has_event = true;
+    if (model != nullptr) {
+      happenings->push_back(
+          happening_of(model->catalog(), record, coordinator->state(), model->tasks()));
+    }
   }
 
   std::optional<Outcome> outcome;
   bool has_fault_finish = false;
   bool has_event = false;
+  // For the happenings; null: none are wanted.
+  const PlainModel* model = nullptr;
+  const Coordinator* coordinator = nullptr;
+  std::vector<Happening>* happenings = nullptr;
 };
 
 CoordinatorOptions plain_options() {
@@ -253,10 +261,16 @@ void PlainModel::add_situations(const Snapshot& state, std::vector<Move>& moves)
   }
 }
 
-Step PlainModel::step(const Snapshot& state, const Move& move) const {
+Step PlainModel::step(const Snapshot& state, const Move& move,
+                      std::vector<Happening>* happenings) const {
   FirstOutcome listener;
   Coordinator coordinator(catalog_, plain_options(), listener);
   coordinator.resume(state);
+  if (happenings != nullptr) {
+    listener.model = this;
+    listener.coordinator = &coordinator;
+    listener.happenings = happenings;
+  }
   if (move.kind == Move::Kind::due) {
     // Nothing is due before the first set, which is due then.
     demand(coordinator.advance_to(1) == Coordinator::Status::ok, coordinator.internal_error());
@@ -278,6 +292,12 @@ Step PlainModel::step(const Snapshot& state, const Move& move) const {
     }
   }
   return step;
+}
+
+VisibleState PlainModel::visible(const Snapshot& state) const {
+  State restored(catalog_);
+  restored.restore(state);
+  return visible_part(catalog_, restored, tasks_);
 }
 
 Snapshot PlainModel::as_state(Snapshot saved) const {

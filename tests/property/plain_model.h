@@ -9,6 +9,7 @@
 #include "compiled/compiled_catalog.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/state.h"
+#include "happening.h"
 #include "verify/explore.h"
 #include "verify/properties.h"
 
@@ -47,8 +48,12 @@ class PlainModel {
   [[nodiscard]] bool is_excluded(const Snapshot& state) const;
   /// In the order in which scripts are compared.
   [[nodiscard]] std::vector<Move> moves(const Snapshot& state) const;
-  /// The move need not be one of moves(), but it must be possible.
-  [[nodiscard]] Step step(const Snapshot& state, const Move& move) const;
+  /// The move need not be one of moves(), but it must be possible. `happenings`: receives all
+  /// events, if not null.
+  [[nodiscard]] Step step(const Snapshot& state, const Move& move,
+                          std::vector<Happening>* happenings = nullptr) const;
+  /// What can be seen of a state.
+  [[nodiscard]] VisibleState visible(const Snapshot& state) const;
 
   /// Brings what any coordinator for the catalog has saved into the form of a state.
   [[nodiscard]] Snapshot as_state(Snapshot saved) const;

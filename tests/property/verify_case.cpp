@@ -18,14 +18,14 @@ std::vector<const Property*> VerifyCase::properties() const {
 VerifyCase generate_verify_case(std::uint64_t seed) {
   oracle::Random random(seed);
   static const std::vector<std::size_t> sizes = {1, 2, 3, 4, 4, 5, 5, 6, 6, 7, 7, 11};
-  oracle::Catalog catalog = oracle::generate_catalog(random, random.pick(sizes));
+  VerifyCase sample;
+  sample.source = oracle::generate_catalog(random, random.pick(sizes));
   if (random.percent(50)) {
-    for (oracle::Task& task : catalog.tasks) {
+    for (oracle::Task& task : sample.source.tasks) {
       if (task.listed && !task.start_on_request) task.reactive_start = random.percent(60);
     }
   }
-  VerifyCase sample;
-  sample.yaml = oracle::catalog_yaml(catalog, random);
+  sample.yaml = oracle::catalog_yaml(sample.source, random);
   sample.catalog = oracle::compile_yaml(sample.yaml).value();
   sample.question = generate_question(random, sample.catalog);
   return sample;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
+#include "model.h"
 #include "question_generator.h"
 #include "verify/explore.h"
 #include "verify/properties.h"
@@ -13,6 +14,7 @@ namespace cbc::plain {
 
 /// A random small catalog, and a question about it.
 struct VerifyCase {
+  oracle::Catalog source;
   std::string yaml;
   CompiledCatalog catalog;
   Question question;

@@ -126,5 +126,62 @@ TEST(Nearest, WorkIsBounded) {
   EXPECT_GT(found, 10);
 }
 
+std::string look_alike(std::string_view name, std::string_view other) {
+  LookAlikes names;
+  EXPECT_FALSE(names.add(name));
+  const auto found = names.add(other);
+  if (!found) return "-";
+  EXPECT_EQ(*found, 0U);
+  return difference_of(name, other);
+}
+
+TEST(LookAlikes, DifferInCase) {
+  EXPECT_EQ(look_alike("TAKE_OFF", "Take_Off"), "they differ only in upper and lower case");
+  EXPECT_EQ(look_alike("LÖSCHEN", "löschen"), "they differ only in upper and lower case");
+  EXPECT_EQ(look_alike("ВЕТЕР", "ветер"), "they differ only in upper and lower case");
+}
+
+TEST(LookAlikes, DifferInSeparators) {
+  EXPECT_EQ(look_alike("TAKE_OFF", "TAKE-OFF"), "they differ only in what separates the words");
+  EXPECT_EQ(look_alike("TAKE_OFF", "TAKE__OFF"), "they differ only in what separates the words");
+  EXPECT_EQ(look_alike("TAKE OFF", "take_off"),
+            "they differ only in case and in what separates the words");
+  EXPECT_EQ(look_alike("TAKE_OFF", "TAKEOFF"), "-");
+  EXPECT_EQ(look_alike("ARM_1_1", "ARM_11"), "-");
+  EXPECT_EQ(look_alike("-1", "1"), "-");
+}
+
+TEST(LookAlikes, DifferInCharacters) {
+  EXPECT_EQ(look_alike("MODE_0", "MODE_O"),
+            "character 6 is U+0030 in the one and U+004F in the other");
+  EXPECT_EQ(look_alike("AXIS_I", "AXIS_1"),
+            "character 6 is U+0049 in the one and U+0031 in the other");
+  EXPECT_EQ(look_alike("\u041DOVER", "HOVER"),
+            "character 1 is U+041D in the one and U+0048 in the other");
+  EXPECT_EQ(look_alike("\u03A4EST", "TEST"),
+            "character 1 is U+03A4 in the one and U+0054 in the other");
+  EXPECT_EQ(look_alike("ARM_L", "ARM_1"), "-");
+  EXPECT_EQ(look_alike("ARM_L", "ARM_R"), "-");
+  EXPECT_EQ(look_alike("drucken", "drücken"), "-");
+}
+
+TEST(LookAlikes, DifferInWhatCannotBeSeen) {
+  EXPECT_EQ(look_alike("HOVER", "HO\u200BVER"),
+            "character 3 is U+0056 in the one and U+200B in the other");
+  EXPECT_EQ(look_alike("HOVER", "HOVER "),
+            "character 6 is missing in the one and U+0020 in the other");
+  EXPECT_EQ(look_alike("caf\u00E9", "cafe\u0301"),
+            "character 4 is U+00E9 in the one and U+0065 in the other");
+}
+
+TEST(LookAlikes, AreFoundAmongAllNames) {
+  LookAlikes names;
+  for (const std::string_view name : {"LAND", "HOVER", "LAND", "TAKE_OFF"}) {
+    EXPECT_FALSE(names.add(name)) << name;
+  }
+  EXPECT_EQ(names.add("Hover"), 1U);
+  EXPECT_EQ(names.add("TAKE_0FF"), 3U);
+}
+
 }  // namespace
 }  // namespace cbc

@@ -89,6 +89,9 @@ TEST(SettingsFile, NamesTasksOfItsCatalogs) {
             "'FOLLOW_PATH'?\n");
   EXPECT_EQ(unknown_names("never_together: [[LAND, DOCK]]", known),
             "1:25-29 warning undefined-task: no catalog has task 'DOCK'\n");
+  // What stands beside the name cannot be meant.
+  EXPECT_EQ(unknown_names("never_together: [[LAND, LNAD]]", known),
+            "1:25-29 warning undefined-task: no catalog has task 'LNAD'\n");
   // These are the tasks of another catalog.
   EXPECT_EQ(unknown_names("never_together: [[DIVE, DOCK]]", known), "");
 }

@@ -250,6 +250,34 @@ tasks:
 )",
 };
 
+const Rule confusable_name = {
+    .name = "confusable-name",
+    .severity = Severity::warning,
+    .summary = "A name is easily taken for another one.",
+    .explanation =
+        "Two names differ only in upper and lower case, in what separates the words ('_', '-', "
+        "'.', '/' or blanks), in characters that look alike (0 and O; 1, l and I; some Cyrillic or "
+        "Greek letters and Latin ones), or in characters that cannot be seen. To the coordinator "
+        "they are different names, so it goes unnoticed where one stands in place of the other.\n\n"
+        "Tasks are compared with tasks, the parameters of one task and the values of one situation "
+        "variable with one another, and behaviors also with situation variables. A task and a "
+        "behavior are not compared; they may even have the same name.",
+    .example = R"(behaviors:
+- {behavior: FOLLOW_PATH_WITH_PID, task: FOLLOW_PATH}
+- {behavior: FOLLOW_PATH_WITH_MPC, task: Follow_Path}
+tasks:
+- task: FOLLOW_PATH
+- task: Follow_Path
+)",
+    .mending = "If both names mean the same, use one of them; otherwise rename one.",
+    .mended = R"(behaviors:
+- {behavior: FOLLOW_PATH_WITH_PID, task: FOLLOW_PATH}
+- {behavior: FOLLOW_PATH_WITH_MPC, task: FOLLOW_PATH}
+tasks:
+- task: FOLLOW_PATH
+)",
+};
+
 const Rule suspicious_suitability = {
     .name = "suspicious-suitability",
     .severity = Severity::warning,

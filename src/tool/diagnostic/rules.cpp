@@ -80,11 +80,12 @@ const Rule missing_key = {
     .summary = "A mapping lacks a required key.",
     .explanation =
         "A catalog must have 'behaviors'; a behavior its name, 'behavior', and 'task' or 'tasks'; "
-        "a task, a requirement and each task of a behavior 'task'; a parameter 'parameter'; an "
-        "exclusivity constraint 'mutually_exclusive'. A script must have 'events', unless it is "
-        "just a list of events, and an event must have a verb or a time. A property must have a "
-        "kind, such as 'can_start', and a condition at least one part; without 'properties' a "
-        "property file has nothing but assumptions, which is a note.\n\n"
+        "a task, a requirement and each task of a behavior 'task'; a parameter 'parameter'; a "
+        "situation variable 'variable'; an exclusivity constraint 'mutually_exclusive'. A script "
+        "must have 'events', unless it is just a list of events, and an event must have a verb or "
+        "a time. A property must have a kind, such as 'can_start', and a condition at least one "
+        "part; without 'properties' a property file has nothing but assumptions, which is a "
+        "note.\n\n"
         "A key with a null value counts as absent. A key that resembles the missing one is taken "
         "in its place, so that the rest can be checked; the message then names both. Since a "
         "missing value cannot be guessed, such a file is neither compiled nor solved.",

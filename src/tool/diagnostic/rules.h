@@ -46,6 +46,7 @@ struct Rule {
   RULE(blocked_reactive)         \
   RULE(can_run_together)         \
   RULE(conflicting_requirements) \
+  RULE(confusable_name)          \
   RULE(dead_behavior)            \
   RULE(dead_task)                \
   RULE(deprecated_key)           \

@@ -338,7 +338,9 @@ void check_never_together_names(const std::vector<NeverTogether>& lists,
     const bool has_known = std::any_of(list.tasks.begin(), list.tasks.end(), is_known);
     for (std::size_t i = 0; i < list.tasks.size(); ++i) {
       if (is_known(list.tasks[i])) continue;
-      const auto meant = suggestions.nearest(list.tasks[i]);
+      const auto meant = suggestions.nearest(list.tasks[i], [&list](std::string_view other) {
+        return std::find(list.tasks.begin(), list.tasks.end(), other) != list.tasks.end();
+      });
       if (!meant && !has_known) continue;
       reporter.report_as({meant ? Severity::error : Severity::warning}, rule::undefined_task,
                          list.ranges[i],

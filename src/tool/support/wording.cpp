@@ -1,7 +1,9 @@
 #include "support/wording.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -247,6 +249,152 @@ std::optional<std::string_view> nearest(std::string_view name,
 
 std::string did_you_mean(std::optional<std::string_view> suggestion) {
   return suggestion ? "; did you mean " + quote(*suggestion) + "?" : std::string();
+}
+
+namespace {
+
+/// Spaces and dashes are blanks and hyphens; full-width forms are those of ASCII.
+char32_t to_plain(char32_t c) {
+  if (c >= 0xFF01 && c <= 0xFF5E) return c - 0xFF01 + U'!';
+  if ((c >= 0x2010 && c <= 0x2015) || c == 0x2212) return U'-';
+  if (c == 0x00A0 || (c >= 0x2000 && c <= 0x200A) || c == 0x202F || c == 0x3000) return U' ';
+  return c;
+}
+
+bool is_invisible(char32_t c) {
+  return c == 0x00AD || c == 0x180E || (c >= 0x200B && c <= 0x200F) ||
+         (c >= 0x202A && c <= 0x202E) || (c >= 0x2060 && c <= 0x2064) || c == 0xFEFF;
+}
+
+bool is_separator(char32_t c) { return c < 0x80 && joins_words(static_cast<char>(c)); }
+
+/// The letter that a letter and a combining accent stand for, or 0.
+char32_t compose(char32_t letter, char32_t accent) {
+  struct Accent {
+    char32_t mark;
+    std::u32string_view letters;
+    std::u32string_view composed;
+  };
+  static constexpr std::array<Accent, 7> accents{{
+      {0x0300, U"AEIOUaeiou", U"ÀÈÌÒÙàèìòù"},
+      {0x0301, U"AEIOUYaeiouy", U"ÁÉÍÓÚÝáéíóúý"},
+      {0x0302, U"AEIOUaeiou", U"ÂÊÎÔÛâêîôû"},
+      {0x0303, U"ANOano", U"ÃÑÕãñõ"},
+      {0x0308, U"AEIOUaeiouy", U"ÄËÏÖÜäëïöüÿ"},
+      {0x030A, U"Aa", U"Åå"},
+      {0x0327, U"Cc", U"Çç"},
+  }};
+  for (const Accent& known : accents) {
+    if (known.mark != accent) continue;
+    const std::size_t place = known.letters.find(letter);
+    if (place != std::u32string_view::npos) return known.composed[place];
+  }
+  return 0;
+}
+
+char32_t as_it_is(char32_t c) { return c; }
+
+char32_t to_small(char32_t c) {
+  const bool is_latin = (c >= U'A' && c <= U'Z') || (c >= 0xC0 && c <= 0xDE && c != 0xD7);
+  const bool is_greek = c >= 0x391 && c <= 0x3A9;
+  const bool is_cyrillic = c >= 0x410 && c <= 0x42F;
+  if (is_latin || is_greek || is_cyrillic) return c + 0x20;
+  return c >= 0x400 && c <= 0x40F ? c + 0x50 : c;
+}
+
+/// The Latin letter that a character looks like.
+char32_t to_shape(char32_t c) {
+  static constexpr std::u32string_view characters =
+      U"01I|"
+      // Cyrillic
+      U"\u0410\u0412\u0415\u041A\u041C\u041D\u041E\u0420\u0421\u0422\u0423\u0425\u0406\u0408\u0405"
+      U"\u0430\u0435\u043E\u0440\u0441\u0443\u0445\u0456\u0458\u0455"
+      // Greek
+      U"\u0391\u0392\u0395\u0396\u0397\u0399\u039A\u039C\u039D\u039F\u03A1\u03A4\u03A5\u03A7\u03BF"
+      U"\u03BD";
+  static constexpr std::u32string_view shapes =
+      U"Olll"
+      U"ABEKMHOPCTYXlJS"
+      U"aeopcyxijs"
+      U"ABEZHlKMNOPTYXov";
+  static_assert(characters.size() == shapes.size());
+  const std::size_t place = characters.find(c);
+  return place == std::u32string_view::npos ? c : shapes[place];
+}
+
+/// A name as it is seen, with each character changed; four bytes for each. If `joins`, whatever
+/// separates two words is '_'.
+std::string seen(std::string_view name, char32_t (*change)(char32_t), bool joins) {
+  std::u32string text;
+  for (std::size_t offset = 0; offset < name.size();) {
+    const utf8::Decoded decoded = utf8::decode(name, offset);
+    offset += decoded.bytes;
+    const char32_t c = to_plain(decoded.character);
+    const char32_t composed = text.empty() ? 0 : compose(text.back(), c);
+    if (composed != 0) {
+      text.back() = composed;
+    } else if (!is_invisible(c) && (c != U' ' || !text.empty())) {
+      text += c;
+    }
+  }
+  while (!text.empty() && text.back() == U' ') text.pop_back();
+  std::string bytes;
+  bool follows_separator = false;
+  for (const char32_t c : text) {
+    const bool joint = joins && is_separator(c);
+    if (joint && follows_separator) continue;
+    follows_separator = joint;
+    const char32_t changed = joint ? U'_' : change(c);
+    for (unsigned shift = 0; shift < 32; shift += 8) {
+      bytes += static_cast<char>((changed >> shift) & 0xFFU);
+    }
+  }
+  return bytes;
+}
+
+/// "U+041E".
+std::string code_point(char32_t character) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  std::string text;
+  for (std::uint32_t rest = character; rest > 0 || text.size() < 4; rest >>= 4U) {
+    text.insert(text.begin(), digits[rest & 0xFU]);
+  }
+  return "U+" + text;
+}
+
+}  // namespace
+
+std::optional<std::size_t> LookAlikes::add(std::string_view name) {
+  const First added{std::string(name), count_++};
+  const First& same_case = by_case_.try_emplace(seen(name, to_small, true), added).first->second;
+  const First& same_shape = by_shape_.try_emplace(seen(name, to_shape, true), added).first->second;
+  if (same_case.name != name) return same_case.place;
+  if (same_shape.name != name) return same_shape.place;
+  return std::nullopt;
+}
+
+std::string difference_of(std::string_view name, std::string_view other) {
+  const auto are_same = [&](char32_t (*change)(char32_t), bool joins) {
+    return seen(name, change, joins) == seen(other, change, joins);
+  };
+  if (!are_same(as_it_is, false)) {
+    if (are_same(to_small, false)) return "they differ only in upper and lower case";
+    if (are_same(as_it_is, true)) return "they differ only in what separates the words";
+    if (are_same(to_small, true)) return "they differ only in case and in what separates the words";
+  }
+  std::size_t place = 0;
+  std::size_t number = 1;
+  for (; place < std::min(name.size(), other.size()); ++number) {
+    const utf8::Decoded own = utf8::decode(name, place);
+    if (own.character != utf8::decode(other, place).character) break;
+    place += own.bytes;
+  }
+  const auto shown = [place](std::string_view text) {
+    return place < text.size() ? code_point(utf8::decode(text, place).character)
+                               : std::string("missing");
+  };
+  return "character " + std::to_string(number) + " is " + shown(name) + " in the one and " +
+         shown(other) + " in the other";
 }
 
 namespace {

@@ -28,8 +28,8 @@ struct Question {
 /// nothing: such an answer holds for all orders. Not for use by several threads.
 class Decisions {
  public:
-  /// Beyond `most_bytes` all answers are forgotten.
-  Decisions(const Model& model, std::size_t most_bytes);
+  /// Beyond `most_bytes` of answers, all are forgotten.
+  explicit Decisions(const Model& model, std::size_t most_bytes = std::size_t{256} << 20U);
   Decisions(const Decisions&) = delete;
   Decisions& operator=(const Decisions&) = delete;
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -163,7 +164,8 @@ std::vector<GroupPair> join_groups(const CompiledCatalog& old_catalog,
 struct ModelPair {
   ModelPair(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
             const GroupPair& groups, const Assumptions& old_assumptions,
-            const Assumptions& new_assumptions, const Translation& to_old)
+            const Assumptions& new_assumptions, const Translation& to_old,
+            const Translation& to_new)
       : old_model(old_catalog, groups.old_groups, old_assumptions),
         new_model(new_catalog, groups.new_groups, new_assumptions) {
     for (const Model::Choice& choice : new_model.moves()) add_move(choice, to_old);
@@ -172,8 +174,9 @@ struct ModelPair {
     };
     const auto& old_moves = old_model.moves();
     if (new_model.reactive().empty() && !old_moves.empty() && is_due(old_moves.back())) {
-      moves.emplace_back(nullptr, &old_moves.back());
+      moves.push_back({nullptr, &old_moves.back(), old_moves.back().move});
     }
+    add_variables_of_old(to_new);
     // What only one model has gets a number that nothing in the other has.
     for (const auto& behavior : new_model.behaviors()) new_behaviors.push_back(behavior.id);
     for (const auto& task : new_model.tasks()) new_tasks.push_back(task.id);
@@ -196,8 +199,13 @@ struct ModelPair {
 
   Model old_model;
   Model new_model;
-  /// The same move in both; null: that one does not have it.
-  std::vector<std::pair<const Model::Choice*, const Model::Choice*>> moves;
+  /// The same move in both.
+  struct PairedMove {
+    const Model::Choice* of_new = nullptr;  ///< null: the new one does not have it
+    const Model::Choice* of_old = nullptr;  ///< null: the old one does not have it
+    Move move;                              ///< as the new catalog counts
+  };
+  std::vector<PairedMove> moves;
   // By number in the model: a number that is the same in both.
   std::vector<std::uint32_t> new_tasks;
   std::vector<std::uint32_t> old_tasks;
@@ -230,10 +238,30 @@ struct ModelPair {
     const auto& others = old_model.moves();
     const auto found = std::find_if(others.begin(), others.end(), matches);
     if (found != others.end()) {
-      moves.emplace_back(&choice, &*found);
+      moves.push_back({&choice, &*found, choice.move});
     } else if (choice.move.kind == Move::Kind::due || is_of_one(choice, to_old)) {
-      moves.emplace_back(&choice, nullptr);
+      moves.push_back({&choice, nullptr, choice.move});
     }
+  }
+
+  /// Adds the changes of variables that both catalogs have and only behaviors of the old groups
+  /// name.
+  void add_variables_of_old(const Translation& to_new) {
+    for (const Model::Choice& choice : old_model.moves()) {
+      if (choice.move.kind != Move::Kind::variable) continue;
+      const std::uint32_t old_variable = old_model.variables()[choice.subject].id;
+      const std::uint32_t variable = to_new.variables[old_variable];
+      const std::uint32_t value = to_new.values[old_variable][choice.choice];
+      if (variable == none || value == none || new_model.find_variable(variable) != none) continue;
+      moves.push_back(
+          {nullptr, &choice, {Move::Kind::variable, variable, static_cast<std::int32_t>(value)}});
+    }
+    // Those of the new groups are in order, and so are moves of one kind that is no change.
+    std::stable_sort(moves.begin(), moves.end(), [](const PairedMove& a, const PairedMove& b) {
+      if (a.move.kind != b.move.kind) return a.move.kind < b.move.kind;
+      return a.move.kind == Move::Kind::variable &&
+             std::tie(a.move.subject, a.move.choice) < std::tie(b.move.subject, b.move.choice);
+    });
   }
 
   /// Whether both catalogs have the variable and its value, but only the behaviors of the new
@@ -288,18 +316,21 @@ class PairExpander final : public Expander {
     const std::size_t new_words = models_.new_model.packed_words();
     new_.load(state);
     old_.load(state + new_words);
-    for (const auto& [new_choice, old_choice] : models_.moves) {
+    for (const auto& [new_choice, old_choice, move] : models_.moves) {
       const bool is_new = new_choice != nullptr && new_.has_move(*new_choice);
       const bool is_old = old_choice != nullptr && old_.has_move(*old_choice);
       if (!is_new && !is_old) continue;
-      if (!take(new_, new_choice, new_trace_) || !take(old_, old_choice, old_trace_)) continue;
+      const bool is_situation = move.kind == Move::Kind::variable;
+      if (!take(new_, new_choice, is_situation, new_trace_) ||
+          !take(old_, old_choice, is_situation, old_trace_)) {
+        continue;
+      }
       std::uint32_t* const packed = successors.add();
-      new_choice != nullptr ? new_.pack(packed) : copy(new_, models_.new_model, packed);
-      old_choice != nullptr ? old_.pack(packed + new_words)
-                            : copy(old_, models_.old_model, packed + new_words);
+      new_.pack(packed);
+      old_.pack(packed + new_words);
       if (first_difference_ == UINT32_MAX && differ(packed, packed + new_words)) {
         first_difference_ = number;
-        difference_ = new_choice != nullptr ? new_choice->move : old_choice->move;
+        difference_ = move;
         if (difference_.kind == Move::Kind::own) {
           difference_.choice = new_.is_denied(new_choice->subject) ? 1 : 0;
         }
@@ -312,12 +343,12 @@ class PairExpander final : public Expander {
   [[nodiscard]] const Move& difference() const { return difference_; }
 
  private:
-  static bool take(Stepper& stepper, const Model::Choice* choice, MoveTrace& trace) {
+  static bool take(Stepper& stepper, const Model::Choice* choice, bool is_situation,
+                   MoveTrace& trace) {
     trace.events.clear();
-    return choice == nullptr || stepper.take(*choice);
-  }
-  static void copy(const Stepper& stepper, const Model& model, std::uint32_t* packed) {
-    model.pack(stepper.cells(), packed);
+    if (choice != nullptr) return stepper.take(*choice);
+    stepper.stay(is_situation);
+    return true;
   }
 
   [[nodiscard]] bool differ(const std::uint32_t* new_packed, const std::uint32_t* old_packed) {
@@ -336,10 +367,12 @@ class PairExpander final : public Expander {
         ours.stopped.size() != theirs.stopped.size()) {
       return true;
     }
-    const bool is_finish = ours.verb == Verb::finish;
-    const auto& new_subjects = is_finish ? models_.new_behaviors : models_.new_tasks;
-    const auto& old_subjects = is_finish ? models_.old_behaviors : models_.old_tasks;
-    if (new_subjects[ours.subject] != old_subjects[theirs.subject]) return true;
+    if (ours.verb != Verb::situation) {
+      const bool is_finish = ours.verb == Verb::finish;
+      const auto& new_subjects = is_finish ? models_.new_behaviors : models_.new_tasks;
+      const auto& old_subjects = is_finish ? models_.old_behaviors : models_.old_tasks;
+      if (new_subjects[ours.subject] != old_subjects[theirs.subject]) return true;
+    }
     for (std::size_t place = 0; place < ours.changes.size(); ++place) {
       const MoveTrace::Change& mine = ours.changes[place];
       const MoveTrace::Change& other = theirs.changes[place];
@@ -411,7 +444,7 @@ std::vector<Move> moves_along(const ModelPair& models, const BreadthFirst& searc
     const std::uint32_t* const from = search.store().state(path[place - 1]);
     new_stepper.load(from);
     old_stepper.load(from + new_words);
-    for (const auto& [new_choice, old_choice] : models.moves) {
+    for (const auto& [new_choice, old_choice, move] : models.moves) {
       const bool is_new = new_choice != nullptr && new_stepper.has_move(*new_choice);
       const bool is_old = old_choice != nullptr && old_stepper.has_move(*old_choice);
       if (!is_new && !is_old) continue;
@@ -425,7 +458,7 @@ std::vector<Move> moves_along(const ModelPair& models, const BreadthFirst& searc
         old_stepper.pack(packed.data() + new_words);
       }
       if (!std::equal(packed.begin(), packed.end(), search.store().state(path[place]))) continue;
-      moves.push_back(new_choice != nullptr ? new_choice->move : old_choice->move);
+      moves.push_back(move);
       if (moves.back().kind == Move::Kind::own) {
         moves.back().choice = new_stepper.is_denied(new_choice->subject) ? 1 : 0;
       }
@@ -436,12 +469,14 @@ std::vector<Move> moves_along(const ModelPair& models, const BreadthFirst& searc
 }
 
 /// Whether one path comes before another: the shorter one, then the first in the order of moves.
+/// The paths are about different groups, so only variables can be in both.
 bool comes_first(const std::vector<Move>& a, const std::vector<Move>& b) {
   if (a.size() != b.size()) return a.size() < b.size();
-  return std::lexicographical_compare(
-      a.begin(), a.end(), b.begin(), b.end(), [](const Move& one, const Move& other) {
-        return std::tie(one.kind, one.subject) < std::tie(other.kind, other.subject);
-      });
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                      [](const Move& one, const Move& other) {
+                                        return std::tie(one.kind, one.subject, one.choice) <
+                                               std::tie(other.kind, other.subject, other.choice);
+                                      });
 }
 
 }  // namespace
@@ -465,9 +500,11 @@ Assumptions common_assumptions(const CompiledCatalog& old_catalog,
   return assumptions;
 }
 
-Comparison compare_catalogs(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
-                            const Assumptions& assumptions, const VerificationOptions& options) {
-  Comparison result;
+CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
+                                   const CompiledCatalog& new_catalog,
+                                   const Assumptions& assumptions,
+                                   const VerificationOptions& options) {
+  CatalogComparison result;
   const Translation to_old(new_catalog, old_catalog);
   const Translation to_new(old_catalog, new_catalog);
   list_missing(old_catalog, to_new, result.names.only_old);
@@ -478,7 +515,7 @@ Comparison compare_catalogs(const CompiledCatalog& old_catalog, const CompiledCa
   bool is_complete = true;
   for (const GroupPair& groups : join_groups(old_catalog, new_catalog, to_old)) {
     const ModelPair models(old_catalog, new_catalog, groups, old_assumptions, new_assumptions,
-                           to_old);
+                           to_old, to_new);
     const std::vector<std::uint16_t> new_first = models.new_model.first_state();
     const std::vector<std::uint16_t> old_first = models.old_model.first_state();
     if (models.new_model.is_excluded(new_first.data()) ||

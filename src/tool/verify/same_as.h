@@ -22,7 +22,7 @@ struct CatalogNames {
   std::vector<std::string> only_new;
 };
 
-struct Comparison {
+struct CatalogComparison {
   CatalogNames names;
   Verdict::Result result = Verdict::Result::undecided;
   std::uint64_t states = 0;       ///< pairs of states
@@ -42,9 +42,9 @@ struct Comparison {
 
 /// Visits the pairs of states that the same moves lead to in both catalogs. `assumptions` are about
 /// the new one; what the old one has no name for is left out.
-[[nodiscard]] Comparison compare_catalogs(const CompiledCatalog& old_catalog,
-                                          const CompiledCatalog& new_catalog,
-                                          const Assumptions& assumptions,
-                                          const VerificationOptions& options);
+[[nodiscard]] CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
+                                                 const CompiledCatalog& new_catalog,
+                                                 const Assumptions& assumptions,
+                                                 const VerificationOptions& options);
 
 }  // namespace cbc

@@ -207,6 +207,13 @@ bool Stepper::take(const Model::Choice& choice) {
   return true;
 }
 
+void Stepper::stay(bool is_situation) {
+  now_ = before_;
+  joined_set_ = 0;
+  if (is_situation) open_event(Verb::situation, Origin::script, none);
+  close_event();
+}
+
 bool Stepper::would_start(std::uint32_t task, Model::Rank ranks) {
   now_ = before_;
   MoveTrace* const trace = std::exchange(trace_, nullptr);
@@ -305,6 +312,7 @@ bool Stepper::change_situation(std::uint32_t cell, std::uint16_t value) {
   now_.cells[cell] = value;
   if (model_.is_excluded(now_.cells.data())) return false;
   derive_situation(now_);
+  open_event(Verb::situation, Origin::script, none);
   for (std::size_t group = 0; group < model_.groups().size(); ++group) {
     const BitRange behaviors = model_.groups()[group].behaviors;
     for (std::uint32_t place = behaviors.begin; place < behaviors.end; ++place) {

@@ -21,7 +21,7 @@ struct MoveTrace {
   struct Happening {
     Verb verb = Verb::start;
     Origin origin = Origin::script;
-    std::uint32_t subject = none;  ///< task of start and stop, behavior of finish
+    std::uint32_t subject = none;  ///< task of start and stop, behavior of finish; none: situation
     Outcome outcome = Outcome::unchanged;
     std::vector<Change> changes;
     std::vector<std::pair<std::uint32_t, FinishCause>> stopped;  ///< tasks
@@ -53,6 +53,9 @@ class Stepper {
   /// situation and does not exist. Of start: was_accepted() tells the outcome.
   bool take(const Model::Choice& choice);
   [[nodiscard]] bool was_accepted() const { return accepted_; }
+  /// Instead of a move: leaves the state as it is. `is_situation`: by a change of the situation
+  /// that is not about the model.
+  void stay(bool is_situation);
   /// Whether the reactive task joined the queue in the move.
   [[nodiscard]] bool has_joined(std::uint32_t reactive) const {
     return now_.cells[model_.layout().queue + reactive] == joined_set_ && joined_set_ != 0;

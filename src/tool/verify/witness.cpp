@@ -27,7 +27,9 @@ struct Timeline {
   std::vector<bool> is_due;
 };
 
-Timeline follow(const Model& model, const std::vector<Model::Choice>& path, Stepper& stepper) {
+/// `path`: null for a move that the model does not have, and that does nothing.
+Timeline follow(const Model& model, const std::vector<const Model::Choice*>& path,
+                Stepper& stepper) {
   Timeline timeline;
   timeline.first_joined.emplace_back();
   timeline.is_due.push_back(false);
@@ -42,10 +44,11 @@ Timeline follow(const Model& model, const std::vector<Model::Choice>& path, Step
       if (stepper.cells()[layout.queue + reactive] == 1) first = joined[reactive];
     }
   };
-  for (const Model::Choice& choice : path) {
+  for (const Model::Choice* const choice : path) {
     stepper.load(packed.data());
-    add_point(choice.move.kind == Move::Kind::due);
-    static_cast<void>(stepper.take(choice));
+    add_point(choice != nullptr && choice->move.kind == Move::Kind::due);
+    if (choice == nullptr) continue;
+    static_cast<void>(stepper.take(*choice));
     for (std::uint32_t reactive = 0; reactive < layout.reactive_count; ++reactive) {
       if (stepper.has_joined(reactive)) joined[reactive] = timeline.is_due.size() - 1;
     }
@@ -117,8 +120,9 @@ Schedule find_schedule(const Timeline& timeline) {
   }
 }
 
-std::vector<Model::Choice> find_choices(const Model& model, const std::vector<Move>& moves) {
-  std::vector<Model::Choice> choices;
+/// Null for moves of a variable, or of a queue, that only the other of two catalogs has.
+std::vector<const Model::Choice*> find_choices(const Model& model, const std::vector<Move>& moves) {
+  std::vector<const Model::Choice*> choices;
   for (const Move& move : moves) {
     const auto found =
         std::find_if(model.moves().begin(), model.moves().end(), [&](const auto& choice) {
@@ -126,8 +130,7 @@ std::vector<Model::Choice> find_choices(const Model& model, const std::vector<Mo
           return choice.move.kind == move.kind && choice.move.subject == move.subject &&
                  (is_own || choice.move.choice == move.choice);
         });
-    // Only the start that a property asks for may be none of the moves; it is the last.
-    if (found != model.moves().end()) choices.push_back(*found);
+    choices.push_back(found != model.moves().end() ? &*found : nullptr);
   }
   return choices;
 }

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "happening.h"
+#include "verify/explore.h"
+#include "verify/properties.h"
+
+// What compare_catalogs() is held against: two plain models in lockstep.
+
+namespace cbc::plain {
+
+struct PlainComparison {
+  bool has_error = false;    ///< the first state is excluded
+  bool is_complete = false;  ///< false: there were too many pairs, and the rest means nothing
+  bool differs = false;
+  std::vector<Move> moves;  ///< the first of the shortest whose last event differs; new numbers
+  // If nothing differs.
+  std::uint64_t states = 0;
+  std::uint64_t transitions = 0;
+  std::uint32_t depth = 0;
+};
+
+/// Visits the pairs of states breadth first, for each set of groups that names join. `assumptions`
+/// are about the new catalog. `max_states`: of each set of groups.
+[[nodiscard]] PlainComparison compare_plainly(const CompiledCatalog& old_catalog,
+                                              const CompiledCatalog& new_catalog,
+                                              const Assumptions& assumptions,
+                                              std::uint64_t max_states);
+
+/// The same for equal happenings of catalogs with other numbers: tasks and behaviors by name.
+[[nodiscard]] std::string named(const CompiledCatalog& catalog, const Happening& happening);
+
+}  // namespace cbc::plain
