@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -252,8 +253,17 @@ class Call {
                                        std::chrono::duration<double> elapsed) {
     const double rate =
         elapsed.count() > 0 ? static_cast<double>(so_far.transitions) / elapsed.count() : 0;
-    return fmt::format(" (depth {}, {} states, {} waiting, {:.0f} moves/s)", so_far.depth,
-                       so_far.states, so_far.waiting, rate);
+    return fmt::format(" (depth {}, {} states, {} waiting, {} moves/s)", so_far.depth,
+                       shorten(so_far.states), shorten(so_far.waiting),
+                       shorten(static_cast<std::uint64_t>(rate)));
+  }
+
+  /// A number in at most five characters, so that the line fits: "1234", "1234k".
+  static std::string shorten(std::uint64_t number) {
+    constexpr std::array units = {"", "k", "M", "G"};
+    std::size_t unit = 0;
+    for (; number >= 10'000 && unit + 1 < units.size(); ++unit) number /= 1000;
+    return std::to_string(number) + units.at(unit);
   }
 
   /// About a question that has no answer; empty if there is none.
