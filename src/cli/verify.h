@@ -20,6 +20,8 @@ struct VerifyOptions {
   std::optional<std::string> scripts;
   std::optional<std::string> html;
   std::optional<std::uint64_t> jobs;
+  bool reduce = false;
+  std::optional<std::string> same_as;
   std::uint64_t max_states = 0;
   std::string max_memory;
   std::string time_limit;
@@ -37,14 +39,16 @@ struct VerifyQuestions {
   std::shared_ptr<const CompiledCatalog> catalog;
   std::optional<std::string> named_catalog;  ///< path of the catalog that the property files name
   std::vector<std::unique_ptr<const PropertyFile>> files;
+  std::shared_ptr<const CompiledCatalog> old_catalog;  ///< to compare with, or null
 };
 
 /// Reads the files of a command line. Findings and other problems go to standard error.
 class QuestionLoader {
  public:
   /// `paths`: a catalog, which may be missing if the property files name theirs, then property
-  /// files; "-" is standard input. Empty if anything is wrong.
-  [[nodiscard]] std::optional<VerifyQuestions> load(const std::vector<std::string>& paths);
+  /// files; "-" is standard input. `old_catalog`: to compare with. Empty if anything is wrong.
+  [[nodiscard]] std::optional<VerifyQuestions> load(const std::vector<std::string>& paths,
+                                                    const std::optional<std::string>& old_catalog);
 
   /// The findings about the files.
   [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }

@@ -78,6 +78,7 @@ constexpr const char* verify_footer =
     "                                            'cbc solve' and as a timeline\n"
     "  cbc verify robot.properties.yaml --format junit > results.xml\n"
     "                                            for CI, a test suite per file\n"
+    "  cbc verify new.yaml --same-as old.yaml    whether both decide alike, always\n"
     "  cbc verify robot.yaml --cut-sets LAND --open-psa land.xml\n"
     "                                            a fault tree for other programs\n"
     "\n"
@@ -129,6 +130,16 @@ void add_verify_command(Program& program) {
   command.option("-j,--jobs", options->jobs, whole_number("N", 1),
                  "Explore with N threads (default: the number of processors); the output is the "
                  "same for any N");
+
+  command.flag("--reduce", options->reduce,
+               "Take states for the same that differ only in the order of requests that cannot "
+               "interact: the same verdicts and scripts, but fewer states to visit and to count");
+  command
+      .option("--same-as", options->same_as, input("OLD", ValueKind::catalog),
+              "Prove that CATALOG decides every reachable event as the catalog OLD does, or show "
+              "the shortest script whose last event differs; the assumptions of a property file "
+              "count")
+      .not_with({"--format junit", "--format github"}, "it has no place for a comparison");
 
   command.group("Limits");
   command.option("--max-states", options->max_states, whole_number("N", 1),

@@ -13,9 +13,14 @@
 
 namespace cbc::cli {
 
-std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::string>& paths) {
+std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::string>& paths,
+                                                    const std::optional<std::string>& old_catalog) {
   add_first(paths.front());
   for (std::size_t place = 1; place < paths.size(); ++place) add_path(paths[place]);
+  if (old_catalog) {
+    questions_.old_catalog = catalogs_.load(*old_catalog);
+    if (questions_.old_catalog == nullptr) has_failed_ = true;
+  }
   files_.print_findings();
   if (has_failed_) return std::nullopt;
   return std::move(questions_);

@@ -130,6 +130,7 @@ class Call {
     if (const std::string error = first_error(); !error.empty()) return complain(error);
     if (const int status = find_cut_sets(); status != exit_ok) return status;
     if (const int status = replay_scripts(); status != exit_ok) return status;
+    if (const int status = compare(); status != exit_ok) return status;
     return report();
   }
 
@@ -141,10 +142,10 @@ class Call {
         std::all_of(questions_.files.begin(), questions_.files.end(),
                     [](const auto& file) { return !file->properties.empty(); }) &&
         !questions_.files.empty();
-    const char* const needs_properties = format.needs_properties ? "--format"
-                                         : options_.scripts      ? "--scripts"
-                                         : options_.html         ? "--html"
-                                                                 : nullptr;
+    const char* const needs_properties = format.needs_properties                 ? "--format"
+                                         : options_.scripts && !options_.same_as ? "--scripts"
+                                         : options_.html                         ? "--html"
+                                                                                 : nullptr;
     if (needs_properties != nullptr && !has_properties) {
       return usage_error("verify", "{}{}{} needs property files with properties", needs_properties,
                          format.needs_properties ? " " : "",
@@ -214,11 +215,13 @@ class Call {
   }
 
   void explore() {
-    if (questions_.files.empty() && result_.wants_cut_sets) return;
+    const bool asks_otherwise = result_.wants_cut_sets || options_.same_as;
+    if (questions_.files.empty() && asks_otherwise) return;
     Progress progress("exploring", count_explorations());
     VerificationOptions of_verification;
     of_verification.limits = result_.limits;
     of_verification.jobs = thread_count(options_.jobs);
+    of_verification.reduce = options_.reduce;
     std::vector<std::uint32_t> explored;
     std::uint64_t states = 0;
     std::chrono::steady_clock::time_point begin;
@@ -241,6 +244,47 @@ class Call {
       Verification verification = verify_properties(catalog_, *file, of_verification);
       result_.parts.push_back({std::move(file), std::move(verification), {}});
     }
+  }
+
+  /// Compares with the older catalog, under the assumptions of the property file if there is one.
+  int compare() {
+    if (questions_.old_catalog == nullptr) return exit_ok;
+    const CompiledCatalog& old_catalog = *questions_.old_catalog;
+    Progress progress("comparing", 1);
+    progress.begin(std::string(old_catalog.file));
+    VerificationOptions of_comparison;
+    of_comparison.limits = result_.limits;
+    of_comparison.jobs = thread_count(options_.jobs);
+    const auto begin = std::chrono::steady_clock::now();
+    of_comparison.on_progress = [&](const std::vector<std::uint32_t>& /*groups*/,
+                                    const ExplorationProgress& so_far) {
+      progress.show(describe_progress(so_far, std::chrono::steady_clock::now() - begin));
+      return !signals_.have_come();
+    };
+    const Assumptions assumptions = result_.parts.empty()
+                                        ? common_assumptions(old_catalog, catalog_)
+                                        : result_.parts.front().file->assumptions;
+    ReportedComparison& reported = result_.same_as.emplace();
+    reported.old_catalog = questions_.old_catalog;
+    reported.comparison = compare_catalogs(old_catalog, catalog_, assumptions, of_comparison);
+    progress.clear();
+    if (reported.comparison.error) return complain(*reported.comparison.error);
+    return reported.comparison.witness ? replay_difference(reported) : exit_ok;
+  }
+
+  int replay_difference(ReportedComparison& reported) {
+    const bool is_for_people = options_.format == "text" && options_.output == "-";
+    const Style style = is_for_people ? style_for(stdout) : plain_style();
+    Witness& witness = *reported.comparison.witness;
+    witness.script.file = "difference";
+    reported.with_new = replay(catalog_, witness.script, style);
+    Script& of_old = reported.comparison.old_script;
+    of_old.file = witness.script.file;
+    reported.with_old = replay(*questions_.old_catalog, of_old, style);
+    if (!options_.scripts) return exit_ok;
+    const fs::path path = fs::path(*options_.scripts) / "difference.mission.yaml";
+    reported.script_path = path.string();
+    return write_output(*reported.script_path, witness.text);
   }
 
   static std::string name_groups(const std::vector<std::uint32_t>& groups) {
@@ -391,7 +435,7 @@ class Call {
 
 int verify(const VerifyOptions& options) {
   QuestionLoader loader;
-  std::optional<VerifyQuestions> questions = loader.load(options.paths);
+  std::optional<VerifyQuestions> questions = loader.load(options.paths, options.same_as);
   if (!questions) {
     // CI systems could take a missing report for one without failures.
     const VerifyFormat& format = *find_named(verify_formats(), options.format);

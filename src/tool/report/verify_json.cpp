@@ -30,7 +30,7 @@ class Writer {
       for (const ReportedAnswer& answer : part.answers) write_answer(part, answer);
     }
     json_.close(']');
-    json_.write("same_as", nullptr);
+    write_comparison();
     write_cut_sets();
   }
 
@@ -53,6 +53,7 @@ class Writer {
       if (explores(exploration, task)) json_.write(catalog_.name_of_task(task));
     }
     json_.close(']');
+    if (exploration.reduced) json_.write("reduced", true);
     json_.write_members({{"complete", exploration.complete},
                          {"states", exploration.states},
                          {"transitions", exploration.transitions},
@@ -86,6 +87,28 @@ class Writer {
     }
     const bool is_refused = property.kind == Property::Kind::can_start && reported.replay;
     json_.write_json("conflict", is_refused ? reported.replay->conflict : "[]");
+    json_.close('}');
+  }
+
+  void write_comparison() {
+    if (!result_.same_as) {
+      json_.write("same_as", nullptr);
+      return;
+    }
+    const ReportedComparison& reported = *result_.same_as;
+    const CatalogComparison& comparison = reported.comparison;
+    json_.open("same_as", '{');
+    json_.write_members({{"old", reported.old_catalog->file},
+                         {"result", name_of(comparison.result)},
+                         {"states", comparison.states}});
+    if (comparison.witness) {
+      json_.write("length", comparison.moves.size());
+      json_.write("script", reported.script_path.value_or(comparison.witness->text));
+    } else {
+      json_.write_members({{"length", nullptr}, {"script", nullptr}});
+    }
+    json_.write_list("only_old", comparison.names.only_old);
+    json_.write_list("only_new", comparison.names.only_new);
     json_.close('}');
   }
 

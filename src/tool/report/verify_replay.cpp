@@ -25,9 +25,11 @@ Expectation demand_of(const CompiledCatalog& catalog, const Property& property) 
 /// Writes a run in the words of `cbc solve`, and notes what led to its end.
 class ReplayListener final : public RunListener {
  public:
-  ReplayListener(const CompiledCatalog& catalog, const Answer& answer, const Style& style)
-      : catalog_(catalog), answer_(answer), text_(style, memory_.stream()) {
-    text_.begin_run(catalog, answer.witness->script);
+  /// `property`: that the script is about, or null.
+  ReplayListener(const CompiledCatalog& catalog, const Script& script, const Property* property,
+                 const Style& style)
+      : catalog_(catalog), property_(property), text_(style, memory_.stream()) {
+    text_.begin_run(catalog, script);
     story_.begin_run(catalog);
   }
 
@@ -44,7 +46,7 @@ class ReplayListener final : public RunListener {
   void on_failure(const Failure& failure) override { text_.on_failure(failure); }
   void on_end(const State& state) override {
     text_.on_end(state);
-    story_lines_ = story_.tell(demand_of(catalog_, *answer_.property));
+    if (property_ != nullptr) story_lines_ = story_.tell(demand_of(catalog_, *property_));
   }
 
   Replay take(RunResult result) && {
@@ -56,7 +58,7 @@ class ReplayListener final : public RunListener {
 
  private:
   const CompiledCatalog& catalog_;
-  const Answer& answer_;
+  const Property* const property_;
   MemoryFile memory_;
   TextReport text_;
   FailureStory story_;
@@ -64,14 +66,23 @@ class ReplayListener final : public RunListener {
   std::vector<std::string> story_lines_;
 };
 
+Replay run(const CompiledCatalog& catalog, const Script& script, const Property* property,
+           const Style& style) {
+  CoordinatorOptions options;
+  options.explain.displaced = true;
+  ReplayListener listener(catalog, script, property, style);
+  RunResult result = run_script(catalog, script, options, listener);
+  return std::move(listener).take(std::move(result));
+}
+
 }  // namespace
 
 Replay replay(const CompiledCatalog& catalog, const Answer& answer, const Style& style) {
-  CoordinatorOptions options;
-  options.explain.displaced = true;
-  ReplayListener listener(catalog, answer, style);
-  RunResult result = run_script(catalog, answer.witness->script, options, listener);
-  return std::move(listener).take(std::move(result));
+  return run(catalog, answer.witness->script, answer.property, style);
+}
+
+Replay replay(const CompiledCatalog& catalog, const Script& script, const Style& style) {
+  return run(catalog, script, nullptr, style);
 }
 
 }  // namespace cbc

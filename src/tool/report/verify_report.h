@@ -15,6 +15,7 @@
 #include "script/script.h"
 #include "verify/cut_sets.h"
 #include "verify/properties.h"
+#include "verify/same_as.h"
 #include "verify/verification.h"
 
 // The reports of `cbc verify`.
@@ -32,6 +33,9 @@ struct Replay {
 
 /// Runs the script of an answer, which has one.
 [[nodiscard]] Replay replay(const CompiledCatalog& catalog, const Answer& answer,
+                            const Style& style);
+/// Runs a script that is a witness of no property.
+[[nodiscard]] Replay replay(const CompiledCatalog& catalog, const Script& script,
                             const Style& style);
 
 /// What was found out about a property, and its script.
@@ -58,6 +62,15 @@ struct TaskCutSets {
   CutSets found;
 };
 
+/// How a catalog differs from an older one, and the script of the difference, run on both.
+struct ReportedComparison {
+  std::shared_ptr<const CompiledCatalog> old_catalog;
+  CatalogComparison comparison;
+  std::optional<Replay> with_old;
+  std::optional<Replay> with_new;
+  std::optional<std::string> script_path;  ///< of the file that has it
+};
+
 /// All that a call of `cbc verify` found out.
 struct VerifyResult {
   std::shared_ptr<const CompiledCatalog> catalog;
@@ -66,6 +79,7 @@ struct VerifyResult {
   std::vector<TaskCutSets> single_faults;
   std::vector<TaskCutSets> cut_sets;
   bool wants_cut_sets = false;
+  std::optional<ReportedComparison> same_as;
   ExplorationLimits limits;
 
   /// Whether all properties are proved, and all groups without properties explored, and no limit
@@ -107,10 +121,13 @@ struct VerifyResult {
 ///         "result": "violated",
 ///         "length": 4, "script": "…",     of a counterexample or witness: its moves, its text or
 ///         "conflict": […]}],              its path; why the start was rejected
-///      "same_as": null,
+///      "same_as": null,                   or what was found out about another catalog:
+///        {"old": "robot-1.yaml", "result": "violated", "states": 54, "length": 3, "script": "…",
+///         "only_old": ["behavior B1"], "only_new": []}
 ///      "cut_sets": [                      null: none were asked for
 ///        {"task": "LAND", "order": 2, "sets": [["B1"], ["B2", "B3"]]}]}
 ///
+/// Groups have "reduced": true if states were merged (--reduce).
 /// "file" is also a member of groups that were explored for one of several property files. A search
 /// for cut sets that a limit ended has "complete_order": all sets up to this size are there, which
 /// is null if it is not even known whether the task can run without faults.

@@ -34,7 +34,8 @@ bool VerifyResult::is_answered() const {
                                                      : is_proved(part);
                      }) &&
          std::all_of(single_faults.begin(), single_faults.end(), is_found) &&
-         std::all_of(cut_sets.begin(), cut_sets.end(), is_found);
+         std::all_of(cut_sets.begin(), cut_sets.end(), is_found) &&
+         (!same_as || same_as->comparison.result == Verdict::Result::proved);
 }
 
 std::string_view name_of(Verdict::Result result) {
@@ -158,9 +159,10 @@ class GroupText {
     text_ +=
         fmt::format("\n{}group {}{}\n", style_.strong, exploration.groups.front(), style_.reset);
     add_row("tasks", names_of(tasks));
-    text_ += fmt::format("  {:<{}}{}, {}, depth {}\n", "explored", label_width,
+    text_ += fmt::format("  {:<{}}{}, {}, depth {}{}\n", "explored", label_width,
                          quantity(exploration.states, "state"),
-                         quantity(exploration.transitions, "transition"), exploration.depth);
+                         quantity(exploration.transitions, "transition"), exploration.depth,
+                         exploration.reduced ? " (reduced)" : "");
     if (!exploration.complete) {
       text_ +=
           style_.paint(style_.warning, wrap(fmt::format("  {:<{}}", "incomplete", label_width),
@@ -410,7 +412,16 @@ std::string cut_sets_text(const CompiledCatalog& catalog, const TaskCutSets& of_
   }
   if (found.sets.empty()) text += found.complete ? "  none\n" : "  none found so far\n";
   const std::size_t count = found.sets.size();
-  if (count > 1) text += fmt::format("  {}\n", quantity(count, "set"));
+  // A behavior that requires nothing is a part of the robot, as a sensor is.
+  const auto requires_nothing = [&](const std::vector<BehaviorId>& set) {
+    return std::all_of(set.begin(), set.end(),
+                       [&](BehaviorId behavior) { return catalog.behaviors[behavior].level == 0; });
+  };
+  if (count > 1) {
+    text +=
+        fmt::format("  {}, {} of them of behaviors that require nothing\n", quantity(count, "set"),
+                    std::count_if(found.sets.begin(), found.sets.end(), requires_nothing));
+  }
   if (!found.complete) {
     const std::uint32_t size = found.incomplete_size;
     text += style.paint(
@@ -419,6 +430,43 @@ std::string cut_sets_text(const CompiledCatalog& catalog, const TaskCutSets& of_
                                                "{} are there\n",
                                                quantity(size, "behavior")));
   }
+  return text;
+}
+
+/// How the catalog compares with an older one.
+std::string comparison_text(const VerifyResult& result, const Style& style) {
+  const ReportedComparison& reported = *result.same_as;
+  const CatalogComparison& comparison = reported.comparison;
+  const std::string old_name = printable(reported.old_catalog->file);
+  const std::string new_name = printable(result.catalog->file);
+  std::string text =
+      fmt::format("\n{}{} against {}{}\n", style.strong, new_name, old_name, style.reset);
+  const auto add_names = [&](const std::string& file, const std::vector<std::string>& names) {
+    if (!names.empty()) text += wrap(fmt::format("  only {} has  ", file), names, ",");
+  };
+  add_names(old_name, comparison.names.only_old);
+  add_names(new_name, comparison.names.only_new);
+  const std::string counts =
+      fmt::format("{} of states, {} transitions, depth {}", quantity(comparison.states, "pair"),
+                  comparison.transitions, comparison.depth);
+  switch (comparison.result) {
+    case Verdict::Result::proved:
+      return text + fmt::format("  {}every reachable event is decided alike{}: {}\n", style.good,
+                                style.reset, counts);
+    case Verdict::Result::undecided:
+      return text + fmt::format(
+                        "  {}undecided{}: a limit ended the search, or it was interrupted; "
+                        "no difference in {}\n",
+                        style.warning, style.reset, counts);
+    case Verdict::Result::violated:
+      break;
+  }
+  text += fmt::format("  {}decided differently{}: the last of {}\n", style.bad, style.reset,
+                      quantity(comparison.moves.size(), "event"));
+  text += fmt::format("\n{}with {}{}\n\n{}", style.strong, old_name, style.reset,
+                      reported.with_old->text);
+  text += fmt::format("\n{}with {}{}\n\n{}", style.strong, new_name, style.reset,
+                      reported.with_new->text);
   return text;
 }
 
@@ -455,7 +503,13 @@ std::string verify_to_text(const VerifyResult& result, const Style& style) {
       text += PropertyText(result, part, style).write();
     }
   }
-  if (text.empty()) text = style.paint(style.strong, printable(catalog.file)) + "\n";
+  if (text.empty() && !result.same_as) {
+    text = style.paint(style.strong, printable(catalog.file)) + "\n";
+  }
+  if (result.same_as) {
+    const std::string comparison = comparison_text(result, style);
+    text += text.empty() ? comparison.substr(1) : comparison;
+  }
   for (const TaskCutSets& of_task : result.cut_sets) text += cut_sets_text(catalog, of_task, style);
   return text + total_of(result, style);
 }

@@ -404,6 +404,7 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint3
   // Of a batch that a limit cut short, some threads have seen more than others.
   seen.drop_from(search.expanded());
   result.complete = search.is_complete();
+  result.reduced = options.reduce;
   if (!result.complete) result.end = search.end();
   result.states = search.store().size();
   result.transitions = search.transitions();

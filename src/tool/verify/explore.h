@@ -89,6 +89,7 @@ struct Verdict {
 struct Exploration {
   std::vector<std::uint32_t> groups;  ///< ascending
   bool complete = false;              ///< false: a limit ended it
+  bool reduced = false;               ///< see ExplorationOptions::reduce
   std::optional<ExplorationEnd> end;  ///< which one; if not complete
   std::uint64_t states = 0;
   std::uint64_t transitions = 0;

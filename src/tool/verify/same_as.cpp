@@ -11,6 +11,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/text.h"
+#include "coordinator/record.h"
 #include "verify/breadth_first.h"
 #include "verify/model.h"
 #include "verify/stepper.h"
@@ -126,6 +127,46 @@ Assumptions translate(const Assumptions& from, const Translation& to) {
   }
   bool is_whole = true;
   result.initially = translate(from.initially, to, is_whole);
+  return result;
+}
+
+Situation translate(const Situation& situation, const CompiledCatalog& from,
+                    const CompiledCatalog& to, const Translation& translation) {
+  SituationPart part{situation.variables, {}};
+  for (const Availability& entry : situation.availability) {
+    part.behaviors.push_back({from.behavior_ids[entry.behavior], entry.available});
+  }
+  bool is_whole = true;
+  part = translate(part, translation, is_whole);
+  Situation result{{}, part.variables};
+  for (const SituationPart::Own& own : part.behaviors) {
+    result.availability.push_back({to.behaviors[own.behavior].catalog_index, own.available});
+  }
+  return result;
+}
+
+/// The events of a script for the other catalog, which knows all that they name.
+Script translate(const Script& script, const CompiledCatalog& from, const CompiledCatalog& to,
+                 const Translation& translation) {
+  Script result = script;
+  std::erase_if(result.steps, [](const Step& step) { return step.expect.has_value(); });
+  result.situation = translate(script.situation, from, to, translation);
+  for (Step& step : result.steps) {
+    switch (form_of(step.verb).subject) {
+      case VerbForm::SubjectKind::nothing:
+        break;
+      case VerbForm::SubjectKind::task:
+        step.subject = to.tasks[translation.tasks[from.task_ids[step.subject]]].catalog_index;
+        break;
+      case VerbForm::SubjectKind::behavior:
+        step.subject =
+            to.behaviors[translation.behaviors[from.behavior_ids[step.subject]]].catalog_index;
+        break;
+      case VerbForm::SubjectKind::situation:
+        step.situation = translate(step.situation, from, to, translation);
+        break;
+    }
+  }
   return result;
 }
 
@@ -567,6 +608,7 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
                                  "What is expected at the end is the answer of the latter.\n"
                                  "Run it with: cbc solve CATALOG FILE\n",
                                  printable(old_catalog.file), printable(new_catalog.file)));
+    result.old_script = translate(result.witness->script, new_catalog, old_catalog, to_old);
   }
   if (result.result != Verdict::Result::violated && is_complete) {
     result.result = Verdict::Result::proved;

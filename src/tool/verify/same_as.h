@@ -32,6 +32,7 @@ struct CatalogComparison {
   /// expects at its end what the new catalog does.
   std::vector<Move> moves;
   std::optional<Witness> witness;
+  Script old_script;  ///< the same events for the old catalog, without the expectation
   std::optional<std::string> error;  ///< see Exploration
 };
 
