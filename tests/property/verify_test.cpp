@@ -103,6 +103,24 @@ void compare(const VerifyCase& sample, const Exploration& expected, unsigned job
   demand_same(sample, result, expected, std::to_string(jobs) + " jobs");
 }
 
+/// Compares with the search that merges orders of requests, in all but the counts. Returns whether
+/// it merged any.
+bool compare_merged(const VerifyCase& sample, const Exploration& expected) {
+  ExplorationOptions options;
+  options.reduce = true;
+  Exploration result = explore(sample.catalog, sample.question.groups, sample.question.assumptions,
+                               sample.properties(), options);
+  demand(result.states <= expected.states, "merged, there are more states");
+  demand(result.depth <= expected.depth, "merged, states are deeper");
+  const bool has_merged = result.states < expected.states;
+  result.states = expected.states;
+  result.states_at_depth = expected.states_at_depth;
+  result.depth = expected.depth;
+  result.transitions = expected.transitions;
+  demand_same(sample, result, expected, "merged");
+  return has_merged;
+}
+
 /// The entries up to a depth, which is their last part.
 template <typename Entries, typename DepthOf>
 Entries up_to(std::uint32_t depth, const Entries& entries, DepthOf&& depth_of) {
@@ -169,6 +187,7 @@ void run_case(std::uint64_t seed, oracle::Results& results) {
     if (expected.error || expected.complete) {
       compare(sample, expected, 1);
       compare(sample, expected, 3);
+      if (!expected.error && compare_merged(sample, expected)) results.statistics.count("merged");
       results.statistics.count(expected.error ? "excluded first state" : "compared");
     } else {
       compare_beginnings(sample, expected);
@@ -184,6 +203,7 @@ const oracle::LowerBound lower_bounds[] = {
     {"compared", 600},
     {"compared up to a limit", 80},
     {"excluded first state", 10},
+    {"merged", 20},
 };
 
 TEST(Verify, FindsWhatThePlainSearchFinds) {
@@ -208,6 +228,7 @@ TEST(Verify, BeginsAsThePlainSearchOnLargerCatalogs) {
       try {
         if (expected.complete) {
           compare(sample, expected, 3);
+          compare_merged(sample, expected);
         } else if (!expected.error) {
           compare_beginnings(sample, expected);
         }
