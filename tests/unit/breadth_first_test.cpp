@@ -133,7 +133,7 @@ TEST(BreadthFirst, EndsAtALimitWithWhatIsKnown) {
   states.limits.max_states = 30'000;
   run(states);
   ExplorationOptions memory;
-  memory.limits.max_memory = 1'000'000;
+  memory.limits.max_memory = 4'000'000;
   run(memory);
   ExplorationOptions asked;
   asked.on_progress = [](const ExplorationProgress& progress) { return progress.depth < 10; };
