@@ -205,9 +205,9 @@ class Call {
     if (questions_.files.empty()) return catalog_.group_count();
     std::size_t count = 0;
     for (const auto& file : questions_.files) {
-      std::set<std::vector<std::uint32_t>> explored;
+      std::set<PropertyScope> explored;
       for (const Property& property : file->properties) {
-        explored.insert(groups_of(catalog_, property));
+        explored.insert(scope_of(catalog_, property));
       }
       count += file->properties.empty() ? catalog_.group_count() : explored.size();
     }
