@@ -151,8 +151,11 @@ class Call {
                          format.needs_properties ? " " : "",
                          format.needs_properties ? options_.format : "");
     }
-    if (result_.wants_cut_sets && questions_.files.size() > 1) {
-      return usage_error("verify", "--cut-sets takes at most one property file, found {}",
+    const char* const takes_one_file = result_.wants_cut_sets ? "--cut-sets"
+                                       : options_.same_as     ? "--same-as"
+                                                              : nullptr;
+    if (takes_one_file != nullptr && questions_.files.size() > 1) {
+      return usage_error("verify", "{} takes at most one property file, found {}", takes_one_file,
                          questions_.files.size());
     }
     const auto tasks = find_tasks(catalog_, options_.cut_sets);
@@ -205,9 +208,9 @@ class Call {
     if (questions_.files.empty()) return catalog_.group_count();
     std::size_t count = 0;
     for (const auto& file : questions_.files) {
-      std::set<std::vector<std::uint32_t>> explored;
+      std::set<PropertyScope> explored;
       for (const Property& property : file->properties) {
-        explored.insert(groups_of(catalog_, property));
+        explored.insert(scope_of(catalog_, property));
       }
       count += file->properties.empty() ? catalog_.group_count() : explored.size();
     }

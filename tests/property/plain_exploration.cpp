@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -16,13 +17,19 @@ namespace {
 using oracle::contains;
 using oracle::demand;
 
+std::set<std::uint32_t> variables_of(const std::vector<const Property*>& properties) {
+  std::set<std::uint32_t> variables;
+  for (const Property* const property : properties) variables.merge(cbc::variables_of(*property));
+  return variables;
+}
+
 class PlainSearch {
  public:
   PlainSearch(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
               const Assumptions& assumptions, const std::vector<const Property*>& properties,
               Rarities& rarities)
       : catalog_(catalog),
-        model_(catalog, groups, assumptions),
+        model_(catalog, groups, assumptions, variables_of(properties)),
         properties_(properties),
         rarities_(rarities) {
     result_.groups = groups;

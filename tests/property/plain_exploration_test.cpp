@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -215,7 +216,12 @@ bool ends_as_stated(const PlainModel& model, const Property& property, const Rep
 
 void replay_scripts(const VerifyCase& sample, const Exploration& result,
                     oracle::Statistics& statistics) {
-  const PlainModel model(sample.catalog, sample.question.groups, sample.question.assumptions);
+  std::set<std::uint32_t> variables;
+  for (const Property& property : sample.question.properties) {
+    variables.merge(variables_of(property));
+  }
+  const PlainModel model(sample.catalog, sample.question.groups, sample.question.assumptions,
+                         variables);
   for (std::size_t i = 0; i < sample.question.properties.size(); ++i) {
     const Property& property = sample.question.properties[i];
     const std::vector<Move>& script = result.verdicts[i].script;

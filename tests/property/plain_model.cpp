@@ -134,8 +134,11 @@ void handle_move(const CompiledCatalog& catalog, const Move& move, Coordinator& 
 }
 
 PlainModel::PlainModel(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
-                       const Assumptions& assumptions)
-    : catalog_(catalog), assumptions_(assumptions), groups_(groups) {
+                       const Assumptions& assumptions, const std::set<std::uint32_t>& variables)
+    : catalog_(catalog),
+      assumptions_(assumptions),
+      groups_(groups),
+      variables_(variables.begin(), variables.end()) {
   for (const TaskId task : catalog.task_ids) {
     if (has_group(catalog.tasks[task].group)) tasks_.push_back(task);
   }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -40,8 +41,9 @@ struct Step {
 class PlainModel {
  public:
   /// The catalog and the assumptions must outlive the model.
+  /// `variables` are part of the state, too.
   PlainModel(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
-             const Assumptions& assumptions);
+             const Assumptions& assumptions, const std::set<std::uint32_t>& variables = {});
 
   [[nodiscard]] Snapshot first_state() const;
   /// Whether `never` excludes the situation of the state.

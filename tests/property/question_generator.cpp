@@ -253,6 +253,9 @@ class QuestionGenerator {
       condition.requested.push_back({task, random_.pick(priorities)});
     } else if (kind < 95 && !variables_.empty()) {
       add_value(condition.situation, draw_value(random_.pick(variables_)));
+    } else if (kind < 97 && !catalog_.variables.empty()) {
+      const std::size_t variable = random_.below(catalog_.variables.size());
+      add_value(condition.situation, draw_value(static_cast<std::uint32_t>(variable)));
     } else {
       add_own(condition.situation, random_.pick(behaviors_), random_.percent(40));
     }

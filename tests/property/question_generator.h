@@ -16,8 +16,8 @@ struct Question {
   std::vector<Property> properties;   ///< about these groups
 };
 
-/// A random question about one group, or about several of them. Properties name only what is part
-/// of the state of the groups.
+/// A random question about one group, or about several of them. Properties name tasks and
+/// behaviors of these groups only, but sometimes other variables.
 [[nodiscard]] Question generate_question(oracle::Random& random, const CompiledCatalog& catalog);
 
 }  // namespace cbc::plain

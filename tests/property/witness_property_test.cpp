@@ -131,7 +131,8 @@ void run_property_case(std::uint64_t seed, oracle::Results& results) {
       if (!answer.witness) continue;
       text = answer.witness->text;
       const auto& groups = verification.explorations.at(answer.exploration).groups;
-      const PlainModel model(sample.catalog, groups, file.assumptions);
+      const PlainModel model(sample.catalog, groups, file.assumptions,
+                             variables_of(*answer.property));
       const PlainRun run = check_script(model, answer.verdict.script, text);
       demand(ends_as_stated(model, *answer.property, run), answer.property->name + ": another end");
       count_sort_of_script(sample.catalog, answer.verdict.script, groups, results.statistics);

@@ -21,7 +21,8 @@ class Writer {
     json_.open("groups", '[');
     for (const VerifyPart& part : result_.parts) {
       for (const Exploration& exploration : part.verification.explorations) {
-        write_exploration(part, exploration);
+        // A property may be about variables alone that no behavior names.
+        if (!exploration.groups.empty()) write_exploration(part, exploration);
       }
     }
     json_.close(']');

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include "verify/breadth_first.h"
 #include "verify/model.h"
@@ -17,9 +18,7 @@ constexpr Number never_seen = UINT32_MAX;
 /// A condition on the states of a model.
 class StateTest {
  public:
-  /// `of_any`: a variable that no behavior of the model names may have any of its values. True: the
-  /// condition holds if it does for one of them; false: if it does for all.
-  StateTest(const Model& model, const StateCondition& condition, bool of_any);
+  StateTest(const Model& model, const StateCondition& condition);
 
   [[nodiscard]] bool holds(const Stepper& state) const;
 
@@ -29,9 +28,6 @@ class StateTest {
     std::uint32_t wanted = 0;
   };
 
-  void add_variables(const Model& model, const StateCondition& condition, bool of_any);
-
-  const Model& model_;
   bool is_false_ = false;
   std::vector<Part> values_;  ///< tasks and cells; `none`: any behavior
   std::vector<std::uint32_t> stopped_;
@@ -43,8 +39,7 @@ class StateTest {
   std::vector<Part> own_;  ///< behaviors and whether own(b) is true
 };
 
-StateTest::StateTest(const Model& model, const StateCondition& condition, bool of_any)
-    : model_(model) {
+StateTest::StateTest(const Model& model, const StateCondition& condition) {
   for (const StateCondition::Running& running : condition.running) {
     const std::uint32_t task = model.find_task(running.task);
     if (running.behavior == none) {
@@ -74,23 +69,8 @@ StateTest::StateTest(const Model& model, const StateCondition& condition, bool o
   for (const SituationPart::Own& own : condition.situation.behaviors) {
     own_.push_back({model.find_behavior(own.behavior), own.available ? 1U : 0U});
   }
-  add_variables(model, condition, of_any);
-}
-
-void StateTest::add_variables(const Model& model, const StateCondition& condition, bool of_any) {
-  const Assumptions& assumptions = model.assumptions();
   for (const VariableValue& value : condition.situation.variables) {
-    const std::uint32_t variable = model.find_variable(value.variable);
-    if (variable != none) {
-      variables_.push_back({variable, value.value});
-      continue;
-    }
-    const auto& changing = assumptions.variables;
-    if (std::find(changing.begin(), changing.end(), value.variable) != changing.end()) {
-      if (!of_any) is_false_ = true;
-      continue;
-    }
-    if (initial_value(assumptions, value.variable) != value.value) is_false_ = true;
+    variables_.push_back({model.find_variable(value.variable), value.value});
   }
 }
 
@@ -125,9 +105,8 @@ class Goal {
       ranks_ = model.ranks_up_to(property.priority);
       return;
     }
-    const bool is_always = property.kind == Property::Kind::always;
-    condition_.emplace(model, property.condition, !is_always);
-    if (property.when) when_.emplace(model, *property.when, true);
+    condition_.emplace(model, property.condition);
+    if (property.when) when_.emplace(model, *property.when);
   }
 
   [[nodiscard]] bool is_start() const { return property_.kind == Property::Kind::can_start; }
@@ -370,7 +349,9 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint3
                     const ExplorationOptions& options) {
   Exploration result;
   result.groups = groups;
-  const Model model(catalog, groups, assumptions);
+  std::set<std::uint32_t> variables;
+  for (const Property* const property : properties) variables.merge(variables_of(*property));
+  const Model model(catalog, groups, assumptions, variables);
   const std::vector<std::uint16_t> cells = model.first_state();
   if (model.is_excluded(cells.data())) {
     result.error = "the first state is in a situation that 'never' excludes";

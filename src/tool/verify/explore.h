@@ -119,7 +119,8 @@ struct Exploration {
 };
 
 /// Visits every reachable state of the groups. Same results for any number of jobs. `properties`
-/// are about these groups only.
+/// are about tasks and behaviors of these groups only; the variables that they name are part of the
+/// state.
 [[nodiscard]] Exploration explore(const CompiledCatalog& catalog,
                                   const std::vector<std::uint32_t>& groups,
                                   const Assumptions& assumptions,

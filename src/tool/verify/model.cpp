@@ -24,12 +24,12 @@ bool contains(const std::vector<std::uint32_t>& list, std::uint32_t item) {
 }  // namespace
 
 Model::Model(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
-             const Assumptions& assumptions)
+             const Assumptions& assumptions, const std::set<std::uint32_t>& variables)
     : catalog_(catalog), assumptions_(assumptions) {
   add_groups(groups);
   add_rivals();
   find_interactions();
-  add_variables();
+  add_variables(variables);
   rank_priorities();
   lay_out();
   add_never();
@@ -173,12 +173,12 @@ void Model::find_interactions() {
   for (const std::uint32_t task : requestable) classes_[task] = numbers[task];
 }
 
-void Model::add_variables() {
+void Model::add_variables(const std::set<std::uint32_t>& watched) {
   denied_.assign(words_for(behaviors_.size()), 0);
   for (std::uint32_t place = 0; place < behaviors_.size(); ++place) {
     if (!is_available_at_first(assumptions_, behaviors_[place].id)) set_bit(denied_.data(), place);
   }
-  std::set<std::uint32_t> named;
+  std::set<std::uint32_t> named = watched;
   for (const Behavior& behavior : behaviors_) {
     for (const FittingValue& fitting : catalog_.fitting_values_of(behavior.id)) {
       named.insert(fitting.variable);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -113,9 +114,10 @@ class Model {
     std::uint8_t width = 0;
   };
 
-  /// `groups` are ascending. Everything must outlive the model.
+  /// `groups` are ascending. `variables` are part of the state even if no behavior of the groups
+  /// names them. The catalog and the assumptions must outlive the model.
   Model(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
-        const Assumptions& assumptions);
+        const Assumptions& assumptions, const std::set<std::uint32_t>& variables = {});
 
   [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
   [[nodiscard]] const Assumptions& assumptions() const { return assumptions_; }
@@ -177,7 +179,7 @@ class Model {
   void add_behaviors(Group& group);
   void add_rivals();
   void find_interactions();
-  void add_variables();
+  void add_variables(const std::set<std::uint32_t>& watched);
   void rank_priorities();
   void lay_out();
   void add_moves();

@@ -33,4 +33,16 @@ bool is_available_at_first(const Assumptions& assumptions, BehaviorId behavior) 
   return found == behaviors.end() || found->available;
 }
 
+std::set<std::uint32_t> variables_of(const Property& property) {
+  std::set<std::uint32_t> variables;
+  for (const VariableValue& value : property.condition.situation.variables) {
+    variables.insert(value.variable);
+  }
+  if (!property.when) return variables;
+  for (const VariableValue& value : property.when->situation.variables) {
+    variables.insert(value.variable);
+  }
+  return variables;
+}
+
 }  // namespace cbc

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -88,6 +89,9 @@ struct Property {
   std::optional<StateCondition> when;
   bool settled = false;  ///< only states with nothing in the queue count
 };
+
+/// The situation variables that the conditions of a property name.
+[[nodiscard]] std::set<std::uint32_t> variables_of(const Property& property);
 
 /// The keys of the kinds of properties, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 4> property_kinds = {"can_start", "always", "never",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -111,7 +112,7 @@ bool Verification::is_complete() const {
                      [](const Exploration& exploration) { return exploration.complete; });
 }
 
-std::vector<std::uint32_t> groups_of(const CompiledCatalog& catalog, const Property& property) {
+PropertyScope scope_of(const CompiledCatalog& catalog, const Property& property) {
   std::set<std::uint32_t> groups;
   if (property.task != none) groups.insert(catalog.tasks[property.task].group);
   add_groups(catalog, property.condition, groups);
@@ -120,7 +121,11 @@ std::vector<std::uint32_t> groups_of(const CompiledCatalog& catalog, const Prope
     add_groups_of_variables(catalog, property.condition, groups);
     if (property.when) add_groups_of_variables(catalog, *property.when, groups);
   }
-  return {groups.begin(), groups.end()};
+  std::set<std::uint32_t> variables = variables_of(property);
+  for (const FittingValue& fitting : catalog.fitting_values) {
+    if (groups.contains(catalog.group_of(fitting.behavior))) variables.erase(fitting.variable);
+  }
+  return {{groups.begin(), groups.end()}, std::move(variables)};
 }
 
 std::string describe(const CompiledCatalog& catalog, const Property& property) {
@@ -175,14 +180,14 @@ Verification verify_properties(const CompiledCatalog& catalog, const PropertyFil
     return result;
   }
   result.answers.resize(file.properties.size());
-  std::map<std::vector<std::uint32_t>, std::vector<std::size_t>> by_groups;
+  std::map<PropertyScope, std::vector<std::size_t>> by_scope;
   for (std::size_t place = 0; place < file.properties.size(); ++place) {
-    by_groups[groups_of(catalog, file.properties[place])].push_back(place);
+    by_scope[scope_of(catalog, file.properties[place])].push_back(place);
   }
-  for (const auto& [groups, places] : by_groups) {
+  for (const auto& [scope, places] : by_scope) {
     std::vector<const Property*> properties;
     for (const std::size_t place : places) properties.push_back(&file.properties[place]);
-    const std::vector<std::uint32_t>& explored = groups;
+    const std::vector<std::uint32_t>& explored = scope.groups;
     result.explorations.push_back(
         explore(catalog, explored, file.assumptions, properties, options_for(explored, options)));
     const Exploration& exploration = result.explorations.back();

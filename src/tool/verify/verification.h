@@ -1,9 +1,11 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,17 +47,23 @@ struct VerificationOptions {
 [[nodiscard]] Verification verify_groups(const CompiledCatalog& catalog,
                                          const VerificationOptions& options);
 
-/// Answers the properties of a file. Properties about the same groups are answered by the same
-/// exploration. Without properties each group is explored by itself under the assumptions of the
-/// file.
+/// Answers the properties of a file, those of one scope by the same exploration. Without properties
+/// each group is explored by itself under the assumptions of the file.
 [[nodiscard]] Verification verify_properties(const CompiledCatalog& catalog,
                                              const PropertyFile& file,
                                              const VerificationOptions& options);
 
-/// The groups that a property is about, ascending: those of its tasks and behaviors; if there are
-/// none, those whose behaviors name its variables.
-[[nodiscard]] std::vector<std::uint32_t> groups_of(const CompiledCatalog& catalog,
-                                                   const Property& property);
+/// What a property is about. Properties of one scope are answered by the same exploration.
+struct PropertyScope {
+  /// Ascending: those of its tasks and behaviors; if there are none, those whose behaviors name its
+  /// variables.
+  std::vector<std::uint32_t> groups;
+  /// The variables that it names, but no behavior of these groups does.
+  std::set<std::uint32_t> variables;
+
+  auto operator<=>(const PropertyScope&) const = default;
+};
+[[nodiscard]] PropertyScope scope_of(const CompiledCatalog& catalog, const Property& property);
 
 /// A property in words: "LAND can always start with priority 3".
 [[nodiscard]] std::string describe(const CompiledCatalog& catalog, const Property& property);

@@ -229,7 +229,9 @@ Situation situation_of(const CompiledCatalog& catalog, const SituationPart& part
 Witness make_witness(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
                      const Assumptions& assumptions, const std::vector<Move>& moves,
                      const Property* property, const std::string& comment) {
-  const Model model(catalog, groups, assumptions);
+  const std::set<std::uint32_t> variables =
+      property == nullptr ? std::set<std::uint32_t>() : variables_of(*property);
+  const Model model(catalog, groups, assumptions, variables);
   const bool ends_with_start = property != nullptr && property->kind == Property::Kind::can_start;
   std::vector<Move> path = moves;
   if (ends_with_start) path.pop_back();
