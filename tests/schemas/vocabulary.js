@@ -78,7 +78,7 @@ function isOptional(object, name) {
   if (name === 'situation') return object.kind === 'behavior' || 'event' in object;
   if (name === 'variables') return !('groups' in object) && !('unconditional' in object);
   if (name === 'behavior') return object.kind === 'performance';
-  if (['file', 'groups', 'reduced'].includes(name)) return 'group' in object; // of an exploration
+  if (['file', 'groups', 'reduced', 'states_at_depth'].includes(name)) return 'group' in object; // of an exploration
   if (name === 'error') return 'events' in object; // of a run; not of a line
   const others = [
     'alternatives',

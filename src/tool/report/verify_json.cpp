@@ -59,6 +59,7 @@ class Writer {
                          {"states", exploration.states},
                          {"transitions", exploration.transitions},
                          {"depth", exploration.depth}});
+    if (!exploration.complete) json_.write_list("states_at_depth", exploration.states_at_depth);
     write_depths("runs", exploration.runs, catalog_.task_names);
     write_depths("active", exploration.active, catalog_.behavior_names);
     write_depths("start_refused", exploration.start_refused, catalog_.task_names);

@@ -127,6 +127,7 @@ struct VerifyResult {
 ///      "cut_sets": [                      null: none were asked for
 ///        {"task": "LAND", "order": 2, "sets": [["B1"], ["B2", "B3"]]}]}
 ///
+/// Groups that are not complete have "states_at_depth", from depth 0 on, as far as it is known.
 /// Groups have "reduced": true if states were merged (--reduce).
 /// "file" is also a member of groups that were explored for one of several property files. A search
 /// for cut sets that a limit ended has "complete_order": all sets up to this size are there, which

@@ -64,7 +64,7 @@ std::string describe_memory(std::uint64_t bytes) {
 
 std::string describe_violation(const Answer& answer, const Exploration& exploration) {
   if (!answer.witness) {
-    return fmt::format("violated: none of {} is one", quantity(exploration.states, "state"));
+    return fmt::format("violated: there is none among {}", quantity(exploration.states, "state"));
   }
   const std::size_t events = answer.verdict.script.size();
   return events == 0 ? "violated in the first state"
@@ -98,9 +98,13 @@ bool has_higher_limit(ExplorationEnd end) {
 
 std::string describe_limit(const VerifyResult& result, const Exploration& exploration) {
   const ExplorationEnd end = exploration.end.value_or(ExplorationEnd::stopped);
-  return fmt::format("{}; every state up to depth {} was visited{}",
+  std::string counts;
+  for (const std::uint64_t count : exploration.states_at_depth) {
+    counts += (counts.empty() ? "" : ", ") + std::to_string(count);
+  }
+  return fmt::format("{}; every state up to depth {} was visited{}; states at each depth: {}",
                      describe_end(end, result.limits), exploration.depth,
-                     has_higher_limit(end) ? " (a higher limit goes on)" : "");
+                     has_higher_limit(end) ? " (a higher limit goes on)" : "", counts);
 }
 
 namespace {
