@@ -85,12 +85,13 @@ std::string limit_of(const ExplorationLimits& limits, bool stops) {
 
 TEST(VerifyReport, SaysWhatEndedAnExploration) {
   const std::string depth = "; every state up to depth 0 was visited";
+  const std::string counts = "; states at each depth: 1";
   const std::string way_on = " (a higher limit goes on)";
-  EXPECT_EQ(limit_of({}, true), "interrupted" + depth);
-  EXPECT_EQ(limit_of({1, 0, 0}, false), "ended by --max-states 1" + depth + way_on);
-  EXPECT_EQ(limit_of({0, 3 << 10, 0}, false), "ended by --max-memory 3K" + depth + way_on);
-  EXPECT_EQ(limit_of({0, 1025, 0}, false), "ended by --max-memory 1025" + depth + way_on);
-  EXPECT_EQ(limit_of({0, 0, 1e-9}, false), "ended by --time-limit 1e-09" + depth + way_on);
+  EXPECT_EQ(limit_of({}, true), "interrupted" + depth + counts);
+  EXPECT_EQ(limit_of({1, 0, 0}, false), "ended by --max-states 1" + depth + way_on + counts);
+  EXPECT_EQ(limit_of({0, 3 << 10, 0}, false), "ended by --max-memory 3K" + depth + way_on + counts);
+  EXPECT_EQ(limit_of({0, 1025, 0}, false), "ended by --max-memory 1025" + depth + way_on + counts);
+  EXPECT_EQ(limit_of({0, 0, 1e-9}, false), "ended by --time-limit 1e-09" + depth + way_on + counts);
 }
 
 }  // namespace
