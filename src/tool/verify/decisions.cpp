@@ -167,7 +167,8 @@ void Decisions::load_problem(const Question& question) {
   for (std::uint32_t task = group.tasks.begin; task < group.tasks.end; ++task) {
     const BitRange values = model_.tasks()[task].values;
     const std::uint32_t place = task - group.tasks.begin;
-    Word* const words = &problem_.domains[catalog.words[first + place] - catalog.words[first]];
+    Word* const words =
+        problem_.domains.data() + (catalog.words[first + place] - catalog.words[first]);
     if (has_bit(question.must_run, task)) problem_.may_stop[place] = 0;
     for (std::uint32_t value = values.begin; value < values.end; ++value) {
       const std::uint32_t index = value - values.begin;
