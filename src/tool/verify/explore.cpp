@@ -260,10 +260,7 @@ Move find_move(const Model& model, Stepper& stepper, const std::uint32_t* from,
   for (const Model::Choice& choice : model.moves()) {
     if (!stepper.has_move(choice) || !stepper.take(choice)) continue;
     stepper.pack(packed.data());
-    if (!std::equal(packed.begin(), packed.end(), to)) continue;
-    Move move = choice.move;
-    if (move.kind == Move::Kind::own) move.choice = stepper.is_denied(choice.subject) ? 1 : 0;
-    return move;
+    if (std::equal(packed.begin(), packed.end(), to)) return stepper.move_of(choice);
   }
   return {};
 }

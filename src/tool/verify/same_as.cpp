@@ -345,36 +345,72 @@ std::vector<std::uint32_t> waiting_of(const Model& model, const std::vector<std:
   return waiting;
 }
 
+/// Takes pairs of states from one move to the next. A packed pair is the state of the new catalog,
+/// then that of the old one.
+class PairStepper {
+ public:
+  explicit PairStepper(const ModelPair& models)
+      : old_(models.old_model),
+        new_(models.new_model),
+        new_words_(models.new_model.packed_words()) {}
+
+  void set_traces(MoveTrace& of_new, MoveTrace& of_old) {
+    new_.set_trace(&of_new);
+    old_.set_trace(&of_old);
+  }
+  void load(const std::uint32_t* state) {
+    new_.load(state);
+    old_.load(state + new_words_);
+  }
+  /// Makes a move in both; one that does not know it stays as it is. False: neither state has the
+  /// move, or it leads into an excluded situation.
+  bool take(const ModelPair::PairedMove& move) {
+    const bool is_new = move.of_new != nullptr && new_.has_move(*move.of_new);
+    const bool is_old = move.of_old != nullptr && old_.has_move(*move.of_old);
+    if (!is_new && !is_old) return false;
+    const bool is_situation = move.move.kind == Move::Kind::variable;
+    return take(new_, move.of_new, is_situation) && take(old_, move.of_old, is_situation);
+  }
+  /// Writes the states after the move.
+  void pack(std::uint32_t* packed) const {
+    new_.pack(packed);
+    old_.pack(packed + new_words_);
+  }
+  /// The move in the loaded states, as the new catalog counts.
+  [[nodiscard]] Move move_of(const ModelPair::PairedMove& move) const {
+    return move.of_new != nullptr ? new_.move_of(*move.of_new) : move.move;
+  }
+
+ private:
+  static bool take(Stepper& stepper, const Model::Choice* choice, bool is_situation) {
+    if (choice != nullptr) return stepper.take(*choice);
+    stepper.stay(is_situation);
+    return true;
+  }
+
+  Stepper old_;
+  Stepper new_;
+  const std::size_t new_words_;
+};
+
 class PairExpander final : public Expander {
  public:
-  explicit PairExpander(const ModelPair& models)
-      : models_(models), old_(models.old_model), new_(models.new_model) {
-    old_.set_trace(&old_trace_);
-    new_.set_trace(&new_trace_);
+  explicit PairExpander(const ModelPair& models) : models_(models), stepper_(models) {
+    stepper_.set_traces(new_trace_, old_trace_);
   }
 
   void expand(const std::uint32_t* state, Number number, Successors& successors) override {
     const std::size_t new_words = models_.new_model.packed_words();
-    new_.load(state);
-    old_.load(state + new_words);
-    for (const auto& [new_choice, old_choice, move] : models_.moves) {
-      const bool is_new = new_choice != nullptr && new_.has_move(*new_choice);
-      const bool is_old = old_choice != nullptr && old_.has_move(*old_choice);
-      if (!is_new && !is_old) continue;
-      const bool is_situation = move.kind == Move::Kind::variable;
-      if (!take(new_, new_choice, is_situation, new_trace_) ||
-          !take(old_, old_choice, is_situation, old_trace_)) {
-        continue;
-      }
+    stepper_.load(state);
+    for (const ModelPair::PairedMove& move : models_.moves) {
+      new_trace_.events.clear();
+      old_trace_.events.clear();
+      if (!stepper_.take(move)) continue;
       std::uint32_t* const packed = successors.add();
-      new_.pack(packed);
-      old_.pack(packed + new_words);
+      stepper_.pack(packed);
       if (first_difference_ == UINT32_MAX && differ(packed, packed + new_words)) {
         first_difference_ = number;
-        difference_ = move;
-        if (difference_.kind == Move::Kind::own) {
-          difference_.choice = new_.is_denied(new_choice->subject) ? 1 : 0;
-        }
+        difference_ = stepper_.move_of(move);
       }
     }
   }
@@ -384,14 +420,6 @@ class PairExpander final : public Expander {
   [[nodiscard]] const Move& difference() const { return difference_; }
 
  private:
-  static bool take(Stepper& stepper, const Model::Choice* choice, bool is_situation,
-                   MoveTrace& trace) {
-    trace.events.clear();
-    if (choice != nullptr) return stepper.take(*choice);
-    stepper.stay(is_situation);
-    return true;
-  }
-
   [[nodiscard]] bool differ(const std::uint32_t* new_packed, const std::uint32_t* old_packed) {
     if (new_trace_.events.size() != old_trace_.events.size()) return true;
     for (std::size_t place = 0; place < new_trace_.events.size(); ++place) {
@@ -465,8 +493,7 @@ class PairExpander final : public Expander {
   }
 
   const ModelPair& models_;
-  Stepper old_;
-  Stepper new_;
+  PairStepper stepper_;
   MoveTrace old_trace_;
   MoveTrace new_trace_;
   Number first_difference_ = UINT32_MAX;
@@ -475,34 +502,18 @@ class PairExpander final : public Expander {
 
 /// The moves along a path of pairs, as the new catalog names them.
 std::vector<Move> moves_along(const ModelPair& models, const BreadthFirst& search, Number number) {
-  Stepper old_stepper(models.old_model);
-  Stepper new_stepper(models.new_model);
-  const std::size_t new_words = models.new_model.packed_words();
+  PairStepper stepper(models);
   std::vector<std::uint32_t> packed(search.store().words());
   const std::vector<Number> path = search.path_to(number);
   std::vector<Move> moves;
   for (std::size_t place = 1; place < path.size(); ++place) {
-    const std::uint32_t* const from = search.store().state(path[place - 1]);
-    new_stepper.load(from);
-    old_stepper.load(from + new_words);
-    for (const auto& [new_choice, old_choice, move] : models.moves) {
-      const bool is_new = new_choice != nullptr && new_stepper.has_move(*new_choice);
-      const bool is_old = old_choice != nullptr && old_stepper.has_move(*old_choice);
-      if (!is_new && !is_old) continue;
-      std::copy_n(from, packed.size(), packed.data());
-      if (new_choice != nullptr) {
-        if (!new_stepper.take(*new_choice)) continue;
-        new_stepper.pack(packed.data());
-      }
-      if (old_choice != nullptr) {
-        if (!old_stepper.take(*old_choice)) continue;
-        old_stepper.pack(packed.data() + new_words);
-      }
-      if (!std::equal(packed.begin(), packed.end(), search.store().state(path[place]))) continue;
-      moves.push_back(move);
-      if (moves.back().kind == Move::Kind::own) {
-        moves.back().choice = new_stepper.is_denied(new_choice->subject) ? 1 : 0;
-      }
+    const std::uint32_t* const to = search.store().state(path[place]);
+    stepper.load(search.store().state(path[place - 1]));
+    for (const ModelPair::PairedMove& move : models.moves) {
+      if (!stepper.take(move)) continue;
+      stepper.pack(packed.data());
+      if (!std::equal(packed.begin(), packed.end(), to)) continue;
+      moves.push_back(stepper.move_of(move));
       break;
     }
   }

@@ -52,6 +52,12 @@ class Stepper {
   /// Makes a move from the state that load took up. False: the move leads into an excluded
   /// situation and does not exist. Of start: was_accepted() tells the outcome.
   bool take(const Model::Choice& choice);
+  /// The move that a choice stands for in the loaded state.
+  [[nodiscard]] Move move_of(const Model::Choice& choice) const {
+    Move move = choice.move;
+    if (move.kind == Move::Kind::own) move.choice = is_denied(choice.subject) ? 1 : 0;
+    return move;
+  }
   [[nodiscard]] bool was_accepted() const { return accepted_; }
   /// Instead of a move: leaves the state as it is. `is_situation`: by a change of the situation
   /// that is not about the model.

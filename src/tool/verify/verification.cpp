@@ -51,15 +51,6 @@ void add_groups_of_variables(const CompiledCatalog& catalog, const StateConditio
 
 // Words.
 
-std::string join(const std::vector<std::string>& parts, std::string_view between) {
-  std::string text;
-  for (const std::string& part : parts) {
-    if (!text.empty()) text += between;
-    text += part;
-  }
-  return text;
-}
-
 std::string describe(const CompiledCatalog& catalog, const StateCondition& condition) {
   std::vector<std::string> parts;
   const auto task = [&](TaskId id) { return printable(catalog.name_of_task(id)); };
@@ -93,7 +84,7 @@ std::string describe(const CompiledCatalog& catalog, const StateCondition& condi
   for (const BehaviorId id : condition.faulty) {
     parts.push_back(fmt::format("behavior {} is faulty", behavior(id)));
   }
-  return join(parts, " and ");
+  return fmt::format("{}", fmt::join(parts, " and "));
 }
 
 std::string title_of(const CompiledCatalog& catalog, const PropertyFile& file,
