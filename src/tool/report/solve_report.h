@@ -23,7 +23,7 @@
 #include "diagnostic/diagnostic.h"
 #include "draw/catalog_graph.h"
 #include "draw/diagram.h"
-#include "report/sentences.h"
+#include "report/failure_story.h"
 #include "script/runner.h"
 #include "script/script.h"
 #include "support/json.h"
@@ -84,6 +84,10 @@ struct ProcessUsage {
 /// Writes one of the reasons of a conflict set, as an object.
 void write_reason(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
                   const Reason& reason);
+
+/// Writes why tasks are not as expected, as an object.
+void write_surprise(JsonWriter& json, const CompiledCatalog& catalog, const Surprise& surprise,
+                    const State& state);
 
 /// Writes the member "totals", the same numbers as the table: {"events", "solutions", "nodes",
 /// "propagations", "elapsed_us", "kinds"}. Each measure is {"sum", "mean", "min", "max"}, the last
@@ -270,6 +274,7 @@ class TextReport final : public SolveReport {
   const Style style_;
   std::FILE* const out_;
   const CompiledCatalog* catalog_ = nullptr;
+  FailureStory story_;
   std::string script_file_;
   std::size_t behavior_width_ = 0;
   std::size_t task_width_ = 0;
@@ -313,7 +318,7 @@ class JsonReport final : public SolveReport {
 /// are the JSON report and what the picture needs of each catalog beyond that.
 class HtmlReport final : public SolveReport {
  public:
-  HtmlReport() : json_(memory_.stream()) {}
+  explicit HtmlReport(const EventAdditions& adds = {}) : json_(memory_.stream(), adds) {}
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;

@@ -164,6 +164,7 @@ std::string join_tasks(const CompiledCatalog& catalog, std::span<const TaskId> t
 
 void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
   catalog_ = &catalog;
+  story_.begin_run(catalog);
   script_file_ = printable(script.file);
   behavior_width_ = column_width(catalog.behavior_names, 8);
   task_width_ = column_width(catalog.task_names, 4);
@@ -180,6 +181,7 @@ void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script)
 }
 
 void TextReport::on_event(const EventRecord& record, const Step* step, const State& state) {
+  story_.add(record, step, state);
   fmt::print(out_, "{:>10}  {}{}{}{}\n", format_time(record.time), style_.strong,
              describe_event(*catalog_, record, step), style_.reset, describe_outcome(record));
   if (record.outcome == Outcome::rejected) {
@@ -261,6 +263,7 @@ void TextReport::write(const Sentences& sentences) {
 void TextReport::on_failure(const Failure& failure) {
   fmt::print(out_, "{}{}:{}:{}: {}{}\n", style_.bad, script_file_, failure.range.begin.line,
              failure.range.begin.column, failure.message, style_.reset);
+  for (const Sentences& sentences : story_.explain(failure)) write(sentences);
 }
 
 void TextReport::on_end(const State& state) {

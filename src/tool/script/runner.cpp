@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "script/expected_values.h"
 
 namespace cbc {
 
@@ -161,13 +162,26 @@ bool Runner::note(Coordinator::Status status) {
 }
 
 void Runner::check(const Step& step) {
-  std::string mismatch = find_mismatch(*step.expect, catalog_, coordinator_.state(), outcome_);
+  const State& state = coordinator_.state();
+  std::string mismatch = find_mismatch(*step.expect, catalog_, state, outcome_);
   if (mismatch.empty()) {
     ++result_.passed;
   } else {
     ++result_.failed;
-    listener_.on_failure({index_, step.range, std::move(mismatch), &step});
+    listener_.on_failure(
+        {index_, step.range, std::move(mismatch), &step, &state, find_surprises(*step.expect)});
   }
+}
+
+std::vector<Surprise> Runner::find_surprises(const Expectation& expectation) {
+  std::vector<Surprise> surprises;
+  if (!has_hindsight_) return surprises;
+  for (ExpectedValues& expected :
+       find_expected_values(expectation, catalog_, coordinator_.state())) {
+    surprises.push_back({expected.group, std::move(expected.tasks),
+                         coordinator_.look_back(expected.group, expected.ways)});
+  }
+  return surprises;
 }
 
 Event event_of(const Step& step) {
@@ -188,6 +202,10 @@ RunResult run_script(const CompiledCatalog& catalog, const Script& script,
   CoordinatorOptions of_script = options;
   of_script.reactive_delay = script.reactive_delay;
   of_script.timeouts = script.timeouts;
+  // Without expectations nobody asks.
+  of_script.hindsight =
+      options.hindsight && std::any_of(script.steps.begin(), script.steps.end(),
+                                       [](const Step& step) { return step.expect.has_value(); });
   Runner runner(catalog, of_script, listener);
   runner.begin(script.situation);
   bool goes_on = true;
