@@ -202,6 +202,31 @@ std::string describe_event(const CompiledCatalog& catalog, const EventRecord& re
   return text;
 }
 
+std::string describe_note(const CompiledCatalog& catalog, const EventRecord& record,
+                          const State& state) {
+  const BehaviorId behavior = record.behavior;
+  if (behavior == none) return {};
+  const std::string name = behavior_name(catalog, behavior);
+  const bool is_active = state.is_active(behavior);
+  if (record.verb == Verb::fault && is_active) {
+    return fmt::format(
+        "{} is active, and goes on; the fault takes effect at its next activation; "
+        "'finish: {}, cause: process_failure' stops it",
+        name, printable(catalog.name_of_behavior(behavior)));
+  }
+  if (record.verb != Verb::finish || record.outcome != Outcome::unchanged || is_active) return {};
+  List instead;
+  for (const ValueId value : catalog.performs[behavior]) {
+    const TaskId task = catalog.task_of(value);
+    const std::string task_text = task_name(catalog, task);
+    instead.add(
+        state.is_running(task)
+            ? fmt::format("{} performs {}", behavior_name(catalog, state.behavior(task)), task_text)
+            : fmt::format("nothing performs {}", task_text));
+  }
+  return fmt::format("{} is not active: {}", name, instead.text());
+}
+
 std::string describe_expectation(const CompiledCatalog& catalog, const Expectation& expectation) {
   List parts;
   if (expectation.outcome) parts.add(fmt::format("outcome {}", name_of(*expectation.outcome)));

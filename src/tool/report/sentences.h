@@ -48,6 +48,11 @@ namespace cbc {
 [[nodiscard]] std::string describe_event(const CompiledCatalog& catalog, const EventRecord& record,
                                          const Step* step);
 
+/// What may surprise about an event: a fault of an active behavior, or a finish of an inactive one.
+/// Empty for most. `state`: after the event.
+[[nodiscard]] std::string describe_note(const CompiledCatalog& catalog, const EventRecord& record,
+                                        const State& state);
+
 /// " GPS unavailable, RADAR available, TARGET is near"
 [[nodiscard]] std::string describe_situation(const CompiledCatalog& catalog,
                                              const Situation& situation);
