@@ -289,7 +289,11 @@ int solve_missions(const SolveOptions& options) {
                     quote(*options.html));
   }
   const std::unique_ptr<SolveReport> report =
-      format.make({stdout, style_for(stdout), event_additions(options)});
+      format.make({stdout,
+                   style_for(stdout),
+                   event_additions(options),
+                   // Lines in files and pipes stay whole, for programs such as grep.
+                   {is_terminal(stdout) ? columns_of(stdout) : 0, options.brief}});
   return options.html ? draw_missions(*missions, options, *report)
                       : run_missions(*missions, options, *report);
 }

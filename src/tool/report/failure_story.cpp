@@ -59,7 +59,7 @@ std::string describe_decision(const CompiledCatalog& catalog, const Surprise& su
       return both("the behaviors activated or deactivated", chosen.objective.changes,
                   other.objective.changes);
     case Criterion::canonical:
-      return fmt::format("by the canonical order, since all objectives are equal: {}",
+      return fmt::format("by the canonical order of {}, since all objectives are equal",
                          task_name(catalog, difference.task));
   }
   return {};
@@ -78,7 +78,7 @@ Sentences describe_decided(const CompiledCatalog& catalog, const Surprise& surpr
   }
   if (!why_not.alternative) {
     text.more = describe_reasons(catalog, event, why_not.conflict);
-    text.first = fmt::format("decided at {}: nothing would meet the expectation{}",
+    text.first = fmt::format("decided at {}: no answer meets the expectation{}",
                              describe_place(catalog, event),
                              text.more.empty() ? ", since the event leaves no other choice" : ":");
     return text;
@@ -108,7 +108,7 @@ std::string join_names(const CompiledCatalog& catalog, const std::vector<TaskId>
   return list_alternatives(names);
 }
 
-/// Whether the answer to the question is only that its tasks start on request.
+/// Whether all that is missing is a request for some tasks.
 bool needs_request_only(const LookBack& look_back) {
   const std::vector<Reason>& conflict = look_back.why_not.conflict;
   return look_back.kind == LookBack::Kind::decided && !conflict.empty() &&
@@ -234,16 +234,26 @@ std::vector<Sentences> FailureStory::explain(const Failure& failure) const {
   std::vector<Sentences> lines;
   for (const Surprise& surprise : failure.surprises) {
     const LookBack& look_back = surprise.look_back;
-    const std::uint64_t decision = look_back.event != nullptr ? look_back.event->index : 0;
-    bool is_stop_told = false;
+    const bool needs_request = needs_request_only(look_back);
+    // The reasons of the event that decided are those of the stops in it, unless one task that
+    // nobody requested is reason enough.
+    const std::uint64_t told =
+        look_back.event == nullptr || needs_request ? 0 : look_back.event->index;
+    std::vector<TaskId> stopped;
     for (const TaskId task : surprise.tasks) {
       const auto wait = waits_.find(task);
       if (wait != waits_.end() && wait->second.event != rejection_of(look_back)) {
         tell_wait(task, lines);
       }
-      is_stop_told |= tell_stop(task, decision, lines);
+      if (tell_stop(task, told, lines)) stopped.push_back(task);
     }
-    if (is_stop_told && needs_request_only(look_back)) continue;
+    const std::vector<Reason>& conflict = look_back.why_not.conflict;
+    if (needs_request &&
+        std::all_of(conflict.begin(), conflict.end(), [&stopped](const Reason& reason) {
+          return std::count(stopped.begin(), stopped.end(), reason.task) > 0;
+        })) {
+      continue;
+    }
     lines.push_back(describe_surprise(*catalog_, surprise, *failure.state));
   }
   return lines;

@@ -135,7 +135,7 @@ std::span<const SolveFormat> solve_formats() {
   static constexpr SolveFormat formats[] = {
       {"text",
        [](Settings settings) -> Report {
-         return std::make_unique<TextReport>(settings.style, settings.out);
+         return std::make_unique<TextReport>(settings.style, settings.out, settings.layout);
        }},
       {"json",
        [](Settings settings) -> Report {

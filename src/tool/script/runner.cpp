@@ -150,6 +150,9 @@ void Runner::on_event(const EventRecord& record) {
   index_ = record.index;
   const bool is_scripted = record.origin == Origin::script;
   if (is_scripted && form_of(record.verb).is_decided) outcome_ = record.outcome;
+  ++result_.events;
+  if (record.outcome == Outcome::accepted) ++result_.accepted;
+  if (record.outcome == Outcome::rejected) ++result_.rejected;
   if (result_.totals) result_.totals->add(record);
   listener_.on_event(record, is_scripted ? step_ : nullptr, coordinator_.state());
 }
@@ -168,6 +171,7 @@ void Runner::check(const Step& step) {
     ++result_.passed;
   } else {
     ++result_.failed;
+    result_.failures.push_back({step.range, mismatch});
     listener_.on_failure(
         {index_, step.range, std::move(mismatch), &step, &state, find_surprises(*step.expect)});
   }
@@ -215,7 +219,9 @@ RunResult run_script(const CompiledCatalog& catalog, const Script& script,
   }
   if (goes_on) static_cast<void>(runner.settle());
   listener.on_end(runner.coordinator().state());
-  return runner.result();
+  RunResult result = runner.result();
+  result.script = &script;
+  return result;
 }
 
 }  // namespace cbc

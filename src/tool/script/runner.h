@@ -109,11 +109,22 @@ class RunListener {
   virtual void on_end(const State& /*state*/) {}
 };
 
+/// The place and the message of a failure.
+struct FailedExpectation {
+  Range range;
+  std::string message;
+};
+
 struct RunResult {
   Coordinator::Status status = Coordinator::Status::ok;
-  std::string internal_error;  ///< if an answer was refused
-  std::uint64_t passed = 0;    ///< expectations that hold
+  std::string internal_error;      ///< if an answer was refused
+  const Script* script = nullptr;  ///< null: a stream
+  std::uint64_t events = 0;        ///< scripted or not; some are neither accepted nor rejected
+  std::uint64_t accepted = 0;
+  std::uint64_t rejected = 0;
+  std::uint64_t passed = 0;  ///< expectations that hold
   std::uint64_t failed = 0;
+  std::vector<FailedExpectation> failures;
   std::optional<SearchTotals> totals;  ///< if time was measured
 };
 
