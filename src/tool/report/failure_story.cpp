@@ -71,9 +71,10 @@ Sentences describe_decided(const CompiledCatalog& catalog, const Surprise& surpr
   const WhyNot& why_not = surprise.look_back.why_not;
   Sentences text;
   if (why_not.is_cut) {
-    text.first =
-        fmt::format("decided at {}: a search limit was reached before the reason was found",
-                    describe_place(catalog, event));
+    const bool is_proven = event.search->result.status == SearchStatus::optimal;
+    text.first = fmt::format("decided at {}: {}", describe_place(catalog, event),
+                             is_proven ? "a search limit was reached before the reason was found"
+                                       : "a search limit was reached, so it is not proven best");
     return text;
   }
   if (!why_not.alternative) {
