@@ -21,15 +21,6 @@ std::string quote_if_split(const std::string& text) {
   return text.find(' ') == std::string::npos ? text : quote(text);
 }
 
-/// The parts between separators; at least one, which may be empty.
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (std::size_t begin = 0; begin <= text.size(); begin += parts.back().size() + 1) {
-    parts.push_back(text.substr(begin, text.find(separator, begin) - begin));
-  }
-  return parts;
-}
-
 bool contains(const std::vector<std::string>& texts, std::string_view text) {
   return std::find(texts.begin(), texts.end(), text) != texts.end();
 }
@@ -40,6 +31,14 @@ std::string suggest(std::string_view name, const std::vector<std::string>& known
 }
 
 }  // namespace
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size(); begin += parts.back().size() + 1) {
+    parts.push_back(text.substr(begin, text.find(separator, begin) - begin));
+  }
+  return parts;
+}
 
 std::string join(const std::vector<std::string>& words, std::string_view separator) {
   std::string text;
@@ -209,7 +208,7 @@ const Option* Command::find(std::string_view name) const {
 
 Program::Program(std::string description, std::string version, HelpText text)
     : itself_({}, std::move(description), std::move(text)), version_(std::move(version)) {
-  itself_.flag("--version", "Print the version and exit");
+  itself_.flag("-V,--version", "Print the version and exit");
 }
 
 Command& Program::add_command(std::string name, std::string description, HelpText text) {
@@ -222,84 +221,7 @@ const Command* Program::find(std::string_view name) const {
   return found == commands_.end() ? nullptr : &*found;
 }
 
-// --help ------------------------------------------------------------------------------------------
-
 namespace {
-
-constexpr std::size_t line_width = 80;
-constexpr std::size_t column = 26;  ///< where the descriptions of options and commands begin
-
-/// Breaks a text between words into lines that fit. All but the first begin with `indent` blanks;
-/// the first one follows on as many characters.
-std::string wrap(std::string_view text, std::size_t indent) {
-  std::string wrapped;
-  std::size_t used = indent;
-  bool is_first = true;
-  for (const std::string_view word : split(text, ' ')) {
-    if (!std::exchange(is_first, false)) {
-      const bool fits = used + 1 + word.size() <= line_width;
-      wrapped += fits ? " " : '\n' + std::string(indent, ' ');
-      used = fits ? used + 1 : indent;
-    }
-    wrapped += word;
-    used += word.size();
-  }
-  return wrapped;
-}
-
-std::string wrap_lines(std::string_view text) {
-  std::string wrapped;
-  for (const std::string_view line : split(text, '\n')) {
-    wrapped += (line.starts_with(' ') ? std::string(line) : wrap(line, 0)) + '\n';
-  }
-  return wrapped;
-}
-
-std::string entry(const std::string& name, const std::string& text) {
-  std::string line = "  " + name;
-  line += line.size() + 2 <= column ? std::string(column - line.size(), ' ')
-                                    : '\n' + std::string(column, ' ');
-  return line + wrap(text, column) + '\n';
-}
-
-std::string entry(const Option& option) {
-  const std::string& placeholder = option.values.placeholder;
-  return entry(
-      fmt::format("{}{}{}", join(option.names, ","), placeholder.empty() ? "" : " ", placeholder),
-      option.help);
-}
-
-/// The command as it is called: "cbc lint", or "cbc".
-std::string full_name(const Command& command) {
-  return command.name().empty() ? "cbc" : "cbc " + command.name();
-}
-
-std::string help_of(const Program& program, const Command& command) {
-  const HelpText& text = command.text();
-  std::string help = wrap(command.description(), 0) + "\n\n";
-  for (const std::string& usage : text.usages) {
-    help += fmt::format("{}{} {}\n", &usage == &text.usages.front() ? "Usage: " : "       ",
-                        full_name(command), usage);
-  }
-  help += "\nExamples:\n" + text.examples;
-  std::string group;
-  const auto add = [&](const std::string& title, const std::string& line) {
-    if (title != group) help += fmt::format("\n{}:\n", title);
-    group = title;
-    help += line;
-  };
-  for (const Option& option : command.options()) {
-    if (option.is_argument) add("Positionals", entry(option));
-  }
-  for (const Option& option : command.options()) {
-    if (!option.is_argument) add(option.group, entry(option));
-  }
-  for (const Command& subcommand : program.commands()) {
-    if (&command != &program.itself()) break;
-    add("Subcommands", entry(subcommand.name(), subcommand.description()));
-  }
-  return help + "\n" + wrap_lines(text.footer);
-}
 
 // Parsing -----------------------------------------------------------------------------------------
 
@@ -387,12 +309,7 @@ Parsed parse(const Program& program, const std::vector<std::string>& arguments) 
 /// About a first argument that is no command; empty if it is one, or an option.
 std::string find_unknown_command(const Program& program, const std::string& argument) {
   if (argument.starts_with('-') || program.find(argument) != nullptr) return {};
-  std::vector<std::string> names;
-  for (const Command& command : program.commands()) names.push_back(command.name());
-  // These are commands of many other programs.
-  const bool is_option = argument == "help" || argument == "version";
-  return fmt::format("unknown command {}{}", quote(argument),
-                     is_option ? did_you_mean("--" + argument) : suggest(argument, names));
+  return describe_unknown_command(program, argument);
 }
 
 /// About an equals sign: behind a flag; behind a short option, whose value it would begin; or with
@@ -550,6 +467,15 @@ std::string find_misuse(const Command& command, const Given& given) {
 }
 
 }  // namespace
+
+std::string describe_unknown_command(const Program& program, const std::string& name) {
+  if (name == "version") {  // a command of many other programs
+    return fmt::format("unknown command {}{}", quote(name), did_you_mean("--version"));
+  }
+  std::vector<std::string> names;
+  for (const Command& command : program.commands()) names.push_back(command.name());
+  return fmt::format("unknown command {}{}", quote(name), suggest(name, names));
+}
 
 int Program::run(const std::vector<std::string>& arguments) const {
   const Command* const first = arguments.empty() ? nullptr : find(arguments.front());

@@ -65,6 +65,8 @@ struct Values {
 /// Of a time of at least so many microseconds, written in seconds.
 [[nodiscard]] Values seconds(Microseconds least = 1);
 
+/// The parts between separators; at least one, which may be empty.
+[[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 [[nodiscard]] std::string join(const std::vector<std::string>& words, std::string_view separator);
 /// "text, json or gcc"
 [[nodiscard]] std::string join_with_or(const std::vector<std::string>& words);
@@ -217,14 +219,23 @@ class Program {
   std::string version_;
 };
 
+/// The text that --help prints of a command, or of the program itself.
+[[nodiscard]] std::string help_of(const Program& program, const Command& command);
+
+/// The complaint about a name that no command has.
+[[nodiscard]] std::string describe_unknown_command(const Program& program, const std::string& name);
+
 // The commands of the program, for main.
 
+void add_init_command(Program& program);
 void add_lint_command(Program& program);
 void add_compile_command(Program& program);
 void add_solve_command(Program& program);
 void add_verify_command(Program& program);
 void add_graph_command(Program& program);
 void add_schema_command(Program& program);
+/// `program` must outlive the action of the command.
+void add_help_command(Program& program);
 /// `called_as`: the path or name under which the program was called, which its scripts complete.
 void add_completion_command(Program& program, std::string_view called_as);
 

@@ -20,6 +20,7 @@ constexpr const char* description =
     "should be active, proven best, on every event.";
 
 constexpr const char* program_examples =
+    "  cbc init robot                      a first catalog and mission\n"
     "  cbc lint robot.yaml                 every mistake, with its reason\n"
     "  cbc solve robot.yaml mission.yaml   what the robot would do, event by event\n"
     "  cbc verify robot.yaml               what it can do at all, and what it cannot\n"
@@ -31,20 +32,22 @@ constexpr const char* program_footer =
     "is wrong, 3 an internal "
     "error.\n"
     "\n"
-    "Read more: 'cbc COMMAND --help', man cbc, man cbc-catalog (how to write a catalog)";
+    "Read more: 'cbc help COMMAND', man cbc, man cbc-catalog (how to write a catalog)";
 
 int run(int argc, char** argv) {
   using namespace cbc::cli;
   Program program(description, "cbc " + std::string(cbc::version),
-                  {{"COMMAND [OPTION...] FILE...", "--version", "COMMAND --help"},
+                  {{"COMMAND [OPTION...] FILE...", "--version", "help [COMMAND]"},
                    program_examples,
                    program_footer});
+  add_init_command(program);
   add_lint_command(program);
   add_compile_command(program);
   add_solve_command(program);
   add_verify_command(program);
   add_graph_command(program);
   add_schema_command(program);
+  add_help_command(program);
   add_completion_command(program, argc > 0 ? argv[0] : "");
 
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);

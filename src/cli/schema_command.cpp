@@ -11,6 +11,7 @@
 
 #include "base/text.h"
 #include "cli/command_line.h"
+#include "cli/embedded_file.h"
 #include "cli/input.h"
 #include "cli/output.h"
 #include "diagnostic/diagnostic.h"
@@ -22,21 +23,21 @@
 namespace cbc::cli {
 namespace {
 
-std::string member_of(const Schema& schema, std::string_view name) {
+std::string member_of(const EmbeddedFile& schema, std::string_view name) {
   yaml::JsonReader reader;
   return yaml::JsonValue(*reader.read(schema.text))[name].text();
 }
 
-std::string id_of(const Schema& schema) { return member_of(schema, "$id"); }
+std::string id_of(const EmbeddedFile& schema) { return member_of(schema, "$id"); }
 
 /// A line that says what the schema describes.
-std::string title_of(const Schema& schema) { return member_of(schema, "title"); }
+std::string title_of(const EmbeddedFile& schema) { return member_of(schema, "title"); }
 
 /// The other schemas that this one refers to, directly or through others.
-std::vector<const Schema*> referenced_by(const Schema& schema) {
-  std::vector<const Schema*> found = {&schema};
+std::vector<const EmbeddedFile*> referenced_by(const EmbeddedFile& schema) {
+  std::vector<const EmbeddedFile*> found = {&schema};
   for (std::size_t i = 0; i < found.size(); ++i) {
-    for (const Schema& other : schema_files) {
+    for (const EmbeddedFile& other : schema_files) {
       const std::string reference = "\"$ref\": \"" + id_of(other);
       if (found[i]->text.find(reference) != std::string_view::npos &&
           std::find(found.begin(), found.end(), &other) == found.end()) {
@@ -50,10 +51,10 @@ std::vector<const Schema*> referenced_by(const Schema& schema) {
 
 /// The text of a schema, including the schemas that it refers to: they become the first of its
 /// "$defs", by their ids.
-std::string standalone(const Schema& schema) {
+std::string standalone(const EmbeddedFile& schema) {
   constexpr std::string_view definitions = "\n  \"$defs\": {";
   std::string text(schema.text);
-  for (const Schema* other : referenced_by(schema)) {
+  for (const EmbeddedFile* other : referenced_by(schema)) {
     std::string definition = fmt::format("\n\"{}\": {}", id_of(*other), other->text);
     definition.back() = ',';  // in place of the last line end
     for (std::size_t at = 0; (at = definition.find('\n', at)) != std::string::npos; ++at) {
@@ -81,9 +82,9 @@ constexpr const char* schema_footer =
 
 int list_schemas() {
   std::size_t width = 0;
-  for (const Schema& schema : schema_files) width = std::max(width, schema.name.size());
+  for (const EmbeddedFile& schema : schema_files) width = std::max(width, schema.name.size());
   const Style style = style_for(stdout);
-  for (const Schema& schema : schema_files) {
+  for (const EmbeddedFile& schema : schema_files) {
     fmt::print("{}{:<{}}{}  {}\n", style.strong, schema.name, width, style.reset, title_of(schema));
   }
   return exit_ok;
@@ -91,7 +92,7 @@ int list_schemas() {
 
 int print_schema(const std::string& name) {
   std::vector<std::string_view> names;
-  for (const Schema& schema : schema_files) {
+  for (const EmbeddedFile& schema : schema_files) {
     if (schema.name == name) {
       fmt::print("{}", standalone(schema));
       return exit_ok;
@@ -114,7 +115,7 @@ void add_schema_command(Program& program) {
   names.expected = "a schema";
   names.names = [] {
     std::vector<NameWithHelp> all;
-    for (const Schema& schema : schema_files) {
+    for (const EmbeddedFile& schema : schema_files) {
       all.push_back({std::string(schema.name), title_of(schema)});
     }
     return all;

@@ -150,7 +150,7 @@ def main():
     known = set()
     for verb in ("", *pages.VERBS):
         of_help = options_in_help(verb)
-        if len(of_help) < 2:
+        if not of_help:
             faults.append(f"cbc {verb} --help: found no options in it")
         faults += compare(pages.page_of(verb).name, of_help, options_in_page(verb))
         faults += [f"cbc {verb} --help: this line: {line}" for line in bad_lines_in_help(verb)]

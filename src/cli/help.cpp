@@ -1,0 +1,131 @@
+#include <cstddef>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "cli/command_line.h"
+#include "cli/output.h"
+
+// What --help prints, and the command that prints the same.
+namespace cbc::cli {
+namespace {
+
+constexpr std::size_t line_width = 80;
+constexpr std::size_t column = 26;  ///< where the descriptions of options and commands begin
+
+/// Breaks a text between words into lines that fit. All but the first begin with `indent` blanks;
+/// the first one follows on as many characters.
+std::string wrap(std::string_view text, std::size_t indent) {
+  std::string wrapped;
+  std::size_t used = indent;
+  bool is_first = true;
+  for (const std::string_view word : split(text, ' ')) {
+    if (!std::exchange(is_first, false)) {
+      const bool fits = used + 1 + word.size() <= line_width;
+      wrapped += fits ? " " : '\n' + std::string(indent, ' ');
+      used = fits ? used + 1 : indent;
+    }
+    wrapped += word;
+    used += word.size();
+  }
+  return wrapped;
+}
+
+std::string wrap_lines(std::string_view text) {
+  std::string wrapped;
+  for (const std::string_view line : split(text, '\n')) {
+    wrapped += (line.starts_with(' ') ? std::string(line) : wrap(line, 0)) + '\n';
+  }
+  return wrapped;
+}
+
+std::string entry(const std::string& name, const std::string& text) {
+  std::string line = "  " + name;
+  line += line.size() + 2 <= column ? std::string(column - line.size(), ' ')
+                                    : '\n' + std::string(column, ' ');
+  return line + wrap(text, column) + '\n';
+}
+
+std::string entry(const Option& option) {
+  const std::string& placeholder = option.values.placeholder;
+  return entry(
+      fmt::format("{}{}{}", join(option.names, ","), placeholder.empty() ? "" : " ", placeholder),
+      option.help);
+}
+
+/// The command as it is called: "cbc lint", or "cbc".
+std::string full_name(const Command& command) {
+  return command.name().empty() ? "cbc" : "cbc " + command.name();
+}
+
+}  // namespace
+
+std::string help_of(const Program& program, const Command& command) {
+  const HelpText& text = command.text();
+  std::string help = wrap(command.description(), 0) + "\n\n";
+  for (const std::string& usage : text.usages) {
+    help += fmt::format("{}{} {}\n", &usage == &text.usages.front() ? "Usage: " : "       ",
+                        full_name(command), usage);
+  }
+  help += "\nExamples:\n" + text.examples;
+  std::string group;
+  const auto add = [&](const std::string& title, const std::string& line) {
+    if (title != group) help += fmt::format("\n{}:\n", title);
+    group = title;
+    help += line;
+  };
+  for (const Option& option : command.options()) {
+    if (option.is_argument) add("Positionals", entry(option));
+  }
+  for (const Option& option : command.options()) {
+    if (!option.is_argument) add(option.group, entry(option));
+  }
+  for (const Command& subcommand : program.commands()) {
+    if (&command != &program.itself()) break;
+    add("Subcommands", entry(subcommand.name(), subcommand.description()));
+  }
+  return help + "\n" + wrap_lines(text.footer);
+}
+
+namespace {
+
+constexpr const char* help_examples =
+    "  cbc help         all commands\n"
+    "  cbc help lint    the same as cbc lint --help\n";
+
+constexpr const char* help_footer =
+    "Exit status: 0 the help is printed, 2 there is no such command, or the usage is wrong.\n"
+    "\n"
+    "Read more: man cbc";
+
+}  // namespace
+
+void add_help_command(Program& program) {
+  const auto name = std::make_shared<std::optional<std::string>>();
+  Command& command = program.add_command("help", "Prints the help of a command.",
+                                         {{"[COMMAND]"}, help_examples, help_footer});
+  Values names;
+  names.expected = "a command";
+  names.names = [&program] {
+    std::vector<NameWithHelp> all;
+    for (const Command& known : program.commands()) {
+      all.push_back({known.name(), known.description()});
+    }
+    return all;
+  };
+  command.argument("COMMAND", *name, names, "The command; without it, the program itself");
+  command.action([name, &program] {
+    const Command* const asked = *name ? program.find(**name) : &program.itself();
+    if (asked == nullptr) return usage_error("", describe_unknown_command(program, **name));
+    fmt::print("{}", help_of(program, *asked));
+    return int{exit_ok};
+  });
+}
+
+}  // namespace cbc::cli

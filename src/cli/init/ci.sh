@@ -1,0 +1,29 @@
+#!/bin/sh
+# Checks the catalog and runs the missions, for continuous integration and before commits:
+#
+#   sh ci.sh
+#
+# On GitHub, in .github/workflows/robot.yml (OWNER: where the repository of cbc is):
+#
+#   on: [push, pull_request]
+#   jobs:
+#     catalogs:
+#       runs-on: ubuntu-latest
+#       steps:
+#       - uses: actions/checkout@v4
+#       - uses: OWNER/cbc@v0.1.0    # puts cbc on the PATH, and checks all catalogs
+#       - run: sh ci.sh
+#
+# On GitLab, in .gitlab-ci.yml, with an image that has cbc:
+#
+#   missions:
+#     script: sh ci.sh
+set -eu
+cd -- "$(dirname -- "$0")"
+
+format=text
+if [ "${GITHUB_ACTIONS-}" = true ]; then
+  format=github                    # failures become annotations at their lines
+fi
+cbc lint --format "$format" robot.yaml missions/*.yaml
+cbc solve --format "$format" missions/
