@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# check_dev.sh FOLDER: the last line of ./dev says how it ended. What it calls is replaced by programs in
+# check_dev.sh FOLDER: the last line of ./dev says how it ended, and the demo writes a page and says what is next. What it calls is replaced by programs in
 # FOLDER: nothing is installed or built.
 set -euo pipefail
 
@@ -32,3 +32,18 @@ replace xargs <<<'cat >/dev/null; exit 3'
 expect 3 'dev format: FAILED at: format (exit status 3)'
 replace xargs <<<'cat >/dev/null; kill -TERM $PPID; sleep 0.1'
 expect 143 'dev format: INTERRUPTED at: format'
+
+# A copy of ./dev, with a program that was built before.
+replace cmake <<<'exit 0'
+project="$bin/a project"
+mkdir -p -- "$project/build/release"
+cp -- "$source/dev" "$project"
+replace 'a project/build/release/cbc' <<<'for page; do :; done; echo "$@" >"$page"'
+output=$(PATH=$bin:$PATH "$project/dev" demo)
+[[ $(<"$project/build/mission.html") == "solve catalogs/quadrotor.yaml "*" --html build/mission.html" ]]
+for line in "  export PATH=\"$project/build/release:\$PATH\"" "  cbc init " "  cbc solve missions/delivery.yaml"; do
+  [[ $'\n'$output$'\n' == *$'\n'"$line"* ]] || {
+    echo "check_dev.sh: FAILED: the demo does not say: $line"
+    exit 1
+  }
+done
