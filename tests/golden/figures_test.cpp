@@ -1,6 +1,6 @@
 // The figures are kept as Graphviz drew them. Its versions draw differently, so they are compared
 // with the DOT they come from: names, texts and colors of all nodes and edges. The DOT is that of
-// the command beside a figure in the README, or a file beside the figure.
+// the command beside a figure in docs/graphs.md, or a file beside the figure.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -24,11 +24,11 @@ namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 using Lines = std::vector<std::string>;
 
-/// "cbc graph … -o docs/figures/NAME.svg", in the README, as words.
-std::vector<Words> commands_of_readme() {
-  std::ifstream readme(fs::path(CBC_SOURCE_DIR) / "README.md");
+/// "cbc graph … -o docs/figures/NAME.svg", in docs/graphs.md, as words.
+std::vector<Words> commands_of_page() {
+  std::ifstream page(fs::path(CBC_SOURCE_DIR) / "docs" / "graphs.md");
   std::vector<Words> commands;
-  for (std::string line; std::getline(readme, line);) {
+  for (std::string line; std::getline(page, line);) {
     if (!line.starts_with("cbc graph ") || line.find(" -o docs/figures/") == std::string::npos) {
       continue;
     }
@@ -119,7 +119,7 @@ void expect_drawn_from(const std::string& dot, const fs::path& figure) {
 
 TEST(Figures, AreWhatTheyAreDrawnFrom) {
   std::set<fs::path> drawn;
-  for (Words command : commands_of_readme()) {
+  for (Words command : commands_of_page()) {
     const fs::path figure = fs::path(CBC_SOURCE_DIR) / command.back();
     drawn.insert(figure.filename());
     ASSERT_EQ(command[command.size() - 2], "-o");
@@ -143,7 +143,8 @@ TEST(Figures, AreWhatTheyAreDrawnFrom) {
 
 TEST(Figures, AreShown) {
   const std::string pages = test::read_file(fs::path(CBC_SOURCE_DIR) / "README.md") +
-                            test::read_file(fs::path(CBC_SOURCE_DIR) / "docs" / "architecture.md");
+                            test::read_file(fs::path(CBC_SOURCE_DIR) / "docs" / "architecture.md") +
+                            test::read_file(fs::path(CBC_SOURCE_DIR) / "docs" / "graphs.md");
   for (const auto& entry : fs::directory_iterator(figures_folder())) {
     if (entry.path().extension() == ".dot") continue;
     EXPECT_NE(pages.find("figures/" + entry.path().filename().string() + ")"), std::string::npos)

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -239,21 +241,21 @@ TEST(PublishedCatalogs, AreAsLargeAsTheySay) {
   }
 }
 
-/// A command that the README shows, and what it prints, in parts; "..." stands between them.
+/// A command that a page shows, and what it prints, in parts; "..." stands between them.
 struct Excerpt {
   std::vector<std::string> arguments;
   std::vector<std::string> parts = {""};
 };
 
-/// The console blocks of the README, each with one command.
-std::vector<Excerpt> excerpts_of_readme() {
-  std::ifstream readme(fs::path(CBC_SOURCE_DIR) / "README.md");
+/// The console blocks of a page, each with one command.
+std::vector<Excerpt> excerpts_of(const std::string& page) {
+  std::ifstream text(fs::path(CBC_SOURCE_DIR) / page);
   std::vector<Excerpt> excerpts;
   std::string line;
-  while (std::getline(readme, line)) {
+  while (std::getline(text, line)) {
     if (line != "```console") continue;
     Excerpt& excerpt = excerpts.emplace_back();
-    while (std::getline(readme, line) && line != "```") {
+    while (std::getline(text, line) && line != "```") {
       if (line.substr(0, 6) == "$ cbc ") {
         std::istringstream words(line.substr(6));
         for (std::string word; words >> word;) excerpt.arguments.push_back(word);
@@ -267,9 +269,27 @@ std::vector<Excerpt> excerpts_of_readme() {
   return excerpts;
 }
 
-TEST(Readme, ShowsWhatTheProgramPrints) {
-  const std::vector<Excerpt> excerpts = excerpts_of_readme();
-  ASSERT_EQ(excerpts.size(), 5U);
+TEST(Readme, FitsOnAFewScreens) {
+  std::ifstream readme(fs::path(CBC_SOURCE_DIR) / "README.md");
+  std::size_t words = 0;
+  for (std::string word; readme >> word;) ++words;
+  EXPECT_LT(words, 1200U);
+}
+
+TEST(Readme, ShowsTheCatalogThatItRuns) {
+  const std::string readme = test::read_file(CBC_SOURCE_DIR "/README.md");
+  const std::size_t begin = readme.find("```yaml\n") + 8;
+  const std::string shown = readme.substr(begin, readme.find("```", begin) - begin);
+  EXPECT_NE(test::read_file(CBC_SOURCE_DIR "/docs/fetch.yaml").find(shown), std::string::npos)
+      << shown;
+}
+
+class ExcerptsOf : public testing::TestWithParam<std::pair<const char*, std::size_t>> {};
+
+TEST_P(ExcerptsOf, AreWhatTheProgramPrints) {
+  const auto& [page, count] = GetParam();
+  const std::vector<Excerpt> excerpts = excerpts_of(page);
+  ASSERT_EQ(excerpts.size(), count);
   for (const Excerpt& excerpt : excerpts) {
     ASSERT_GT(excerpt.parts.size(), 1U);
     const Result result = run({excerpt.arguments, CBC_SOURCE_DIR});
@@ -284,6 +304,27 @@ TEST(Readme, ShowsWhatTheProgramPrints) {
     }
   }
 }
+
+TEST(Pages, LinkToFilesThatExist) {
+  const fs::path root(CBC_SOURCE_DIR);
+  std::vector<fs::path> pages = {root / "README.md", root / "CONTRIBUTING.md",
+                                 root / "catalogs" / "README.md", root / "schemas" / "README.md"};
+  for (const auto& entry : fs::directory_iterator(root / "docs")) {
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  }
+  const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
+  for (const fs::path& page : pages) {
+    const std::string text = test::read_file(page);
+    for (std::sregex_iterator at(text.begin(), text.end(), link), end; at != end; ++at) {
+      EXPECT_TRUE(fs::exists(page.parent_path() / (*at)[1].str())) << page << ": " << (*at)[1];
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pages, ExcerptsOf,
+                         testing::Values(std::pair("README.md", 2U),
+                                         std::pair("docs/sweeps.md", 1U),
+                                         std::pair("docs/verify.md", 1U)));
 
 TEST(Version, IsThatOfTheHeaders) {
   const Result result = run({{"--version"}, "/"});

@@ -1,13 +1,16 @@
-"""Do the examples of the pages do what the pages say?
+"""Do the examples of the pages of the manual, and the tutorial, do what they say?
 
 Each page has a folder of its own, in which its literal blocks are gone through in order:
 
     .\\" file: NAME    the block is the file NAME
     .\\" needs: TOOL   the commands of the block are left out where there is no TOOL
 
+The tutorial is Markdown: a line <!-- file: NAME --> comes before a file, and commands are in blocks
+of the language "console"; other blocks are only to be read.
+
 In all other blocks a line that begins with "$ " is a command for the shell, with the lines that
 begin with "> " right below it; what follows is what it prints, with "..." for any number of lines.
-A command that fails must be followed by `echo $?`.
+A command that fails must be followed by `echo $?`. The commands after `cd FOLDER` run in that folder.
 """
 
 import difflib
@@ -22,6 +25,7 @@ from pathlib import Path
 import pages
 
 program = Path(sys.argv[1]).resolve()
+TUTORIAL = pages.FOLDER.parent / "docs" / "tutorial.md"
 
 
 class Block:
@@ -33,6 +37,30 @@ class Block:
 
 
 def blocks_of(page):
+    yield from blocks_of_markdown(page) if page.suffix == ".md" else blocks_of_roff(page)
+
+
+def blocks_of_markdown(page):
+    block = None
+    file = None
+    for number, line in enumerate(page.read_text().splitlines(), start=1):
+        note = re.fullmatch(r"<!-- file: (\S+) -->", line)
+        if note:
+            file = note[1]
+        elif block is None and line.startswith("```"):
+            block = Block(number + 1)
+            block.file = file
+            is_to_run = file or line == "```console"
+            file = None
+        elif block is not None and line == "```":
+            if is_to_run:
+                yield block
+            block = None
+        elif block is not None:
+            block.text.append(line)
+
+
+def blocks_of_roff(page):
     block = Block(0)
     is_open = False
     for number, line in enumerate(page.read_text().splitlines(), start=1):
@@ -74,13 +102,27 @@ def matches(expected, found):
     return re.fullmatch(pattern, found) is not None
 
 
+class Folder:
+    """Of a page; what commands change to stays for the next ones."""
+
+    def __init__(self, path):
+        self.path = path
+        self.current = path
+
+    def enter(self, name):
+        self.current = self.current / name
+
+
 def run_block(block, folder, environment, where):
     status = 0
     commands = commands_of(block)
     for place, (command, expected) in enumerate(commands):
+        if re.fullmatch(r"cd \S+", command):
+            folder.enter(command[3:])
+            continue
         result = subprocess.run(
             ["sh", "-c", f"(exit {status}); {command}"],
-            cwd=folder,
+            cwd=folder.current,
             env=environment,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
@@ -102,7 +144,7 @@ def run_block(block, folder, environment, where):
 def unused_files(files, commands):
     """A file may be named itself, or a folder that it is in."""
     for file in files:
-        names = [file, *(f"{folder}/" for folder in Path(file).parents[:-1])]
+        names = [Path(file).name, *(f"{folder}/" for folder in Path(file).parents[:-1])]
         if not file.endswith(".cbc.yaml") and not any(name in commands for name in names):
             yield file
 
@@ -113,8 +155,8 @@ def run_page(page, folder, environment):
     for block in blocks_of(page):
         where = f"{page.name}:{block.line}"
         if block.file:
-            (folder / block.file).parent.mkdir(parents=True, exist_ok=True)
-            (folder / block.file).write_text("\n".join(block.text) + "\n")
+            (folder.path / block.file).parent.mkdir(parents=True, exist_ok=True)
+            (folder.path / block.file).write_text("\n".join(block.text) + "\n")
             files.append(block.file)
             continue
         commands += "\n".join(command for command, _ in commands_of(block))
@@ -128,7 +170,7 @@ def run_page(page, folder, environment):
 
 def main():
     faults = []
-    for page in pages.all_pages():
+    for page in [*pages.all_pages(), TUTORIAL]:
         with tempfile.TemporaryDirectory() as scratch:
             folder = Path(scratch)
             (folder / "bin").mkdir()
@@ -137,7 +179,7 @@ def main():
             work.mkdir()
             path = f"{folder / 'bin'}:{os.environ['PATH']}"
             environment = {"PATH": path, "LC_ALL": "C.UTF-8", "HOME": str(folder)}
-            faults += run_page(page, work, environment)
+            faults += run_page(page, Folder(work), environment)
     pages.finish(faults)
 
 
