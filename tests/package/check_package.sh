@@ -76,6 +76,8 @@ install install /tmp/package.deb
 say "use"
 [[ $(use cbc --version) == "cbc $version" ]] || fail "cbc --version says $(use cbc --version)"
 use cbc lint --strict "$examples"
+use cbc init first
+use cbc solve first/missions | grep '^expectations: .* 0 failed$' || fail "cbc init"
 for mission in "$root$examples"/*.mission.yaml; do
   catalog=$(basename -- "$mission" .mission.yaml)
   use cbc compile "$examples/$catalog.yaml" -o "$catalog.cbc"

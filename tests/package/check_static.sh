@@ -20,6 +20,8 @@ if ((EUID == 0)); then
 fi
 "${run[@]}" --version
 "${run[@]}" lint --strict .
+"${run[@]}" init robot
+"${run[@]}" solve robot/missions | grep '^expectations: .* 0 failed$'
 "${run[@]}" compile quadrotor.yaml
 "${run[@]}" solve quadrotor.cbc quadrotor.mission.yaml | grep '^expectations: .* 0 failed$'
 [[ $("${run[@]}" graph quadrotor.cbc) == "digraph "* ]]
