@@ -10,9 +10,11 @@
 #include "solver/components.h"
 #include "solver/cost_bound.h"
 #include "solver/domains.h"
+#include "solver/learning_search.h"
 #include "solver/objective.h"
 #include "solver/problem.h"
 #include "solver/propagator.h"
+#include "solver/search_budget.h"
 
 namespace cbc {
 
@@ -28,6 +30,9 @@ struct SearchOptions {
   /// A search that takes more decisions than this is hard: it restarts with cost bounds and
   /// component decomposition, which cost too much for the many easy ones. No answer depends on it.
   std::uint64_t easy_nodes = 100;
+  /// A hard search learns no-goods from here on: at once without an incumbent, after this many
+  /// decisions with one. No answer depends on it, either.
+  std::uint64_t bounded_nodes = 1000;
 };
 
 /// Finds the best solution of a problem (docs/semantics.md, "Objectives") by depth-first branch and
@@ -75,6 +80,8 @@ class Solver {
   [[nodiscard]] CostBound::Cost pruning_threshold(const Incumbent& best) const;
   [[nodiscard]] bool accept();
   [[nodiscard]] bool is_out_of_budget() const;
+  [[nodiscard]] bool should_learn() const;
+  [[nodiscard]] bool search_learning();
   [[nodiscard]] bool should_restart() const;
   void restart();
   [[nodiscard]] bool enter_component(const Decision& decision);
@@ -98,13 +105,15 @@ class Solver {
   Components components_;
   Objective objective_;
   CostBound cost_bound_;
+  LearningSearch learning_;
 
   const Problem* problem_ = nullptr;
   SearchResult result_;
   bool is_hard_ = false;
+  bool is_hopeless_ = false;  ///< learning takes over
   std::vector<Frame> frames_;
   std::array<ComponentSearch, Components::deepest + 1> searches_;
-  std::chrono::steady_clock::time_point deadline_;
+  SearchBudget budget_;
 };
 
 }  // namespace cbc
