@@ -32,6 +32,7 @@ LearningSearch::LearningSearch(const CompiledCatalog& catalog, Domains& domains,
     : catalog_(catalog),
       domains_(domains),
       objective_(objective),
+      cost_bound_(cost_bound),
       trail_(catalog, domains),
       performance_(catalog, domains, trail_),
       objectives_(domains, objective, cost_bound, trail_) {}
@@ -69,7 +70,7 @@ bool LearningSearch::search(const Problem& problem, Incumbent& best, bool any_so
       restart();
       continue;
     }
-    const Literal decision = decide();
+    const Literal decision = decide(best);
     if (decision == none) {
       ++result.solutions;
       objective_.record(best);
@@ -207,13 +208,13 @@ void LearningSearch::restart() {
 
 /// The next literal to decide; none if all is decided that a best solution may contain. Requests
 /// come first, the most important one first.
-Literal LearningSearch::decide() {
+Literal LearningSearch::decide(const Incumbent& best) {
   for (const std::uint32_t task : problem_->requests) {
     const Literal runs = ReasonTrail::runs(task);
     if (!trail_.is_true(runs) && !trail_.is_false(runs)) return runs;
   }
   const std::uint32_t task = choose_task();
-  return task == none ? none : trail_.has_value(task, choose_value(task));
+  return task == none ? none : trail_.has_value(task, choose_value(task, best));
 }
 
 /// The undecided needed task that has taken part in most of the recent conflicts.
@@ -231,9 +232,23 @@ std::uint32_t LearningSearch::choose_task() const {
   return chosen;
 }
 
-std::uint32_t LearningSearch::choose_value(std::uint32_t task) const {
+/// The value of the least estimated cost; before the first solution rather the one saved.
+std::uint32_t LearningSearch::choose_value(std::uint32_t task, const Incumbent& best) {
   const std::uint32_t saved = saved_[task];
-  return saved != none && domains_.has(task, saved) ? saved : domains_.best(task);
+  if (!best.exists && saved != none && domains_.has(task, saved)) return saved;
+  objectives_.bound_if_stale();
+  std::uint32_t chosen = none;
+  CostBound::Cost least;
+  const auto values = static_cast<std::uint32_t>(domains_.values(task).size());
+  for (std::uint32_t index = 0; index < values; ++index) {
+    if (!domains_.has(task, index)) continue;
+    const CostBound::Cost cost = cost_bound_.reduced_cost(task, index);
+    if (chosen == none || cost < least || (cost == least && index == saved)) {
+      chosen = index;
+      least = cost;
+    }
+  }
+  return chosen;
 }
 
 /// Saves the values of the tasks that have one, to try them first next time.

@@ -44,14 +44,15 @@ class LearningSearch {
   void drop_implied_literals();
   [[nodiscard]] std::uint32_t count_levels();
   void restart();
-  [[nodiscard]] Literal decide();
+  [[nodiscard]] Literal decide(const Incumbent& best);
   [[nodiscard]] std::uint32_t choose_task() const;
-  [[nodiscard]] std::uint32_t choose_value(std::uint32_t task) const;
+  [[nodiscard]] std::uint32_t choose_value(std::uint32_t task, const Incumbent& best);
   void save_values();
 
   const CompiledCatalog& catalog_;
   Domains& domains_;
   Objective& objective_;
+  CostBound& cost_bound_;
   ReasonTrail trail_;
   PerformanceReasons performance_;
   ObjectiveReasons objectives_;

@@ -62,10 +62,17 @@ bool ObjectiveReasons::serve_open_requests() {
   return true;
 }
 
+void ObjectiveReasons::bound_if_stale() {
+  if (bounded_at_ == trail_.version()) return;
+  static_cast<void>(cost_bound_.bound({INT64_MAX, INT64_MAX}, CostBound::Roots::in_component));
+  bounded_at_ = trail_.version();
+}
+
 /// Refutes the subtree, or removes the values that cost too much.
 bool ObjectiveReasons::bound_costs(const CostBound::Cost& threshold) {
   if (threshold.log == INT64_MAX) return true;
   const CostBound::Cost bound = cost_bound_.bound_with_grounds(threshold);
+  bounded_at_ = trail_.version();
   if (bound > threshold) {
     explain_grounds();
     trail_.set_conflict(reason_);

@@ -22,6 +22,8 @@ class ObjectiveReasons {
   /// To be called at a fixpoint of the trail; there may be more to propagate afterwards. False: see
   /// the trail's conflict.
   [[nodiscard]] bool propagate(const Incumbent& incumbent);
+  /// Computes the cost bound of the present subtree, if that is not done.
+  void bound_if_stale();
 
  private:
   enum class Requests : std::uint8_t { worse, as_many, more };
@@ -38,6 +40,7 @@ class ObjectiveReasons {
   CostBound& cost_bound_;
   ReasonTrail& trail_;
   const Problem* problem_ = nullptr;
+  std::uint64_t bounded_at_ = 0;  ///< the state of the trail at the last bound
   std::vector<Literal> reason_;
 };
 

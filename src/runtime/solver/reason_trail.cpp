@@ -27,6 +27,7 @@ bool ReasonTrail::load(const Problem& problem) {
   marks_.clear();
   stored_.clear();
   propagations_ = 0;
+  ++version_;
   for (std::uint32_t task = 0; task < task_count_; ++task) {
     const auto values = static_cast<std::uint32_t>(domains_.values(task).size());
     for (std::uint32_t index = 0; index < values; ++index) {
@@ -58,6 +59,7 @@ bool ReasonTrail::imply(Literal literal, Reason reason) {
 /// A domain that becomes empty is found by the propagation of this literal.
 void ReasonTrail::set(Literal literal, Reason reason) {
   const std::uint32_t variable = variable_of(literal);
+  ++version_;
   truth_[literal] = 1;
   truth_[negate(literal)] = -1;
   levels_[variable] = level();
@@ -84,6 +86,7 @@ void ReasonTrail::set_conflict(std::span<const Literal> literals) {
 
 void ReasonTrail::backtrack_to(std::uint32_t level) {
   if (level >= marks_.size()) return;
+  ++version_;
   const LevelMark& mark = marks_[level];
   while (literals_.size() > mark.literals) {
     truth_[literals_.back()] = 0;

@@ -85,6 +85,8 @@ class ReasonTrail {
 
   void backtrack_to(std::uint32_t level);
   [[nodiscard]] Nogoods& nogoods() { return nogoods_; }
+  /// Changes with every inference and every way back.
+  [[nodiscard]] std::uint64_t version() const { return version_; }
   /// Inferences since the load.
   [[nodiscard]] std::uint64_t propagations() const { return propagations_; }
 
@@ -126,6 +128,7 @@ class ReasonTrail {
   std::vector<LevelMark> marks_;
   std::vector<Literal> stored_;  ///< each reason after its length
   std::vector<Literal> conflict_;
+  std::uint64_t version_ = 0;
   std::uint64_t propagations_ = 0;
 };
 
