@@ -25,10 +25,21 @@ Solver::Solver(const CompiledCatalog& catalog, const SearchOptions& options,
 }
 
 SearchResult Solver::solve(const Problem& problem, Assignment& solution) {
+  budget_.max_nodes = options_.max_nodes;
+  budget_.nodes_before = 0;
+  budget_.has_deadline = options_.time_limit.count() > 0;
+  if (budget_.has_deadline) {
+    budget_.deadline = std::chrono::steady_clock::now() + options_.time_limit;
+  }
+  return solve_again(problem, solution);
+}
+
+SearchResult Solver::solve_again(const Problem& problem, Assignment& solution) {
   load(problem);
   bool is_complete = search();
   result_.propagations = propagator_.propagations();
   if (is_hopeless_) is_complete = search_learning();
+  budget_.nodes_before += result_.nodes;
   const Incumbent& best = searches_.front().best;
   if (best.exists) {
     result_.status = is_complete ? SearchStatus::optimal : SearchStatus::feasible;
@@ -53,11 +64,6 @@ void Solver::load(const Problem& problem) {
   current().base = 0;
   current().best_cost_outside = 0;
   current().cost_bound_outside = 0;
-  budget_.max_nodes = options_.max_nodes;
-  budget_.has_deadline = options_.time_limit.count() > 0;
-  if (budget_.has_deadline) {
-    budget_.deadline = std::chrono::steady_clock::now() + options_.time_limit;
-  }
 }
 
 /// Takes "not running" out of the domains of the tasks that must run.
@@ -134,7 +140,7 @@ bool Solver::accept() {
 }
 
 bool Solver::is_out_of_budget() const {
-  if (options_.max_nodes > 0 && result_.nodes >= options_.max_nodes) return true;
+  if (!budget_.has_nodes_left(result_.nodes)) return true;
   constexpr std::uint64_t nodes_between_looks = 16;
   return budget_.has_deadline && result_.nodes % nodes_between_looks == 0 &&
          budget_.is_spent(result_.nodes);
@@ -148,8 +154,9 @@ bool Solver::should_restart() const {
 
 /// Whether the search turns out to be too hard for branch and bound.
 bool Solver::should_learn() const {
-  return options_.max_solutions == 0 && result_.nodes >= options_.easy_nodes &&
-         (searches_.front().best.exists ? result_.nodes >= options_.bounded_nodes : true);
+  if (options_.max_solutions > 0 || options_.bounded_nodes == UINT64_MAX) return false;
+  if (result_.nodes < options_.easy_nodes) return false;
+  return !searches_.front().best.exists || result_.nodes >= options_.bounded_nodes;
 }
 
 /// Starts again with the incumbent. False if a limit ended the search.
