@@ -44,10 +44,14 @@ void Nogoods::forget_half() {
   const double limit = *middle;
 
   for (std::vector<Watch>& watches : watches_) watches.clear();
+  std::size_t to_forget = nogoods_.size() / 2;
   std::uint32_t kept = 0;
   std::uint32_t end = 0;
   for (const Nogood nogood : std::span<const Nogood>(nogoods_)) {
-    if (nogood.activity < limit && nogood.levels > levels_to_keep) continue;
+    if (to_forget > 0 && nogood.activity <= limit && nogood.levels > levels_to_keep) {
+      --to_forget;
+      continue;
+    }
     const auto first = literals_.begin() + nogood.begin;
     std::copy(first, first + nogood.size, literals_.begin() + end);
     nogoods_[kept] = nogood;
