@@ -28,14 +28,16 @@ std::uint64_t luby(std::uint64_t place) {
 }  // namespace
 
 LearningSearch::LearningSearch(const CompiledCatalog& catalog, Domains& domains,
-                               Objective& objective, CostBound& cost_bound)
+                               Objective& objective)
     : catalog_(catalog),
       domains_(domains),
       objective_(objective),
-      cost_bound_(cost_bound),
       trail_(catalog, domains),
+      bound_(catalog, domains, trail_),
       performance_(catalog, domains, trail_),
-      objectives_(domains, objective, cost_bound, trail_) {}
+      objectives_(domains, objective, bound_, trail_) {
+  trail_.set_lazy_reasons(bound_);
+}
 
 void LearningSearch::load(const Problem& problem) {
   problem_ = &problem;
@@ -55,6 +57,7 @@ bool LearningSearch::search(const Problem& problem, Incumbent& best, bool any_so
   load(problem);
   const std::uint64_t propagations_before = result.propagations;
   bool is_consistent = trail_.load(problem);
+  bound_.load();
   is_noted_.assign(trail_.variable_count(), 0);
   counted_.assign(trail_.variable_count() + 1, 0);
   for (;;) {
@@ -80,6 +83,7 @@ bool LearningSearch::search(const Problem& problem, Incumbent& best, bool any_so
     }
     if (budget.is_spent(result.nodes)) return false;
     ++result.nodes;
+    bound_.begin_level();
     trail_.decide(decision);
   }
 }
@@ -106,7 +110,7 @@ bool LearningSearch::learn() {
   }
   if (conflict_level_ == 0) return false;
   save_values();
-  trail_.backtrack_to(conflict_level_);
+  backtrack_to(conflict_level_);
   trace_conflict();
   drop_implied_literals();
   for (const std::uint32_t variable : noted_) is_noted_[variable] = 0;
@@ -116,7 +120,7 @@ bool LearningSearch::learn() {
   increment_ *= growth;
   trail_.nogoods().age();
   if (learned_.size() == 1) {
-    trail_.backtrack_to(0);
+    backtrack_to(0);
     return trail_.imply(learned_.front(), {});
   }
   // The second literal watched is one of the highest level, to which the search goes back.
@@ -125,7 +129,7 @@ bool LearningSearch::learn() {
       [this](Literal a, Literal b) { return trail_.level_of(a) < trail_.level_of(b); });
   std::swap(learned_[1], *next_highest);
   const std::uint32_t levels = count_levels();
-  trail_.backtrack_to(trail_.level_of(learned_[1]));
+  backtrack_to(trail_.level_of(learned_[1]));
   const std::uint32_t nogood = trail_.nogoods().add(learned_, levels);
   return trail_.imply(learned_.front(), {ReasonTrail::Reason::Kind::nogood, nogood});
 }
@@ -197,8 +201,13 @@ std::uint32_t LearningSearch::count_levels() {
   return levels;
 }
 
+void LearningSearch::backtrack_to(std::uint32_t level) {
+  trail_.backtrack_to(level);
+  bound_.backtrack_to(level);
+}
+
 void LearningSearch::restart() {
-  trail_.backtrack_to(0);
+  backtrack_to(0);
   ++restarts_;
   next_restart_ = conflicts_ + conflicts_of_a_restart * luby(restarts_);
   if (trail_.nogoods().size() <= most_nogoods_) return;
@@ -236,13 +245,13 @@ std::uint32_t LearningSearch::choose_task() const {
 std::uint32_t LearningSearch::choose_value(std::uint32_t task, const Incumbent& best) {
   const std::uint32_t saved = saved_[task];
   if (!best.exists && saved != none && domains_.has(task, saved)) return saved;
-  objectives_.bound_if_stale();
+  static_cast<void>(bound_.raise(INT64_MAX));
   std::uint32_t chosen = none;
-  CostBound::Cost least;
+  std::int64_t least = 0;
   const auto values = static_cast<std::uint32_t>(domains_.values(task).size());
   for (std::uint32_t index = 0; index < values; ++index) {
     if (!domains_.has(task, index)) continue;
-    const CostBound::Cost cost = cost_bound_.reduced_cost(task, index);
+    const std::int64_t cost = bound_.estimate(task, index);
     if (chosen == none || cost < least || (cost == least && index == saved)) {
       chosen = index;
       least = cost;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
-#include "solver/cost_bound.h"
+#include "solver/landmark_bound.h"
 #include "solver/domains.h"
 #include "solver/objective.h"
 #include "solver/objective_reasons.h"
@@ -27,8 +27,7 @@ namespace cbc {
 /// Its memory grows with the number of no-goods that it keeps, and is used again.
 class LearningSearch {
  public:
-  LearningSearch(const CompiledCatalog& catalog, Domains& domains, Objective& objective,
-                 CostBound& cost_bound);
+  LearningSearch(const CompiledCatalog& catalog, Domains& domains, Objective& objective);
 
   /// Continues from the incumbent, if it exists, and improves it. The domains and the objective
   /// must be loaded. False if the budget ended the search.
@@ -43,6 +42,7 @@ class LearningSearch {
   void note(Literal literal);
   void drop_implied_literals();
   [[nodiscard]] std::uint32_t count_levels();
+  void backtrack_to(std::uint32_t level);
   void restart();
   [[nodiscard]] Literal decide(const Incumbent& best);
   [[nodiscard]] std::uint32_t choose_task() const;
@@ -52,8 +52,8 @@ class LearningSearch {
   const CompiledCatalog& catalog_;
   Domains& domains_;
   Objective& objective_;
-  CostBound& cost_bound_;
   ReasonTrail trail_;
+  LandmarkBound bound_;
   PerformanceReasons performance_;
   ObjectiveReasons objectives_;
   const Problem* problem_ = nullptr;

@@ -1,10 +1,9 @@
 #include "solver/objective_reasons.h"
 
 namespace cbc {
-
 ObjectiveReasons::ObjectiveReasons(const Domains& domains, Objective& objective,
-                                   CostBound& cost_bound, ReasonTrail& trail)
-    : domains_(domains), objective_(objective), cost_bound_(cost_bound), trail_(trail) {}
+                                   LandmarkBound& bound, ReasonTrail& trail)
+    : domains_(domains), objective_(objective), bound_(bound), trail_(trail) {}
 
 bool ObjectiveReasons::propagate(const Incumbent& incumbent) {
   switch (compare_requests(incumbent)) {
@@ -62,38 +61,30 @@ bool ObjectiveReasons::serve_open_requests() {
   return true;
 }
 
-void ObjectiveReasons::bound_if_stale() {
-  if (bounded_at_ == trail_.version()) return;
-  static_cast<void>(cost_bound_.bound({INT64_MAX, INT64_MAX}, CostBound::Roots::in_component));
-  bounded_at_ = trail_.version();
-}
-
 /// Refutes the subtree, or removes the values that cost too much.
-bool ObjectiveReasons::bound_costs(const CostBound::Cost& threshold) {
-  if (threshold.log == INT64_MAX) return true;
-  const CostBound::Cost bound = cost_bound_.bound_with_grounds(threshold);
-  bounded_at_ = trail_.version();
+bool ObjectiveReasons::bound_costs(const CostBound::Cost& limits) {
+  if (limits.log == INT64_MAX) return true;
+  const bool is_idle = limits.idle != INT64_MAX;
+  bound_.set_measure(is_idle ? LandmarkBound::Measure::idle : LandmarkBound::Measure::log);
+  const std::int64_t threshold = is_idle ? limits.idle : limits.log;
+  const std::int64_t bound = bound_.raise(threshold);
   if (bound > threshold) {
-    explain_grounds();
+    explain_requests();
+    bound_.append_grounds(bound - threshold - 1, reason_);
     trail_.set_conflict(reason_);
     return false;
   }
-  bool is_stored = false;
-  ReasonTrail::Reason reason;
-  for (const std::uint32_t task : cost_bound_.grounds().opened) {
+  if (bound + bound_.highest_cost() <= threshold) return true;
+  for (const std::uint32_t task : bound_.relevant_tasks()) {
     const auto values = static_cast<std::uint32_t>(domains_.values(task).size());
     for (std::uint32_t index = 0; index < values; ++index) {
+      const std::int64_t with_value = bound + bound_.residual(task, index);
+      if (with_value <= threshold || !domains_.has(task, index)) continue;
       const Literal value = trail_.has_value(task, index);
-      if (trail_.is_true(value) || trail_.is_false(value)) continue;
-      CostBound::Cost with_value = bound;
-      with_value += cost_bound_.least_increase(task, index);
-      if (with_value <= threshold) continue;
-      if (!is_stored) {
-        explain_grounds();
-        reason = trail_.store(reason_);
-        is_stored = true;
-      }
-      if (!trail_.imply(negate(value), reason)) return false;
+      if (trail_.is_true(value)) continue;
+      explain_requests();
+      bound_.append_grounds(with_value - threshold - 1, reason_);
+      if (!trail_.imply(negate(value), trail_.store(reason_))) return false;
     }
   }
   return true;
@@ -105,16 +96,6 @@ void ObjectiveReasons::explain_requests() {
   for (const std::uint32_t task : problem_->requests) {
     const Literal stops = negate(ReasonTrail::runs(task));
     if (trail_.is_true(stops)) reason_.push_back(stops);
-  }
-}
-
-void ObjectiveReasons::explain_grounds() {
-  explain_requests();
-  for (const std::uint32_t task : cost_bound_.grounds().needed) {
-    reason_.push_back(ReasonTrail::runs(task));
-  }
-  for (const auto& [task, index] : cost_bound_.grounds().removed) {
-    reason_.push_back(negate(trail_.has_value(task, index)));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/landmark_bound.h"
 #include "solver/cost_bound.h"
 #include "solver/domains.h"
 #include "solver/objective.h"
@@ -15,32 +16,28 @@ namespace cbc {
 /// its f2, and then the exact comparison of all objectives.
 class ObjectiveReasons {
  public:
-  ObjectiveReasons(const Domains& domains, Objective& objective, CostBound& cost_bound,
+  ObjectiveReasons(const Domains& domains, Objective& objective, LandmarkBound& bound,
                    ReasonTrail& trail);
 
   void load(const Problem& problem) { problem_ = &problem; }
   /// To be called at a fixpoint of the trail; there may be more to propagate afterwards. False: see
   /// the trail's conflict.
   [[nodiscard]] bool propagate(const Incumbent& incumbent);
-  /// Computes the cost bound of the present subtree, if that is not done.
-  void bound_if_stale();
 
  private:
   enum class Requests : std::uint8_t { worse, as_many, more };
 
   [[nodiscard]] Requests compare_requests(const Incumbent& incumbent) const;
   [[nodiscard]] bool serve_open_requests();
-  [[nodiscard]] bool bound_costs(const CostBound::Cost& threshold);
+  [[nodiscard]] bool bound_costs(const CostBound::Cost& limits);
   void explain_requests();
-  void explain_grounds();
   void explain_all();
 
   const Domains& domains_;
   Objective& objective_;
-  CostBound& cost_bound_;
+  LandmarkBound& bound_;
   ReasonTrail& trail_;
   const Problem* problem_ = nullptr;
-  std::uint64_t bounded_at_ = 0;  ///< the state of the trail at the last bound
   std::vector<Literal> reason_;
 };
 

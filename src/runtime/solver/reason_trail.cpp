@@ -10,6 +10,7 @@ ReasonTrail::ReasonTrail(const CompiledCatalog& catalog, Domains& domains)
       most_in_a_group(catalog.group_tasks) + most_values_in_a_group(catalog);
   truth_.resize(2 * variables);
   levels_.resize(variables);
+  literal_places_.resize(variables);
   reasons_.resize(variables);
   literals_.reserve(variables);
   marks_.reserve(variables);
@@ -20,6 +21,7 @@ bool ReasonTrail::load(const Problem& problem) {
   task_count_ = domains_.task_count();
   first_value_ = catalog_.values.begin[first_task_];
   variable_count_ = task_count_ + catalog_.values.begin[first_task_ + task_count_] - first_value_;
+  requests_ = problem.requests;
   nogoods_.clear(variable_count_);
   std::fill_n(truth_.begin(), 2 * variable_count_, std::int8_t{0});
   literals_.clear();
@@ -64,6 +66,7 @@ void ReasonTrail::set(Literal literal, Reason reason) {
   truth_[negate(literal)] = -1;
   levels_[variable] = level();
   reasons_[variable] = reason;
+  literal_places_[variable] = static_cast<std::uint32_t>(literals_.size());
   literals_.push_back(literal);
   const std::uint32_t task = task_of(variable);
   if (variable < task_count_) {
@@ -131,6 +134,9 @@ void ReasonTrail::append_reason(Literal literal, const Reason& reason,
       append_removals(source, &catalog_.masks[arc.mask], result);
       return;
     }
+    case Reason::Kind::lazy:
+      lazy_reasons_->append_reason(literal, reason.data, result);
+      return;
     case Reason::Kind::stored: {
       const auto first = stored_.begin() + reason.data + 1;
       result.insert(result.end(), first, first + stored_[reason.data]);

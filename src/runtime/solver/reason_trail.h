@@ -13,6 +13,15 @@
 
 namespace cbc {
 
+/// Works out reasons only when they are asked for.
+class LazyReasons {
+ public:
+  virtual ~LazyReasons() = default;
+  /// Appends what the literal follows from: literals that held before it. `data`: of its reason.
+  virtual void append_reason(Literal literal, std::uint32_t data,
+                             std::vector<Literal>& reason) const = 0;
+};
+
 /// What a search with learning has decided and inferred in one group, in order, with the reason of
 /// each inference. The domains always say the same.
 ///
@@ -30,13 +39,16 @@ class ReasonTrail {
       last_value,   ///< the task runs, and has no other value left
       no_value,     ///< the task has no value left
       requirement,  ///< all values that are left at the source of arc `data` require it
-      stored        ///< `data` is the place of a stored reason
+      stored,       ///< `data` is the place of a stored reason
+      lazy          ///< LazyReasons knows it; `data` is for it
     };
     Kind kind = Kind::given;
     std::uint32_t data = 0;
   };
 
   ReasonTrail(const CompiledCatalog& catalog, Domains& domains);
+  /// To be called once, before reasons of kind lazy are used.
+  void set_lazy_reasons(const LazyReasons& reasons) { lazy_reasons_ = &reasons; }
 
   /// Begins with the facts of the problem; the domains must be loaded. Forgets all no-goods. False:
   /// see conflict().
@@ -52,10 +64,20 @@ class ReasonTrail {
                : catalog_.value_tasks[first_value_ + variable - task_count_] - first_task_;
   }
 
+  [[nodiscard]] bool is_about_running(Literal literal) const {
+    return variable_of(literal) < task_count_;
+  }
+  /// The tasks with a request, most important first.
+  [[nodiscard]] std::span<const std::uint32_t> requests() const { return requests_; }
+
   [[nodiscard]] bool is_true(Literal literal) const { return truth_[literal] > 0; }
   [[nodiscard]] bool is_false(Literal literal) const { return truth_[literal] < 0; }
   [[nodiscard]] std::uint32_t level_of(Literal literal) const {
     return levels_[variable_of(literal)];
+  }
+  /// Of a literal that holds: its place in literals().
+  [[nodiscard]] std::uint32_t place_of(Literal literal) const {
+    return literal_places_[variable_of(literal)];
   }
   [[nodiscard]] std::uint32_t level() const { return static_cast<std::uint32_t>(marks_.size()); }
   [[nodiscard]] std::size_t variable_count() const { return variable_count_; }
@@ -121,7 +143,10 @@ class ReasonTrail {
   ValueId first_value_ = 0;
   std::size_t variable_count_ = 0;
   std::vector<std::int8_t> truth_;  ///< by literal: 1 true, -1 false, 0 undecided
+  const LazyReasons* lazy_reasons_ = nullptr;
+  std::span<const std::uint32_t> requests_;
   std::vector<std::uint32_t> levels_;
+  std::vector<std::uint32_t> literal_places_;
   std::vector<Reason> reasons_;
   std::vector<Literal> literals_;
   std::size_t next_ = 0;  ///< the first of literals_ that is not yet propagated

@@ -15,7 +15,7 @@ Solver::Solver(const CompiledCatalog& catalog, const SearchOptions& options,
       components_(catalog, domains_),
       objective_(catalog, domains_, components_, ranks),
       cost_bound_(catalog, domains_, components_),
-      learning_(catalog, domains_, objective_, cost_bound_) {
+      learning_(catalog, domains_, objective_) {
   const std::size_t tasks = most_in_a_group(catalog.group_tasks);
   frames_.reserve(tasks + most_values_in_a_group(catalog));
   for (ComponentSearch& search : searches_) {
