@@ -287,6 +287,7 @@ void LandmarkBound::subtract_cut(std::uint32_t root) {
     }
   }
   const std::size_t first_ground = grounds_.size();
+  std::uint32_t level = trail_.level_of(ReasonTrail::runs(root));
   for (const CutArc& arc : arcs_) {
     if (residuals_[arc.value] >= amount) {
       residuals_[arc.value] -= amount;
@@ -294,17 +295,30 @@ void LandmarkBound::subtract_cut(std::uint32_t root) {
     } else {
       const Literal removal = negate(trail_.has_value(
           arc.task, static_cast<std::uint32_t>(arc.value) - value_begin_[arc.task]));
-      if (trail_.level_of(removal) > 0) grounds_.push_back(removal);
+      const std::uint32_t level_of_removal = trail_.level_of(removal);
+      level = std::max(level, level_of_removal);
+      if (level_of_removal > 0) grounds_.push_back(removal);
     }
   }
   bound_ = add(bound_, amount);
-  cuts_.push_back({amount, root, first_ground});
+  cuts_.push_back({amount, root, level, first_ground});
 }
 
-/// Leaves out the latest cuts that the slack allows: they have the grounds of the highest levels.
+/// Leaves out cuts of the highest levels, as far as the slack allows, so that the search goes back
+/// further.
 void LandmarkBound::append_grounds(std::size_t cuts, std::int64_t slack,
                                    std::vector<Literal>& reason) const {
-  for (std::size_t number = cuts; number-- > 0;) {
+  sorted_cuts_.clear();
+  for (std::uint32_t number = 0; number < cuts; ++number) {
+    if (cuts_[number].level > 0) sorted_cuts_.push_back(number);
+  }
+  std::sort(sorted_cuts_.begin(), sorted_cuts_.end(), [this](std::uint32_t a, std::uint32_t b) {
+    const Cut& cut = cuts_[a];
+    const Cut& other = cuts_[b];
+    if (cut.level != other.level) return cut.level > other.level;
+    return cut.amount != other.amount ? cut.amount < other.amount : a < b;
+  });
+  for (const std::uint32_t number : sorted_cuts_) {
     const Cut& cut = cuts_[number];
     if (cut.amount <= slack) {
       slack -= cut.amount;

@@ -71,10 +71,11 @@ class LandmarkBound final : public LazyReasons {
   void append_reason(Literal literal, std::uint32_t data,
                      std::vector<Literal>& reason) const override;
 
- private:
+ public:
   struct Cut {
     std::int64_t amount = 0;
     std::uint32_t root = 0;
+    std::uint32_t level = 0;       ///< highest of its root and grounds
     std::size_t first_ground = 0;  ///< in grounds_, up to that of the next cut
   };
   struct BoundReason {
@@ -149,6 +150,7 @@ class LandmarkBound final : public LazyReasons {
   std::uint64_t cut_number_ = 0;
   struct CutArc { std::size_t value; std::uint32_t task; bool is_removed; };
   std::vector<CutArc> arcs_;
+  mutable std::vector<std::uint32_t> sorted_cuts_;
  public:
   std::uint64_t ascents = 0, cuts_made = 0;
 };

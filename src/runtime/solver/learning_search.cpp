@@ -222,21 +222,27 @@ Literal LearningSearch::decide(const Incumbent& best) {
     const Literal runs = ReasonTrail::runs(task);
     if (!trail_.is_true(runs) && !trail_.is_false(runs)) return runs;
   }
-  const std::uint32_t task = choose_task();
+  const std::uint32_t task = choose_task(best);
   return task == none ? none : trail_.has_value(task, choose_value(task, best));
 }
 
-/// The undecided needed task that has taken part in most of the recent conflicts.
-std::uint32_t LearningSearch::choose_task() const {
+/// Before the first solution: the undecided needed task that has taken part in most of the recent
+/// conflicts. After it: one of the highest level, since what a task requires hardly costs anything
+/// in the bound until it is known.
+std::uint32_t LearningSearch::choose_task(const Incumbent& best) const {
   std::uint32_t chosen = none;
+  const auto level_of = [this](std::uint32_t task) {
+    return catalog_.tasks[domains_.first_task() + task].level;
+  };
+  const auto is_better = [&](std::uint32_t task) {
+    const bool is_more_active = activities_[task] > activities_[chosen];
+    if (level_of(task) == level_of(chosen)) return is_more_active;
+    const bool is_higher = level_of(task) > level_of(chosen);
+    if (best.exists || activities_[task] == activities_[chosen]) return is_higher;
+    return is_more_active;
+  };
   for (const std::uint32_t task : domains_.needed_tasks()) {
-    if (domains_.count(task) == 1) continue;
-    if (chosen == none || activities_[task] > activities_[chosen] ||
-        (activities_[task] == activities_[chosen] &&
-         catalog_.tasks[domains_.first_task() + task].level >
-             catalog_.tasks[domains_.first_task() + chosen].level)) {
-      chosen = task;
-    }
+    if (domains_.count(task) > 1 && (chosen == none || is_better(task))) chosen = task;
   }
   return chosen;
 }

@@ -45,7 +45,7 @@ class LearningSearch {
   void backtrack_to(std::uint32_t level);
   void restart();
   [[nodiscard]] Literal decide(const Incumbent& best);
-  [[nodiscard]] std::uint32_t choose_task() const;
+  [[nodiscard]] std::uint32_t choose_task(const Incumbent& best) const;
   [[nodiscard]] std::uint32_t choose_value(std::uint32_t task, const Incumbent& best);
   void save_values();
 
