@@ -61,6 +61,10 @@ void LandmarkBound::load() {
   is_reached_.assign(tasks, 0);
   heights_.assign(tasks, 0);
   seen_heights_.assign(tasks, 0);
+  cuts_.clear();
+  grounds_.clear();
+  reasons_.clear();
+  marks_.clear();
   find_relevant_tasks();
   marked_.assign((order_.size() + 63) / 64, 0);
   first_marked_ = SIZE_MAX;
@@ -83,6 +87,7 @@ void LandmarkBound::set_measure(Measure measure) {
     }
   }
   version_ = 0;
+  level_ = none;
 }
 
 void LandmarkBound::find_relevant_tasks() {
@@ -108,15 +113,25 @@ void LandmarkBound::find_relevant_tasks() {
   }
 }
 
-void LandmarkBound::begin_level() {}
+void LandmarkBound::begin_level() {
+  marks_.push_back({cuts_.size(), grounds_.size(), reasons_.size()});
+}
 
-void LandmarkBound::backtrack_to(std::uint32_t /*level*/) { version_ = 0; }
+void LandmarkBound::backtrack_to(std::uint32_t level) {
+  if (level >= marks_.size()) return;
+  version_ = 0;
+  if (level_ != none && level_ > level) level_ = none;
+  cuts_.resize(marks_[level].cuts);
+  grounds_.resize(marks_[level].grounds);
+  reasons_.resize(marks_[level].reasons);
+  marks_.resize(level);
+}
 
 void LandmarkBound::start_ascent() {
   ++ascents;
   bound_ = 0;
-  cuts_.clear();
-  grounds_.clear();
+  level_ = trail_.level();
+  first_cut_ = cuts_.size();
   residuals_ = costs_;
   unsettled_.clear();
   find_reached_tasks();
@@ -300,16 +315,16 @@ void LandmarkBound::subtract_cut(std::uint32_t root) {
       if (level_of_removal > 0) grounds_.push_back(removal);
     }
   }
-  bound_ = add(bound_, amount);
-  cuts_.push_back({amount, root, level, first_ground});
+  arcs_made+=arcs_.size(); bound_ = add(bound_, amount);
+  if (!marks_.empty()) cuts_.push_back({amount, root, level, first_ground});
 }
 
 /// Leaves out cuts of the highest levels, as far as the slack allows, so that the search goes back
 /// further.
-void LandmarkBound::append_grounds(std::size_t cuts, std::int64_t slack,
+void LandmarkBound::append_grounds(std::size_t first, std::size_t end_cut, std::int64_t slack,
                                    std::vector<Literal>& reason) const {
   sorted_cuts_.clear();
-  for (std::uint32_t number = 0; number < cuts; ++number) {
+  for (auto number = static_cast<std::uint32_t>(first); number < end_cut; ++number) {
     if (cuts_[number].level > 0) sorted_cuts_.push_back(number);
   }
   std::sort(sorted_cuts_.begin(), sorted_cuts_.end(), [this](std::uint32_t a, std::uint32_t b) {
@@ -334,7 +349,7 @@ void LandmarkBound::append_grounds(std::size_t cuts, std::int64_t slack,
 }
 
 ReasonTrail::Reason LandmarkBound::make_reason(std::int64_t slack) {
-  reasons_.push_back({cuts_.size(), slack});
+  reasons_.push_back({first_cut_, cuts_.size(), slack});
   return {ReasonTrail::Reason::Kind::lazy, static_cast<std::uint32_t>(reasons_.size() - 1)};
 }
 
@@ -347,7 +362,8 @@ void LandmarkBound::append_reason(Literal literal, std::uint32_t data,
       reason.push_back(stops);
     }
   }
-  append_grounds(reasons_[data].cuts, reasons_[data].slack, reason);
+  const BoundReason& why = reasons_[data];
+  append_grounds(why.first_cut, why.end_cut, why.slack, reason);
 }
 
 }  // namespace cbc

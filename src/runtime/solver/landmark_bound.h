@@ -45,6 +45,9 @@ class LandmarkBound final : public LazyReasons {
   void begin_level();
   void backtrack_to(std::uint32_t level);
 
+  /// The level of the last ascent on the present branch, or none.
+  [[nodiscard]] std::uint32_t level() const { return level_; }
+
   void set_measure(Measure measure);
 
   /// Raises the bound of the present subtree until it exceeds `threshold`, or no cut is left. To be
@@ -64,7 +67,7 @@ class LandmarkBound final : public LazyReasons {
 
   /// Appends literals from which the bound follows, if it may be lower by `slack`.
   void append_grounds(std::int64_t slack, std::vector<Literal>& reason) const {
-    append_grounds(cuts_.size(), slack, reason);
+    append_grounds(first_cut_, cuts_.size(), slack, reason);
   }
   /// A reason for a literal: the present bound, if it may be lower by `slack`.
   [[nodiscard]] ReasonTrail::Reason make_reason(std::int64_t slack);
@@ -79,21 +82,15 @@ class LandmarkBound final : public LazyReasons {
     std::size_t first_ground = 0;  ///< in grounds_, up to that of the next cut
   };
   struct BoundReason {
-    std::size_t cuts = 0;
+    std::size_t first_cut = 0;
+    std::size_t end_cut = 0;
     std::int64_t slack = 0;
   };
-  struct Snapshot {
-    std::uint32_t level = 0;
-    std::size_t processed = 0;
-    std::size_t first_cut = 0;
+  struct LevelMark {
     std::size_t cuts = 0;
     std::size_t grounds = 0;
     std::size_t reasons = 0;
-    std::int64_t bound = 0;
-    std::vector<std::int64_t> residuals;
-    std::vector<std::int64_t> heights;
   };
-
   void find_relevant_tasks();
   void start_ascent();
   void find_reached_tasks();
@@ -109,7 +106,8 @@ class LandmarkBound final : public LazyReasons {
   [[nodiscard]] std::uint32_t highest_requirement(std::size_t value) const;
   void subtract_cut(std::uint32_t root);
   [[nodiscard]] bool requires_cut(std::size_t value) const;
-  void append_grounds(std::size_t cuts, std::int64_t slack, std::vector<Literal>& reason) const;
+  void append_grounds(std::size_t first, std::size_t end, std::int64_t slack,
+                      std::vector<Literal>& reason) const;
 
   [[nodiscard]] std::size_t place(std::uint32_t task, std::uint32_t index) const {
     return value_begin_[task] + index;
@@ -139,8 +137,11 @@ class LandmarkBound final : public LazyReasons {
   std::vector<std::uint64_t> marked_;  ///< bit set of places: heights to compute again
   std::size_t first_marked_ = SIZE_MAX;  ///< no word of marked_ before this one is set
   std::uint64_t version_ = 0;            ///< of the trail, at the last ascent
+  std::uint32_t level_ = none;           ///< of the last ascent; none: it is of another branch
 
-  std::vector<Cut> cuts_;
+  std::vector<Cut> cuts_;        ///< of all ascents on the present branch
+  std::size_t first_cut_ = 0;    ///< of the last ascent
+  std::vector<LevelMark> marks_;
   std::vector<Literal> grounds_;
   std::vector<BoundReason> reasons_;
 
@@ -152,7 +153,7 @@ class LandmarkBound final : public LazyReasons {
   std::vector<CutArc> arcs_;
   mutable std::vector<std::uint32_t> sorted_cuts_;
  public:
-  std::uint64_t ascents = 0, cuts_made = 0;
+  static inline std::uint64_t ascents = 0, cuts_made = 0, arcs_made=0;
 };
 
 }  // namespace cbc

@@ -251,7 +251,7 @@ std::uint32_t LearningSearch::choose_task(const Incumbent& best) const {
 std::uint32_t LearningSearch::choose_value(std::uint32_t task, const Incumbent& best) {
   const std::uint32_t saved = saved_[task];
   if (!best.exists && saved != none && domains_.has(task, saved)) return saved;
-  static_cast<void>(bound_.raise(INT64_MAX));
+  if (bound_.level() == none) static_cast<void>(bound_.raise(INT64_MAX));
   std::uint32_t chosen = none;
   std::int64_t least = 0;
   const auto values = static_cast<std::uint32_t>(domains_.values(task).size());

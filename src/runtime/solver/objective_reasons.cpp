@@ -19,8 +19,12 @@ bool ObjectiveReasons::propagate(const Incumbent& incumbent) {
   const std::size_t before = trail_.literals().size();
   if (!serve_open_requests()) return false;
   if (trail_.literals().size() > before || !objective_.ties_on_requests(incumbent)) return true;
-  if (!bound_costs(pruning_threshold(incumbent, domains_.task_count()))) return false;
+  const CostBound::Cost limits = pruning_threshold(incumbent, domains_.task_count());
+  if (!bound_costs(limits, false)) return false;
   if (trail_.literals().size() > before || objective_.may_beat(incumbent, 0)) return true;
+  // The bound has better reasons.
+  if (!bound_costs(limits, true)) return false;
+  if (trail_.literals().size() > before) return true;
   explain_all();
   trail_.set_conflict(reason_);
   return false;
@@ -62,11 +66,18 @@ bool ObjectiveReasons::serve_open_requests() {
 }
 
 /// Refutes the subtree, or removes the values that cost too much.
-bool ObjectiveReasons::bound_costs(const CostBound::Cost& limits) {
+bool ObjectiveReasons::bound_costs(const CostBound::Cost& limits, bool is_final) {
   if (limits.log == INT64_MAX) return true;
   const bool is_idle = limits.idle != INT64_MAX;
   bound_.set_measure(is_idle ? LandmarkBound::Measure::idle : LandmarkBound::Measure::log);
   const std::int64_t threshold = is_idle ? limits.idle : limits.log;
+  // Not at every level: the bound grows little with one decision, and takes most of the time.
+  constexpr std::uint32_t levels_between_bounds = 2;
+  const std::uint32_t last = bound_.level();
+  if (!is_final && last != none && trail_.level() > last &&
+      trail_.level() < last + levels_between_bounds) {
+    return true;
+  }
   const std::int64_t bound = bound_.raise(threshold);
   if (bound > threshold) {
     explain_requests();
@@ -82,9 +93,8 @@ bool ObjectiveReasons::bound_costs(const CostBound::Cost& limits) {
       if (with_value <= threshold || !domains_.has(task, index)) continue;
       const Literal value = trail_.has_value(task, index);
       if (trail_.is_true(value)) continue;
-      explain_requests();
-      bound_.append_grounds(with_value - threshold - 1, reason_);
-      if (!trail_.imply(negate(value), trail_.store(reason_))) return false;
+      const ReasonTrail::Reason reason = bound_.make_reason(with_value - threshold - 1);
+      if (!trail_.imply(negate(value), reason)) return false;
     }
   }
   return true;

@@ -29,7 +29,7 @@ class ObjectiveReasons {
 
   [[nodiscard]] Requests compare_requests(const Incumbent& incumbent) const;
   [[nodiscard]] bool serve_open_requests();
-  [[nodiscard]] bool bound_costs(const CostBound::Cost& limits);
+  [[nodiscard]] bool bound_costs(const CostBound::Cost& limits, bool is_final);
   void explain_requests();
   void explain_all();
 
