@@ -376,6 +376,7 @@ const Problem* Coordinator::search(const Trigger& trigger) {
     search_.protection = protection;
     search_.is_escalated = protection != problem_builder_.first_protection();
     search_.result.status = result.status;
+    search_.result.bound = result.bound;
     search_.result.solutions += result.solutions;
     search_.result.nodes += result.nodes;
     search_.result.propagations += result.propagations;
@@ -415,6 +416,7 @@ const Problem& Coordinator::keep_present(std::int32_t protection) {
   search_.protection = protection;
   search_.is_escalated = protection != problem_builder_.first_protection();
   search_.result.status = SearchStatus::feasible;
+  search_.result.bound = solver_.bound(problem, solution_);
   note_domain_sizes(problem);
   return problem;
 }

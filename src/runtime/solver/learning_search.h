@@ -35,6 +35,9 @@ class LearningSearch {
   [[nodiscard]] bool search(const Problem& problem, Incumbent& best, bool any_solution,
                             SearchBudget& budget, SearchResult& result);
 
+  /// After a search: leaves in the domains what holds in every solution better than the incumbent.
+  void return_to_root() { trail_.backtrack_to(0); }
+
  private:
   void load(const Problem& problem);
   [[nodiscard]] bool propagate(const Incumbent& best);

@@ -15,7 +15,8 @@ Solver::Solver(const CompiledCatalog& catalog, const SearchOptions& options,
       components_(catalog, domains_),
       objective_(catalog, domains_, components_, ranks),
       cost_bound_(catalog, domains_, components_),
-      learning_(catalog, domains_, objective_, cost_bound_) {
+      learning_(catalog, domains_, objective_, cost_bound_),
+      repair_(catalog, domains_, propagator_) {
   const std::size_t tasks = most_in_a_group(catalog.group_tasks);
   frames_.reserve(tasks + most_values_in_a_group(catalog));
   for (ComponentSearch& search : searches_) {
@@ -36,18 +37,67 @@ SearchResult Solver::solve(const Problem& problem, Assignment& solution) {
 
 SearchResult Solver::solve_again(const Problem& problem, Assignment& solution) {
   load(problem);
-  bool is_complete = search();
-  result_.propagations = propagator_.propagations();
-  if (is_hopeless_) is_complete = search_learning();
-  budget_.nodes_before += result_.nodes;
   const Incumbent& best = searches_.front().best;
+  bool is_complete = search();
+  if (!is_complete && !best.exists) repair();
+  result_.propagations = propagator_.propagations();
+  const bool learns = is_hopeless_ && !(options_.any_solution && best.exists);
+  if (learns) is_complete = search_learning();
+  budget_.nodes_before += result_.nodes;
   if (best.exists) {
     result_.status = is_complete ? SearchStatus::optimal : SearchStatus::feasible;
     solution = best.assignment;
+    if (!is_complete && !options_.any_solution) {
+      if (learns) {
+        learning_.return_to_root();
+        result_.bound = bound_at_root(solution);
+      } else {
+        result_.bound = bound(problem, solution);
+      }
+    }
   } else {
     result_.status = is_complete ? SearchStatus::infeasible : SearchStatus::unknown;
   }
   return result_;
+}
+
+SearchBound Solver::bound(const Problem& problem, const Assignment& answer) {
+  problem_ = &problem;
+  return_to_root();
+  propagator_.load(problem);
+  static_cast<void>(begin());
+  return bound_at_root(answer);
+}
+
+/// The domains have what holds in every solution, or in every one better than the answer.
+SearchBound Solver::bound_at_root(const Assignment& answer) {
+  SearchBound bound;
+  std::uint32_t possible = 0;
+  std::uint32_t served = 0;
+  bound.same_requests = true;
+  for (const std::uint32_t task : problem_->requests) {
+    const bool is_served = answer[task] != none;
+    const bool is_possible = domains_.count(task) > 0;
+    served += is_served ? 1 : 0;
+    possible += is_possible ? 1 : 0;
+    if (is_possible && !is_served) bound.same_requests = false;
+  }
+  bound.more_requests = possible > served ? possible - served : 0;
+  if (bound.same_requests) {
+    // A failure means that there is no better solution, and any bound holds.
+    const auto serve = [this](std::uint32_t task) {
+      return domains_.count(task) == 0 || domains_.need(task);
+    };
+    const auto& requests = problem_->requests;
+    if (!std::all_of(requests.begin(), requests.end(), serve) || !propagator_.propagate()) {
+      bound.suitability = 0;
+      return bound;
+    }
+  }
+  const std::int64_t log =
+      cost_bound_.bound({INT64_MAX, INT64_MAX}, CostBound::Roots::in_component).log;
+  bound.suitability = highest_product(log, domains_.task_count());
+  return bound;
 }
 
 void Solver::load(const Problem& problem) {
@@ -64,6 +114,11 @@ void Solver::load(const Problem& problem) {
   current().base = 0;
   current().best_cost_outside = 0;
   current().cost_bound_outside = 0;
+}
+
+void Solver::return_to_root() {
+  while (components_.depth() > 0) components_.leave();
+  domains_.load(*problem_);
 }
 
 /// Takes "not running" out of the domains of the tasks that must run.
@@ -159,10 +214,17 @@ bool Solver::should_learn() const {
   return !searches_.front().best.exists || result_.nodes >= options_.bounded_nodes;
 }
 
+/// Looks for an incumbent near the present configuration.
+void Solver::repair() {
+  return_to_root();
+  if (!begin() || !repair_.find_solution(*problem_)) return;
+  ++result_.solutions;
+  objective_.record(searches_.front().best);
+}
+
 /// Starts again with the incumbent. False if a limit ended the search.
 bool Solver::search_learning() {
-  while (components_.depth() > 0) components_.leave();
-  domains_.load(*problem_);
+  return_to_root();
   return learning_.search(*problem_, searches_.front().best, options_.any_solution, budget_,
                           result_);
 }

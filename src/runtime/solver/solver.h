@@ -14,6 +14,7 @@
 #include "solver/objective.h"
 #include "solver/problem.h"
 #include "solver/propagator.h"
+#include "solver/repair.h"
 #include "solver/search_budget.h"
 
 namespace cbc {
@@ -52,6 +53,10 @@ class Solver {
   /// of the limits.
   SearchResult solve_again(const Problem& problem, Assignment& solution);
 
+  /// What no solution exceeds, as far as propagation at the root and one cost bound tell.
+  /// `answer`: a solution of the problem.
+  [[nodiscard]] SearchBound bound(const Problem& problem, const Assignment& answer);
+
  private:
   struct Decision {
     enum class Kind : std::uint8_t {
@@ -77,6 +82,7 @@ class Solver {
   };
 
   void load(const Problem& problem);
+  void return_to_root();
   [[nodiscard]] bool begin();
   [[nodiscard]] bool search();
   [[nodiscard]] ComponentSearch& current() { return searches_[components_.depth()]; }
@@ -86,7 +92,9 @@ class Solver {
   [[nodiscard]] bool accept();
   [[nodiscard]] bool is_out_of_budget() const;
   [[nodiscard]] bool should_learn() const;
+  void repair();
   [[nodiscard]] bool search_learning();
+  [[nodiscard]] SearchBound bound_at_root(const Assignment& answer);
   [[nodiscard]] bool should_restart() const;
   void restart();
   [[nodiscard]] bool enter_component(const Decision& decision);
@@ -111,6 +119,7 @@ class Solver {
   Objective objective_;
   CostBound cost_bound_;
   LearningSearch learning_;
+  Repair repair_;
 
   const Problem* problem_ = nullptr;
   SearchResult result_;
