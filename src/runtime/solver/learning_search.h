@@ -40,7 +40,7 @@ class LearningSearch {
 
  private:
   void load(const Problem& problem);
-  [[nodiscard]] bool propagate(const Incumbent& best);
+  [[nodiscard]] bool propagate(const Incumbent& best, const SearchBudget& budget);
   [[nodiscard]] bool learn();
   void trace_conflict();
   void note(Literal literal);

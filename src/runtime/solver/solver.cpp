@@ -39,21 +39,21 @@ SearchResult Solver::solve_again(const Problem& problem, Assignment& solution) {
   load(problem);
   const Incumbent& best = searches_.front().best;
   bool is_complete = search();
-  if (!is_complete && !best.exists) repair();
+  if (!is_complete && !best.exists && !options_.any_solution) repair();
   result_.propagations = propagator_.propagations();
-  const bool learns = is_hopeless_ && !(options_.any_solution && best.exists);
-  if (learns) is_complete = search_learning();
+  if (is_hopeless_) is_complete = search_learning();
   budget_.nodes_before += result_.nodes;
   if (best.exists) {
     result_.status = is_complete ? SearchStatus::optimal : SearchStatus::feasible;
     solution = best.assignment;
     if (!is_complete && !options_.any_solution) {
-      if (learns) {
+      if (is_hopeless_) {
         learning_.return_to_root();
-        result_.bound = bound_at_root(solution);
       } else {
-        result_.bound = bound(problem, solution);
+        return_to_root();
+        static_cast<void>(begin());
       }
+      result_.bound = bound_of_best(solution);
     }
   } else {
     result_.status = is_complete ? SearchStatus::infeasible : SearchStatus::unknown;
@@ -65,39 +65,50 @@ SearchBound Solver::bound(const Problem& problem, const Assignment& answer) {
   problem_ = &problem;
   return_to_root();
   propagator_.load(problem);
-  static_cast<void>(begin());
-  return bound_at_root(answer);
+  static_cast<void>(begin());  // `answer` is left
+  SearchBound bound = compare_requests(answer);
+  bound.same_requests = false;
+  bound.suitability = bound_suitability();
+  return bound;
 }
 
-/// The domains have what holds in every solution, or in every one better than the answer.
-SearchBound Solver::bound_at_root(const Assignment& answer) {
+/// Bounds the best solution. The domains have what holds in every solution, or in every one better
+/// than the answer.
+SearchBound Solver::bound_of_best(const Assignment& answer) {
+  SearchBound bound = compare_requests(answer);
+  // Without a better solution any bound holds.
+  const bool may_improve = !bound.same_requests || serve_requests_of(answer);
+  bound.suitability = may_improve ? bound_suitability() : 0;
+  return bound;
+}
+
+SearchBound Solver::compare_requests(const Assignment& answer) const {
   SearchBound bound;
+  bound.same_requests = true;
   std::uint32_t possible = 0;
   std::uint32_t served = 0;
-  bound.same_requests = true;
   for (const std::uint32_t task : problem_->requests) {
     const bool is_served = answer[task] != none;
     const bool is_possible = domains_.count(task) > 0;
-    served += is_served ? 1 : 0;
-    possible += is_possible ? 1 : 0;
+    if (is_served) ++served;
+    if (is_possible) ++possible;
     if (is_possible && !is_served) bound.same_requests = false;
   }
   bound.more_requests = possible > served ? possible - served : 0;
-  if (bound.same_requests) {
-    // A failure means that there is no better solution, and any bound holds.
-    const auto serve = [this](std::uint32_t task) {
-      return domains_.count(task) == 0 || domains_.need(task);
-    };
-    const auto& requests = problem_->requests;
-    if (!std::all_of(requests.begin(), requests.end(), serve) || !propagator_.propagate()) {
-      bound.suitability = 0;
-      return bound;
-    }
-  }
-  const std::int64_t log =
-      cost_bound_.bound({INT64_MAX, INT64_MAX}, CostBound::Roots::in_component).log;
-  bound.suitability = highest_product(log, domains_.task_count());
   return bound;
+}
+
+bool Solver::serve_requests_of(const Assignment& answer) {
+  for (const std::uint32_t task : problem_->requests) {
+    if (answer[task] != none && !domains_.need(task)) return false;
+  }
+  return propagator_.propagate();
+}
+
+double Solver::bound_suitability() {
+  const CostBound::Cost bound =
+      cost_bound_.bound({INT64_MAX, INT64_MAX}, CostBound::Roots::in_component);
+  return highest_product(bound.log, domains_.task_count());
 }
 
 void Solver::load(const Problem& problem) {
@@ -135,7 +146,7 @@ bool Solver::search() {
   for (;;) {
     if (is_consistent && may_improve()) {
       if (const std::optional<Decision> decision = decide()) {
-        if (is_out_of_budget()) return false;
+        if (budget_.is_spent(result_.nodes)) return false;
         if (should_learn()) {
           is_hopeless_ = true;
           return false;
@@ -149,13 +160,11 @@ bool Solver::search() {
       }
       if (!accept()) return false;
     }
-    if (frames_.size() > current().base) {
-      is_consistent = backtrack();
-    } else if (components_.depth() > 0) {
-      is_consistent = leave_component();
-    } else {
-      return true;
-    }
+    const bool is_component_solved = frames_.size() == current().base;
+    if (is_component_solved && components_.depth() == 0) return true;
+    // A hard search may refute many subtrees in a row without a decision.
+    if (budget_.is_out_of_time()) return false;
+    is_consistent = is_component_solved ? leave_component() : backtrack();
   }
 }
 
@@ -192,13 +201,6 @@ bool Solver::accept() {
   Incumbent& best = current().best;
   if (!best.exists || objective_.may_beat(best, components_.depth())) objective_.record(best);
   return !options_.any_solution || components_.depth() > 0;
-}
-
-bool Solver::is_out_of_budget() const {
-  if (!budget_.has_nodes_left(result_.nodes)) return true;
-  constexpr std::uint64_t nodes_between_looks = 16;
-  return budget_.has_deadline && result_.nodes % nodes_between_looks == 0 &&
-         budget_.is_spent(result_.nodes);
 }
 
 /// Whether the search turns out to be hard. The enumeration of the first m solutions never

@@ -53,8 +53,8 @@ class Solver {
   /// of the limits.
   SearchResult solve_again(const Problem& problem, Assignment& solution);
 
-  /// What no solution exceeds, as far as propagation at the root and one cost bound tell.
-  /// `answer`: a solution of the problem.
+  /// What no solution of the problem exceeds. `answer`: a solution, to count the requests beyond
+  /// its own; the best may also serve others.
   [[nodiscard]] SearchBound bound(const Problem& problem, const Assignment& answer);
 
  private:
@@ -90,11 +90,13 @@ class Solver {
   [[nodiscard]] bool may_improve();
   [[nodiscard]] CostBound::Cost pruning_threshold(const Incumbent& best) const;
   [[nodiscard]] bool accept();
-  [[nodiscard]] bool is_out_of_budget() const;
   [[nodiscard]] bool should_learn() const;
   void repair();
   [[nodiscard]] bool search_learning();
-  [[nodiscard]] SearchBound bound_at_root(const Assignment& answer);
+  [[nodiscard]] SearchBound bound_of_best(const Assignment& answer);
+  [[nodiscard]] SearchBound compare_requests(const Assignment& answer) const;
+  [[nodiscard]] bool serve_requests_of(const Assignment& answer);
+  [[nodiscard]] double bound_suitability();
   [[nodiscard]] bool should_restart() const;
   void restart();
   [[nodiscard]] bool enter_component(const Decision& decision);
