@@ -274,19 +274,19 @@ class Agreement {
     std::uint32_t most = bound.more_requests;
     std::uint32_t served = 0;
     for (const std::uint32_t task : problem.requests) {
-      most += answer.assignment[task] == none ? 0 : 1;
-      served += best[task] == none ? 0 : 1;
+      if (answer.assignment[task] != none) ++most;
+      if (best[task] != none) ++served;
       if (bound.same_requests) {
         ASSERT_EQ(answer.assignment[task] == none, best[task] == none);
       }
     }
     ASSERT_LE(served, most);
-    with_same_requests += bound.same_requests ? 1 : 0;
+    if (bound.same_requests) ++with_same_requests;
     if (best == answer.assignment) return;
     const long double suitability = suitability_of(catalog, problem, best);
     ASSERT_GE(static_cast<long double>(bound.suitability), suitability);
     constexpr long double close = 1.0001L;
-    with_close_bound += bound.suitability < suitability * close ? 1 : 0;
+    if (bound.suitability < suitability * close) ++with_close_bound;
   }
 
   static long double suitability_of(const CompiledCatalog& catalog, const Problem& problem,
