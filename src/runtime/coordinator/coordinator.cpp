@@ -365,6 +365,9 @@ const Problem* Coordinator::search(const Trigger& trigger) {
   if (is_first) {
     search_.result = {};
     search_.elapsed.reset();
+    if (options_.search.time_limit.count() > 0) {
+      deadline_ = std::chrono::steady_clock::now() + options_.search.time_limit;
+    }
   }
   record_.search = &search_;
   search_.group = trigger.group;
@@ -376,6 +379,7 @@ const Problem* Coordinator::search(const Trigger& trigger) {
     search_.protection = protection;
     search_.is_escalated = protection != problem_builder_.first_protection();
     search_.result.status = result.status;
+    search_.result.bound = result.bound;
     search_.result.solutions += result.solutions;
     search_.result.nodes += result.nodes;
     search_.result.propagations += result.propagations;
@@ -415,6 +419,7 @@ const Problem& Coordinator::keep_present(std::int32_t protection) {
   search_.protection = protection;
   search_.is_escalated = protection != problem_builder_.first_protection();
   search_.result.status = SearchStatus::feasible;
+  search_.result.bound = solver_.bound(problem, solution_);
   note_domain_sizes(problem);
   return problem;
 }
@@ -485,16 +490,16 @@ void Coordinator::explain(const Trigger& trigger, const Problem& problem) {
     return;
   }
   if (!explainer_) explainer_.emplace(catalog_, ranks_, options_.explain);
-  explainer_->explain({state_, trigger, search_.protection, problem_builder_.excluded()}, problem,
-                      solution_, record_.explanation);
+  explainer_->explain({state_, trigger, search_.protection, problem_builder_.excluded(), deadline_},
+                      problem, solution_, record_.explanation);
 }
 
 /// Rolls back. Behaviors that cannot be activated again are lost.
 Coordinator::Status Coordinator::reject(const Trigger& trigger) {
   record_.outcome = Outcome::rejected;
   if (options_.find_conflicts && search_.result.status == SearchStatus::infeasible) {
-    record_.conflict =
-        find_conflict(catalog_, {state_, trigger, search_.protection, problem_builder_.excluded()});
+    record_.conflict = find_conflict(
+        catalog_, {state_, trigger, search_.protection, problem_builder_.excluded(), deadline_});
   }
   const bool is_silent = note_waiting(trigger);
   // In reverse, as the last one finishes next.

@@ -189,6 +189,12 @@ std::int64_t LandmarkBound::raise(std::int64_t threshold) {
   return bound_;
 }
 
+std::int64_t LandmarkBound::bound_again() {
+  set_measure(Measure::log);
+  version_ = 0;
+  return raise(INT64_MAX);
+}
+
 void LandmarkBound::mark(std::uint32_t task) {
   const std::uint32_t place = places_[task];
   marked_[place / 64] |= std::uint64_t{1} << (place % 64);

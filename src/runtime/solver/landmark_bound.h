@@ -53,6 +53,8 @@ class LandmarkBound final : public LazyReasons {
   /// Raises the bound of the present subtree until it exceeds `threshold`, or no cut is left. To be
   /// called at a fixpoint of the trail.
   std::int64_t raise(std::int64_t threshold);
+  /// At level 0: the highest bound on -log of f2 in the present domains.
+  std::int64_t bound_again();
 
   /// By how much the bound would grow at least if the task had this value.
   [[nodiscard]] std::int64_t residual(std::uint32_t task, std::uint32_t index) const {

@@ -61,8 +61,9 @@ bool LearningSearch::search(const Problem& problem, Incumbent& best, bool any_so
   is_noted_.assign(trail_.variable_count(), 0);
   counted_.assign(trail_.variable_count() + 1, 0);
   for (;;) {
-    is_consistent = is_consistent && propagate(best);
+    is_consistent = is_consistent && propagate(best, budget);
     result.propagations = propagations_before + trail_.propagations();
+    if (budget.is_out_of_time()) return false;
     if (!is_consistent) {
       if (!learn()) return true;
       is_consistent = true;
@@ -88,9 +89,10 @@ bool LearningSearch::search(const Problem& problem, Incumbent& best, bool any_so
   }
 }
 
-/// False if there is a conflict.
-bool LearningSearch::propagate(const Incumbent& best) {
+/// False if there is a conflict. Without time left there may be more to propagate.
+bool LearningSearch::propagate(const Incumbent& best, const SearchBudget& budget) {
   for (;;) {
+    if (budget.is_out_of_time()) return true;
     if (!trail_.propagate()) return false;
     const std::size_t before = trail_.literals().size();
     if (!performance_.propagate()) return false;

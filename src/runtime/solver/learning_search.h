@@ -34,9 +34,14 @@ class LearningSearch {
   [[nodiscard]] bool search(const Problem& problem, Incumbent& best, bool any_solution,
                             SearchBudget& budget, SearchResult& result);
 
+  /// After a search: leaves in the domains what holds in every solution better than the incumbent.
+  void return_to_root() { backtrack_to(0); }
+  /// After return_to_root: a lower bound on -log of f2 of every solution in the present domains.
+  [[nodiscard]] std::int64_t bound_cost() { return bound_.bound_again(); }
+
  private:
   void load(const Problem& problem);
-  [[nodiscard]] bool propagate(const Incumbent& best);
+  [[nodiscard]] bool propagate(const Incumbent& best, const SearchBudget& budget);
   [[nodiscard]] bool learn();
   void trace_conflict();
   void note(Literal literal);

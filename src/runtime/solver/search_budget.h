@@ -16,9 +16,11 @@ struct SearchBudget {
   [[nodiscard]] bool has_nodes_left(std::uint64_t nodes) const {
     return max_nodes == 0 || nodes_before + nodes < max_nodes;
   }
-  [[nodiscard]] bool is_spent(std::uint64_t nodes) const {
-    if (!has_nodes_left(nodes)) return true;
+  [[nodiscard]] bool is_out_of_time() const {
     return has_deadline && std::chrono::steady_clock::now() >= deadline;
+  }
+  [[nodiscard]] bool is_spent(std::uint64_t nodes) const {
+    return !has_nodes_left(nodes) || is_out_of_time();
   }
 };
 

@@ -14,6 +14,7 @@
 #include "solver/objective.h"
 #include "solver/problem.h"
 #include "solver/propagator.h"
+#include "solver/repair.h"
 #include "solver/search_budget.h"
 
 namespace cbc {
@@ -52,6 +53,10 @@ class Solver {
   /// of the limits.
   SearchResult solve_again(const Problem& problem, Assignment& solution);
 
+  /// What no solution of the problem exceeds. `answer`: a solution, to count the requests beyond
+  /// its own; the best may also serve others.
+  [[nodiscard]] SearchBound bound(const Problem& problem, const Assignment& answer);
+
  private:
   struct Decision {
     enum class Kind : std::uint8_t {
@@ -77,6 +82,7 @@ class Solver {
   };
 
   void load(const Problem& problem);
+  void return_to_root();
   [[nodiscard]] bool begin();
   [[nodiscard]] bool search();
   [[nodiscard]] ComponentSearch& current() { return searches_[components_.depth()]; }
@@ -84,9 +90,13 @@ class Solver {
   [[nodiscard]] bool may_improve();
   [[nodiscard]] CostBound::Cost pruning_threshold(const Incumbent& best) const;
   [[nodiscard]] bool accept();
-  [[nodiscard]] bool is_out_of_budget() const;
   [[nodiscard]] bool should_learn() const;
+  void repair();
   [[nodiscard]] bool search_learning();
+  [[nodiscard]] SearchBound bound_of_best(const Assignment& answer);
+  [[nodiscard]] SearchBound compare_requests(const Assignment& answer) const;
+  [[nodiscard]] bool serve_requests_of(const Assignment& answer);
+  [[nodiscard]] double bound_suitability();
   [[nodiscard]] bool should_restart() const;
   void restart();
   [[nodiscard]] bool enter_component(const Decision& decision);
@@ -111,11 +121,13 @@ class Solver {
   Objective objective_;
   CostBound cost_bound_;
   LearningSearch learning_;
+  Repair repair_;
 
   const Problem* problem_ = nullptr;
   SearchResult result_;
   bool is_hard_ = false;
   bool is_hopeless_ = false;  ///< learning takes over
+  bool has_split_ = false;    ///< into components
   std::vector<Frame> frames_;
   std::array<ComponentSearch, Components::deepest + 1> searches_;
   SearchBudget budget_;

@@ -10,6 +10,7 @@
 
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
+#include "report/answer_bound.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
 #include "script/event_lines.h"
@@ -282,6 +283,11 @@ class EventText {
     json_.write("protection", search.protection);
     json_.write("solutions", search.result.solutions);
     json_.write("nodes", search.result.nodes);
+    if (search.result.status == SearchStatus::feasible) {
+      const AnswerBound bound = bound_of_answer(catalog_, record_, state_);
+      json_.write_object("bound",
+                         {{"satisfied", bound.satisfied}, {"suitability", bound.suitability}});
+    }
     if (search.elapsed) {
       json_.write("propagations", search.result.propagations);
       json_.write("elapsed_us",

@@ -259,7 +259,7 @@ class TextReport final : public SolveReport {
   void add_part(std::string_view text, const RunResult& result) override;
 
  private:
-  [[nodiscard]] std::string describe_outcome(const EventRecord& record) const;
+  [[nodiscard]] std::string describe_outcome(const EventRecord& record, const State& state) const;
   void write_change(const EventRecord& record, const Change& change);
   void write_stopped(const EventRecord& record);
   void write_explanation(const EventRecord& record, const State& state);

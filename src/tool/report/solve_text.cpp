@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "report/answer_bound.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
 #include "report/table_parts.h"
@@ -181,7 +182,8 @@ void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script)
 
 void TextReport::on_event(const EventRecord& record, const Step* step, const State& state) {
   fmt::print(out_, "{:>10}  {}{}{}{}\n", format_time(record.time), style_.strong,
-             describe_event(*catalog_, record, step), style_.reset, describe_outcome(record));
+             describe_event(*catalog_, record, step), style_.reset,
+             describe_outcome(record, state));
   if (record.outcome == Outcome::rejected) {
     for (const std::string& sentence : describe_rejection(*catalog_, record)) {
       fmt::print(out_, "{}{}\n", text_indent, sentence);
@@ -200,14 +202,18 @@ void TextReport::on_event(const EventRecord& record, const Step* step, const Sta
   }
 }
 
-std::string TextReport::describe_outcome(const EventRecord& record) const {
+std::string TextReport::describe_outcome(const EventRecord& record, const State& state) const {
   if (!form_of(record.verb).is_decided) return {};
   std::string_view color = style_.faint;
   if (record.outcome == Outcome::accepted) color = style_.good;
   if (record.outcome == Outcome::rejected) color = style_.bad;
-  const bool is_cut = record.search && record.search->result.status == SearchStatus::feasible;
-  return fmt::format(": {}{}{}{}", color, name_of(record.outcome), style_.reset,
-                     is_cut ? " (not proven best: a search limit was reached)" : "");
+  std::string text = fmt::format(": {}{}{}", color, name_of(record.outcome), style_.reset);
+  if (record.search && record.search->result.status == SearchStatus::feasible) {
+    const std::string bound = describe_bound(*catalog_, record, state);
+    text += fmt::format(" (not proven best: a search limit was reached{}{})",
+                        bound.empty() ? "" : "; ", bound);
+  }
+  return text;
 }
 
 void TextReport::write_change(const EventRecord& record, const Change& change) {
