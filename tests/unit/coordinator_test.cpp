@@ -1,5 +1,7 @@
 #include "coordinator/coordinator.h"
 
+#include <chrono>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -1121,6 +1123,34 @@ TEST(SearchLimits, ThatLeaveAFinishWithoutSolutionStopWhatNeedsTheBehavior) {
   EXPECT_EQ(stage.searches().substr(0, 8), "feasible");
   EXPECT_EQ(stage.running(), "K=k");
   EXPECT_EQ(stage.active(), "k");
+}
+
+TEST(SearchLimits, OfTimeEndTheSearchForReasons) {
+  struct Reasons final : EventListener {
+    void on_event(const EventRecord& record) override {
+      status = record.search->result.status;
+      count = record.conflict.size();
+    }
+    SearchStatus status = SearchStatus::unknown;
+    std::size_t count = 0;
+  };
+  const CompiledCatalog catalog = test::compile_text(rivals);
+  for (const auto limit : {std::chrono::microseconds(0), std::chrono::microseconds(1)}) {
+    CoordinatorOptions options;
+    options.search.time_limit = limit;
+    Reasons reasons;
+    Coordinator coordinator(catalog, options, reasons);
+    coordinator.begin({});
+    Event start;
+    start.verb = Verb::start;
+    start.priority = 2;
+    EXPECT_EQ(coordinator.handle(start), Coordinator::Status::ok);
+    start.subject = 1;
+    start.priority = 1;
+    EXPECT_EQ(coordinator.handle(start), Coordinator::Status::ok);
+    EXPECT_EQ(reasons.status, SearchStatus::infeasible) << "by propagation at the root";
+    EXPECT_EQ(reasons.count == 0, limit.count() > 0);
+  }
 }
 
 TEST(SearchLimits, ThatComeBeforeTheFirstSolutionLeaveARepair) {

@@ -1,6 +1,6 @@
 // The repair of the present configuration, and the bounds of answers that are not proven.
-#include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
