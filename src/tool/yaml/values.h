@@ -85,6 +85,7 @@ class Fields {
     bool is_repeated = false;
   };
 
+  [[nodiscard]] const Field* find_field(std::string_view key) const;
   void add(const Node& key, const Node& value);
   void report_older_names();
   [[nodiscard]] std::string_view suggestion_for(std::string_view key) const;
