@@ -95,6 +95,23 @@ void JsonBuffer::put_text(std::string_view text) {
   used_ += text.size() + 2;
 }
 
+void JsonBuffer::put_name(std::string_view name, bool has_comma) {
+  make_room(name.size() + 4);
+  char* end = block_.data() + used_;
+  if (has_comma) *end++ = ',';
+  if (name.size() + 4 > block_.size() || !copy_plain(end + 1, name)) {
+    if (has_comma) put(',');
+    put(dump(name));
+    put(':');
+    return;
+  }
+  *end = '"';
+  end += name.size() + 1;
+  *end++ = '"';
+  *end++ = ':';
+  used_ = static_cast<std::size_t>(end - block_.data());
+}
+
 void JsonBuffer::put_number(double number) {
   // Whole numbers and thousandths, which are many, need no search for the fewest digits.
   constexpr double few_digits = 1e9;

@@ -46,6 +46,8 @@ class JsonBuffer {
 
   /// Invalid UTF-8 is replaced by U+FFFD.
   void put_text(std::string_view text);
+  /// The name of a member with its colon, behind a comma or not.
+  void put_name(std::string_view name, bool has_comma);
   void put_number(double number);
   template <std::integral Integer>
   void put_integer(Integer number) {
@@ -185,9 +187,12 @@ class JsonWriter {
 
   /// The name of a member; its value is written next.
   void key(std::string_view name) {
+    if (!is_indented_ && !has_new_line_) {
+      json_.put_name(name, follows_another());
+      return;
+    }
     separate();
-    json_.put_text(name);
-    json_.put(':');
+    json_.put_name(name, false);
     if (is_indented_) json_.put(' ');
   }
 
@@ -255,10 +260,15 @@ class JsonWriter {
   void separate() {
     const char last = json_.last();
     if (last == ':' || last == ' ') return;  // after a key
-    if (last != '{' && last != '[') json_.put(',');
+    if (follows_another()) json_.put(',');
     if (is_indented_ && depth_ > 0) break_line();
     if (has_new_line_) json_.put('\n');
     has_new_line_ = false;
+  }
+  /// Whether the next item or member is not the first one.
+  [[nodiscard]] bool follows_another() const {
+    const char last = json_.last();
+    return last != '{' && last != '[';
   }
   void break_line() {
     json_.put('\n');

@@ -264,7 +264,7 @@ bool Shape::has(std::string_view key) const {
 }
 
 Fields::Fields(std::span<const Node* const> mappings, const Shape& shape, Reporter& reporter)
-    : shape_(shape), reporter_(reporter), what_(shape.what), fields_(shape.keys.size()) {
+    : shape_(shape), reporter_(reporter), what_(shape.what) {
   for (const Node* mapping : mappings) {
     for (const auto& [key, value] : mapping->entries) add(*key, *value);
   }
@@ -272,7 +272,7 @@ Fields::Fields(std::span<const Node* const> mappings, const Shape& shape, Report
 }
 
 Fields::Fields(const Node& mapping, const Shape& shape, Reporter& reporter)
-    : shape_(shape), reporter_(reporter), what_(shape.what), fields_(shape.keys.size()) {
+    : shape_(shape), reporter_(reporter), what_(shape.what) {
   for (const auto& [key, value] : mapping.entries) add(*key, *value);
   report_older_names();
 }
@@ -289,60 +289,60 @@ void Fields::add(const Node& key, const Node& value) {
     return;
   }
   const std::size_t place = place_of(key.text);
-  if (place == fields_.size()) {
-    unknown_.push_back({&key, &value, false});
+  if (place == shape_.keys.size()) {
+    unknown_.push_back({place, &key, &value, false});
     return;
   }
-  Field& field = fields_[place];
-  if (field.key == nullptr) {
-    field = {&key, &value, false};
+  const auto known = std::find_if(fields_.begin(), fields_.end(),
+                                  [place](const Field& field) { return field.place == place; });
+  if (known == fields_.end()) {
+    fields_.push_back({place, &key, &value, false});
   } else {
-    field.is_repeated = true;
+    known->is_repeated = true;
     reporter_.report(rule::duplicate_key, key.range, quote(key.text) + " is given twice",
-                     {reporter_.note(field.key->range, "first given here")});
+                     {reporter_.note(known->key->range, "first given here")});
   }
 }
 
 // An older name and the present one at once are one key given twice.
 void Fields::report_older_names() {
-  for (std::size_t place = 0; place < fields_.size(); ++place) {
-    const Key& key = shape_.keys[place];
-    Field& older = fields_[place];
-    if (key.replaced_by.empty() || older.key == nullptr) continue;
-    const Field& present = fields_[place_of(key.replaced_by)];
-    const bool both = older.value->kind != Kind::null && present.value != nullptr &&
-                      present.value->kind != Kind::null;
+  for (const Key& key : shape_.keys) {
+    if (key.replaced_by.empty()) continue;
+    const Field* const older = find_field(key.name);
+    if (older == nullptr) continue;
+    const Field* const present = find_field(key.replaced_by);
+    const bool both = older->value->kind != Kind::null && present != nullptr &&
+                      present->value->kind != Kind::null;
     if (!both) {
       // It cannot be renamed if the present name is there, even without a value, or if it is
       // repeated.
       std::vector<Edit> edits;
-      if (present.key == nullptr && !older.is_repeated)
-        edits = modernize(key, *older.key, *older.value);
+      if (present == nullptr && !older->is_repeated)
+        edits = modernize(key, *older->key, *older->value);
       std::string written(key.replaced_by);
       if (key.translate != nullptr) {
         // A new name alone would change the meaning.
-        if (const auto value = key.translate(*older.value)) written += ": " + std::string(*value);
+        if (const auto value = key.translate(*older->value)) written += ": " + std::string(*value);
       }
-      reporter_.report(rule::deprecated_key, older.key->range,
+      reporter_.report(rule::deprecated_key, older->key->range,
                        quote(key.name) + " is an older name: write " + quote(written), {},
                        std::move(edits));
       continue;
     }
-    const bool older_first = older.key->range.begin < present.key->range.begin;
-    const Range& first = older_first ? older.key->range : present.key->range;
-    const Range& second = older_first ? present.key->range : older.key->range;
+    const bool older_first = older->key->range.begin < present->key->range.begin;
+    const Range& first = older_first ? older->key->range : present->key->range;
+    const Range& second = older_first ? present->key->range : older->key->range;
     reporter_.report(
         rule::duplicate_key, second,
         quote(key.name) + ", an older name, and " + quote(key.replaced_by) + " are both given",
         {reporter_.note(first, "first given here")});
-    older = {};
+    fields_.erase(fields_.begin() + (older - fields_.data()));
   }
 }
 
-/// Null if the key is not there. Most mappings have few of the keys that they may have.
 const Fields::Field* Fields::find_field(std::string_view key) const {
-  for (std::size_t place = 0; place < fields_.size(); ++place) {
-    if (fields_[place].key != nullptr && shape_.keys[place].name == key) return &fields_[place];
+  for (const Field& field : fields_) {
+    if (shape_.keys[field.place].name == key) return &field;
   }
   return nullptr;
 }
@@ -373,7 +373,9 @@ const Node* Fields::adopt(std::string_view key) {
     reporter_.report(rule::missing_key, field->key->range,
                      "missing key " + quote(key) + " in " + what_ + ": " + quote(field->key->text) +
                          " is unknown" + did_you_mean(key));
-    fields_[place_of(key)] = *field;
+    std::erase_if(fields_,
+                  [place = place_of(key)](const Field& one) { return one.place == place; });
+    fields_.push_back({place_of(key), field->key, field->value, false});
     unknown_.erase(field);
     return find(key);
   }
@@ -390,10 +392,9 @@ std::string_view Fields::suggestion_for(std::string_view key) const {
 
 bool Fields::is_given(std::string_view key) const {
   const std::string_view present = present_name(shape_.keys[place_of(key)]);
-  for (std::size_t place = 0; place < fields_.size(); ++place) {
-    if (fields_[place].key != nullptr && present_name(shape_.keys[place]) == present) return true;
-  }
-  return false;
+  return std::any_of(fields_.begin(), fields_.end(), [&](const Field& field) {
+    return present_name(shape_.keys[field.place]) == present;
+  });
 }
 
 void Fields::report_unknown(UnknownKeys treatment) {
