@@ -59,6 +59,7 @@ struct SolveOptions {
   std::optional<std::string> html;
   std::optional<std::uint64_t> jobs;
   bool stats = false;
+  bool brief = false;
   ExplainOptions explain;
   std::uint64_t max_solutions = 0;
   std::string time_limit;

@@ -97,6 +97,11 @@ constexpr const char* solve_footer =
     "                                            best of the first 5 solutions\n"
     "  cbc solve robot.yaml --sweep 1000         random events and faults\n"
     "\n"
+    "How an answer is chosen: of all consistent sets of behaviors, the best one serves the most "
+    "requests (if equally many, the more important ones); then it has the highest product of the "
+    "suitabilities of all that runs. Where these are equal, as few supporting tasks run as "
+    "possible, and then as few behaviors change as possible.\n"
+    "\n"
     "In the text, P is the priority of the request behind a change, T is + for an activation and "
     "- for a deactivation, S says whether it succeeded (Y) or failed (N).\n"
     "\n"
@@ -154,6 +159,11 @@ void add_solve_command(Program& program) {
   command.option("-j,--jobs", options->jobs, whole_number("N", 1),
                  "Run up to N scripts, or sequences of a sweep, at once (default: the number of "
                  "processors); the output is the same for any N");
+  command
+      .flag("--brief", options->brief,
+            "Write one line for each event, with its changes, instead of a table of them")
+      .not_with({"--sweep", "--merge", "--replay", "--why", "--alternatives"})
+      .only_with_values("--format", {"text"});
   command
       .flag("--stats", options->stats,
             "Show the cost of each search, the mean, minimum and maximum, and the memory and time "

@@ -230,7 +230,8 @@ void complain_of_run(const Mission& mission, const RunResult& result, const std:
 int run_missions(const std::vector<Mission>& missions, const SolveOptions& options,
                  SolveReport& report) {
   const auto run = [&](const Mission& mission, SolveReport& report_of_run) {
-    const CoordinatorOptions coordination = coordinator_options(options, *mission.catalog);
+    CoordinatorOptions coordination = coordinator_options(options, *mission.catalog);
+    coordination.hindsight = true;  // to explain failed expectations
     report_of_run.begin_run(*mission.catalog, mission.script);
     RunResult result = run_script(*mission.catalog, mission.script, coordination, report_of_run);
     report_of_run.end_run(result, describe_end(result, coordination));
@@ -249,7 +250,7 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
 /// Runs missions with an HTML page in addition to the report.
 int draw_missions(const std::vector<Mission>& missions, const SolveOptions& options,
                   SolveReport& report) {
-  HtmlReport picture;
+  HtmlReport picture(event_additions(options));
   ReportPair both(report, picture);
   const int status = run_missions(missions, options, both);
   return std::max(status, write_output(*options.html, picture.page()));
@@ -288,7 +289,11 @@ int solve_missions(const SolveOptions& options) {
                     quote(*options.html));
   }
   const std::unique_ptr<SolveReport> report =
-      format.make({stdout, style_for(stdout), event_additions(options)});
+      format.make({stdout,
+                   style_for(stdout),
+                   event_additions(options),
+                   // Lines in files and pipes stay whole, for programs such as grep.
+                   {is_terminal(stdout) ? columns_of(stdout) : 0, options.brief}});
   return options.html ? draw_missions(*missions, options, *report)
                       : run_missions(*missions, options, *report);
 }

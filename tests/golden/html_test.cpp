@@ -52,6 +52,22 @@ TEST_F(Html, IsWrittenWhenExpectationsFail) {
   EXPECT_TRUE(fs::exists(page));
 }
 
+TEST_F(Html, HasReasons) {
+  const std::string page = scratch / "page.html";
+  EXPECT_EQ(solve("failure_why", {"--html", page}).status, 1);
+  std::string data = test::read_file(page);
+  EXPECT_NE(data.find(R"("loses":{"objective":"suitability","chosen":"0.8","alternative":"0.63"},)"
+                      R"("differences":[{"task":"LOCALIZE","chosen":null,)"),
+            std::string::npos);
+  EXPECT_EQ(data.find(R"("why":[{"task":"DRIVE")"), std::string::npos);
+  EXPECT_EQ(data.find(R"("alternatives":{)"), std::string::npos);
+  EXPECT_EQ(solve("failure_why", {"--why", "DRIVE", "--alternatives", "2", "--html", page}).status,
+            1);
+  data = test::read_file(page);
+  EXPECT_NE(data.find(R"("why":[{"task":"DRIVE","chosen":"DRIVE_SLOWLY")"), std::string::npos);
+  EXPECT_NE(data.find(R"("alternatives":{"limit_reached":false,)"), std::string::npos);
+}
+
 TEST_F(Html, ThatCannotBeWrittenIsAnError) {
   const std::string page = scratch / "missing/page.html";
   const Result alone = solve("expectation_fails", {});

@@ -1,6 +1,7 @@
 #include "explanation_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -428,6 +429,7 @@ class Check {
                      [&](const Solution& solution) { return wanted(solution.values); });
     if (best == solutions_.end()) {
       demand(why["alternative"].is_null() && why["loses"].is_null(), "there is no alternative");
+      demand(why["differences"].empty(), "differences from nothing");
       Reasons(facts_, answer_, statistics_).check(why["conflict"], wanted);
       return;
     }
@@ -435,7 +437,35 @@ class Check {
     check_configuration(why["alternative"], *best);
     demand(why["loses"] == loss(*best),
            "expected " + loss(*best).dump() + ", found " + why["loses"].dump());
+    check_differences(why["differences"], *best);
     statistics_.count("loses by: " + why["loses"]["objective"].get<std::string>());
+  }
+
+  void check_differences(const ordered_json& actual, const Solution& other) const {
+    std::size_t found = 0;
+    for (const std::size_t task : tasks_) {
+      const std::size_t ours = answer_.solution.values[task];
+      const std::size_t theirs = other.values[task];
+      if (ours == theirs) {
+        continue;
+      }
+      demand(found < actual.size(), "a difference is missing");
+      const ordered_json& difference = actual[found++];
+      demand(difference.at("task") == name_of_task(task), "not the next task that differs");
+      check_value(difference.at("chosen"), task, ours);
+      check_value(difference.at("alternative"), task, theirs);
+    }
+    demand(found == actual.size(), "more differences than there are");
+  }
+
+  void check_value(const ordered_json& actual, std::size_t task, std::size_t value) const {
+    if (value == none) {
+      demand(actual.is_null(), "it does not run");
+      return;
+    }
+    demand(actual.at("behavior") == name_of_value(value), "not its behavior");
+    const double millionths = actual.at("suitability").get<double>() * 10'000;
+    demand(std::llround(millionths) == facts_.suitability(value, task), "not its suitability");
   }
 
   ordered_json loss(const Solution& other) const {

@@ -1,37 +1,47 @@
-#include <gtest/gtest.h>
+#include "report/wrap.h"
 
-#include "support/wording.h"
+#include <string>
+
+#include <gtest/gtest.h>
 
 namespace cbc {
 namespace {
 
-using Lines = std::vector<std::string_view>;
-
-TEST(Wrap, ShortNamesStayOnOneLine) {
-  EXPECT_EQ(wrap_name("", 9), (Lines{""}));
-  EXPECT_EQ(wrap_name("HOVER", 9), (Lines{"HOVER"}));
-  EXPECT_EQ(wrap_name("HOVER_WITH_1", 9), (Lines{"HOVER_WITH_1"}));  // a third longer
+TEST(WrapLine, KeepsWhatFits) {
+  EXPECT_EQ(wrap_line("one  two", 40, 2), "one  two");
+  EXPECT_EQ(wrap_line(std::string(40, 'x'), 40, 2), std::string(40, 'x'));
 }
 
-TEST(Wrap, LongNamesAreBrokenBehindSeparatorsAndBeforeCapitals) {
-  EXPECT_EQ(wrap_name("HOVER_WITH_MPC", 9), (Lines{"HOVER_", "WITH_MPC"}));
-  EXPECT_EQ(wrap_name("MotionPlannerCloseTarget", 12), (Lines{"MotionPlanner", "CloseTarget"}));
-  EXPECT_EQ(wrap_name("one/two three.four-five", 7), (Lines{"one/two ", "three.", "four-five"}));
+TEST(WrapLine, BreaksBetweenWordsAndIndentsTheRest) {
+  EXPECT_EQ(wrap_line("  start FOLLOW_PATH, priority 2: accepted", 30, 4),
+            "  start FOLLOW_PATH, priority\n    2: accepted");
 }
 
-TEST(Wrap, NamesWithoutAPlaceToBreakStayWhole) {
-  EXPECT_EQ(wrap_name("abcdefghijklmnopqrstuvwxyz", 5), (Lines{"abcdefghijklmnopqrstuvwxyz"}));
-  EXPECT_EQ(wrap_name("________________", 5), (Lines{"________________"}));
-  EXPECT_EQ(wrap_name("ÄÖÜÄÖÜÄÖÜÄÖÜ", 9), (Lines{"ÄÖÜÄÖÜÄÖÜÄÖÜ"}));
+TEST(WrapLine, KeepsColumns) {
+  EXPECT_EQ(wrap_line("1 + Y  HOVER_WITH_MPC  HOVER  requested", 30, 7),
+            "1 + Y  HOVER_WITH_MPC  HOVER\n       requested");
 }
 
-TEST(Wrap, LinesTogetherAreTheName) {
-  const std::string_view name = "a__b_C_dE_fGh.iJ-k/lM nOpQ_日本_語";
-  for (std::size_t width = 1; width < 40; ++width) {
-    std::string joined;
-    for (const std::string_view line : wrap_name(name, width)) joined += line;
-    EXPECT_EQ(joined, name) << width;
-  }
+TEST(WrapLine, DoesNotBreakWords) {
+  const std::string word(50, 'x');
+  EXPECT_EQ(wrap_line(word + " and " + word, 30, 2), word + "\n  and\n  " + word);
+  EXPECT_EQ(wrap_line("    " + word, 30, 2), "    " + word) << "no line for blanks alone";
+}
+
+TEST(WrapLine, DoesNotCountColors) {
+  const std::string painted = "\x1b[31mone\x1b[0m two three four five six";
+  EXPECT_EQ(wrap_line(painted, 27, 2), painted);
+  EXPECT_EQ(wrap_line(painted, 26, 2), "\x1b[31mone\x1b[0m two three four five\n  six");
+}
+
+TEST(WrapLine, CountsWideCharactersAsTwo) {
+  EXPECT_EQ(wrap_line("\u6f22\u5b57\u6f22\u5b57\u6f22 \u6f22\u5b57\u6f22\u5b57\u6f22\u5b57", 22, 2),
+            "\u6f22\u5b57\u6f22\u5b57\u6f22\n  \u6f22\u5b57\u6f22\u5b57\u6f22\u5b57");
+}
+
+TEST(WrapLine, LeavesANarrowTerminalAlone) {
+  EXPECT_EQ(wrap_line("one two three four five", 20, 11), "one two three four five");
+  EXPECT_EQ(wrap_line("one two three four five", 0, 0), "one two three four five") << "no limit";
 }
 
 }  // namespace

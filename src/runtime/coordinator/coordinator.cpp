@@ -22,7 +22,9 @@ Coordinator::Coordinator(const CompiledCatalog& catalog, const CoordinatorOption
       problem_builder_(catalog, state_),
       transition_(catalog, state_, record_),
       solver_(catalog, options.search, ranks_),
-      checker_(catalog) {}
+      checker_(catalog) {
+  if (options.hindsight) hindsight_.emplace(catalog, ranks_, state_);
+}
 
 void Coordinator::begin(std::span<const Availability> situation,
                         std::span<const VariableValue> variables) {
@@ -221,15 +223,15 @@ Coordinator::Status Coordinator::start(TaskId task, std::int32_t priority,
   record_.task = task;
   record_.priority = priority;
   const Request* const request = state_.find_request(task);
-  if (request != nullptr && request->priority > priority) {
-    return reject_by_priority(task, request->priority);
-  }
   Trigger trigger;
   trigger.kind = Trigger::Kind::start;
   trigger.group = catalog_.tasks[task].group;
   trigger.task = task;
   trigger.priority = priority;
   trigger.is_reactive = is_reactive;
+  if (request != nullptr && request->priority > priority) {
+    return reject_by_priority(trigger, request->priority);
+  }
   if (parameters) {
     trigger.parameters = *parameters;
   } else if (request != nullptr) {
@@ -247,24 +249,25 @@ Coordinator::Status Coordinator::stop(TaskId task, std::optional<std::int32_t> p
     state_.set_waiting(task, false);
     return report();
   }
-  if (request != nullptr && request->priority > record_.priority) {
-    return reject_by_priority(task, request->priority);
-  }
   Trigger trigger;
   trigger.kind = Trigger::Kind::stop;
   trigger.group = catalog_.tasks[task].group;
   trigger.task = task;
   trigger.priority = record_.priority;
+  if (request != nullptr && request->priority > record_.priority) {
+    return reject_by_priority(trigger, request->priority);
+  }
   return coordinate(trigger);
 }
 
 /// The task's own request has a higher priority than the event.
-Coordinator::Status Coordinator::reject_by_priority(TaskId task, std::int32_t priority) {
+Coordinator::Status Coordinator::reject_by_priority(const Trigger& trigger, std::int32_t priority) {
   record_.outcome = Outcome::rejected;
   Reason& reason = record_.conflict.emplace_back();
   reason.kind = Reason::Kind::priority;
-  reason.task = task;
+  reason.task = trigger.task;
   reason.priority = priority;
+  if (hindsight_) hindsight_->note_rejection(record_, trigger);
   return report();
 }
 
@@ -329,6 +332,9 @@ Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
     const auto failed = transition_.apply(solution_, behavior_to_restart(trigger), now_);
     if (!failed) {
       explain(trigger, *problem);
+      if (hindsight_) {
+        hindsight_->note_answer(record_, circumstances_of(trigger), solution_);
+      }
       accept(trigger, *problem);
       if (!record_.explanation.why.empty()) {
         explainer_->explain_queued(state_, record_.explanation);
@@ -490,18 +496,24 @@ void Coordinator::explain(const Trigger& trigger, const Problem& problem) {
     return;
   }
   if (!explainer_) explainer_.emplace(catalog_, ranks_, options_.explain);
-  explainer_->explain({state_, trigger, search_.protection, problem_builder_.excluded(), deadline_},
-                      problem, solution_, record_.explanation);
+  explainer_->explain(circumstances_of(trigger), problem, solution_, record_.explanation);
+}
+
+/// Of the event, while the state is still the one before it.
+Circumstances Coordinator::circumstances_of(const Trigger& trigger) const {
+  return {state_, trigger, search_.protection, problem_builder_.excluded(), deadline_};
 }
 
 /// Rolls back. Behaviors that cannot be activated again are lost.
 Coordinator::Status Coordinator::reject(const Trigger& trigger) {
   record_.outcome = Outcome::rejected;
   if (options_.find_conflicts && search_.result.status == SearchStatus::infeasible) {
-    record_.conflict = find_conflict(
-        catalog_, {state_, trigger, search_.protection, problem_builder_.excluded(), deadline_});
+    record_.conflict = find_conflict(catalog_, circumstances_of(trigger));
   }
   const bool is_silent = note_waiting(trigger);
+  if (hindsight_ && !is_silent && trigger.kind != Trigger::Kind::finish) {
+    hindsight_->note_rejection(record_, trigger);
+  }
   // In reverse, as the last one finishes next.
   const std::vector<BehaviorId>& lost = transition_.roll_back(now_);
   lost_.insert(lost_.end(), lost.rbegin(), lost.rend());

@@ -12,6 +12,7 @@
 #include "cbc/units.h"
 #include "compiled/compiled_catalog.h"
 #include "coordinator/explainer.h"
+#include "coordinator/hindsight.h"
 #include "coordinator/problem_builder.h"
 #include "coordinator/record.h"
 #include "coordinator/state.h"
@@ -28,6 +29,7 @@ struct CoordinatorOptions {
   std::uint64_t max_clock_events = 1'000'000;  ///< timeouts and reactive starts, no-ops too
   bool find_conflicts = true;                  ///< of rejected events
   ExplanationOptions explain;                  ///< what to explain of accepted events
+  bool hindsight = false;                      ///< look_back() may be called
   bool measure_time = false;                   ///< records the time of searches
   /// Orders behaviors of equal suitability at random instead of in catalog order.
   std::optional<std::uint64_t> tie_seed;
@@ -89,6 +91,12 @@ class Coordinator {
   [[nodiscard]] const State& state() const { return state_; }
   [[nodiscard]] const std::string& internal_error() const { return internal_error_; }
 
+  /// Why the present values of the tasks of a group meet the demands of none of the `ways`. Only
+  /// if the options say `hindsight`.
+  [[nodiscard]] LookBack look_back(std::uint32_t group, std::span<const Demands> ways) {
+    return hindsight_->look_back(group, ways);
+  }
+
  private:
   Status process_next_due();
   Status time_out(TaskId task);
@@ -103,7 +111,7 @@ class Coordinator {
   Status start(TaskId task, std::int32_t priority, std::optional<std::string_view> parameters,
                bool is_reactive);
   Status stop(TaskId task, std::optional<std::int32_t> priority);
-  Status reject_by_priority(TaskId task, std::int32_t priority);
+  Status reject_by_priority(const Trigger& trigger, std::int32_t priority);
   Status finish(BehaviorId behavior, FinishCause cause);
   Status change_situation(const Event& event);
   void find_affected(const Event& event);
@@ -118,6 +126,7 @@ class Coordinator {
   [[nodiscard]] BehaviorId behavior_to_restart(const Trigger& trigger) const;
   void accept(const Trigger& trigger, const Problem& problem);
   void explain(const Trigger& trigger, const Problem& problem);
+  [[nodiscard]] Circumstances circumstances_of(const Trigger& trigger) const;
   Status reject(const Trigger& trigger);
   bool note_waiting(const Trigger& trigger);
   void assign(const Trigger& trigger);
@@ -142,6 +151,7 @@ class Coordinator {
   Solver solver_;
   Checker checker_;
   std::optional<Explainer> explainer_;
+  std::optional<Hindsight> hindsight_;
   Assignment solution_;
   std::vector<TaskId> started_;
   std::vector<TaskId> stopped_by_others_;  ///< not by their own stop or end: see update_queue

@@ -271,13 +271,29 @@ std::vector<Reason> find_conflict(const CompiledCatalog& catalog,
       .value_or(std::vector<Reason>());
 }
 
+ObjectiveValues objectives_elsewhere(const CompiledCatalog& catalog, const State& state,
+                                     std::uint32_t group) {
+  ObjectiveValues values;
+  values.requests = state.request_count();
+  values.idle_total = state.idle_total();
+  values.idle_running = state.idle_running();
+  for (TaskId task = catalog.group_tasks[group]; task < catalog.group_tasks[group + 1]; ++task) {
+    if (state.has_request(task)) --values.requests;
+    if (state.is_running(task) && catalog.tasks[task].start_on_request == 0) {
+      --values.idle_running;
+    }
+  }
+  values.satisfied = values.requests;
+  return values;
+}
+
 Explainer::Explainer(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks,
                      ExplanationOptions options)
     : catalog_(catalog), options_(std::move(options)), search_(catalog, ranks) {}
 
 void Explainer::explain(const Circumstances& circumstances, const Problem& problem,
                         const Assignment& solution, Explanation& explanation) {
-  search_.load(problem, elsewhere(circumstances.state, problem.group));
+  search_.load(problem, objectives_elsewhere(catalog_, circumstances.state, problem.group));
   explanation.chosen = search_.comparison().evaluate(solution);
   if (options_.displaced) explain_displaced(circumstances, problem, explanation);
   for (const Subject& subject : options_.why) {
@@ -292,6 +308,14 @@ void Explainer::explain(const Circumstances& circumstances, const Problem& probl
     explanation.alternatives = search_.list_best(solution, options_.alternatives);
     explanation.is_list_cut = search_.is_cut();
   }
+}
+
+WhyNot Explainer::ask(const Circumstances& circumstances, const ObjectiveValues& elsewhere,
+                      const Problem& problem, const Assignment& solution,
+                      std::span<const Demands> ways, Configuration& chosen) {
+  search_.load(problem, elsewhere);
+  chosen = search_.comparison().evaluate(solution);
+  return why_not(circumstances, chosen, ways);
 }
 
 void Explainer::explain_queued(const State& state, Explanation& explanation) const {
@@ -336,22 +360,6 @@ bool Explainer::is_in_group(const Subject& subject, std::uint32_t group) const {
   if (subject.is_task)
     return catalog_.tasks[catalog_.task_ids[subject.catalog_index]].group == group;
   return catalog_.group_of(catalog_.behavior_ids[subject.catalog_index]) == group;
-}
-
-/// Outside the group all requests are satisfied, and nothing changes.
-ObjectiveValues Explainer::elsewhere(const State& state, std::uint32_t group) const {
-  ObjectiveValues values;
-  values.requests = state.request_count();
-  values.idle_total = state.idle_total();
-  values.idle_running = state.idle_running();
-  for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
-    if (state.has_request(task)) --values.requests;
-    if (state.is_running(task) && catalog_.tasks[task].start_on_request == 0) {
-      --values.idle_running;
-    }
-  }
-  values.satisfied = values.requests;
-  return values;
 }
 
 void Explainer::explain_displaced(const Circumstances& circumstances, const Problem& problem,

@@ -31,6 +31,10 @@ struct Circumstances {
 [[nodiscard]] std::vector<Reason> find_conflict(const CompiledCatalog& catalog,
                                                 const Circumstances& circumstances);
 
+/// The objectives outside a group, where all requests are satisfied and nothing changes.
+[[nodiscard]] ObjectiveValues objectives_elsewhere(const CompiledCatalog& catalog,
+                                                   const State& state, std::uint32_t group);
+
 /// Explains accepted answers by a search for the best alternatives. Allocates on every event.
 class Explainer {
  public:
@@ -42,6 +46,12 @@ class Explainer {
   void explain(const Circumstances& circumstances, const Problem& problem,
                const Assignment& solution, Explanation& explanation);
 
+  /// Why an answer to a problem, proven best, meets the demands of none of the `ways`. `elsewhere`:
+  /// see objectives_elsewhere. `chosen` receives the answer with its objectives.
+  [[nodiscard]] WhyNot ask(const Circumstances& circumstances, const ObjectiveValues& elsewhere,
+                           const Problem& problem, const Assignment& solution,
+                           std::span<const Demands> ways, Configuration& chosen);
+
   /// Of tasks that do not run, but are in the queue after the event, and of their behaviors:
   /// replaces the explanation by what hinders their start, if anything does. `state`: after the
   /// event.
@@ -52,7 +62,6 @@ class Explainer {
   [[nodiscard]] std::vector<Reason> reasons_of_unavailability(const State& state,
                                                               TaskId task) const;
   [[nodiscard]] bool is_in_group(const Subject& subject, std::uint32_t group) const;
-  [[nodiscard]] ObjectiveValues elsewhere(const State& state, std::uint32_t group) const;
   void explain_displaced(const Circumstances& circumstances, const Problem& problem,
                          Explanation& explanation);
   void explain_task(const Circumstances& circumstances, TaskId task, Explanation& explanation);

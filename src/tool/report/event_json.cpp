@@ -41,6 +41,8 @@ void write_reason(JsonWriter& json, const CompiledCatalog& catalog, const EventR
 
 namespace {
 
+constexpr double one_percent = one_million / 100.0;
+
 /// A set of reasons, as a member.
 void write_conflict(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
                     std::span<const Reason> reasons) {
@@ -85,6 +87,33 @@ void write_configuration(JsonWriter& json, const CompiledCatalog& catalog,
 std::string idle_fraction(const ObjectiveValues& objective) {
   return std::to_string(objective.idle_total - objective.idle_running) + "/" +
          std::to_string(objective.idle_total);
+}
+
+/// The member "differences": the tasks of the group with another value in the alternative.
+void write_differences(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
+                       const WhyNot& why_not) {
+  const std::uint32_t group = record.search->group;
+  const TaskId first = catalog.group_tasks[group];
+  const auto write = [&](std::string_view name, TaskId task, const Assignment& assignment) {
+    const std::uint32_t index = assignment[task - first];
+    if (index == none) return json.write(name, nullptr);
+    const Value& value = catalog.values[task][index];
+    json.write_object(name, {{"behavior", catalog.name_of_behavior(value.behavior)},
+                             {"suitability", value.suitability / one_percent}});
+  };
+  json.open("differences", '[');
+  if (why_not.alternative) {
+    const Assignment& chosen = record.explanation.chosen.assignment;
+    const Assignment& other = why_not.alternative->assignment;
+    for (const TaskId task : differing_tasks(catalog, group, chosen, other)) {
+      json.open('{');
+      json.write("task", catalog.name_of_task(task));
+      write("chosen", task, chosen);
+      write("alternative", task, other);
+      json.close('}');
+    }
+  }
+  json.close(']');
 }
 
 void write_loss(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
@@ -135,6 +164,21 @@ std::string message_of(const Sentences& sentences) {
   return text;
 }
 
+/// What was not chosen, and where it is worse.
+void write_why_not(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
+                   const WhyNot& why_not, const State& state) {
+  json.write("limit_reached", why_not.is_cut);
+  if (why_not.alternative) {
+    json.key("alternative");
+    write_configuration(json, catalog, record, *why_not.alternative, state);
+    write_loss(json, catalog, record, why_not, state);
+  } else {
+    json.write("alternative", nullptr);
+    json.write("loses", nullptr);
+  }
+  write_differences(json, catalog, record, why_not);
+}
+
 void write_why(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
                const Why& why, const State& state) {
   const WhyNot& why_not = why.why_not;
@@ -148,15 +192,7 @@ void write_why(JsonWriter& json, const CompiledCatalog& catalog, const EventReco
                                             : std::optional(catalog.name_of_behavior(why.chosen)));
   }
   if (why.due) json.write_seconds("due", *why.due);
-  json.write("limit_reached", why_not.is_cut);
-  if (why_not.alternative) {
-    json.key("alternative");
-    write_configuration(json, catalog, record, *why_not.alternative, state);
-    write_loss(json, catalog, record, why_not, state);
-  } else {
-    json.write("alternative", nullptr);
-    json.write("loses", nullptr);
-  }
+  write_why_not(json, catalog, record, why_not, state);
   write_conflict(json, catalog, record, why_not.conflict);
   json.write("message", message_of(describe_why(catalog, record, why, state)));
   json.close('}');
@@ -311,6 +347,29 @@ class EventText {
 void append_event(std::string& text, const CompiledCatalog& catalog, const EventRecord& record,
                   const Step* step, const State& state, const EventAdditions& adds) {
   EventText(text, catalog, record, state).write(step, adds);
+}
+
+void write_surprise(JsonWriter& json, const CompiledCatalog& catalog, const Surprise& surprise,
+                    const State& state) {
+  const LookBack& look_back = surprise.look_back;
+  json.open('{');
+  json.write("event",
+             look_back.event == nullptr ? std::nullopt : std::optional(look_back.event->index));
+  json.write_list("tasks", surprise.tasks,
+                  [&](TaskId task) { json.write(catalog.name_of_task(task)); });
+  if (look_back.kind == LookBack::Kind::due) json.write_seconds("due", look_back.due);
+  if (look_back.kind == LookBack::Kind::decided) {
+    write_why_not(json, catalog, *look_back.event, look_back.why_not, state);
+    write_conflict(json, catalog, *look_back.event, look_back.why_not.conflict);
+  } else {
+    json.write_members({{"limit_reached", false}, {"alternative", nullptr}, {"loses", nullptr}});
+    json.write_list("differences", std::span<const TaskId>(), [](TaskId) {});
+    const bool is_rejected = look_back.kind == LookBack::Kind::rejected;
+    write_conflict(json, catalog, is_rejected ? *look_back.event : EventRecord(),
+                   is_rejected ? look_back.event->conflict : std::vector<Reason>());
+  }
+  json.write("message", message_of(describe_surprise(catalog, surprise, state)));
+  json.close('}');
 }
 
 std::string stream_header(const CompiledCatalog& catalog, std::string_view catalog_name,

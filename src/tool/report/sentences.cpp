@@ -202,6 +202,31 @@ std::string describe_event(const CompiledCatalog& catalog, const EventRecord& re
   return text;
 }
 
+std::string describe_note(const CompiledCatalog& catalog, const EventRecord& record,
+                          const State& state) {
+  const BehaviorId behavior = record.behavior;
+  if (behavior == none) return {};
+  const std::string name = behavior_name(catalog, behavior);
+  const bool is_active = state.is_active(behavior);
+  if (record.verb == Verb::fault && is_active) {
+    return fmt::format(
+        "{} is active, and goes on; the fault takes effect at its next activation; "
+        "'finish: {}, cause: process_failure' stops it",
+        name, printable(catalog.name_of_behavior(behavior)));
+  }
+  if (record.verb != Verb::finish || record.outcome != Outcome::unchanged || is_active) return {};
+  List instead;
+  for (const ValueId value : catalog.performs[behavior]) {
+    const TaskId task = catalog.task_of(value);
+    const std::string task_text = task_name(catalog, task);
+    instead.add(
+        state.is_running(task)
+            ? fmt::format("{} performs {}", behavior_name(catalog, state.behavior(task)), task_text)
+            : fmt::format("nothing performs {}", task_text));
+  }
+  return fmt::format("{} is not active: {}", name, instead.text());
+}
+
 std::string describe_expectation(const CompiledCatalog& catalog, const Expectation& expectation) {
   List parts;
   if (expectation.outcome) parts.add(fmt::format("outcome {}", name_of(*expectation.outcome)));
@@ -366,7 +391,13 @@ std::string shorten(const std::string& number, std::size_t length) {
   return number.size() <= length + 1 ? number : number.substr(0, length) + "...";
 }
 
-/// Two numbers, long enough to see which is the larger one.
+std::string shorten_alone(const std::string& number) {
+  const std::size_t first = std::min(number.find_first_not_of("0."), number.size());
+  return shorten(number, std::max<std::size_t>(first, 2) + digits_beyond);
+}
+
+}  // namespace
+
 std::pair<std::string, std::string> shorten_both(const std::string& a, const std::string& b) {
   const auto differs = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
   const auto equal = static_cast<std::size_t>(differs.first - a.begin());
@@ -374,19 +405,16 @@ std::pair<std::string, std::string> shorten_both(const std::string& a, const std
   return {shorten(a, length), shorten(b, length)};
 }
 
-std::string shorten_alone(const std::string& number) {
-  const std::size_t first = std::min(number.find_first_not_of("0."), number.size());
-  return shorten(number, std::max<std::size_t>(first, 2) + digits_beyond);
+std::string supporting_text(const ObjectiveValues& objective) {
+  return fmt::format("{} of {}", objective.idle_running, objective.idle_total);
 }
+
+namespace {
 
 /// The name of a value.
 std::string value_name(const CompiledCatalog& catalog, TaskId task, std::uint32_t place) {
   return place == none ? "not running"
                        : printable(catalog.name_of_behavior(catalog.values[task][place].behavior));
-}
-
-std::string idle_text(const ObjectiveValues& objective) {
-  return fmt::format("{}/{}", objective.idle_total - objective.idle_running, objective.idle_total);
 }
 
 /// The first objective in which the alternative loses.
@@ -412,8 +440,8 @@ std::string describe_loss(const CompiledCatalog& catalog, const EventRecord& rec
       return fmt::format("suitability would be {}, not {}", theirs, ours);
     }
     case Criterion::idle:
-      return fmt::format("idle would be {}, not {}", idle_text(other.objective),
-                         idle_text(chosen.objective));
+      return fmt::format("supporting tasks running would be {}, not {}",
+                         supporting_text(other.objective), supporting_text(chosen.objective));
     case Criterion::changes:
       return fmt::format("changes would be {}, not {}", other.objective.changes,
                          chosen.objective.changes);
@@ -506,10 +534,10 @@ std::string describe_alternative(const CompiledCatalog& catalog, const EventReco
   const Configuration& configuration = list[place];
   const ObjectiveValues& objective = configuration.objective;
   std::string text =
-      fmt::format("requests {}/{}, suitability {}, idle {}, changes {}:", objective.satisfied,
-                  objective.requests,
+      fmt::format("requests {} of {}, suitability {}, supporting tasks running {}, changes {}:",
+                  objective.satisfied, objective.requests,
                   shorten_alone(exact_suitability(catalog, state, group, configuration.assignment)),
-                  idle_text(objective), objective.changes);
+                  supporting_text(objective), objective.changes);
   bool is_first = true;
   for (std::uint32_t task = 0; task < configuration.assignment.size(); ++task) {
     const std::uint32_t value = configuration.assignment[task];
@@ -524,85 +552,6 @@ std::string describe_alternative(const CompiledCatalog& catalog, const EventReco
     is_first = false;
   }
   return is_first ? text + " nothing runs" : text;
-}
-
-void FailureStory::begin_run(const CompiledCatalog& catalog) {
-  catalog_ = &catalog;
-  last_ = nullptr;
-  rejected_.clear();
-  reasons_.clear();
-  stops_.clear();
-  waits_.clear();
-}
-
-void FailureStory::add(const EventRecord& record, const Step* step, const State& state) {
-  last_ = &record;
-  last_step_ = step;
-  note_stops(record, step, state);
-  note_waits(record, state);
-  if (record.origin != Origin::script || !form_of(record.verb).is_decided) return;
-  rejected_.clear();
-  reasons_.clear();
-  if (record.outcome != Outcome::rejected) return;
-  rejected_ = describe(record, step);
-  reasons_ = describe_rejection(*catalog_, record);
-}
-
-void FailureStory::note_stops(const EventRecord& record, const Step* step, const State& state) {
-  std::erase_if(stops_, [&state](const auto& stop) { return state.is_running(stop.first); });
-  for (const StoppedTask& stopped : record.stopped_tasks) {
-    Stop& stop = stops_[stopped.task];
-    stop = {record.index, {}, describe(record, step)};
-  }
-  for (const Displacement& displaced : record.explanation.displaced) {
-    const Sentences sentences = describe_displacement(*catalog_, record, displaced, state);
-    std::vector<std::string>& lines = stops_[displaced.task].lines;
-    lines.push_back(sentences.first);
-    for (const std::string& sentence : sentences.more) lines.push_back("  " + sentence);
-  }
-}
-
-void FailureStory::note_waits(const EventRecord& record, const State& state) {
-  std::erase_if(waits_, [&state](const auto& wait) { return !state.is_waiting(wait.first); });
-  if (record.origin != Origin::reactive || record.outcome != Outcome::rejected) return;
-  if (!state.is_waiting(record.task)) return;
-  std::vector<std::string>& lines = waits_[record.task];
-  lines = {fmt::format("{} waits since event {} at {} s:", task_name(*catalog_, record.task),
-                       record.index, format_time(record.time))};
-  for (const std::string& reason : describe_rejection(*catalog_, record)) {
-    lines.push_back("  " + reason);
-  }
-}
-
-std::vector<std::string> FailureStory::tell(const Expectation& failed) const {
-  if (last_ == nullptr) return {"before the first event"};
-  const std::string last = describe(*last_, last_step_);
-  std::vector<std::string> lines{"after " + last};
-  if (!rejected_.empty()) {
-    if (rejected_ != last) lines.push_back("and after " + rejected_);
-    for (const std::string& reason : reasons_) lines.push_back("rejected: " + reason);
-  }
-  for (const Expectation::Running& expected : failed.running) {
-    const TaskId task = catalog_->task_ids[expected.task];
-    if (const auto wait = waits_.find(task); wait != waits_.end()) {
-      lines.insert(lines.end(), wait->second.begin(), wait->second.end());
-    }
-    const auto found = stops_.find(task);
-    if (found == stops_.end()) continue;
-    const Stop& stop = found->second;
-    if (stop.event != last_->index) {
-      lines.push_back(task_name(*catalog_, task) + " stopped with " + stop.what);
-    }
-    lines.insert(lines.end(), stop.lines.begin(), stop.lines.end());
-  }
-  return lines;
-}
-
-std::string FailureStory::describe(const EventRecord& record, const Step* step) const {
-  const std::string outcome = ": " + std::string(name_of(record.outcome));
-  return fmt::format("event {} at {} s: {}{}", record.index, format_time(record.time),
-                     describe_event(*catalog_, record, step),
-                     form_of(record.verb).is_decided ? outcome : "");
 }
 
 }  // namespace cbc

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,7 +31,8 @@ namespace cbc {
 [[nodiscard]] std::string exact_suitability(const CompiledCatalog& catalog, const State& state,
                                             std::uint32_t group, const Assignment& places);
 
-/// The idle objective: of the tasks without start_on_request, the share that does not run.
+/// The idle objective: of the supporting tasks, which are those without start_on_request, the share
+/// that does not run.
 [[nodiscard]] double idle_share(const ObjectiveValues& objective);
 
 [[nodiscard]] double to_seconds(Microseconds time);
@@ -47,6 +47,11 @@ namespace cbc {
 /// What happened: "start HOVER, priority 2". `step` is the scripted one, or null.
 [[nodiscard]] std::string describe_event(const CompiledCatalog& catalog, const EventRecord& record,
                                          const Step* step);
+
+/// What may surprise about an event: a fault of an active behavior, or a finish of an inactive one.
+/// Empty for most. `state`: after the event.
+[[nodiscard]] std::string describe_note(const CompiledCatalog& catalog, const EventRecord& record,
+                                        const State& state);
 
 /// " GPS unavailable, RADAR available, TARGET is near"
 [[nodiscard]] std::string describe_situation(const CompiledCatalog& catalog,
@@ -76,6 +81,13 @@ namespace cbc {
                                                         std::span<const Reason> reasons,
                                                         TaskId it = none);
 
+/// Two decimal numbers, shortened as far as one can still see which is the larger one.
+[[nodiscard]] std::pair<std::string, std::string> shorten_both(const std::string& a,
+                                                               const std::string& b);
+
+/// How many of the supporting tasks run: "4 of 7".
+[[nodiscard]] std::string supporting_text(const ObjectiveValues& objective);
+
 /// Why an event was rejected, in one sentence or more.
 [[nodiscard]] std::vector<std::string> describe_rejection(const CompiledCatalog& catalog,
                                                           const EventRecord& record);
@@ -100,38 +112,5 @@ struct Sentences {
 [[nodiscard]] std::string describe_alternative(const CompiledCatalog& catalog,
                                                const EventRecord& record, std::size_t place,
                                                const State& state);
-
-/// Tells what led to a failed expectation: the event before it; why the last scripted start, stop
-/// or finish was rejected, if it was; and when and why tasks stopped that are expected to run, or
-/// why they wait.
-class FailureStory {
- public:
-  /// Starts a run. The catalog must outlive it.
-  void begin_run(const CompiledCatalog& catalog);
-  void add(const EventRecord& record, const Step* step, const State& state);
-
-  /// The story, in lines. Call it before the next event is handled.
-  [[nodiscard]] std::vector<std::string> tell(const Expectation& failed) const;
-
- private:
-  /// The last stop of a task that does not run.
-  struct Stop {
-    std::uint64_t event = 0;
-    std::vector<std::string> lines;  ///< why, if its request was displaced
-    std::string what;                ///< the event
-  };
-
-  void note_stops(const EventRecord& record, const Step* step, const State& state);
-  void note_waits(const EventRecord& record, const State& state);
-  [[nodiscard]] std::string describe(const EventRecord& record, const Step* step) const;
-
-  const CompiledCatalog* catalog_ = nullptr;
-  const EventRecord* last_ = nullptr;  ///< null: none yet
-  const Step* last_step_ = nullptr;
-  std::string rejected_;  ///< the last scripted start, stop or finish, if it was rejected
-  std::vector<std::string> reasons_;
-  std::map<TaskId, Stop> stops_;
-  std::map<TaskId, std::vector<std::string>> waits_;  ///< of each waiting task: since when, and why
-};
 
 }  // namespace cbc

@@ -33,8 +33,7 @@ void JunitReport::on_failure(const Failure& failure) {
   std::string details =
       fmt::format("{}:{}:{}: {}\n", xml_text(script_->file), failure.range.begin.line,
                   failure.range.begin.column, xml_text(failure.message));
-  for (const std::string& line : story_.tell(*failure.step->expect))
-    details += xml_text(line) + "\n";
+  for (const std::string& line : story_.tell(failure)) details += xml_text(line) + "\n";
   failed_.push_back({failure.step, failure.message, std::move(details)});
 }
 
@@ -105,7 +104,7 @@ void GithubReport::on_event(const EventRecord& record, const Step* step, const S
 
 void GithubReport::on_failure(const Failure& failure) {
   std::string message = failure.message;
-  for (const std::string& line : story_.tell(*failure.step->expect)) message += "\n" + line;
+  for (const std::string& line : story_.tell(failure)) message += "\n" + line;
   fmt::print(
       out_, "{}",
       github_command("error", {script_file_, failure.range}, "cbc expectation failed", message));
@@ -136,7 +135,7 @@ std::span<const SolveFormat> solve_formats() {
   static constexpr SolveFormat formats[] = {
       {"text",
        [](Settings settings) -> Report {
-         return std::make_unique<TextReport>(settings.style, settings.out);
+         return std::make_unique<TextReport>(settings.style, settings.out, settings.layout);
        }},
       {"json",
        [](Settings settings) -> Report {

@@ -42,8 +42,13 @@ void JsonReport::on_event(const EventRecord& record, const Step* step, const Sta
 
 void JsonReport::on_failure(const Failure& failure) {
   JsonWriter json(failures_);
-  json.write_object(
+  json.open('{');
+  json.write_members(
       {{"index", failure.index}, {"line", failure.range.begin.line}, {"message", failure.message}});
+  json.write_list("why", failure.surprises, [&](const Surprise& surprise) {
+    write_surprise(json, *catalog_, surprise, *failure.state);
+  });
+  json.close('}');
 }
 
 void JsonReport::end_run(const RunResult& result, const std::string& error) {

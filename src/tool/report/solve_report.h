@@ -23,7 +23,8 @@
 #include "diagnostic/diagnostic.h"
 #include "draw/catalog_graph.h"
 #include "draw/diagram.h"
-#include "report/sentences.h"
+#include "report/failure_story.h"
+#include "report/run_summary.h"
 #include "script/runner.h"
 #include "script/script.h"
 #include "support/json.h"
@@ -84,6 +85,10 @@ struct ProcessUsage {
 /// Writes one of the reasons of a conflict set, as an object.
 void write_reason(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
                   const Reason& reason);
+
+/// Writes why tasks are not as expected, as an object.
+void write_surprise(JsonWriter& json, const CompiledCatalog& catalog, const Surprise& surprise,
+                    const State& state);
 
 /// Writes the member "totals", the same numbers as the table: {"events", "solutions", "nodes",
 /// "propagations", "elapsed_us", "kinds"}. Each measure is {"sum", "mean", "min", "max"}, the last
@@ -239,12 +244,19 @@ class StateRecorder final : public RunListener {
   bool has_passed_ = false;
 };
 
+/// The form of a text about runs.
+struct TextLayout {
+  std::size_t columns = 0;  ///< lines are wrapped to so many; 0: not at all
+  bool is_brief = false;    ///< an event is one line
+};
+
 /// Writes a run for people: a line for each event, below it the changes with the columns of the
-/// execution viewer in the paper (P priority, T type, S success), and the active behaviors at the
-/// end.
+/// execution viewer in the paper (P priority, T type, S success); at the end the active behaviors
+/// and a summary.
 class TextReport final : public SolveReport {
  public:
-  TextReport(const Style& style, std::FILE* out) : style_(style), out_(out) {}
+  TextReport(const Style& style, std::FILE* out, const TextLayout& layout = {})
+      : style_(style), layout_(layout), out_(out) {}
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
@@ -260,16 +272,25 @@ class TextReport final : public SolveReport {
 
  private:
   [[nodiscard]] std::string describe_outcome(const EventRecord& record, const State& state) const;
+  [[nodiscard]] std::string describe_briefly(const EventRecord& record) const;
+  void write_details(const EventRecord& record, const State& state);
   void write_change(const EventRecord& record, const Change& change);
   void write_stopped(const EventRecord& record);
   void write_explanation(const EventRecord& record, const State& state);
   void write_alternatives(const EventRecord& record, const State& state);
   void write(const Sentences& sentences);
+  void write(const std::vector<SummaryLine>& lines);
+  /// Wraps the line; what follows the first break is indented by `indent` columns.
+  void write_line(const std::string& line, std::size_t indent);
   void count(const RunResult& result);
 
   const Style style_;
+  const TextLayout layout_;
   std::FILE* const out_;
   const CompiledCatalog* catalog_ = nullptr;
+  FailureStory story_;
+  RunSummary summary_;
+  ScriptTable scripts_;
   std::string script_file_;
   std::size_t behavior_width_ = 0;
   std::size_t task_width_ = 0;
@@ -313,7 +334,7 @@ class JsonReport final : public SolveReport {
 /// are the JSON report and what the picture needs of each catalog beyond that.
 class HtmlReport final : public SolveReport {
  public:
-  HtmlReport() : json_(memory_.stream()) {}
+  explicit HtmlReport(const EventAdditions& adds = {}) : json_(memory_.stream(), adds) {}
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
@@ -397,6 +418,7 @@ struct ReportSettings {
   std::FILE* out = stdout;
   Style style = plain_style();  ///< of a text for people
   EventAdditions adds;          ///< of a report for programs
+  TextLayout layout;            ///< of a text for people
 };
 
 /// A format of `cbc solve` for whole runs. Event streams (jsonl) are not among them.

@@ -11,6 +11,7 @@
 #include "report/sentences.h"
 #include "report/solve_report.h"
 #include "report/table_parts.h"
+#include "report/wrap.h"
 #include "support/json.h"
 #include "support/wording.h"
 
@@ -145,6 +146,9 @@ namespace {
 constexpr std::size_t widest_column = 48;
 constexpr const char* change_indent = "          ";
 constexpr const char* text_indent = "           ";
+constexpr std::size_t event_column = 12;
+constexpr std::size_t text_column = 11;
+constexpr std::size_t behavior_column = 18;
 
 std::size_t column_width(const Texts& names, std::size_t least) {
   std::size_t width = least;
@@ -165,6 +169,8 @@ std::string join_tasks(const CompiledCatalog& catalog, std::span<const TaskId> t
 
 void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
   catalog_ = &catalog;
+  story_.begin_run(catalog);
+  summary_.begin_run(script);
   script_file_ = printable(script.file);
   behavior_width_ = column_width(catalog.behavior_names, 8);
   task_width_ = column_width(catalog.task_names, 4);
@@ -172,33 +178,73 @@ void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   fmt::print(out_, "{}{}{} with {}\n\n", style_.strong, script_file_, style_.reset,
              printable(catalog.file));
   fmt::print(out_, "{}  time [s]  event{}\n", style_.faint, style_.reset);
-  fmt::print(out_, "{}{} P T S  {:<{}}  {:<{}}  cause{}\n", style_.faint, change_indent, "behavior",
-             behavior_width_, "task", task_width_, style_.reset);
+  if (!layout_.is_brief) {
+    write_line(fmt::format("{}{} P T S  {:<{}}  {:<{}}  cause{}", style_.faint, change_indent,
+                           "behavior", behavior_width_, "task", task_width_, style_.reset),
+               behavior_column);
+  }
   if (!script.situation.is_empty()) {
-    fmt::print(out_, "{:>10}  {}situation{}{}\n", "before", style_.strong,
-               describe_situation(catalog, script.situation), style_.reset);
+    write_line(fmt::format("{:>10}  {}situation{}{}", "before", style_.strong,
+                           describe_situation(catalog, script.situation), style_.reset),
+               event_column + 2);
   }
 }
 
 void TextReport::on_event(const EventRecord& record, const Step* step, const State& state) {
-  fmt::print(out_, "{:>10}  {}{}{}{}\n", format_time(record.time), style_.strong,
-             describe_event(*catalog_, record, step), style_.reset,
-             describe_outcome(record, state));
+  story_.add(record, step, state);
+  summary_.add(*catalog_, record, step);
+  const std::string note = describe_note(*catalog_, record, state);
+  std::string line =
+      fmt::format("{:>10}  {}{}{}{}", format_time(record.time), style_.strong,
+                  describe_event(*catalog_, record, step), style_.reset,
+                  describe_outcome(record, state));
+  if (layout_.is_brief) {
+    line += describe_briefly(record);
+    if (!note.empty()) line += "; " + note;
+    write_line(line, event_column + 2);
+    return;
+  }
+  write_line(line, event_column + 2);
+  if (!note.empty()) write({note, {}});
+  write_details(record, state);
+}
+
+/// What follows the event on its line: the reasons of a rejection, or the changes.
+std::string TextReport::describe_briefly(const EventRecord& record) const {
+  std::string text;
   if (record.outcome == Outcome::rejected) {
     for (const std::string& sentence : describe_rejection(*catalog_, record)) {
-      fmt::print(out_, "{}{}\n", text_indent, sentence);
+      text += (text.empty() ? ": " : "; ") + sentence;
     }
+  }
+  for (const Change& change : record.changes) {
+    if (change.cause == ChangeCause::undone) continue;
+    const std::string_view color =
+        change.is_activation && change.success ? style_.good : style_.bad;
+    text += fmt::format("  {}{}{}{}{}", color, change.is_activation ? '+' : '-',
+                        printable(catalog_->name_of_behavior(change.behavior)),
+                        change.success ? "" : " failed",
+                        color.empty() ? std::string_view() : style_.reset);
+  }
+  return text;
+}
+
+void TextReport::write_details(const EventRecord& record, const State& state) {
+  if (record.outcome == Outcome::rejected) {
+    for (const std::string& sentence : describe_rejection(*catalog_, record)) write({sentence, {}});
     if (record.origin == Origin::reactive && state.is_waiting(record.task)) {
-      fmt::print(out_, "{}{} waits, and tries again after each accepted event of its group\n",
-                 text_indent, task_name(*catalog_, record.task));
+      write({task_name(*catalog_, record.task) +
+                 " waits, and tries again after each accepted event of its group",
+             {}});
     }
   }
   for (const Change& change : record.changes) write_change(record, change);
   write_stopped(record);
   write_explanation(record, state);
   if (record.search != nullptr && record.search->elapsed) {
-    fmt::print(out_, "{}{}{}{}\n", text_indent, style_.faint, stats_line(*record.search),
-               style_.reset);
+    write_line(fmt::format("{}{}{}{}", text_indent, style_.faint, stats_line(*record.search),
+                           style_.reset),
+               text_column + 2);
   }
 }
 
@@ -219,11 +265,16 @@ std::string TextReport::describe_outcome(const EventRecord& record, const State&
 void TextReport::write_change(const EventRecord& record, const Change& change) {
   const std::string priority = change.priority ? std::to_string(*change.priority) : ".";
   const std::string_view color = change.success ? std::string_view() : style_.bad;
-  fmt::print(out_, "{}{}{:>2} {} {}  {:<{}}  {:<{}}  {}{}\n", change_indent, color, priority,
-             change.is_activation ? '+' : '-', change.success ? 'Y' : 'N',
-             printable(catalog_->name_of_behavior(change.behavior)), behavior_width_,
-             join_tasks(*catalog_, record.tasks_of(change)), task_width_, name_of(change.cause),
-             color.empty() ? std::string_view() : style_.reset);
+  const std::string_view of_sign = change.is_activation ? style_.good : style_.bad;
+  const std::string sign(1, change.is_activation ? '+' : '-');
+  const bool paints_sign = change.success && !of_sign.empty();
+  write_line(
+      fmt::format("{}{}{:>2} {} {}  {:<{}}  {:<{}}  {}{}", change_indent, color, priority,
+                  paints_sign ? style_.paint(of_sign, sign) : sign, change.success ? 'Y' : 'N',
+                  printable(catalog_->name_of_behavior(change.behavior)), behavior_width_,
+                  join_tasks(*catalog_, record.tasks_of(change)), task_width_,
+                  name_of(change.cause), color.empty() ? std::string_view() : style_.reset),
+      behavior_column);
 }
 
 void TextReport::write_stopped(const EventRecord& record) {
@@ -233,7 +284,7 @@ void TextReport::write_stopped(const EventRecord& record) {
     text += fmt::format("{}{} ({})", text.empty() ? "" : ", ",
                         printable(catalog_->name_of_task(stopped.task)), name_of(stopped.cause));
   }
-  fmt::print(out_, "{}stopped: {}\n", text_indent, text);
+  write({"stopped: " + text, {}});
 }
 
 void TextReport::write_explanation(const EventRecord& record, const State& state) {
@@ -247,26 +298,40 @@ void TextReport::write_explanation(const EventRecord& record, const State& state
 void TextReport::write_alternatives(const EventRecord& record, const State& state) {
   const std::size_t count = record.explanation.alternatives.size();
   if (count == 0) return;
-  fmt::print(out_, "{}best configurations:\n", text_indent);
+  write(Sentences{"best configurations:", {}});
   for (std::size_t place = 0; place < count; ++place) {
-    fmt::print(out_, "{}{:>4}  {}\n", text_indent, place + 1,
-               describe_alternative(*catalog_, record, place, state));
+    write_line(fmt::format("{}{:>4}  {}", text_indent, place + 1,
+                           describe_alternative(*catalog_, record, place, state)),
+               text_column + 6);
   }
   if (record.explanation.is_list_cut) {
-    fmt::print(out_, "{}a search limit was reached before the next one was found\n", text_indent);
+    write(Sentences{"a search limit was reached before the next one was found", {}});
   }
 }
 
 void TextReport::write(const Sentences& sentences) {
-  fmt::print(out_, "{}{}\n", text_indent, sentences.first);
+  write_line(text_indent + sentences.first, text_column + 2);
   for (const std::string& sentence : sentences.more) {
-    fmt::print(out_, "{}  {}\n", text_indent, sentence);
+    write_line(fmt::format("{}  {}", text_indent, sentence), text_column + 4);
   }
 }
 
+void TextReport::write(const std::vector<SummaryLine>& lines) {
+  for (const SummaryLine& line : lines) {
+    const bool is_painted = line.is_bad && !style_.bad.empty();
+    write_line(is_painted ? style_.paint(style_.bad, line.text) : line.text, line.indent);
+  }
+}
+
+void TextReport::write_line(const std::string& line, std::size_t indent) {
+  fmt::print(out_, "{}\n", wrap_line(line, layout_.columns, indent));
+}
+
 void TextReport::on_failure(const Failure& failure) {
-  fmt::print(out_, "{}{}:{}:{}: {}{}\n", style_.bad, script_file_, failure.range.begin.line,
-             failure.range.begin.column, failure.message, style_.reset);
+  write_line(fmt::format("{}{}:{}:{}: {}{}", style_.bad, script_file_, failure.range.begin.line,
+                         failure.range.begin.column, failure.message, style_.reset),
+             text_column);
+  for (const Sentences& sentences : story_.explain(failure)) write(sentences);
 }
 
 void TextReport::on_end(const State& state) {
@@ -296,6 +361,8 @@ void TextReport::on_end(const State& state) {
 
 void TextReport::end_run(const RunResult& result, const std::string& /*error*/) {
   count(result);
+  fmt::print(out_, "\n{}summary{}\n", style_.strong, style_.reset);
+  write(summary_.lines(result));
   if (result.passed + result.failed == 0) return;
   fmt::print(out_, "\n{}expectations: {} passed, {} failed{}\n",
              result.failed > 0 ? style_.bad : style_.good, result.passed, result.failed,
@@ -304,6 +371,7 @@ void TextReport::end_run(const RunResult& result, const std::string& /*error*/) 
 
 void TextReport::count(const RunResult& result) {
   ++runs_;
+  scripts_.add(result);
   if (result.failed > 0) ++failed_runs_;
   if (!result.totals) return;
   if (!totals_) totals_.emplace();
@@ -311,7 +379,7 @@ void TextReport::count(const RunResult& result) {
 }
 
 std::unique_ptr<SolveReport> TextReport::make_part(std::FILE* out) const {
-  return std::make_unique<TextReport>(style_, out);
+  return std::make_unique<TextReport>(style_, out, layout_);
 }
 
 void TextReport::add_part(std::string_view text, const RunResult& result) {
@@ -322,6 +390,8 @@ void TextReport::add_part(std::string_view text, const RunResult& result) {
 
 void TextReport::end() {
   if (runs_ > 1) {
+    fmt::print(out_, "\n{}all scripts{}\n", style_.strong, style_.reset);
+    write(scripts_.lines());
     fmt::print(out_, "\n{}{} scripts, {} with failed expectations{}\n",
                failed_runs_ > 0 ? style_.bad : style_.good, runs_, failed_runs_, style_.reset);
   }

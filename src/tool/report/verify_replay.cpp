@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "coordinator/record.h"
-#include "report/sentences.h"
+#include "report/failure_story.h"
 #include "report/solve_report.h"
 #include "report/verify_report.h"
 #include "support/json.h"

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "script/expected_values.h"
 
 namespace cbc {
 
@@ -149,6 +150,9 @@ void Runner::on_event(const EventRecord& record) {
   index_ = record.index;
   const bool is_scripted = record.origin == Origin::script;
   if (is_scripted && form_of(record.verb).is_decided) outcome_ = record.outcome;
+  ++result_.events;
+  if (record.outcome == Outcome::accepted) ++result_.accepted;
+  if (record.outcome == Outcome::rejected) ++result_.rejected;
   if (result_.totals) result_.totals->add(record);
   listener_.on_event(record, is_scripted ? step_ : nullptr, coordinator_.state());
 }
@@ -161,13 +165,27 @@ bool Runner::note(Coordinator::Status status) {
 }
 
 void Runner::check(const Step& step) {
-  std::string mismatch = find_mismatch(*step.expect, catalog_, coordinator_.state(), outcome_);
+  const State& state = coordinator_.state();
+  std::string mismatch = find_mismatch(*step.expect, catalog_, state, outcome_);
   if (mismatch.empty()) {
     ++result_.passed;
   } else {
     ++result_.failed;
-    listener_.on_failure({index_, step.range, std::move(mismatch), &step});
+    result_.failures.push_back({step.range, mismatch});
+    listener_.on_failure(
+        {index_, step.range, std::move(mismatch), &step, &state, find_surprises(*step.expect)});
   }
+}
+
+std::vector<Surprise> Runner::find_surprises(const Expectation& expectation) {
+  std::vector<Surprise> surprises;
+  if (!has_hindsight_) return surprises;
+  for (ExpectedValues& expected :
+       find_expected_values(expectation, catalog_, coordinator_.state())) {
+    surprises.push_back({expected.group, std::move(expected.tasks),
+                         coordinator_.look_back(expected.group, expected.ways)});
+  }
+  return surprises;
 }
 
 Event event_of(const Step& step) {
@@ -188,6 +206,10 @@ RunResult run_script(const CompiledCatalog& catalog, const Script& script,
   CoordinatorOptions of_script = options;
   of_script.reactive_delay = script.reactive_delay;
   of_script.timeouts = script.timeouts;
+  // Without expectations nobody asks.
+  of_script.hindsight =
+      options.hindsight && std::any_of(script.steps.begin(), script.steps.end(),
+                                       [](const Step& step) { return step.expect.has_value(); });
   Runner runner(catalog, of_script, listener);
   runner.begin(script.situation);
   bool goes_on = true;
@@ -197,7 +219,9 @@ RunResult run_script(const CompiledCatalog& catalog, const Script& script,
   }
   if (goes_on) static_cast<void>(runner.settle());
   listener.on_end(runner.coordinator().state());
-  return runner.result();
+  RunResult result = runner.result();
+  result.script = &script;
+  return result;
 }
 
 }  // namespace cbc

@@ -11,6 +11,7 @@
 #include "cbc/event.h"
 #include "compiled/compiled_catalog.h"
 #include "coordinator/coordinator.h"
+#include "coordinator/hindsight.h"
 #include "coordinator/record.h"
 #include "coordinator/state.h"
 #include "script/script.h"
@@ -78,12 +79,23 @@ class SearchTotals {
                                         const CompiledCatalog& catalog, const State& state,
                                         std::optional<Outcome> outcome);
 
-/// An `expect` that does not hold.
+/// Why tasks of one group are not as expected.
+struct Surprise {
+  std::uint32_t group = 0;
+  std::vector<TaskId> tasks;  ///< those that are not as expected, in catalog order
+  LookBack look_back;
+};
+
+/// An `expect` that does not hold. Valid until the listener returns.
 struct Failure {
   std::uint64_t index = 0;  ///< of the event it follows; 0: none yet
   Range range;
   std::string message;
-  const Step* step = nullptr;  ///< the entry of the script
+  const Step* step = nullptr;    ///< the entry of the script
+  const State* state = nullptr;  ///< in which it does not hold
+  /// By group, in catalog order; only with CoordinatorOptions::hindsight. Empty where the outcome
+  /// alone is wrong.
+  std::vector<Surprise> surprises;
 };
 
 /// Receives what happens in a run, in order.
@@ -97,11 +109,22 @@ class RunListener {
   virtual void on_end(const State& /*state*/) {}
 };
 
+/// The place and the message of a failure.
+struct FailedExpectation {
+  Range range;
+  std::string message;
+};
+
 struct RunResult {
   Coordinator::Status status = Coordinator::Status::ok;
-  std::string internal_error;  ///< if an answer was refused
-  std::uint64_t passed = 0;    ///< expectations that hold
+  std::string internal_error;      ///< if an answer was refused
+  const Script* script = nullptr;  ///< null: a stream
+  std::uint64_t events = 0;        ///< scripted or not; some are neither accepted nor rejected
+  std::uint64_t accepted = 0;
+  std::uint64_t rejected = 0;
+  std::uint64_t passed = 0;  ///< expectations that hold
   std::uint64_t failed = 0;
+  std::vector<FailedExpectation> failures;
   std::optional<SearchTotals> totals;  ///< if time was measured
 };
 
@@ -113,7 +136,10 @@ class Runner final : private EventListener {
  public:
   /// `catalog` and `listener` must outlive this object.
   Runner(const CompiledCatalog& catalog, const CoordinatorOptions& options, RunListener& listener)
-      : catalog_(catalog), listener_(listener), coordinator_(catalog, options, *this) {
+      : catalog_(catalog),
+        has_hindsight_(options.hindsight),
+        listener_(listener),
+        coordinator_(catalog, options, *this) {
     if (options.measure_time) result_.totals.emplace();
   }
 
@@ -139,8 +165,10 @@ class Runner final : private EventListener {
   void on_event(const EventRecord& record) override;
   [[nodiscard]] bool note(Coordinator::Status status);
   void check(const Step& step);
+  [[nodiscard]] std::vector<Surprise> find_surprises(const Expectation& expectation);
 
   const CompiledCatalog& catalog_;
+  const bool has_hindsight_;
   RunListener& listener_;
   Coordinator coordinator_;
   RunResult result_;

@@ -1,0 +1,167 @@
+#include "coordinator/hindsight.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace cbc {
+namespace {
+
+/// What happened, without what came of it.
+void copy_event(const EventRecord& record, EventRecord& copy, SearchRecord& search) {
+  copy.index = record.index;
+  copy.time = record.time;
+  copy.origin = record.origin;
+  copy.verb = record.verb;
+  copy.task = record.task;
+  copy.behavior = record.behavior;
+  copy.priority = record.priority;
+  copy.cause = record.cause;
+  copy.search = nullptr;
+  if (record.search == nullptr) return;
+  search = *record.search;
+  copy.search = &search;
+}
+
+bool demands_run(const Demand& demand, TaskId task) {
+  return demand.task == task &&
+         (demand.kind == Demand::Kind::run || demand.kind == Demand::Kind::has);
+}
+
+bool demands_stop(const Demand& demand, TaskId task) {
+  return demand.task == task && demand.kind == Demand::Kind::stop;
+}
+
+}  // namespace
+
+Hindsight::Hindsight(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks,
+                     const State& state)
+    : catalog_(catalog), state_(state), explainer_(catalog, ranks, {}) {}
+
+void Hindsight::note_answer(const EventRecord& record, const Circumstances& circumstances,
+                            const Assignment& solution) {
+  const std::uint32_t group = circumstances.trigger.group;
+  rejections_.erase(group);
+  Decision& decision = decisions_[group];
+  copy_event(record, decision.event, decision.search);
+  decision.event.outcome = Outcome::accepted;
+  decision.trigger = circumstances.trigger;
+  decision.trigger.parameters = std::string_view();  // they decide nothing, and do not last
+  decision.failed.assign(circumstances.failed.begin(), circumstances.failed.end());
+  decision.elsewhere = objectives_elsewhere(catalog_, state_, group);
+  decision.solution = solution;
+  save_state(circumstances, decision.before);
+}
+
+void Hindsight::note_rejection(const EventRecord& record, const Trigger& trigger) {
+  Rejection& rejection = rejections_[trigger.group];
+  copy_event(record, rejection.event, rejection.search);
+  rejection.event.outcome = Outcome::rejected;
+  rejection.event.conflict = record.conflict;
+  rejection.kind = trigger.kind;
+}
+
+/// Only the group counts for the answer, and for the reasons against another one.
+void Hindsight::save_state(const Circumstances& circumstances, Snapshot& before) const {
+  const State& state = circumstances.state;
+  const std::uint32_t group = circumstances.trigger.group;
+  before.running.clear();
+  for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
+    if (!state.is_running(task)) continue;
+    Snapshot::RunningTask& entry = before.running.emplace_back();
+    entry.task = task;
+    entry.value_index = state.value_index(task);
+    if (!state.has_request(task)) continue;
+    const Request& request = state.request(task);
+    entry.request = Request{request.priority, request.event, {}};
+  }
+  before.denied.clear();
+  for (BehaviorId behavior = catalog_.group_behaviors[group];
+       behavior < catalog_.group_behaviors[group + 1]; ++behavior) {
+    if (state.is_denied(behavior)) before.denied.push_back(behavior);
+  }
+  before.variables = state.variables();
+}
+
+LookBack Hindsight::look_back(std::uint32_t group, std::span<const Demands> ways) {
+  LookBack answer;
+  for (const Demands& way : ways) {
+    for (const Demand& demand : way) {
+      const std::uint32_t index = catalog_.tasks[demand.task].catalog_index;
+      if (!demands_run(demand, demand.task) || !state_.queue().has(index)) continue;
+      answer.kind = LookBack::Kind::due;
+      answer.queued_task = demand.task;
+      answer.due = state_.queue().due(index);
+      return answer;
+    }
+  }
+  if (const Rejection* const rejection = find_rejection(group, ways)) {
+    answer.kind = LookBack::Kind::rejected;
+    answer.event = &rejection->event;
+    return answer;
+  }
+  const auto found = decisions_.find(group);
+  if (found == decisions_.end()) return answer;
+  answer.kind = LookBack::Kind::decided;
+  answer.event = &found->second.event;
+  answer.why_not = explain(found->second, ways);
+  return answer;
+}
+
+/// A rejected start of a task that does not run but should, or a rejected stop of one that should
+/// not.
+const Hindsight::Rejection* Hindsight::find_rejection(std::uint32_t group,
+                                                      std::span<const Demands> ways) const {
+  const auto found = rejections_.find(group);
+  if (found == rejections_.end()) return nullptr;
+  const TaskId task = found->second.event.task;
+  if ((found->second.kind == Trigger::Kind::stop) != state_.is_running(task)) return nullptr;
+  const bool is_demanded = std::any_of(ways.begin(), ways.end(), [&](const Demands& way) {
+    return std::any_of(way.begin(), way.end(), [&](const Demand& demand) {
+      return found->second.kind == Trigger::Kind::stop ? demands_stop(demand, task)
+                                                       : demands_run(demand, task);
+    });
+  });
+  return is_demanded ? &found->second : nullptr;
+}
+
+/// Whether each of the ways needs a task that nobody had requested, and that starts on request
+/// only: the simplest conflict set of all. Empty if not.
+std::vector<Reason> Hindsight::missing_requests(const State& before, const Trigger& trigger,
+                                                std::span<const Demands> ways) const {
+  std::vector<Reason> reasons;
+  for (const Demands& way : ways) {
+    const auto missing = std::find_if(way.begin(), way.end(), [&](const Demand& demand) {
+      return demands_run(demand, demand.task) && demand.task != trigger.task &&
+             !before.is_running(demand.task) && catalog_.tasks[demand.task].start_on_request != 0;
+    });
+    if (missing == way.end()) return {};
+    const bool is_known = std::any_of(reasons.begin(), reasons.end(), [&](const Reason& reason) {
+      return reason.task == missing->task;
+    });
+    if (is_known) continue;
+    Reason& reason = reasons.emplace_back();
+    reason.kind = Reason::Kind::on_request;
+    reason.task = missing->task;
+  }
+  return reasons;
+}
+
+WhyNot Hindsight::explain(Decision& decision, std::span<const Demands> ways) {
+  WhyNot answer;
+  if (decision.search.result.status != SearchStatus::optimal) {
+    answer.is_cut = true;
+    return answer;
+  }
+  State before(catalog_);
+  before.restore(decision.before);
+  answer.conflict = missing_requests(before, decision.trigger, ways);
+  if (!answer.conflict.empty()) return answer;
+  ProblemBuilder builder(catalog_, before);
+  builder.load(decision.trigger, decision.event.index);
+  for (const BehaviorId behavior : decision.failed) builder.exclude(behavior);
+  return explainer_.ask({before, decision.trigger, decision.search.protection, decision.failed},
+                        decision.elsewhere, builder.build(decision.search.protection),
+                        decision.solution, ways, decision.event.explanation.chosen);
+}
+
+}  // namespace cbc

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cbc/units.h"
+#include "compiled/compiled_catalog.h"
+#include "coordinator/explainer.h"
+#include "coordinator/problem_builder.h"
+#include "coordinator/record.h"
+#include "coordinator/state.h"
+#include "explain/reasons.h"
+#include "solver/problem.h"
+
+// Questions that come after the events: why tasks do not have the values that somebody expected.
+
+namespace cbc {
+
+/// Why the tasks of a group do not meet some demands.
+struct LookBack {
+  enum class Kind : std::uint8_t {
+    undecided,  ///< no event has decided anything about the group
+    due,        ///< a task that should run is in the queue of reactive tasks
+    rejected,   ///< the event that asked for it was rejected: see its conflict set
+    decided     ///< the last accepted event of the group has a better answer, or no such answer
+  };
+  Kind kind = Kind::undecided;
+  TaskId queued_task = none;  ///< of due
+  Microseconds due = 0;       ///< of due
+  /// Of rejected and decided: the event, without its changes. Its explanation has the answer that
+  /// was chosen. Valid until the next event or question.
+  const EventRecord* event = nullptr;
+  WhyNot why_not;  ///< of decided
+};
+
+/// Remembers for each group the last event that was accepted, with the state before it, and a start
+/// or stop that was rejected since. That takes memory in proportion to the catalog.
+class Hindsight {
+ public:
+  /// `ranks`: those of the solver. Catalog, ranks and state must outlive this object.
+  Hindsight(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks,
+            const State& state);
+
+  /// To be called while the state is still the one before the answer.
+  void note_answer(const EventRecord& record, const Circumstances& circumstances,
+                   const Assignment& solution);
+  void note_rejection(const EventRecord& record, const Trigger& trigger);
+
+  /// Why the present values of a group meet the demands of none of the `ways`.
+  [[nodiscard]] LookBack look_back(std::uint32_t group, std::span<const Demands> ways);
+
+ private:
+  struct Decision {
+    EventRecord event;
+    SearchRecord search;
+    Trigger trigger;
+    std::vector<BehaviorId> failed;
+    Snapshot before;  ///< what it has of the group
+    ObjectiveValues elsewhere;
+    Assignment solution;
+  };
+  struct Rejection {
+    EventRecord event;
+    SearchRecord search;
+    Trigger::Kind kind = Trigger::Kind::start;
+  };
+
+  void save_state(const Circumstances& circumstances, Snapshot& before) const;
+  [[nodiscard]] const Rejection* find_rejection(std::uint32_t group,
+                                                std::span<const Demands> ways) const;
+  [[nodiscard]] std::vector<Reason> missing_requests(const State& before, const Trigger& trigger,
+                                                     std::span<const Demands> ways) const;
+  [[nodiscard]] WhyNot explain(Decision& decision, std::span<const Demands> ways);
+
+  const CompiledCatalog& catalog_;
+  const State& state_;
+  Explainer explainer_;
+  std::map<std::uint32_t, Decision> decisions_;
+  std::map<std::uint32_t, Rejection> rejections_;
+};
+
+}  // namespace cbc

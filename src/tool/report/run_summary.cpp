@@ -1,0 +1,96 @@
+#include "report/run_summary.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "report/sentences.h"
+#include "report/table_parts.h"
+
+namespace cbc {
+namespace {
+
+/// Longer lists would hide what comes before them.
+constexpr std::size_t most_places = 20;
+constexpr std::size_t place_indent = 8;
+
+std::string describe_failure(const std::string& file, const FailedExpectation& failed) {
+  return fmt::format("{}:{}:{}: {}", file, failed.range.begin.line, failed.range.begin.column,
+                     failed.message);
+}
+
+std::string row(std::string_view what, std::uint64_t count) {
+  return fmt::format("  {:<19} {:>7}", what, count);
+}
+
+void add_rest(std::size_t total, std::vector<SummaryLine>& lines) {
+  if (total <= most_places) return;
+  lines.push_back({fmt::format("    and {} more", total - most_places), place_indent});
+}
+
+void add_failures(const std::string& file, std::span<const FailedExpectation> failures,
+                  std::vector<SummaryLine>& lines) {
+  for (const FailedExpectation& failed : failures.first(std::min(failures.size(), most_places))) {
+    lines.push_back({"    " + describe_failure(file, failed), place_indent, true});
+  }
+  add_rest(failures.size(), lines);
+}
+
+}  // namespace
+
+void RunSummary::begin_run(const Script& script) {
+  file_ = printable(script.file);
+  rejected_.clear();
+}
+
+void RunSummary::add(const CompiledCatalog& catalog, const EventRecord& record, const Step* step) {
+  if (record.outcome != Outcome::rejected || rejected_.size() == most_places) return;
+  const std::string place = step == nullptr ? file_
+                                            : fmt::format("{}:{}:{}", file_, step->range.begin.line,
+                                                          step->range.begin.column);
+  rejected_.push_back(fmt::format("    {}: at {} s, {}", place, format_time(record.time),
+                                  describe_event(catalog, record, nullptr)));
+}
+
+std::vector<SummaryLine> RunSummary::lines(const RunResult& result) const {
+  std::vector<SummaryLine> lines;
+  lines.push_back({row("events", result.events)});
+  lines.push_back({row("accepted", result.accepted)});
+  lines.push_back({row("rejected", result.rejected)});
+  for (const std::string& rejected : rejected_) lines.push_back({rejected, place_indent});
+  add_rest(result.rejected, lines);
+  if (result.failed == 0) return lines;
+  lines.push_back({row("failed expectations", result.failed), 0, true});
+  add_failures(file_, result.failures, lines);
+  return lines;
+}
+
+void ScriptTable::add(const RunResult& result) {
+  rows_.push_back({result.script == nullptr ? "" : printable(result.script->file), result});
+}
+
+std::vector<SummaryLine> ScriptTable::lines() const {
+  std::size_t width = 6;
+  for (const Row& row : rows_) width = std::max(width, width_of(row.file));
+  const auto line = [width](const std::string& file, const auto& events, const auto& accepted,
+                            const auto& rejected, const auto& failed) {
+    return fmt::format("  {}{}  {:>8}  {:>8}  {:>8}  {:>8}", file,
+                       std::string(width - width_of(file), ' '), events, accepted, rejected,
+                       failed);
+  };
+  std::vector<SummaryLine> lines;
+  lines.push_back({line("script", "events", "accepted", "rejected", "failed")});
+  for (const Row& row : rows_) {
+    lines.push_back({line(row.file, row.result.events, row.result.accepted, row.result.rejected,
+                          row.result.failed),
+                     place_indent, row.result.failed > 0});
+  }
+  for (const Row& row : rows_) add_failures(row.file, row.result.failures, lines);
+  return lines;
+}
+
+}  // namespace cbc

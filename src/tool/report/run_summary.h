@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "coordinator/record.h"
+#include "script/runner.h"
+#include "script/script.h"
+
+// What stands at the end of the text about runs, where people look first.
+
+namespace cbc {
+
+/// A line, and how far its continuation is indented where it has to be wrapped.
+struct SummaryLine {
+  std::string text;
+  std::size_t indent = 0;
+  bool is_bad = false;  ///< of a failure
+};
+
+/// The summary of one run: how many events were accepted and rejected, which were rejected, and
+/// which expectations failed, with their places.
+class RunSummary {
+ public:
+  /// Starts a run.
+  void begin_run(const Script& script);
+  void add(const CompiledCatalog& catalog, const EventRecord& record, const Step* step);
+
+  [[nodiscard]] std::vector<SummaryLine> lines(const RunResult& result) const;
+
+ private:
+  std::string file_;
+  std::vector<std::string> rejected_;
+};
+
+/// The summary of several runs: a row for each script, and the places of all failures.
+class ScriptTable {
+ public:
+  void add(const RunResult& result);
+
+  [[nodiscard]] std::vector<SummaryLine> lines() const;
+
+ private:
+  struct Row {
+    std::string file;
+    RunResult result;
+  };
+  std::vector<Row> rows_;
+};
+
+}  // namespace cbc

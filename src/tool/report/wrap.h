@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace cbc {
+
+/// Breaks a line between words so that it fits into a terminal. What follows the first break is
+/// indented by `indent` columns. A word that is wider than what is left for it keeps its width.
+/// Escape sequences of colors take no columns. `columns`: of the terminal; 0: no limit.
+[[nodiscard]] std::string wrap_line(std::string_view line, std::size_t columns, std::size_t indent);
+
+}  // namespace cbc
