@@ -1,0 +1,144 @@
+// The table of events, and the search in it.
+
+/** A row for each event. What happened is written into a row when it comes near the part in view. */
+class EventsTable {
+  constructor(body, view, onChoose) {
+    this.body = body;
+    this.view = view;
+    this.observer = new IntersectionObserver((entries) => {
+      for (const entry of entries) if (entry.isIntersecting) this.fill(entry.target);
+    }, { root: view, rootMargin: '400px' });
+    body.addEventListener('click', (event) => {
+      const row = event.target.closest('tr[data-event]');
+      if (row !== null) onChoose(Number(row.dataset.event));
+    });
+  }
+
+  show(run) {
+    this.run = run;
+    this.chosen = 0;
+    const rows = run.events.map((event, place) => {
+      const number = place + 1;
+      const button = html('button', '', `${number}`);
+      button.type = 'button';
+      button.tabIndex = -1;
+      button.setAttribute('aria-label', `Event ${number}`);
+      const look = run.isFailed(number) ? 'is-failed' : run.isRejected(number) ? 'rejected' : '';
+      const row = html('tr', look,
+        html('td', '', button),
+        html('td', '', formatTime(event.time)),
+        html('td', '', nameEvent(event, run.catalog)),
+        html('td', '', outcomeElement(event)),
+        html('td', '', html('div', 'story')));
+      row.dataset.event = number;
+      return row;
+    });
+    this.observer.disconnect();
+    this.unfilled = new Set(rows);
+    this.body.replaceChildren(...rows);
+    for (const row of rows) this.observer.observe(row);
+  }
+
+  fill(row) {
+    if (!this.unfilled.delete(row)) return;
+    this.observer.unobserve(row);
+    const number = Number(row.dataset.event);
+    row.cells[2].replaceChildren(breakable(row.cells[2].textContent));
+    row.querySelector('.story').append(...reasonElements(this.run.event(number)), ...sentenceElements(this.run, number));
+  }
+
+  fillAll() {
+    for (const row of this.unfilled) this.fill(row);
+  }
+
+  contains(element) {
+    return this.body.contains(element);
+  }
+
+  focus(number) {
+    this.body.rows[number - 1]?.querySelector('button').focus();
+  }
+
+  /** Shows which event is chosen, and scrolls the table to it, not the page. */
+  choose(number) {
+    this.mark(this.chosen, false);
+    this.chosen = number;
+    this.mark(number, true);
+  }
+
+  mark(number, isChosen) {
+    const row = this.body.rows[number - 1];
+    if (row === undefined) return;
+    row.querySelector('button').tabIndex = isChosen ? 0 : -1;
+    if (!isChosen) return row.removeAttribute('aria-current');
+    row.setAttribute('aria-current', 'true');
+    const { view } = this;
+    if (getComputedStyle(view).overflowY === 'visible') return;
+    const head = this.body.offsetTop;
+    if (row.offsetTop < view.scrollTop + head || row.offsetTop + row.offsetHeight > view.scrollTop + view.clientHeight) {
+      view.scrollTop = row.offsetTop - head - view.clientHeight / 3;
+    }
+  }
+
+  /** Hides the events that a search has not found; null shows all. */
+  filter(found) {
+    for (const row of this.body.rows) row.hidden = found !== null && !found.has(Number(row.dataset.event));
+  }
+
+  /** All changes of all events, for paper. */
+  addPrintedChanges() {
+    this.fillAll();
+    for (const row of this.body.rows) {
+      const number = Number(row.dataset.event);
+      const { changes } = this.run.event(number);
+      if (changes.length === 0) continue;
+      const table = html('table', '', html('tbody', '', ...changes.map((change) => changeRow(this.run, number, change))));
+      row.lastElementChild.append(html('div', 'for-print', table));
+    }
+  }
+
+  removePrintedChanges() {
+    for (const element of this.body.querySelectorAll('.for-print')) element.remove();
+  }
+}
+
+/** The events of a run that have to do with names, and that have an outcome. */
+class Search {
+  constructor(run) {
+    this.run = run;
+    this.texts = []; // of each event: its names in small letters
+  }
+
+  textOf(number) {
+    if (this.texts[number] === undefined) {
+      const event = this.run.event(number);
+      const names = [describeEvent(event, this.run.catalog)];
+      for (const change of event.changes) names.push(change.behavior, ...change.tasks);
+      for (const stopped of event.stopped_tasks) names.push(stopped.task);
+      this.texts[number] = names.join('\n').toLowerCase();
+    }
+    return this.texts[number];
+  }
+
+  hasOutcome(number, outcome) {
+    const event = this.run.event(number);
+    switch (outcome) {
+      case '': return true;
+      case 'failed': return this.run.isFailed(number);
+      case 'changes': return event.changes.length > 0;
+      case 'itself': return event.origin !== 'script' && event.origin !== undefined && event.origin !== null;
+      default: return isAsked(event) && event.outcome === outcome;
+    }
+  }
+
+  /** The numbers of the events found, or null if nothing is searched for. */
+  find(text, outcome) {
+    const wanted = text.trim().toLowerCase();
+    if (wanted === '' && outcome === '') return null;
+    const found = new Set();
+    for (let number = 1; number <= this.run.size; ++number) {
+      if (this.hasOutcome(number, outcome) && this.textOf(number).includes(wanted)) found.add(number);
+    }
+    return found;
+  }
+}
