@@ -1,14 +1,17 @@
 // The table of events, and the search in it.
 
-/** A row for each event. What happened is written into a row when it comes near the part in view. */
+const chunkSize = 50; // rows that the browser lays out together
+
+/** A row for each event, in chunks. What happened is written into a chunk when it comes near the part in
+ * view. */
 class EventsTable {
-  constructor(body, view, onChoose) {
-    this.body = body;
+  constructor(table, view, onChoose) {
+    this.table = table;
     this.view = view;
     this.observer = new IntersectionObserver((entries) => {
       for (const entry of entries) if (entry.isIntersecting) this.fill(entry.target);
     }, { root: view, rootMargin: '400px' });
-    body.addEventListener('click', (event) => {
+    table.addEventListener('click', (event) => {
       const row = event.target.closest('tr[data-event]');
       if (row !== null) onChoose(Number(row.dataset.event));
     });
@@ -17,46 +20,58 @@ class EventsTable {
   show(run) {
     this.run = run;
     this.chosen = 0;
-    const rows = run.events.map((event, place) => {
-      const number = place + 1;
-      const button = html('button', '', `${number}`);
-      button.type = 'button';
-      button.tabIndex = -1;
-      button.setAttribute('aria-label', `Event ${number}`);
-      const look = run.isFailed(number) ? 'is-failed' : run.isRejected(number) ? 'rejected' : '';
-      const row = html('tr', look,
-        html('td', '', button),
-        html('td', '', formatTime(event.time)),
-        html('td', '', nameEvent(event, run.catalog)),
-        html('td', '', outcomeElement(event)),
-        html('td', '', html('div', 'story')));
-      row.dataset.event = number;
-      return row;
-    });
+    this.rows = run.events.map((event, place) => this.makeRow(event, place + 1));
     this.observer.disconnect();
-    this.unfilled = new Set(rows);
-    this.body.replaceChildren(...rows);
-    for (const row of rows) this.observer.observe(row);
+    for (const body of [...this.table.tBodies]) body.remove();
+    this.unfilled = new Set();
+    for (let begin = 0; begin < this.rows.length; begin += chunkSize) {
+      const body = html('tbody', '', ...this.rows.slice(begin, begin + chunkSize));
+      body.setAttribute('role', 'rowgroup');
+      this.unfilled.add(body);
+      this.table.append(body);
+      this.observer.observe(body);
+    }
   }
 
-  fill(row) {
-    if (!this.unfilled.delete(row)) return;
-    this.observer.unobserve(row);
-    const number = Number(row.dataset.event);
-    row.cells[2].replaceChildren(breakable(row.cells[2].textContent));
-    row.querySelector('.story').append(...reasonElements(this.run.event(number)), ...sentenceElements(this.run, number));
+  makeRow(event, number) {
+    const button = html('button', '', `${number}`);
+    button.type = 'button';
+    button.tabIndex = -1;
+    button.setAttribute('aria-label', `Event ${number}`);
+    const look = this.run.isFailed(number) ? 'is-failed' : this.run.isRejected(number) ? 'rejected' : '';
+    const row = html('tr', look,
+      html('td', '', button),
+      html('td', '', formatTime(event.time)),
+      html('td', '', nameEvent(event, this.run.catalog)),
+      html('td', '', outcomeElement(event)),
+      html('td', '', html('div', 'story')));
+    row.dataset.event = number;
+    // A row is no row of a table to a screen reader where the style sheet lays it out by itself.
+    row.setAttribute('role', 'row');
+    for (const cell of row.cells) cell.setAttribute('role', 'cell');
+    return row;
+  }
+
+  fill(body) {
+    if (!this.unfilled.delete(body)) return;
+    this.observer.unobserve(body);
+    for (const row of body.rows) {
+      const number = Number(row.dataset.event);
+      row.cells[2].replaceChildren(breakable(row.cells[2].textContent));
+      row.querySelector('.story').append(...reasonElements(this.run.event(number)), ...sentenceElements(this.run, number));
+    }
   }
 
   fillAll() {
-    for (const row of this.unfilled) this.fill(row);
+    for (const body of this.unfilled) this.fill(body);
   }
 
   contains(element) {
-    return this.body.contains(element);
+    return element.closest?.('#events tbody') !== null && this.table.contains(element);
   }
 
   focus(number) {
-    this.body.rows[number - 1]?.querySelector('button').focus();
+    this.rows[number - 1]?.querySelector('button').focus();
   }
 
   /** Shows which event is chosen, and scrolls the table to it, not the page. */
@@ -67,28 +82,31 @@ class EventsTable {
   }
 
   mark(number, isChosen) {
-    const row = this.body.rows[number - 1];
+    const row = this.rows[number - 1];
     if (row === undefined) return;
     row.querySelector('button').tabIndex = isChosen ? 0 : -1;
     if (!isChosen) return row.removeAttribute('aria-current');
     row.setAttribute('aria-current', 'true');
+    this.fill(row.parentElement);
     const { view } = this;
     if (getComputedStyle(view).overflowY === 'visible') return;
-    const head = this.body.offsetTop;
-    if (row.offsetTop < view.scrollTop + head || row.offsetTop + row.offsetHeight > view.scrollTop + view.clientHeight) {
-      view.scrollTop = row.offsetTop - head - view.clientHeight / 3;
+    const [outer, inner] = [view.getBoundingClientRect(), row.getBoundingClientRect()];
+    const head = this.table.tHead.offsetHeight;
+    if (inner.top < outer.top + head || inner.bottom > outer.bottom) {
+      view.scrollTop += inner.top - outer.top - head - view.clientHeight / 3;
     }
   }
 
   /** Hides the events that a search has not found; null shows all. */
   filter(found) {
-    for (const row of this.body.rows) row.hidden = found !== null && !found.has(Number(row.dataset.event));
+    for (const row of this.rows) row.hidden = found !== null && !found.has(Number(row.dataset.event));
+    for (const body of this.table.tBodies) body.hidden = [...body.rows].every((row) => row.hidden);
   }
 
   /** All changes of all events, for paper. */
   addPrintedChanges() {
     this.fillAll();
-    for (const row of this.body.rows) {
+    for (const row of this.rows) {
       const number = Number(row.dataset.event);
       const { changes } = this.run.event(number);
       if (changes.length === 0) continue;
@@ -98,7 +116,7 @@ class EventsTable {
   }
 
   removePrintedChanges() {
-    for (const element of this.body.querySelectorAll('.for-print')) element.remove();
+    for (const element of this.table.querySelectorAll('.for-print')) element.remove();
   }
 }
 

@@ -11,6 +11,7 @@ class Overview {
     this.runs = runs;
     this.section.hidden = runs.length < 2;
     if (this.section.hidden) return;
+    this.folder = commonFolder(runs.map((run) => run.data.script));
     this.body.replaceChildren(...runs.map((run, place) => this.row(run, place)));
     const failed = runs.filter((run) => run.hasFailed).length;
     const rejected = runs.reduce((sum, run) => sum + run.events.filter((event) => event.outcome === 'rejected').length, 0);
@@ -26,7 +27,8 @@ class Overview {
   row(run, place) {
     const rejected = run.events.filter((event) => event.outcome === 'rejected').length;
     const { failed } = run.data.expectations;
-    const button = buttonElement(run.data.script, () => {}); // the row takes the click
+    const button = buttonElement(run.data.script.slice(this.folder.length), () => {}); // the row takes the click
+    button.title = run.data.script;
     const verdict = run.data.error !== undefined ? 'ended early' : failed > 0 ? 'failed' : 'passed';
     const row = html('tr', run.hasFailed ? 'is-failed' : '',
       html('td', '', button),
@@ -52,6 +54,13 @@ class Overview {
       view.scrollTop = row.offsetTop - head - view.clientHeight / 2;
     }
   }
+}
+
+/** The folder that all paths are in, with its slash. */
+function commonFolder(paths) {
+  let folder = paths[0].replace(/[^/]*$/, '');
+  while (!paths.every((path) => path.startsWith(folder))) folder = folder.replace(/[^/]*\/$/, '');
+  return folder;
 }
 
 const shapes = {

@@ -12,7 +12,7 @@ class Page {
       onChoose: (number) => this.choose(number),
       onHover: (event, target) => this.hover(event, target),
     });
-    this.table = new EventsTable(byId('events').tBodies[0], byId('log-scroll'), (number) => this.choose(number));
+    this.table = new EventsTable(byId('events'), byId('log-scroll'), (number) => this.choose(number));
     this.overview = new Overview(
       { section: byId('overview'), summary: byId('overview-summary'), body: byId('missions').tBodies[0] }, runs,
       (place) => this.show(place));
@@ -52,6 +52,10 @@ class Page {
     on('search', 'input', () => this.search());
     on('outcome', 'change', () => this.search());
     on('search', 'keydown', (event) => this.onSearchKey(event));
+    on('more', 'click', () => {
+      const isOpen = byId('more').getAttribute('aria-expanded') === 'true';
+      byId('more').setAttribute('aria-expanded', `${!isOpen}`);
+    });
     on('scale', 'change', (event) => timeline.setScale(event.target.value));
     on('wants-graph', 'change', () => this.fillGraph());
     on('all-links', 'change', (event) => {
@@ -81,7 +85,7 @@ class Page {
       n: () => this.stepIn(this.run.problems, 1),
       '[': () => this.show(Math.max(0, this.place - 1)),
       ']': () => this.show(Math.min(this.runs.length - 1, this.place + 1)),
-      '/': () => byId('search').focus(),
+      '/': () => this.openSearch(),
       '+': () => this.timeline.zoomBy(1.6),
       '=': () => this.timeline.zoomBy(1.6),
       '-': () => this.timeline.zoomBy(1 / 1.6),
@@ -95,6 +99,11 @@ class Page {
     event.preventDefault();
     actions[event.key]();
     if (isInTable && /^(Arrow|Home|End)/.test(event.key)) this.table.focus(this.number);
+  }
+
+  openSearch() {
+    byId('more').setAttribute('aria-expanded', 'true'); // where there is little room
+    byId('search').focus();
   }
 
   onSearchKey(event) {

@@ -333,6 +333,7 @@ class Painter {
     const last = new Map(); // of each row: the right edge of what stands there
     const numbers = this.run.problems.filter((number) =>
       this.run.isRejected(number) && this.view.isInView(this.view.xs[number] - 600, this.view.xs[number] + 600));
+    const areMany = numbers.filter((number) => this.view.isInView(this.view.xs[number])).length * 25 > this.width;
     const followers = new Map(); // of each of them: the next one of the same row
     numbers.forEach((number) => followers.set(this.run.event(number).name, []));
     numbers.forEach((number) => followers.get(this.run.event(number).name).push(number));
@@ -342,7 +343,7 @@ class Painter {
       const x = this.view.xs[number];
       if (row === undefined || !this.isRowInView(row)) continue;
       const taken = (last.get(row) ?? -Infinity) + 8;
-      if (numbers.length * 25 > this.width) {
+      if (areMany) {
         if (x < taken - 6) continue;
         this.ink.line('rejected-tick', x, this.top + row.y + 6, x, this.top + row.y + row.height - 6);
         last.set(row, x);

@@ -52,9 +52,9 @@ function svgElement(name, attributes = {}, text = undefined) {
   return element;
 }
 
-/** A name that a line may break within: after an underscore, before a capital. */
+/** A name that a line may break within: after an underscore or a separator, before a capital. */
 function breakable(name) {
-  const parts = name.split(/(?<=_)|(?<=[\p{Ll}\d])(?=\p{Lu})/u);
+  const parts = name.split(/(?<=[_/:.](?=\S))|(?<=[\p{Ll}\d])(?=\p{Lu})/u);
   return html('span', '', ...parts.flatMap((part, place) => (place === 0 ? [part] : [html('wbr'), part])));
 }
 
