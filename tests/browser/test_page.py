@@ -22,6 +22,7 @@ from chromium import BrowserError, Chromium
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("CBC_PROGRAM", str(ROOT / "build/release/cbc"))
 OUT = ROOT / "build/browser"
+AXE = ROOT / "build/browser-npm/node_modules/axe-core/axe.min.js"  # where ./dev test-browser puts it
 QUADROTOR = "catalogs/quadrotor.yaml"
 
 HOSTILE_TASK = "</script><script>alert(1)</script>"
@@ -434,6 +435,34 @@ class Page(unittest.TestCase):
             f"getComputedStyle(document.documentElement).getPropertyValue('--{name}').trim()"))
             for name in names)
         return (light[1] + 0.05) / (light[0] + 0.05)
+
+    def assert_no_findings_of_axe(self, name):
+        self.browser.ask(AXE.read_text() + ";0")
+        findings = self.browser.ask("axe.run().then(({ violations }) => violations.map((one) => [one.id, one.help,"
+                                    " one.nodes.map((node) => node.html + node.failureSummary)]))")
+        with self.subTest(page=name):
+            self.assertEqual(findings, [])
+
+    @unittest.skipUnless(AXE.exists(), "axe-core is not installed")
+    def test_axe_finds_nothing(self):
+        failed = solve("axe", QUADROTOR, write("axe.mission.yaml", {"events": [
+            {"start": "HOVER"}, {"expect": {"running": {"LAND": "any"}}}]}), long_script(60))
+        for scheme in ("light", "dark"):
+            self.browser.set_scheme(scheme)
+            for name, made in [("short", self.target), ("several", failed)]:
+                self.open(made)
+                self.browser.key("ArrowRight")
+                self.assert_no_findings_of_axe(f"{name}, {scheme}")
+        self.browser.key("?", "?")
+        self.assert_no_findings_of_axe("help")
+        self.browser.key("Escape")
+        self.browser.set_size(420, 900)
+        self.click("#more")
+        self.assert_no_findings_of_axe("phone")
+        # It does find what is wrong.
+        self.browser.ask("document.querySelector('#slider').removeAttribute('aria-label')")
+        found = self.browser.ask("axe.run().then(({ violations }) => violations.map((one) => one.id))")
+        self.assertEqual(found, ["label"])
 
     def test_names_for_assistive_technology(self):
         self.browser.call("Accessibility.enable")
