@@ -39,6 +39,17 @@ def solve(name, *arguments):
     return page.as_uri(), json.loads(result.stdout)
 
 
+def changed(name, made, change):
+    """A page with changed data."""
+    page = OUT / (name + ".html")
+    before, begin, rest = pathlib.Path(made[0].removeprefix("file://")).read_text().partition('id="data">')
+    text, end, after = rest.partition("</script>")
+    data = json.loads(text)
+    change(data)
+    page.write_text(before + begin + json.dumps(data).replace("<", "\\u003c") + end + after)
+    return page.as_uri(), data["report"]
+
+
 def write(name, data):
     path = OUT / name
     path.write_text(json.dumps(data))  # JSON is YAML, too
@@ -661,6 +672,53 @@ class Page(unittest.TestCase):
                          "one.dispatchEvent(new Event('change')); })()")
         self.assertEqual(self.browser.ask(shown), [event["index"] for event in self.events
                                                    if event["outcome"] == "rejected"])
+
+    def test_why_of_events_and_of_failed_expectations(self):
+        def explain(data):
+            run = data["report"]["runs"][0]
+            why = {"limit_reached": False, "conflict": [], "alternative": {
+                "running": {"ApproachTarget": "<i>Other</i>"},
+                "objective": {"satisfied": 1, "requests": 1, "suitability": 0.6498, "idle": 0, "changes": 1}}}
+            run["expectations"] = {"passed": 4, "failed": 1, "failures": [{
+                "index": 4, "line": 12, "message": "expected another behavior", "why": [{
+                    **why, "event": 2, "tasks": ["ApproachTarget"], "message": "event 2 at 15.000 s decided it",
+                    "loses": {"objective": "suitability", "chosen": "0.684", "alternative": "0.6498"},
+                    "differences": [{"task": "ApproachTarget", "chosen": {"behavior": "Slow", "suitability": 80},
+                                     "alternative": {"behavior": "<i>Other</i>", "suitability": 95}},
+                                    {"task": "LocalizeTarget", "chosen": None,
+                                     "alternative": {"behavior": "Far", "suitability": 68.4}}]}]}]}
+            run["events"][0]["why"] = [{
+                **why, "task": "LocalizeTarget", "chosen": "Far", "message": "why LocalizeTarget has Far",
+                "loses": {"objective": "idle", "chosen": "3/7", "alternative": "5/7"}, "differences": []}]
+            run["events"][0]["alternatives"] = {"limit_reached": False, "configurations": [why["alternative"]]}
+
+        self.open(changed("why", self.target, explain))
+        self.assertEqual(self.number(), 4)
+        text = self.text("#detail-body")
+        self.assertIn("event 2 at 15.000 s decided it", text)
+        rows = self.browser.ask("[...document.querySelectorAll('.differences tbody tr')]"
+                                ".map((row) => [...row.cells].map((cell) => cell.textContent))")
+        self.assertEqual(rows, [["ApproachTarget", "Slow, 80 %", "<i>Other</i>, 95 %"],
+                                ["LocalizeTarget", "does not run", "Far, 68.4 %"],
+                                ["product of all that runs", "0.684", "0.6498"]])
+        self.browser.screenshot(OUT / "why.png")
+        self.click("#detail-body button")
+        self.assertEqual(self.number(), 2)
+        self.browser.key("Home")
+        text = self.text("#detail-body")
+        for part in ("why LocalizeTarget has Far", "ApproachTarget: <i>Other</i>", "Requests come first"):
+            self.assertIn(part, text)
+
+    def test_policy_allows_nothing_but_the_page(self):
+        policy = self.browser.ask("document.querySelector('meta[http-equiv]').content")
+        self.assertIn("default-src 'none'", policy)
+        self.assertNotIn("unsafe", policy)
+        self.browser.ask("document.body.append(Object.assign(document.createElement('script'),"
+                         "{ textContent: 'window.isRun = true' }))")
+        self.browser.settle()
+        self.assertFalse(self.browser.ask("window.isRun === true"))
+        self.assertEqual([noise["method"] for noise in self.noises()], ["Log.entryAdded"])
+        self.open(self.target)
 
     def test_help(self):
         self.browser.key("?", "?")

@@ -12,13 +12,12 @@ const reasonElements = (event) =>
   event.conflict.map((reason) => html('p', 'failed', breakable(reason.message)));
 
 function sentenceElements(run, number) {
-  const list = run.story.sentences(number).map(({ text, why, isBad }) => {
+  const failures = (run.failures.get(number) ?? []).map((failure) => failureElement(run, failure));
+  return failures.concat(run.story.sentences(number).map(({ text, why, isBad }) => {
     const line = html('p', isBad ? 'failed' : '', breakable(text));
     if (why !== '') line.append(html('span', 'why', breakable(` \u2013 ${why}`)));
     return line;
-  });
-  for (const failure of run.failures.get(number) ?? []) list.push(failureElement(run, failure));
-  return list;
+  }));
 }
 
 function failureElement(run, failure) {
@@ -51,44 +50,34 @@ function changeTable(run, number) {
 
 // Why an answer was chosen ---------------------------------------------------------------------------
 
-const objectiveNames = {
-  requests: 'requests that are satisfied',
-  request_order: 'which requests are satisfied, by priority',
-  suitability: 'the product of suitabilities of all that runs',
-  idle: 'supporting tasks that do not run',
-  changes: 'behaviors that change',
-  canonical: 'the order of the catalog, since all else is equal',
-};
-
 function objectivePairs(objective) {
   return pairs([
     ['requests satisfied', `${objective.satisfied} of ${objective.requests}`],
     ['suitability, product', formatPercent(objective.suitability)],
-    ['supporting tasks idle', formatPercent(objective.idle)],
+    ['supporting tasks running', formatPercent(1 - objective.idle)],
     ['behaviors changed', `${objective.changes}`],
   ]);
 }
 
 const performerOf = (one) => (one === null ? 'does not run' : `${one.behavior}, ${one.suitability} %`);
 
-/** The tasks that have another behavior in an answer that was not chosen, factor by factor. */
-function differenceTable(differences) {
+/** The tasks that have another behavior in an answer that was not chosen, factor by factor, and the
+ * products if these decided. */
+function differenceTable(differences, loses) {
   const rows = differences.map(({ task, chosen, alternative }) => html('tr', '',
     html('td', '', breakable(task)), html('td', '', breakable(performerOf(chosen))),
     html('td', '', breakable(performerOf(alternative)))));
+  if (loses?.objective === 'suitability') {
+    rows.push(html('tr', 'product', html('td', '', 'product of all that runs'),
+      html('td', '', loses.chosen), html('td', '', loses.alternative)));
+  }
   return html('table', 'differences', headRow('task', 'chosen', 'instead'), html('tbody', '', ...rows));
 }
 
-/** The explanation of a choice, as the report has it: its message, which objective decided, and where
- * the alternative differs. */
+/** The explanation of a choice: its message, which says what decided, and where the alternative differs. */
 function whyElements(why) {
-  const parts = [html('p', 'message', breakable(why.message ?? ''))];
-  if (why.loses) {
-    const { objective, chosen, alternative } = why.loses;
-    const values = chosen === undefined ? '' : `: ${chosen} was chosen, the alternative has ${alternative}`;
-    parts.push(html('p', 'decided', html('strong', '', 'decided by '), `${objectiveNames[objective] ?? objective}${values}`));
-  }
-  if ((why.differences ?? []).length > 0) parts.push(differenceTable(why.differences));
+  const parts = [html('p', 'message', breakable(why.message))];
+  if ((why.differences ?? []).length > 0) parts.push(differenceTable(why.differences, why.loses));
   return parts;
 }
 
@@ -108,7 +97,7 @@ function explanationElements(run, number, onChoose) {
     }
   }
   const event = run.event(number);
-  for (const why of event.why ?? []) add(`Why ${why.task ?? why.behavior}`, whyElements(why));
+  add('Why', (event.why ?? []).flatMap(whyElements));
   const configurations = event.alternatives?.configurations ?? [];
   if (configurations.length > 0) {
     add('Alternatives, the best one first', [html('ol', '', ...configurations.map(({ running, objective }) =>
