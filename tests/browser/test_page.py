@@ -867,21 +867,23 @@ class Page(unittest.TestCase):
             self.open(self.target)
             for _ in range(5):
                 self.browser.key("ArrowRight")
-            self.browser.set_size(1600, 1600)
+            self.browser.set_size(1600, 2000)
             self.browser.screenshot(OUT / f"target-following-{scheme}.png")
             self.open(self.quadrotor)
             self.browser.screenshot(OUT / f"quadrotor-{scheme}.png")
         self.browser.set_size(420, 900)
         self.browser.screenshot(OUT / "narrow.png", whole=True)
+        self.open(self.quadrotor)
+        self.browser.screenshot(OUT / "phone.png")
 
     def test_picture_of_the_readme(self):
         """docs/figures/timeline.png is this one, with fewer colors; see CONTRIBUTING.md."""
         self.browser.set_scheme("light")
+        self.browser.set_size(1280, 860, scale=1.5)
         self.open(solve("timeline", "catalogs/target-following.yaml",
                         "catalogs/target-following.mission.yaml"))
         for _ in range(9):
             self.browser.key("ArrowRight")
-        self.browser.set_size(1200, 640, scale=1.5)
         self.browser.screenshot(OUT / "timeline.png")
 
 

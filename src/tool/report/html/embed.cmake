@@ -6,7 +6,7 @@
 # its own style and its own script by their hashes, and no others.
 cmake_minimum_required(VERSION 3.21)
 
-set(styles page.css timeline.css dock.css)
+set(styles page.css timeline.css dock.css print.css)
 set(scripts
     text.js catalog.js run.js story.js # what is known
     ink.js view.js marks.js rows.js painter.js timeline.js gestures.js minimap.js # the timeline

@@ -67,6 +67,7 @@ class Page {
       timeline.setUpRows();
     });
     document.addEventListener('keydown', (event) => this.onKey(event));
+    new ResizeObserver(() => this.fillGraph()).observe(byId('graph-body'));
   }
 
   onKey(event) {
@@ -192,7 +193,7 @@ class Page {
 
   fillGraph() {
     byId('graph').hidden = !byId('wants-graph').checked;
-    if (!byId('graph').hidden && this.number > 0) fillGraph(byId('graph-body'), this.run, this.number);
+    if (!byId('graph').hidden && this.run !== undefined && this.number > 0) fillGraph(byId('graph-body'), this.run, this.number);
   }
 
   /** Chooses the next event of a list of numbers, or the previous one; at its end, the first again. */
