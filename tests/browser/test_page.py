@@ -151,7 +151,10 @@ class Page(unittest.TestCase):
 
     def mark(self, number):
         """Where the mark of an event is."""
-        return self.browser.ask(f"page.timeline.placeOfMark({number})")
+        return self.browser.ask(
+            "(() => { const box = page.timeline.canvas.getBoundingClientRect(), one = "
+            f"page.timeline.targets.find(({{ mark }}) => mark?.numbers.includes({number}));"
+            "return [box.x + one.x + one.width / 2, box.y + one.y + one.height / 2]; })()")
 
     def mark_text(self, number):
         return self.browser.ask("page.timeline.scene().marks"
@@ -415,6 +418,36 @@ class Page(unittest.TestCase):
         self.click("#all-links")
         self.assertGreater(self.drawn("link") + self.drawn("way"), 2)
 
+    def test_arrows_end_on_bars(self):
+        self.open(solve("folded", QUADROTOR, long_script(210)))
+        self.click("#all-links")
+        for _ in range(4):
+            tips = self.browser.ask(
+                "[...page.timeline.toSvg().querySelectorAll('path.link-end')].map((path) => ["
+                "path.getAttribute('transform'), path.getAttribute('d')].map((text) =>"
+                "Number(text.match(/-?\\d[\\d.e-]*/)[0])))")
+            bars = self.browser.ask("page.run.spans.map((span) => [page.timeline.view.xs[span.from],"
+                                    " page.timeline.view.endOf(span)])")
+            self.assertGreater(len(tips), 0)
+            for x, left in tips:
+                tip = x + left + 3.6
+                ends = [end for begin, end in bars if abs(begin - x) < 1e-6]
+                self.assertTrue(any(x <= tip <= max(end, x + 1.5) for end in ends), (x, tip, ends))
+            self.click("#zoom-in")
+
+    def test_names_are_shortened_in_the_middle(self):
+        self.browser.set_size(420, 900)
+        names = self.browser.ask("[...document.querySelectorAll('#labels .behavior')]"
+                                 ".map((one) => [one.title.replace('behavior ', ''), one.textContent])")
+        cut = [(name, text) for name, text in names if name != text]
+        self.assertGreater(len(cut), 3)
+        for name, text in cut:
+            begin, end = text.split("\u2026")
+            self.assertTrue(name.startswith(begin) and name.endswith(end) and begin and end, text)
+        width = "page.timeline.names.clientWidth"
+        self.assertTrue(self.browser.ask("[...document.querySelectorAll('#labels .names-rows div')]"
+                                         f".every((one) => one.scrollWidth <= {width})"))
+
     def test_whole_catalog(self):
         self.open(self.quadrotor)
         rows = "document.querySelectorAll('#labels .behavior').length"
@@ -664,6 +697,16 @@ class Page(unittest.TestCase):
         self.assertEqual(self.text("#found"), f"{len(found)} of {len(self.events)}")
         self.browser.key("Enter")
         self.assertIn(self.number(), found)
+        self.open(solve("folded", QUADROTOR, long_script(210)))
+        self.browser.key("/")
+        self.browser.write("hover")
+        count = self.browser.ask("page.found.size")
+        parts = [re.fullmatch(r"(\d+) of \d+", text) for text in self.drawing()]
+        self.assertLessEqual(sum(int(part.group(1)) for part in parts if part), count)
+        self.assertGreater(sum(part is not None for part in parts), 3)
+        self.open(made)
+        self.browser.key("/")
+        self.browser.write("hover")
         names = self.browser.ask("[...document.querySelectorAll('#labels .task')].map((one) => one.title)")
         self.assertEqual(names, ["task HOVER"])
         self.browser.key("Escape")

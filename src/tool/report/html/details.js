@@ -81,6 +81,12 @@ function whyElements(why) {
   return parts;
 }
 
+function alternativeElement({ running, objective }) {
+  const performers = Object.entries(running).map(([task, behavior]) => `${task}: ${behavior}`).join(', ');
+  const value = `suitability ${formatPercent(objective.suitability)}, ${quantity(objective.changes, 'change')}`;
+  return html('li', '', breakable(performers), html('span', 'why', ` \u2013 ${value}`));
+}
+
 /** Of an event: why its failed expectations failed, and what --why and --alternatives asked for. */
 function explanationElements(run, number, onChoose) {
   const parts = [];
@@ -100,9 +106,7 @@ function explanationElements(run, number, onChoose) {
   add('Why', (event.why ?? []).flatMap(whyElements));
   const configurations = event.alternatives?.configurations ?? [];
   if (configurations.length > 0) {
-    add('Alternatives, the best one first', [html('ol', '', ...configurations.map(({ running, objective }) =>
-      html('li', '', breakable(Object.entries(running).map(([task, behavior]) => `${task}: ${behavior}`).join(', ')),
-        html('span', 'why', ` \u2013 suitability ${formatPercent(objective.suitability)}, ${quantity(objective.changes, 'change')}`))))]);
+    add('Alternatives, the best one first', [html('ol', '', ...configurations.map(alternativeElement))]);
   }
   return parts;
 }
@@ -184,8 +188,10 @@ function tipContent(run, target) {
 
 function foldTip(run, numbers) {
   const most = 6;
-  const lines = numbers.slice(0, most).map((number) =>
-    html('p', '', `${number} \u00b7 ${formatTime(run.event(number).time)} s \u00b7 ${describeEvent(run.event(number), run.catalog)}`));
+  const lines = numbers.slice(0, most).map((number) => {
+    const event = run.event(number);
+    return html('p', '', `${number} \u00b7 ${formatTime(event.time)} s \u00b7 ${describeEvent(event, run.catalog)}`);
+  });
   if (numbers.length > most) lines.push(html('p', 'why', `and ${numbers.length - most} more`));
   return [html('strong', '', `${numbers.length} events; a click zooms to them`), ...lines];
 }

@@ -233,8 +233,9 @@ class SvgInk {
     });
     this.definitions = svgElement('defs');
     for (const [name, { size, path, stroke, alpha, ground }] of Object.entries(patternPaths)) {
-      const pattern = svgElement('pattern', { id: `${this.id}-${name}`, width: size, height: size, patternUnits: 'userSpaceOnUse' });
-      if (ground !== undefined) pattern.append(svgElement('rect', { width: size, height: size, fill: this.colorOf(ground) }));
+      const square = { width: size, height: size };
+      const pattern = svgElement('pattern', { id: `${this.id}-${name}`, ...square, patternUnits: 'userSpaceOnUse' });
+      if (ground !== undefined) pattern.append(svgElement('rect', { ...square, fill: this.colorOf(ground) }));
       pattern.append(svgElement('path', { d: path, stroke: this.colorOf(stroke), opacity: alpha }));
       this.definitions.append(pattern);
     }

@@ -10,7 +10,8 @@ function fillLegend(legend, runs) {
   };
   const span = (cause, text) => item(26, (ink) => ink.rect(cause, 1, 2, 24, 12), text);
   const glyph = (shape, look, text) => item(14, (ink) => drawGlyph(ink, 7, 8, shape, look), text);
-  const mark = (look, sign, width, text) => item(width + 5, (ink) => drawMark(ink, { x: 1, width, text: sign, look }, 1), text);
+  const mark = (look, sign, width, text) =>
+    item(width + 5, (ink) => drawMark(ink, { x: 1, width, text: sign, look }, 1), text);
   const link = (look, text) => item(22, (ink) => {
     ink.path(look, 'M2 3 H13 V9', 0, 0);
     ink.circle('link-end', 3, 3, 2.4);

@@ -139,8 +139,9 @@ class Page {
     const count = (outcome) => run.events.filter((event) => isAsked(event) && event.outcome === outcome).length;
     const [accepted, rejected] = [count('accepted'), count('rejected')];
     const others = run.size - accepted - rejected;
-    byId('counts').textContent = `${run.size} events: ${accepted} accepted, ${rejected} rejected` +
-      (others > 0 ? `, ${others} neither` : '') + ` \u00b7 expectations: ${expectations.passed} passed, ${expectations.failed} failed`;
+    byId('counts').textContent = `${quantity(run.size, 'event')}: ${accepted} accepted, ${rejected} rejected` +
+      (others > 0 ? `, ${others} neither` : '') +
+      ` \u00b7 expectations: ${expectations.passed} passed, ${expectations.failed} failed`;
     const alarms = [...expectations.failures.map((failure) => this.alarm(failure)),
                     ...(error === undefined ? [] : [html('p', 'alarm', `the run ended early: ${error}`)])];
     byId('alarms').replaceChildren(...alarms);
@@ -156,7 +157,8 @@ class Page {
 
   alarm(failure) {
     const line = failureElement(this.run, failure);
-    if (failure.index > 0) line.append(' after ', buttonElement(`event ${failure.index}`, () => this.choose(failure.index)));
+    const { index } = failure;
+    if (index > 0) line.append(' after ', buttonElement(`event ${index}`, () => this.choose(index)));
     return line;
   }
 
@@ -176,7 +178,8 @@ class Page {
     const event = run.event(number);
     const outcome = isAsked(event) ? ` \u00b7 ${event.outcome}` : '';
     const failed = run.isFailed(number) ? ' \u00b7 failed expectation' : '';
-    this.tell(`Event ${number} of ${run.size} \u00b7 ${formatTime(event.time)} s \u00b7 ${describeEvent(event, run.catalog)}${outcome}${failed}`);
+    this.tell(`Event ${number} of ${run.size} \u00b7 ${formatTime(event.time)} s \u00b7 ` +
+      `${describeEvent(event, run.catalog)}${outcome}${failed}`);
     this.slider.value = number;
     this.slider.setAttribute('aria-valuetext', byId('status').textContent);
     fillDetail({ title: byId('detail-title'), body: byId('detail-body') }, run, number, (other) => this.choose(other));

@@ -406,10 +406,10 @@ class Painter {
       if (!this.view.isInView(mark.x, mark.numbers.length > 1 ? mark.x + mark.width : limit)) continue;
       const y = axisHeight + mark.lane * laneHeight + 1;
       if (mark.numbers.length === 1) this.drawMarkText(mark, limit, y);
-      drawMark(ink, mark, y);
-      if (this.filter !== null && !mark.numbers.some((number) => this.filter.has(number))) {
-        ink.rect('dimmed', mark.x - 1, y - 1, mark.width + 5, 19);
-      }
+      const found = this.filter === null ? null : mark.numbers.filter((number) => this.filter.has(number)).length;
+      const isPart = found > 0 && mark.numbers.length > 1;
+      drawMark(ink, isPart ? { ...mark, text: `${found} of ${mark.numbers.length}` } : mark, y);
+      if (found === 0) ink.rect('dimmed', mark.x - 1, y - 1, mark.width + 5, 19);
       this.addTarget(mark.x, y, mark.width, 16, { numbers: mark.numbers, mark });
       if (mark.numbers.includes(this.chosen)) ink.rect('ring', mark.x - 2, y - 2, mark.width + 4, 20, 9);
     }

@@ -18,7 +18,8 @@ class StateGraph {
       const [was, is] = [get(before, task), get(after, task)];
       const change = was === undefined ? 'started' : is === undefined ? 'stopped' : was === is ? '' : 'replaced';
       const priority = get(run.requests(is === undefined ? number - 1 : number), task);
-      return [task, { task, behavior: is ?? was, was, change, priority, cause: causeOf(priority), layer: 0, requirers: [] }];
+      const behavior = is ?? was;
+      return [task, { task, behavior, was, change, priority, cause: causeOf(priority), layer: 0, requirers: [] }];
     }));
     this.edges = [];
     for (const node of this.nodes.values()) {
@@ -110,7 +111,11 @@ class StateGraph {
   }
 }
 
-const changeNames = { started: 'started by this event', stopped: 'stopped by this event', replaced: 'its behavior was replaced by this event' };
+const changeNames = {
+  started: 'started by this event',
+  stopped: 'stopped by this event',
+  replaced: 'its behavior was replaced by this event',
+};
 
 /** The node of a task, with the sign of what the event did to it. */
 function nodeElement(graph, node) {
@@ -158,12 +163,16 @@ function fillGraph(body, run, number) {
   const tasks = [...graph.nodes.values()].filter((node) => node.change !== 'stopped').map((node) => node.task);
   const svg = svgElement('svg', {
     width: width * scale, height: height * scale, viewBox: `0 0 ${width} ${height}`, role: 'img',
-    'aria-label': `Graph of the tasks that run after event ${number}: ${tasks.join(', ') || 'none'}. The table of the state has the same content.`,
+    'aria-label': `Graph of the tasks that run after event ${number}: ${tasks.join(', ') || 'none'}. ` +
+      'The table of the state has the same content.',
   });
-  const head = svgElement('marker', { id: 'edge-head', viewBox: '0 0 8 8', refX: 4, refY: 4, markerWidth: 6, markerHeight: 6, orient: 'auto' });
+  const head = svgElement('marker', {
+    id: 'edge-head', viewBox: '0 0 8 8', refX: 4, refY: 4, markerWidth: 6, markerHeight: 6, orient: 'auto',
+  });
   head.append(svgElement('path', { d: 'M0 0 L8 4 L0 8 Z', class: 'edge-head' }));
   const definitions = svgElement('defs');
   definitions.append(head);
-  svg.append(definitions, ...graph.edges.map((edge) => edgeElement(edge, graph.isDown)), ...[...graph.nodes.values()].map((node) => nodeElement(graph, node)));
+  svg.append(definitions, ...graph.edges.map((edge) => edgeElement(edge, graph.isDown)),
+             ...[...graph.nodes.values()].map((node) => nodeElement(graph, node)));
   body.replaceChildren(svg);
 }

@@ -83,8 +83,8 @@ class Timeline {
       return element;
     };
     const { view } = this;
-    const head = html('div', 'names-head',
-      item(view.scale === 'time' ? 'time [s]' : width < 170 ? 'time [s]' : 'time [s], events evenly spaced', 'lane', axisHeight),
+    const axisName = view.scale === 'time' || width < 170 ? 'time [s]' : 'time [s], events evenly spaced';
+    const head = html('div', 'names-head', item(axisName, 'lane', axisHeight),
       item('events', 'lane', laneHeight * this.marker.lanes(view)));
     if (this.marker.problems.length > 0) head.append(item(this.problemTitle(), 'lane has-bad', laneHeight));
     head.style.height = `${this.head}px`;
@@ -92,7 +92,7 @@ class Timeline {
     const rows = this.rows.list.map((row) => {
       const name = Rows.nameOf(row);
       const kind = Rows.kindOf(row);
-      const room = width - Rows.indentOf(row) - 8;
+      const room = width - Rows.indentOf(row) - 10;
       const text = shortenMiddle(name, room, looks[kind].style, 12);
       const element = item(text, kind, row.height, row.y - y);
       y = row.y + row.height;
@@ -173,13 +173,6 @@ class Timeline {
   targetAt(x, y) {
     return this.targets.findLast((target) => x >= target.x && x <= target.x + target.width &&
                                              y >= target.y && y <= target.y + target.height);
-  }
-
-  /** The middle of the mark of an event, in the window: [x, y]. */
-  placeOfMark(number) {
-    const target = this.targets.find(({ mark }) => mark?.numbers.includes(number));
-    const box = this.canvas.getBoundingClientRect();
-    return [box.x + target.x + target.width / 2, box.y + target.y + target.height / 2];
   }
 
   /** The timeline as SVG, with its names: the part of the time that is in view, and all rows. */
