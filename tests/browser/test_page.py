@@ -786,6 +786,17 @@ class Page(unittest.TestCase):
         self.assertEqual(self.browser.ask("document.querySelectorAll('#graph .edge').length"), 3)
         self.browser.key("g")
         self.assertTrue(self.browser.ask("document.querySelector('#graph').hidden"))
+        self.open(solve("large-graph", "catalogs/autoware.yaml", "catalogs/autoware.mission.yaml"))
+        self.browser.ask("page.choose(12)")
+        self.assertGreater(self.browser.ask("document.querySelectorAll('#graph .node').length"), 30)
+        self.assertLess(self.browser.ask("document.querySelector('#graph').clientWidth"), 600)
+        inner, outer = self.browser.ask(
+            "['#graph .node.started', '#graph-body'].map((one) => document.querySelector(one)"
+            ".getBoundingClientRect()).map((box) => [box.left, box.top, box.right, box.bottom])")
+        for place in range(4):
+            self.assertGreaterEqual(inner[place], outer[place % 2])
+            self.assertLessEqual(inner[place], outer[place % 2 + 2])
+        self.browser.screenshot(OUT / "large-graph.png")
 
     def test_details_stay_in_view(self):
         self.open(self.quadrotor)

@@ -150,7 +150,7 @@ function edgeElement({ from, to }, isDown) {
   return svgElement('path', { d: path, class: look, 'marker-end': 'url(#edge-head)' });
 }
 
-/** Draws the state after an event. */
+/** Draws the state after an event. Where there is no room for all, what the event changed is in view. */
 function fillGraph(body, run, number) {
   const graph = new StateGraph(run, number);
   if (graph.nodes.size === 0) {
@@ -175,4 +175,6 @@ function fillGraph(body, run, number) {
   svg.append(definitions, ...graph.edges.map((edge) => edgeElement(edge, graph.isDown)),
              ...[...graph.nodes.values()].map((node) => nodeElement(graph, node)));
   body.replaceChildren(svg);
+  const changed = [...graph.nodes.values()].find((node) => node.change !== '') ?? graph.nodes.values().next().value;
+  body.scrollTo(changed.x * scale - room[0] / 3, changed.y * scale - room[1] / 3);
 }
