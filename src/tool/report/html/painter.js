@@ -332,8 +332,8 @@ class Painter {
   drawRejected() {
     const last = new Map(); // of each row: the right edge of what stands there
     const numbers = this.run.problems.filter((number) =>
-      this.run.isRejected(number) && this.view.isInView(this.view.xs[number] - 600, this.view.xs[number] + 600));
-    const areMany = numbers.filter((number) => this.view.isInView(this.view.xs[number])).length * 25 > this.width;
+      this.run.isRejected(number) && this.view.isInView(this.view.xs[number]));
+    const areMany = numbers.length * 25 > this.width;
     const followers = new Map(); // of each of them: the next one of the same row
     numbers.forEach((number) => followers.set(this.run.event(number).name, []));
     numbers.forEach((number) => followers.get(this.run.event(number).name).push(number));
