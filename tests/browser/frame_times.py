@@ -8,7 +8,7 @@
 import statistics
 
 from chromium import Chromium
-from test_page import OUT, QUADROTOR, long_script, solve
+from page_case import OUT, QUADROTOR, long_script, solve
 
 # Moves the view for some frames; tells the milliseconds from frame to frame, and those of drawing.
 MOVE = """new Promise((done) => {
