@@ -128,7 +128,7 @@ def measure_kind(settings, kind, size, seed, count, with_gecode):
     cbc, catalog = prepare(settings, size, seed)
     mixed = missions.Mixed(cbc, catalog, seed)
     drawn = missions.from_idle(cbc, catalog, seed, count) if kind == "idle" else mixed.events(count)
-    for number, (state, event) in enumerate(skip_decided(catalog, drawn, mixed, count)):
+    for number, (state, event) in enumerate(skip_decided(catalog, drawn, mixed)):
         name = f"{kind}-{size}-{seed}-{number}"
         peers = ["clasp", "toulbar2"] + (["Gecode"] if number < with_gecode else [])
         answers, exactness, following = measure(settings, cbc, catalog, state, event, name, peers)
@@ -141,7 +141,7 @@ def measure_kind(settings, kind, size, seed, count, with_gecode):
         yield result
 
 
-def skip_decided(catalog, drawn, mixed, count):
+def skip_decided(catalog, drawn, mixed):
     """An event that needs no search is no event here; another one is drawn for it."""
     for state, event in drawn:
         while Question(catalog, state, event).decided:
@@ -310,7 +310,7 @@ def parse_arguments():
     parser.add_argument("--gecode", required=True, help="the program cbc_gecode_peer")
     parser.add_argument("--events", type=int, default=20, help="of each kind and size (20)")
     parser.add_argument("--gecode-events", type=int, default=4, help="of these, how many Gecode gets (4)")
-    parser.add_argument("--limit", type=float, default=10, help="seconds for each event (10)")
+    parser.add_argument("--limit", type=float, default=5, help="seconds for each event (5)")
     parser.add_argument("--sizes", type=int, nargs="+", default=list(SHAPES), choices=list(SHAPES))
     parser.add_argument("--kinds", nargs="+", default=["idle", "mixed"], choices=["idle", "mixed"])
     parser.add_argument("--seeds", type=int, nargs="+", default=list(SEEDS), help="of the catalogs")

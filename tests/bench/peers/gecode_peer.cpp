@@ -10,16 +10,15 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <gecode/int.hh>
+#include <gecode/minimodel.hh>
+#include <gecode/search.hh>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <numeric>
 #include <string>
 #include <vector>
-
-#include <gecode/int.hh>
-#include <gecode/minimodel.hh>
-#include <gecode/search.hh>
 
 namespace {
 
@@ -217,8 +216,10 @@ void solve(const Question& question, double limit) {
   }
   const double end = cpu_seconds();
   const bool is_cut = search.stopped();
-  std::cout << (is_cut ? "timeout" : has_solution ? "optimal" : "infeasible") << ' ' << std::fixed
-            << std::setprecision(6) << end - begin << '\n';
+  std::cout << (is_cut         ? "timeout"
+                : has_solution ? "optimal"
+                               : "infeasible")
+            << ' ' << std::fixed << std::setprecision(6) << end - begin << '\n';
   for (const int value : best) std::cout << value << ' ';
   std::cout << '\n';
 }

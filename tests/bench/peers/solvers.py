@@ -19,17 +19,21 @@ from model import Weighted, answer_set_program, numbers_for_gecode
 ROUNDS = 5
 QUICK = 0.5  # seconds; what takes longer is not repeated
 RESOLUTION = 0.001  # seconds; what a difference between the CPU times of two processes can say
-CLASP = ["clasp", "--opt-strategy=usc,oll,stratify", "--outf=2"]
+# The second one is tried where the first one takes longer than SLOW, and the faster counts.
+CLASP = [["clasp", "--outf=2", "--opt-strategy=usc,oll,stratify"],
+         ["clasp", "--outf=2", "--opt-strategy=usc,oll,stratify", "--opt-usc-shrink=min"]]
+SLOW = 0.1  # seconds
 TOULBAR2 = ["toulbar2", "-s=0", "-w=solution"]
 
 
 class Run:
-    """A process that has ended, or was ended by its limit of CPU time."""
+    """A process that has ended, or was ended by its limit of CPU time. A process with a limit may see
+    a coarse clock of its own CPU time, so one that measures itself has none."""
 
     def __init__(self, command, folder, limit, text=None):
         process = subprocess.Popen(command, cwd=folder, text=True, stdin=subprocess.PIPE,
                                    stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                                   preexec_fn=lambda: limit_cpu(limit))
+                                   preexec_fn=None if limit is None else lambda: limit_cpu(limit))
         if text is not None:
             process.stdin.write(text)
         process.stdin.close()
@@ -78,11 +82,17 @@ def solve_with_clasp(model, folder, limit):
     grounder = Run(["gringo", "question.lp"], folder, 60)
     write(folder, "question.aspif", grounder.output)
     write(folder, "reading.aspif", grounder.output.rpartition("0\n")[0] + "1 0 0 0 0\n0\n")
-    reading = least_cpu([*CLASP, "reading.aspif"], folder, limit)
-    command = [*CLASP, f"--time-limit={int(limit) * 4}", "question.aspif"]
+    answer = run_clasp(CLASP[0], model, grounder.cpu, folder, limit)
+    if answer.search <= SLOW:
+        return answer
+    return min(answer, run_clasp(CLASP[1], model, grounder.cpu, folder, limit), key=lambda a: a.search)
+
+
+def run_clasp(command, model, grounding, folder, limit):
+    reading = least_cpu([*command, "reading.aspif"], folder, limit)
 
     def once():
-        run = Run(command, folder, limit)
+        run = Run([*command, "question.aspif"], folder, limit)
         result = {} if run.is_cut else json.loads(run.output)
         outcome = result.get("Result")
         if outcome not in ("OPTIMUM FOUND", "UNSATISFIABLE"):
@@ -92,7 +102,7 @@ def solve_with_clasp(model, folder, limit):
             atoms = result["Call"][0]["Witnesses"][-1].get("Value", [])
             pairs = (re.fullmatch(r"b\((\d+),(\d+)\)", atom) for atom in atoms)
             values = model.all_values({int(pair[1]): int(pair[2]) for pair in pairs})
-        return Answer(values, after_reading(run, reading), run.cpu + grounder.cpu)
+        return Answer(values, after_reading(run, reading), run.cpu + grounding)
 
     return fastest(once)
 
@@ -139,7 +149,7 @@ def solve_with_gecode(program):
         write(folder, "question.txt", numbers_for_gecode(model))
 
         def once():
-            run = Run([program, "question.txt", str(limit)], folder, limit * 2)
+            run = Run([program, "question.txt", str(limit)], folder, None)
             lines = run.output.splitlines()
             if run.is_cut or not lines:
                 return Answer(None, limit, run.cpu, True)
@@ -182,22 +192,33 @@ class Cbc:
         with open(os.path.join(self.folder, "next.json"), encoding="utf-8") as file:
             return json.load(file)
 
+    def run_for(self, limit, state, event):
+        """The limit is one of wall time; on a busy machine it is raised once."""
+        record, run, following = self.run(state, event, "--time-limit", str(limit))
+        if is_cut(record) and run.cpu < 0.9 * limit:
+            longer = limit * limit / run.cpu
+            record, run, following = self.run(state, event, "--time-limit", f"{longer:.3f}")
+        return record, run, following
+
     def solve(self, catalog, state, event, limit):
         """Its answer, what it reports of it, and the next state."""
         seen = []
         reading = min(self.run(state, None)[1].cpu for _ in range(2 * ROUNDS))
 
         def once():
-            record, run, following = self.run(state, event, "--time-limit", str(limit))
+            record, run, following = self.run_for(limit, state, event)
             seen[:] = [record, following]
             values = None
             if record["outcome"] == "accepted":
                 values = catalog.values(record["running"])
-            is_cut = record["search"]["status"] in ("feasible", "unknown")
-            search = limit if is_cut else min(elapsed(run), max(run.cpu - reading, RESOLUTION))
-            return Answer(values, search, run.cpu, is_cut)
+            search = limit if is_cut(record) else min(elapsed(run), max(run.cpu - reading, RESOLUTION))
+            return Answer(values, search, run.cpu, is_cut(record))
 
         return fastest(once), seen[0], seen[1]
+
+
+def is_cut(record):
+    return record["search"]["status"] in ("feasible", "unknown")
 
 
 def elapsed(run):
