@@ -69,6 +69,8 @@ def compare(question, ours, theirs):
     if best is None or other is None:
         raise Mismatch("not a solution")
     if ours.is_cut:
+        if best.requests() > other.requests():
+            raise Mismatch("the peer serves less than a stopped search")
         return "cut"
     if best.requests() != other.requests():
         raise Mismatch(f"requests: {best.requests()} and {other.requests()}")
@@ -94,6 +96,8 @@ def measure(settings, cbc, catalog, state, event, place, peers):
     model = Model(question)
     for name in peers:
         answers[name] = settings.peers[name](model, cbc.folder, settings.limit)
+        if answers[name].search > settings.limit:  # the limit of the process is in whole seconds
+            answers[name] = solvers.Answer(None, settings.limit, answers[name].process, True)
         try:
             exactness[name] = compare(question, ours, answers[name])
         except Mismatch as mismatch:
@@ -150,8 +154,8 @@ def skip_decided(catalog, drawn, mixed):
 
 
 def keep_if_lost(settings, result, cbc, state, event):
-    lost = {peer: result.ratio(peer) for peer in ("clasp", "toulbar2")}
-    if all(ratio is None or ratio >= 1 for ratio in lost.values()):
+    ratios = [result.ratio(peer) for peer in result.answers if peer != "cbc"]
+    if not result.answers["cbc"].is_cut and all(ratio >= 1 for ratio in ratios):
         return
     folder = Path(settings.lost)
     folder.mkdir(parents=True, exist_ok=True)
@@ -236,7 +240,7 @@ def row(results, solver):
         ratios = [ratio for ratio in (result.ratio(solver) for result in mine) if ratio is not None]
         ahead = sum(ratio >= 1 for ratio in ratios)
         cells += [median_of_ratios(ratios, cut * 2 > len(mine)),
-                  f"{100 * ahead / len(ratios):.0f} %" if ratios else "–",
+                  f"{100 * ahead / len(ratios):.0f} % of {len(ratios)}" if ratios else "–",
                   number(min(ratios)) if ratios else "–"]
     return "| " + " | ".join(cells) + " |"
 
@@ -258,8 +262,8 @@ def conditions(settings, results):
     pairs = [word for result in results for word in result.exactness.values()]
     agree = pairs.count("same")
     text = (f"{datetime.date.today():%B %-d, %Y}, on {processor()}; {versions(settings)}. "
-            f"{settings.limit:g} s for each event. Of {len(pairs)} answers of peers, {agree} are equal to "
-            f"that of cbc down to f4, {pairs.count('rounded')} differ from it by rounded logarithms (cbc's "
+            f"{settings.limit:g} s for each event; load average {os.getloadavg()[2]:.0f}. Of {len(pairs)} "
+            f"answers of peers, {agree} are equal to that of cbc down to f4, {pairs.count('rounded')} differ from it by rounded logarithms (cbc's "
             f"is better), and {pairs.count('cut')} could not be compared since a solver was stopped.")
     return fill(text) + "\n"
 
@@ -308,14 +312,18 @@ def parse_arguments():
     parser.add_argument("--cbc", required=True, help="the program")
     parser.add_argument("--generator", required=True, help="the program cbc_generate_catalog")
     parser.add_argument("--gecode", required=True, help="the program cbc_gecode_peer")
-    parser.add_argument("--events", type=int, default=20, help="of each kind and size (20)")
-    parser.add_argument("--gecode-events", type=int, default=4, help="of these, how many Gecode gets (4)")
+    parser.add_argument("--events", type=int, default=12, help="of each kind and size (12)")
+    parser.add_argument("--gecode-events", type=int, help="of these, how many Gecode gets (all)")
     parser.add_argument("--limit", type=float, default=5, help="seconds for each event (5)")
     parser.add_argument("--sizes", type=int, nargs="+", default=list(SHAPES), choices=list(SHAPES))
     parser.add_argument("--kinds", nargs="+", default=["idle", "mixed"], choices=["idle", "mixed"])
     parser.add_argument("--seeds", type=int, nargs="+", default=list(SEEDS), help="of the catalogs")
-    parser.add_argument("--lost", metavar="FOLDER", help="write events on which cbc is behind to it")
-    return parser.parse_args()
+    parser.add_argument("--lost", metavar="FOLDER", 
+                        help="write events on which cbc is behind, or stopped, to it")
+    arguments = parser.parse_args()
+    if arguments.gecode_events is None:
+        arguments.gecode_events = arguments.events
+    return arguments
 
 
 def main():
