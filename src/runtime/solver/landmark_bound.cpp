@@ -41,16 +41,16 @@ void LandmarkBound::load() {
   }
   value_begin_.push_back(static_cast<std::uint32_t>(requirement_begin_.size()));
   requirement_begin_.push_back(static_cast<std::uint32_t>(requirements_.size()));
+  // Each row is filled from its end, which leaves its begin.
   requiring_begin_.assign(tasks + 1, 0);
-  for (const std::uint32_t target : requirements_) ++requiring_begin_[target + 1];
+  for (const std::uint32_t target : requirements_) ++requiring_begin_[target];
   for (std::uint32_t task = 0; task < tasks; ++task) {
     requiring_begin_[task + 1] += requiring_begin_[task];
   }
   requiring_.resize(requirements_.size());
-  std::vector<std::uint32_t> next(requiring_begin_.begin(), requiring_begin_.end() - 1);
-  for (std::uint32_t value = 0; value + 1 < requirement_begin_.size(); ++value) {
+  for (auto value = static_cast<std::uint32_t>(requirement_begin_.size() - 1); value-- > 0;) {
     for (std::uint32_t at = requirement_begin_[value]; at < requirement_begin_[value + 1]; ++at) {
-      requiring_[next[requirements_[at]]++] = value;
+      requiring_[--requiring_begin_[requirements_[at]]] = value;
     }
   }
   tasks_.clear();
@@ -102,7 +102,7 @@ void LandmarkBound::find_relevant_tasks() {
   for (const std::uint32_t task : domains_.needed_tasks()) add_task(task);
   for (const std::uint32_t task : trail_.requests()) add_task(task);
   for (std::size_t next = 0; next < relevant_.size(); ++next) {
-    for (const Arc& arc : catalog_.arcs[first + relevant_[next]]) add_task(arc.target - first);
+    for (const cbc::Arc& arc : catalog_.arcs[first + relevant_[next]]) add_task(arc.target - first);
   }
   order_.clear();
   for (std::uint32_t place = 0; place < domains_.task_count(); ++place) {
@@ -128,7 +128,6 @@ void LandmarkBound::backtrack_to(std::uint32_t level) {
 }
 
 void LandmarkBound::start_ascent() {
-  ++ascents;
   bound_ = 0;
   level_ = trail_.level();
   first_cut_ = cuts_.size();
@@ -181,7 +180,6 @@ std::int64_t LandmarkBound::raise(std::int64_t threshold) {
   while (bound_ <= threshold) {
     const std::uint32_t root = highest_root();
     if (root == none) break;
-    ++cuts_made;
     find_cut(root);
     subtract_cut(root);
     update_heights();
@@ -231,7 +229,7 @@ void LandmarkBound::lower(std::uint32_t value) {
 }
 
 /// The highest of the required tasks; none if all can run at no residual cost.
-std::uint32_t LandmarkBound::highest_requirement(std::size_t value) const {
+std::uint32_t LandmarkBound::highest_requirement(std::uint32_t value) const {
   std::uint32_t highest = none;
   std::int64_t height = 0;
   for (std::uint32_t at = requirement_begin_[value]; at < requirement_begin_[value + 1]; ++at) {
@@ -244,7 +242,7 @@ std::uint32_t LandmarkBound::highest_requirement(std::size_t value) const {
 }
 
 std::int64_t LandmarkBound::estimate(std::uint32_t task, std::uint32_t index) const {
-  const std::size_t value = place(task, index);
+  const std::uint32_t value = value_begin_[task] + index;
   std::int64_t cost = residuals_[value];
   for (std::uint32_t at = requirement_begin_[value]; at < requirement_begin_[value + 1]; ++at) {
     cost = add(cost, seen_heights_[requirements_[at]]);
@@ -285,7 +283,7 @@ void LandmarkBound::find_cut(std::uint32_t root) {
   }
 }
 
-bool LandmarkBound::requires_cut(std::size_t value) const {
+bool LandmarkBound::requires_cut(std::uint32_t value) const {
   for (std::uint32_t at = requirement_begin_[value]; at < requirement_begin_[value + 1]; ++at) {
     if (in_cut_[requirements_[at]] == cut_number_) return true;
   }
@@ -309,19 +307,19 @@ void LandmarkBound::subtract_cut(std::uint32_t root) {
   }
   const std::size_t first_ground = grounds_.size();
   std::uint32_t level = trail_.level_of(ReasonTrail::runs(root));
-  for (const CutArc& arc : arcs_) {
+  for (const Arc& arc : arcs_) {
     if (residuals_[arc.value] >= amount) {
       residuals_[arc.value] -= amount;
-      if (!arc.is_removed) lower(static_cast<std::uint32_t>(arc.value));
+      if (!arc.is_removed) lower(arc.value);
     } else {
-      const Literal removal = negate(trail_.has_value(
-          arc.task, static_cast<std::uint32_t>(arc.value) - value_begin_[arc.task]));
+      const Literal removal =
+          negate(trail_.has_value(arc.task, arc.value - value_begin_[arc.task]));
       const std::uint32_t level_of_removal = trail_.level_of(removal);
       level = std::max(level, level_of_removal);
       if (level_of_removal > 0) grounds_.push_back(removal);
     }
   }
-  arcs_made+=arcs_.size(); bound_ = add(bound_, amount);
+  bound_ = add(bound_, amount);
   if (!marks_.empty()) cuts_.push_back({amount, root, level, first_ground});
 }
 

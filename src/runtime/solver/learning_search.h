@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
-#include "solver/landmark_bound.h"
 #include "solver/domains.h"
+#include "solver/landmark_bound.h"
 #include "solver/objective.h"
 #include "solver/objective_reasons.h"
 #include "solver/performance_reasons.h"

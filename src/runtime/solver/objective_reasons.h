@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/landmark_bound.h"
 #include "solver/cost_bound.h"
 #include "solver/domains.h"
+#include "solver/landmark_bound.h"
 #include "solver/objective.h"
 #include "solver/problem.h"
 #include "solver/reason_trail.h"

@@ -219,8 +219,8 @@ bool Solver::should_learn() const {
   if (!searches_.front().best.exists) return true;
   constexpr std::uint64_t nodes_before_split = 50;
   const std::uint64_t bounded = options_.easy_nodes + nodes_before_split;
-  return result_.nodes >= (has_split_ ? options_.bounded_nodes
-                                      : std::min(bounded, options_.bounded_nodes));
+  return result_.nodes >=
+         (has_split_ ? options_.bounded_nodes : std::min(bounded, options_.bounded_nodes));
 }
 
 /// Looks for an incumbent near the present configuration.

@@ -194,10 +194,9 @@ void TextReport::on_event(const EventRecord& record, const Step* step, const Sta
   story_.add(record, step, state);
   summary_.add(*catalog_, record, step);
   const std::string note = describe_note(*catalog_, record, state);
-  std::string line =
-      fmt::format("{:>10}  {}{}{}{}", format_time(record.time), style_.strong,
-                  describe_event(*catalog_, record, step), style_.reset,
-                  describe_outcome(record, state));
+  std::string line = fmt::format("{:>10}  {}{}{}{}", format_time(record.time), style_.strong,
+                                 describe_event(*catalog_, record, step), style_.reset,
+                                 describe_outcome(record, state));
   if (layout_.is_brief) {
     line += describe_briefly(record);
     if (!note.empty()) line += "; " + note;
