@@ -194,12 +194,12 @@ void add_solve_command(Program& program) {
       .not_with({"--merge"}, of_shards);
   command
       .option("--time-limit", options->time_limit, seconds(),
-              "Stop each search after this time and take the best answer so far")
+              "Stop the search of each event after this time and take the best answer so far")
       .not_with({"--sweep", "--merge"},
                 "the result must not depend on the machine; use --max-nodes");
   command
       .option("--max-nodes", options->max_nodes, whole_number("N", 1),
-              "Stop each search after N decisions and take the best answer so far")
+              "Stop the search of each event after N decisions and take the best answer so far")
       .not_with({"--merge"}, of_shards);
   command
       .option("--tie-seed", options->tie_seed, whole_number("N", 0),

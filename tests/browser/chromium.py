@@ -106,6 +106,9 @@ class Chromium:
         """Loads a page, and waits until it is drawn."""
         self.events.clear()
         self.call("Page.navigate", url=url)
+        self.wait_for_load()
+
+    def wait_for_load(self):
         deadline = time.monotonic() + 60
         while self.ask("document.readyState") != "complete":
             if time.monotonic() > deadline:
@@ -126,15 +129,31 @@ class Chromium:
         self.ask("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
                  ".then(() => true)")
 
-    def key(self, name, text=None):
+    def key(self, name, text=None, modifiers=0):
         codes = {"ArrowLeft": 37, "ArrowUp": 38, "ArrowRight": 39, "ArrowDown": 40, "Home": 36,
-                 "End": 35, "Tab": 9, "Escape": 27, "Enter": 13, "+": 187, "-": 189, "0": 48}
-        key = {"key": name, "code": name, "windowsVirtualKeyCode": codes[name]}
+                 "End": 35, "Tab": 9, "Escape": 27, "Enter": 13, "+": 187, "-": 189, "/": 191,
+                 "?": 191, "[": 219, "]": 221}
+        code = codes[name] if name in codes else ord(name.upper())
+        key = {"key": name, "code": name, "windowsVirtualKeyCode": code, "modifiers": modifiers}
         if text is not None:
             key["text"] = text
         self.call("Input.dispatchKeyEvent", type="keyDown", **key)
         self.call("Input.dispatchKeyEvent", type="keyUp", **key)
         self.settle()
+
+    def write(self, text):
+        """Types into what has the focus."""
+        self.call("Input.insertText", text=text)
+        self.settle()
+
+    def wheel(self, x, y, delta):
+        self.call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=delta)
+        self.settle()
+
+    def reload(self):
+        self.events.clear()
+        self.call("Page.reload")
+        self.wait_for_load()
 
     def move(self, x, y):
         self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
@@ -146,14 +165,13 @@ class Chromium:
             self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
         self.settle()
 
-    def drag(self, x, y, to_x, to_y):
+    def drag(self, x, y, to_x, to_y, modifiers=0):
         self.move(x, y)
-        self.call("Input.dispatchMouseEvent", type="mousePressed", x=x, y=y, button="left",
-                  clickCount=1)
-        self.call("Input.dispatchMouseEvent", type="mouseMoved", x=to_x, y=to_y, button="left",
-                  buttons=1)
-        self.call("Input.dispatchMouseEvent", type="mouseReleased", x=to_x, y=to_y, button="left",
-                  clickCount=1)
+        common = {"button": "left", "modifiers": modifiers}
+        self.call("Input.dispatchMouseEvent", type="mousePressed", x=x, y=y, clickCount=1, **common)
+        self.call("Input.dispatchMouseEvent", type="mouseMoved", x=to_x, y=to_y, buttons=1, **common)
+        self.call("Input.dispatchMouseEvent", type="mouseReleased", x=to_x, y=to_y, clickCount=1,
+                  **common)
         self.settle()
 
     def set_size(self, width, height, scale=1):

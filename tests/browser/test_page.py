@@ -7,158 +7,20 @@ somebody who has never seen the page should find out from one of them.
 """
 
 import json
-import os
-import pathlib
-import random
 import re
-import subprocess
 import time
 import unittest
+import urllib.parse
 
-from chromium import BrowserError, Chromium
+from chromium import BrowserError
+from page_case import (
+    HOSTILE_BEHAVIORS, HOSTILE_TASK, OUT, QUADROTOR, ROOT, PageCase, changed, hostile_files, long_script,
+    solve, write)
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = os.environ.get("CBC_PROGRAM", str(ROOT / "build/release/cbc"))
-OUT = ROOT / "build/browser"
-QUADROTOR = "catalogs/quadrotor.yaml"
-
-HOSTILE_TASK = "</script><script>alert(1)</script>"
-HOSTILE_BEHAVIORS = ["<img src=x onerror=alert(2)>", "__proto__", "\"quotes' & <!-- <b>bold</b>",
-                     "line\u2028and\u2029paragraph", "constructor"]
+AXE = ROOT / "build/browser-npm/node_modules/axe-core/axe.min.js"  # where ./dev test-browser puts it
 
 
-def solve(name, *arguments):
-    """Makes a page, and returns where it is and the same report as JSON."""
-    page = OUT / (name + ".html")
-    result = subprocess.run([PROGRAM, "solve", *arguments, "--format", "json", "--html", str(page)],
-                            cwd=ROOT, stdout=subprocess.PIPE, check=False)
-    assert result.returncode in (0, 1), result.returncode
-    return page.as_uri(), json.loads(result.stdout)
-
-
-def write(name, data):
-    path = OUT / name
-    path.write_text(json.dumps(data))  # JSON is YAML, too
-    return str(path)
-
-
-def hostile_files():
-    catalog = {
-        "tasks": [{"task": HOSTILE_TASK}, {"task": "2"}, {"task": "1"}],
-        "behaviors": [{"behavior": name, "task": HOSTILE_TASK} for name in HOSTILE_BEHAVIORS] +
-                     [{"behavior": "toString", "task": "2"}, {"behavior": "valueOf", "task": "1"}],
-        "exclusivity_constraints": [{"mutually_exclusive": ["1", "2"]}],
-    }
-    events = [{"start": HOSTILE_TASK, "parameters": {"</script>": ["<b>", "\u2028", "'\""]}}]
-    for name in HOSTILE_BEHAVIORS[:-1]:
-        events += [{"fault": name}, {"finish": name, "cause": "process_failure", "wait": 1}]
-    events += [{"start": "2", "priority": 2}, {"start": "1"}, {"expect": {"stopped": ["2"]}}]
-    return write("hostile.yaml", catalog), write("hostile.mission.yaml", {"events": events})
-
-
-def long_script(count):
-    """A mission of `count` scripted events, the same each time."""
-    choose = random.Random(4)
-    tasks = ["HOVER", "ROTATE", "FOLLOW_PATH", "TAKE_OFF", "LAND", "INFORM_POSITION_TO_ROBOTS"]
-    behaviors = re.findall(r"^- behavior: (\w+)", (ROOT / QUADROTOR).read_text(), re.MULTILINE)
-    events = []
-    for _ in range(count):
-        verb = choose.choice(["start", "start", "start", "stop", "finish", "finish", "situation"])
-        if verb in ("start", "stop"):
-            event = {verb: choose.choice(tasks)}
-            if verb == "start":
-                event["priority"] = choose.choice([1, 2, 2, 2])
-        elif verb == "finish":
-            event = {verb: choose.choice(behaviors),
-                     "cause": choose.choice(["goal_achieved", "process_failure"])}
-        else:
-            event = {verb: {choose.choice(behaviors): choose.random() < 0.8}}
-        events.append({**event, "wait": choose.choice([0, 0.5, 3])})
-    return write("long.mission.yaml", {"events": events})
-
-
-class Page(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        OUT.mkdir(parents=True, exist_ok=True)
-        cls.browser = Chromium().__enter__()
-        cls.addClassCleanup(cls.browser.close)
-        cls.target = solve("target-following", "tests/browser/target-following.mission.yaml")
-        cls.quadrotor = solve("quadrotor", QUADROTOR, "catalogs/quadrotor.mission.yaml")
-
-    def setUp(self):
-        self.browser.set_size(1600, 1250)
-        self.browser.set_scheme("light")
-        self.open(self.target)
-        self.events = self.run_of(self.target)["events"]
-
-    def tearDown(self):
-        self.assertEqual(self.noises(), [])
-        self.assertEqual(self.requests(), [self.url])
-
-    # What the page does besides -------------------------------------------------------------------
-
-    def noises(self):
-        names = ("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded",
-                 "Page.javascriptDialogOpening")
-        return [event for event in self.browser.events if event["method"] in names]
-
-    def requests(self):
-        """All but those that lie in their own address (the empty icon)."""
-        urls = [event["params"]["request"]["url"] for event in self.browser.events
-                if event["method"] == "Network.requestWillBeSent"]
-        return [url for url in urls if not url.startswith("data:")]
-
-    # Helpers --------------------------------------------------------------------------------------
-
-    def open(self, made):
-        self.url = made[0]
-        self.browser.load(self.url)
-
-    @staticmethod
-    def run_of(made, place=0):
-        return made[1]["runs"][place]
-
-    def text(self, selector):
-        return self.browser.ask(f"document.querySelector({json.dumps(selector)}).textContent")
-
-    def status(self):
-        return self.text("#status")
-
-    def place(self, selector):
-        """The middle of an element that is in view."""
-        box = self.browser.ask(
-            f"(() => {{ const box = document.querySelector({json.dumps(selector)})"
-            ".getBoundingClientRect(); return [box.x, box.y, box.width, box.height]; })()")
-        return box[0] + box[2] / 2, box[1] + box[3] / 2
-
-    def click(self, selector):
-        self.browser.click(*self.place(selector))
-
-    def focus(self, selector):
-        self.browser.ask(f"document.querySelector({json.dumps(selector)}).focus()")
-
-    def number(self):
-        return int(re.match(r"Event (\d+) of", self.status()).group(1))
-
-    def shown_state(self):
-        return self.browser.ask(
-            "Object.fromEntries([...document.querySelectorAll('#state-body tbody tr')]"
-            ".map((row) => [row.cells[0].textContent, row.cells[1].textContent]))")
-
-    def assert_shows(self, number):
-        """That everything agrees on which event is shown, and with the report."""
-        event = self.events[number - 1]
-        self.assertEqual(self.number(), number)
-        self.assertEqual(self.browser.ask("document.querySelector('#slider').value"), str(number))
-        self.assertIn(event["verb"], self.text("#detail-body .headline"))
-        self.assertEqual(self.shown_state(), event["running"])
-        chosen = self.browser.ask("[...document.querySelectorAll('[aria-current]')]"
-                                  ".map((row) => row.dataset.event)")
-        self.assertEqual(chosen, [str(number)])
-
-    # Tests ----------------------------------------------------------------------------------------
-
+class Page(PageCase):
     def test_noises_and_requests_are_seen(self):
         self.browser.ask("console.error('one')")
         self.browser.ask("fetch('file:///two').catch(() => {}).then(() => true)")
@@ -176,7 +38,7 @@ class Page(unittest.TestCase):
         self.assertEqual(data["report"], self.target[1])
 
     def test_table_has_all_events(self):
-        rows = self.browser.ask("[...document.querySelectorAll('#events > tbody > tr')]"
+        rows = self.browser.ask("page.table.fillAll(), [...document.querySelectorAll('#events > tbody > tr')]"
                                 ".map((row) => [...row.cells].map((cell) => cell.textContent))")
         self.assertEqual(len(rows), len(self.events))
         for row, event in zip(rows, self.events):
@@ -201,24 +63,6 @@ class Page(unittest.TestCase):
             self.assert_shows(number)
             self.browser.key("ArrowRight")
 
-    def test_slider(self):
-        self.focus("#slider")
-        self.browser.key("ArrowRight")
-        self.assert_shows(2)
-        self.browser.key("End")
-        self.assert_shows(len(self.events))
-        x, y = self.place("#slider")
-        self.browser.drag(x + self.browser.ask("document.querySelector('#slider').offsetWidth") / 2
-                          - 8, y, x, y)
-        self.assert_shows(5)
-        self.assertEqual(self.browser.ask(
-            "document.querySelector('#slider').getAttribute('aria-valuetext')"), self.status())
-
-    def test_buttons(self):
-        for selector, number in [("#next", 2), ("#last", 9), ("#back", 8), ("#first", 1)]:
-            self.click(selector)
-            self.assert_shows(number)
-
     def test_keys_in_the_table(self):
         self.focus("#events tbody tr:nth-child(1) button")
         self.browser.key("ArrowDown")
@@ -232,33 +76,8 @@ class Page(unittest.TestCase):
         self.click("#events tbody tr:nth-child(2) td:nth-child(5)")
         self.assert_shows(2)
 
-    def test_click_in_the_picture(self):
-        self.click(".mark[data-event='7']")
-        self.assert_shows(7)
-        self.click(".span.requested")
-        self.assert_shows(1)
-        x, y = self.place(".mark[data-event='8']")
-        self.browser.click(x + 3, y + 250)  # between the rows: the nearest event
-        self.assert_shows(8)
-
-    def test_hover_tells_about_events_and_spans(self):
-        self.browser.move(*self.place(".mark[data-event='7']"))
-        self.assertTrue(self.browser.ask("!document.querySelector('#tip').hidden"))
-        self.assertIn("stop ApproachTarget, priority 1", self.text("#tip"))
-        self.assertIn(self.events[6]["conflict"][0]["message"], self.text("#tip"))
-        self.browser.move(*self.place(".span.requested"))
-        tip = self.text("#tip")
-        self.assertIn("MotionPlannerDistantTarget", tip)
-        self.assertIn("finished: situation change", tip)
-        self.assertIn("replaced by MotionPlannerCloseTarget", tip)
-        self.browser.key("Escape")
-        self.assertTrue(self.browser.ask("document.querySelector('#tip').hidden"))
-        self.browser.move(*self.place(".span.requested"))
-        self.browser.move(*self.place("#title"))
-        self.assertTrue(self.browser.ask("document.querySelector('#tip').hidden"))
-
     def test_details_tell_who_replaced_whom(self):
-        self.click(".mark[data-event='6']")
+        self.browser.click(*self.mark(6))
         text = self.text("#detail-body")
         self.assertIn("MotionPlannerCloseTarget replaces MotionPlannerDistantTarget", text)
         self.assertIn("finish MotionPlannerDistantTarget: situation change (it no longer fits)", text)
@@ -269,52 +88,6 @@ class Page(unittest.TestCase):
                      "Y" if change["success"] else "N", ", ".join(change["tasks"]),
                      change["cause"]] for change in self.events[5]["changes"]]
         self.assertEqual(shown, expected)
-
-    def test_rejected_events_are_in_the_picture(self):
-        for number in (2, 7):
-            self.assertIn("\u00d7", self.text(f".mark.rejected[data-event='{number}'] text"))
-            self.click(f".mark[data-event='{number}']")
-            for reason in self.events[number - 1]["conflict"]:
-                self.assertIn(reason["message"], self.text("#detail-body"))
-        self.assertIn("rejected: ApproachTarget has a request of priority 2, higher than 1",
-                      self.text("#svg"))
-
-    def test_zoom_and_scale(self):
-        width = "document.querySelector('#extent').offsetWidth"
-        whole = self.browser.ask(width)
-        self.click("#zoom-in")
-        self.assertGreater(self.browser.ask(width), whole)
-        self.click("#fit")
-        self.assertEqual(self.browser.ask(width), whole)
-        self.focus("#plot")
-        self.browser.key("+", "+")
-        self.assertGreater(self.browser.ask(width), whole)
-        self.browser.key("0", "0")
-        self.assertEqual(self.browser.ask(width), whole)
-        x = [self.place(f".mark[data-event='{number}']")[0] for number in (3, 4)]
-        self.assertAlmostEqual(x[0], x[1])
-        self.browser.ask("(() => { const scale = document.querySelector('#scale');"
-                         "scale.value = 'event'; scale.dispatchEvent(new Event('change')); })()")
-        x = [self.place(f".mark[data-event='{number}']")[0] for number in (3, 4)]
-        self.assertGreater(x[1], x[0] + 20)
-        self.browser.screenshot(OUT / "target-following-events.png")
-
-    def test_simultaneous_marks_do_not_overlap(self):
-        boxes = self.browser.ask(
-            "[...document.querySelectorAll('#svg .mark .pill')].map((mark) => mark.getBoundingClientRect())"
-            ".map((box) => [box.left, box.top, box.right, box.bottom])")
-        self.assertEqual(len(boxes), len(self.events))
-        for place, one in enumerate(boxes):
-            for other in boxes[:place]:
-                self.assertTrue(one[0] >= other[2] or other[0] >= one[2] or
-                                one[1] >= other[3] or other[1] >= one[3], (one, other))
-
-    def test_whole_catalog(self):
-        self.open(self.quadrotor)
-        rows = "document.querySelectorAll('#labels .behavior').length"
-        few = self.browser.ask(rows)
-        self.click("#all-rows")
-        self.assertGreater(self.browser.ask(rows), few)
 
     def test_light_and_dark(self):
         pairs = [("ink", "paper"), ("muted", "paper"), ("muted", "panel"), ("bad", "paper"),
@@ -341,12 +114,40 @@ class Page(unittest.TestCase):
             for name in names)
         return (light[1] + 0.05) / (light[0] + 0.05)
 
+    def assert_no_findings_of_axe(self, name):
+        self.browser.ask(AXE.read_text() + ";0")
+        findings = self.browser.ask("axe.run().then(({ violations }) => violations.map((one) => [one.id, one.help,"
+                                    " one.nodes.map((node) => node.html + node.failureSummary)]))")
+        with self.subTest(page=name):
+            self.assertEqual(findings, [])
+
+    @unittest.skipUnless(AXE.exists(), "axe-core is not installed")
+    def test_axe_finds_nothing(self):
+        failed = solve("axe", QUADROTOR, write("axe.mission.yaml", {"events": [
+            {"start": "HOVER"}, {"expect": {"running": {"LAND": "any"}}}]}), long_script(60))
+        for scheme in ("light", "dark"):
+            self.browser.set_scheme(scheme)
+            for name, made in [("short", self.target), ("several", failed)]:
+                self.open(made)
+                self.browser.key("ArrowRight")
+                self.assert_no_findings_of_axe(f"{name}, {scheme}")
+        self.browser.key("?", "?")
+        self.assert_no_findings_of_axe("help")
+        self.browser.key("Escape")
+        self.browser.set_size(420, 900)
+        self.click("#more")
+        self.assert_no_findings_of_axe("phone")
+        # It does find what is wrong.
+        self.browser.ask("document.querySelector('#slider').removeAttribute('aria-label')")
+        found = self.browser.ask("axe.run().then(({ violations }) => violations.map((one) => one.id))")
+        self.assertEqual(found, ["label"])
+
     def test_names_for_assistive_technology(self):
         self.browser.call("Accessibility.enable")
         tree = self.browser.call("Accessibility.getFullAXTree")["nodes"]
         self.browser.call("Accessibility.disable")
         controls = [node for node in tree if node.get("role", {}).get("value") in
-                    ("button", "slider", "combobox", "checkbox", "image", "region", "group")]
+                    ("button", "slider", "combobox", "checkbox", "image", "region", "group", "searchbox")]
         roles = {node["role"]["value"] for node in controls}
         self.assertLessEqual({"button", "slider", "combobox", "checkbox", "image"}, roles)
         for node in controls:
@@ -356,7 +157,7 @@ class Page(unittest.TestCase):
 
     def test_focus_is_visible_on_the_way_through_the_page(self):
         seen = []
-        for _ in range(14):
+        for _ in range(30):
             self.browser.key("Tab")
             focused = self.browser.ask(
                 "(() => { const one = document.activeElement, style = getComputedStyle(one);"
@@ -366,7 +167,8 @@ class Page(unittest.TestCase):
             seen.append(focused[0])
             self.assertNotEqual(focused[1], "none", focused)
             self.assertGreaterEqual(focused[2], 1, focused)
-        for name in ("slider", "scale", "zoom-in", "all-rows", "plot", "BUTTON"):
+        for name in ("slider", "problem-next", "search", "outcome", "scale", "zoom-in", "all-rows",
+                     "save", "help-open", "plot"):
             self.assertIn(name, seen)
 
     def test_paper(self):
@@ -379,6 +181,7 @@ class Page(unittest.TestCase):
         self.browser.call("Emulation.setEmulatedMedia", media="print")
         self.browser.set_size(1030, 1400)
         self.browser.ask("dispatchEvent(new Event('beforeprint'))")
+        self.assertEqual(self.browser.ask("document.querySelectorAll('#paper svg').length"), 1)
         rows = self.browser.ask("[...document.querySelectorAll('#events > tbody > tr')]"
                                 ".map((row) => row.textContent)")
         for row, event in zip(rows, self.run_of(self.quadrotor)["events"]):
@@ -387,97 +190,201 @@ class Page(unittest.TestCase):
                 self.assertIn(change["cause"], row)
         self.browser.screenshot(OUT / "print.png", whole=True)
         self.browser.ask("dispatchEvent(new Event('afterprint'))")
+        self.assertEqual(self.browser.ask("document.querySelectorAll('#paper svg').length"), 0)
         self.browser.call("Emulation.setEmulatedMedia", media="")
-
-    def test_two_thousand_events(self):
-        made = solve("long", QUADROTOR, long_script(2000))
-        self.events = self.run_of(made)["events"]
-        self.assertGreaterEqual(len(self.events), 2000)
-        begin = time.monotonic()
-        self.open(made)
-        for _ in range(100):
-            self.browser.key("ArrowRight")
-        self.assert_shows(101)
-        self.browser.key("End")
-        self.assert_shows(len(self.events))
-        self.browser.screenshot(OUT / "long.png")
-        for _ in range(8):
-            self.click("#zoom-in")
-        self.browser.key("Home")
-        self.assert_shows(1)
-        self.browser.screenshot(OUT / "long-zoomed.png")
-        # Not how fast it is, but that it can be used at all.
-        self.assertLess(time.monotonic() - begin, 30)
-        self.assertLess(self.browser.ask("document.querySelectorAll('#svg *').length"), 20_000)
 
     def test_hostile_names(self):
         made = solve("hostile", *hostile_files())
         self.open(made)
+        self.browser.key("Home")
         self.events = self.run_of(made)["events"]
         data = self.browser.ask("JSON.parse(document.querySelector('#data').textContent)")
         self.assertEqual(data["report"], made[1])
         for number in range(1, len(self.events) + 1):
             self.assert_shows(number)
             self.browser.key("ArrowRight")
-        labels = self.browser.ask("[...document.querySelectorAll('#labels div')]"
-                                  ".map((label) => label.textContent)")
+        labels = self.browser.ask("[...document.querySelectorAll('#labels .task, #labels .behavior')]"
+                                  ".map((label) => label.title.replace(/^(task|behavior) /, ''))")
         for name in [HOSTILE_TASK, *HOSTILE_BEHAVIORS]:
             self.assertIn(name, labels)
         self.assertEqual(self.browser.ask("document.querySelectorAll('img, b, body script').length"), 2)
+        self.assert_saved_picture_is_xml()
         self.browser.screenshot(OUT / "hostile.png")
 
     def test_several_runs_and_failed_expectations(self):
         wrong = write("wrong.mission.yaml", {"events": [
             {"start": "HOVER"}, {"start": "LAND", "priority": 3, "at": 2},
-            {"expect": {"running": {"HOVER": "any"}}}]})
+            {"expect": {"running": {"HOVER": "any"}}}, {"start": "HOVER", "at": 4}]})
         empty = write("empty.mission.yaml", {"events": []})
-        made = solve("several", QUADROTOR, wrong, "catalogs/quadrotor.mission.yaml", empty)
+        made = solve("several", QUADROTOR, "catalogs/quadrotor.mission.yaml", wrong, empty)
         self.open(made)
-        self.assertEqual(self.browser.ask("document.querySelectorAll('#run option').length"), 3)
-        failure = self.run_of(made)["expectations"]["failures"][0]["message"]
+        rows = self.browser.ask("[...document.querySelectorAll('#missions tbody tr')]"
+                                ".map((row) => [...row.cells].map((cell) => cell.textContent))")
+        for row, run in zip(rows, made[1]["runs"], strict=True):
+            rejected = sum(event["outcome"] == "rejected" for event in run["events"])
+            self.assertTrue(run["script"].endswith(row[0]))
+            self.assertEqual(row[2:5], [str(len(run["events"])), str(rejected),
+                                        str(run["expectations"]["failed"])])
+        self.assertEqual([row[1][2:] for row in rows], ["passed", "failed", "passed"])
+        self.assertIn("3 missions: 1 failed", self.text("#overview-summary"))
+        self.assertEqual(self.browser.ask("document.querySelectorAll('.strip-failed').length"), 1)
+        # It opens at the first failure.
+        self.assertEqual(self.text("#title"), wrong)
+        self.events = self.run_of(made, 1)["events"]
+        self.assert_shows(2)
+        failure = self.run_of(made, 1)["expectations"]["failures"][0]["message"]
         self.assertIn(failure, self.text("#alarms"))
         self.assertIn(failure, self.text("#events tbody tr:nth-child(2)"))
+        self.assertIn(failure, self.text("#detail-body"))
+        self.browser.key("Home")
         self.click("#alarms button")
         self.assertEqual(self.number(), 2)
         self.browser.screenshot(OUT / "failed.png")
-        self.choose_run(1)
-        self.events = self.run_of(made, 1)["events"]
+        # The next rejected or failed one, and around.
+        for key, number in [("n", 3), ("n", 2), ("p", 3), ("p", 2)]:
+            self.browser.key(key)
+            self.assertEqual(self.number(), number)
+        self.choose_run(0)
+        self.events = self.run_of(made)["events"]
         self.assert_shows(1)
         self.assertTrue(self.browser.ask("document.querySelector('#alarms').hidden"))
+        for key, title in [("]", wrong), ("]", empty), ("]", empty), ("[", wrong)]:
+            self.browser.key(key)
+            self.assertEqual(self.text("#title"), title)
         self.choose_run(2)
         self.assertEqual(self.status(), "No events.")
-        self.browser.key("ArrowRight")
+        for key in ("ArrowRight", "n", "+", "s"):
+            self.browser.key(key)
         self.assertEqual(self.status(), "No events.")
 
-    def test_reactive_starts_timeouts_and_restarts(self):
-        case = "tests/golden/cases/"
-        made = solve("reactive", case + "reactive_queue/catalog.yaml",
-                     case + "reactive_queue/script.yaml")
+    def test_links_survive_a_reload(self):
+        other = write("other.mission.yaml", {"events": [{"start": "HOVER"}]})
+        made = solve("links", QUADROTOR, other, "catalogs/quadrotor.mission.yaml")
         self.open(made)
-        events = self.run_of(made)["events"]
-        started = [event for event in events
-                   if event["origin"] == "reactive" and event["outcome"] == "accepted"]
-        self.assertGreater(len(started), 0)
-        for event in started:
-            self.assertEqual(self.text(f".mark[data-event='{event['index']}'] text"),
-                             f"{event['index']} r")
-        self.assertGreaterEqual(
-            self.browser.ask("document.querySelectorAll('#svg .span.reactive').length"), 1)
-        self.browser.screenshot(OUT / "reactive.png")
-        made = solve("timeouts", case + "timeouts/catalog.yaml", case + "timeouts/script.yaml")
+        self.choose_run(1)
+        self.events = self.run_of(made, 1)["events"]
+        for _ in range(4):
+            self.browser.key("ArrowRight")
+        time.sleep(0.2)  # the address is written after a moment
+        link = self.browser.ask("location.hash")
+        self.assertEqual(urllib.parse.parse_qs(link[1:]), {
+            "mission": ["catalogs/quadrotor.mission.yaml"], "event": ["5"]})
+        self.browser.reload()
+        self.assert_shows(5)
+        self.assertEqual(self.text("#title"), "catalogs/quadrotor.mission.yaml")
+        self.browser.ask(f"location.hash = '{link.replace('event=5', 'event=7')}'")
+        self.browser.settle()
+        self.assert_shows(7)
+        self.browser.ask("location.hash = '#mission=missing&event=1'")
+        self.browser.settle()
+        self.assert_shows(7)
+
+    def test_search(self):
+        made = solve("quadrotor", QUADROTOR, "catalogs/quadrotor.mission.yaml")
         self.open(made)
-        for event in self.run_of(made)["events"]:
-            mark = self.text(f".mark[data-event='{event['index']}'] text")
-            self.assertEqual(mark.endswith(" t"), event["origin"] == "timeout")
-        made = solve("restart", case + "restart/catalog.yaml", case + "restart/script.yaml")
+        self.events = self.run_of(made)["events"]
+        shown = "[...document.querySelectorAll('#events > tbody > tr')].filter((row) => !row.hidden)" \
+                ".map((row) => Number(row.dataset.event))"
+        self.browser.key("/")
+        self.browser.write("hover")
+        found = self.browser.ask(shown)
+        self.assertLess(len(found), len(self.events))
+        expected = [number for number, event in enumerate(self.events, 1) if "hover" in json.dumps(
+            [event.get("name"), event.get("situation"), event["changes"], event["stopped_tasks"]]).lower()]
+        self.assertEqual(found, expected)
+        self.assertEqual(self.text("#found"), f"{len(found)} of {len(self.events)}")
+        self.browser.key("Enter")
+        self.assertIn(self.number(), found)
+        self.open(solve("folded", QUADROTOR, long_script(210)))
+        self.browser.key("/")
+        self.browser.write("hover")
+        count = self.browser.ask("page.found.size")
+        parts = [re.fullmatch(r"(\d+) of \d+", text) for text in self.drawing()]
+        self.assertLessEqual(sum(int(part.group(1)) for part in parts if part), count)
+        self.assertGreater(sum(part is not None for part in parts), 3)
         self.open(made)
-        restarts = [event["index"] for event in self.run_of(made)["events"]
-                    if any(change["cause"] == "restarted" for change in event["changes"])]
-        self.assertGreater(len(restarts), 0)
-        for number in restarts:
-            row = self.text(f"#events > tbody > tr:nth-child({number})")
-            self.assertIn("restarts \u2013 its parameters changed", row)
-        self.browser.screenshot(OUT / "restart.png")
+        self.browser.key("/")
+        self.browser.write("hover")
+        names = self.browser.ask("[...document.querySelectorAll('#labels .task')].map((one) => one.title)")
+        self.assertEqual(names, ["task HOVER"])
+        self.browser.key("Escape")
+        self.assertEqual(len(self.browser.ask(shown)), len(self.events))
+        self.browser.ask("(() => { const one = document.querySelector('#outcome'); one.value = 'rejected';"
+                         "one.dispatchEvent(new Event('change')); })()")
+        self.assertEqual(self.browser.ask(shown), [event["index"] for event in self.events
+                                                   if event["outcome"] == "rejected"])
+
+    def test_why_of_events_and_of_failed_expectations(self):
+        def explain(data):
+            run = data["report"]["runs"][0]
+            why = {"limit_reached": False, "conflict": [], "alternative": {
+                "running": {"ApproachTarget": "<i>Other</i>"},
+                "objective": {"satisfied": 1, "requests": 1, "suitability": 0.6498, "idle": 0, "changes": 1}}}
+            run["expectations"] = {"passed": 4, "failed": 1, "failures": [{
+                "index": 4, "line": 12, "message": "expected another behavior", "why": [{
+                    **why, "event": 2, "tasks": ["ApproachTarget"], "message": "event 2 at 15.000 s decided it",
+                    "loses": {"objective": "suitability", "chosen": "0.684", "alternative": "0.6498"},
+                    "differences": [{"task": "ApproachTarget", "chosen": {"behavior": "Slow", "suitability": 80},
+                                     "alternative": {"behavior": "<i>Other</i>", "suitability": 95}},
+                                    {"task": "LocalizeTarget", "chosen": None,
+                                     "alternative": {"behavior": "Far", "suitability": 68.4}}]}]}]}
+            run["events"][0]["why"] = [{
+                **why, "task": "LocalizeTarget", "chosen": "Far", "message": "why LocalizeTarget has Far",
+                "loses": {"objective": "idle", "chosen": "3/7", "alternative": "5/7"}, "differences": []}]
+            run["events"][0]["alternatives"] = {"limit_reached": False, "configurations": [why["alternative"]]}
+
+        self.open(changed("why", self.target, explain))
+        self.assertEqual(self.number(), 4)
+        text = self.text("#detail-body")
+        self.assertIn("event 2 at 15.000 s decided it", text)
+        rows = self.browser.ask("[...document.querySelectorAll('.differences tbody tr')]"
+                                ".map((row) => [...row.cells].map((cell) => cell.textContent))")
+        self.assertEqual(rows, [["ApproachTarget", "Slow, 80 %", "<i>Other</i>, 95 %"],
+                                ["LocalizeTarget", "does not run", "Far, 68.4 %"],
+                                ["product of all that runs", "0.684", "0.6498"]])
+        self.browser.screenshot(OUT / "why.png")
+        self.click("#detail-body button")
+        self.assertEqual(self.number(), 2)
+        self.browser.key("Home")
+        text = self.text("#detail-body")
+        for part in ("why LocalizeTarget has Far", "ApproachTarget: <i>Other</i>", "Requests come first"):
+            self.assertIn(part, text)
+
+    def test_policy_allows_nothing_but_the_page(self):
+        policy = self.browser.ask("document.querySelector('meta[http-equiv]').content")
+        self.assertIn("default-src 'none'", policy)
+        self.assertNotIn("unsafe", policy)
+        self.browser.ask("document.body.append(Object.assign(document.createElement('script'),"
+                         "{ textContent: 'window.isRun = true' }))")
+        self.browser.settle()
+        self.assertFalse(self.browser.ask("window.isRun === true"))
+        self.assertEqual([noise["method"] for noise in self.noises()], ["Log.entryAdded"])
+        self.open(self.target)
+
+    def test_help(self):
+        self.browser.key("?", "?")
+        self.assertTrue(self.browser.ask("document.querySelector('#help').open"))
+        self.assertIn("highest product of the suitabilities", self.text("#help"))
+        self.browser.key("ArrowRight")
+        self.browser.key("Escape")
+        self.assertFalse(self.browser.ask("document.querySelector('#help').open"))
+        self.assert_shows(1)
+
+    def test_details_stay_in_view(self):
+        self.open(self.quadrotor)
+        places = set()
+        for size in ((1600, 1000), (1200, 760), (420, 900)):
+            self.browser.set_size(*size)
+            self.browser.key("Home")
+            for _ in range(8):
+                self.browser.key("ArrowRight")
+                box = self.browser.ask(
+                    "[...['#status', '#detail-body .headline'].map((one) => document.querySelector(one)"
+                    ".getBoundingClientRect())].map((box) => [box.top, box.bottom])")
+                places.add((size, *box[0]))
+                self.assertGreaterEqual(box[1][0], 0)
+                self.assertLessEqual(box[1][1], size[1])
+        self.assertEqual(len(places), 3)  # the status is always at the same place
 
     def test_names_that_a_task_and_a_behavior_share(self):
         case = "tests/golden/cases/solve_same_names/"
@@ -490,92 +397,29 @@ class Page(unittest.TestCase):
         self.assertIn("fault behavior LAND", rows[3])
         self.open(self.target)
 
-    def test_situations_and_waiting_tasks(self):
-        catalog = "tests/golden/cases/graph_situation/catalog.yaml"
-        script = write("situations.mission.yaml", {
-            "situation": {"GPS_SIGNAL": False},
-            "events": [
-                {"start": "TAKE_OFF", "priority": 2},
-                {"start": "FOLLOW_TARGET", "priority": 2, "at": 1},
-                {"situation": {"TARGET": "near"}, "at": 2},
-                {"finish": {"task": "TAKE_OFF"}, "at": 5},
-                {"situation": {"GPS_SIGNAL": True, "PID_CONTROL": False}, "at": 6},
-                {"finish": {"task": "TAKE_OFF"}},
-                {"situation": {"TARGET": "lost"}, "at": 7},
-                {"wait": 3}]})
-        made = solve("situations", catalog, script)
-        self.open(made)
-        self.events = self.run_of(made)["events"]
-        values = {"TARGET": "far", "GPS_SIGNAL": False}
-        lanes = self.browser.ask("[...document.querySelectorAll('.value-text')]"
-                                 ".map((text) => text.textContent)")
-        self.assertEqual(sorted(lanes), ["false", "far", "lost", "near", "true"])
-        labels = self.browser.ask("[...document.querySelectorAll('#labels .variable')]"
-                                  ".map((label) => label.textContent)")
-        self.assertEqual(labels, ["TARGET", "GPS_SIGNAL"])
-        waited = []
-        for number, event in enumerate(self.events, 1):
-            self.assert_shows(number)
-            values.update(event.get("variables", {}))
-            state = self.text("#state-body")
-            shown = f"TARGET is {values['TARGET']}, GPS_SIGNAL is {str(values['GPS_SIGNAL']).lower()}"
-            self.assertIn(shown, state)
-            is_waiting = "waiting reactive tasks" in state
-            self.assertEqual(is_waiting, event["outcome"] == "rejected" or
-                             (len(waited) > 0 and "HOVER" in event["queue"]), number)
-            if event["queue"].get("HOVER", 0) is None:
-                self.assertTrue(is_waiting, number)
-            self.assertEqual("RECOGNIZE_FAR" in state.partition("do not fit")[2],
-                             values["TARGET"] != "far", number)
-            row = self.text(f"#events > tbody > tr:nth-child({number})")
-            if "waits, and tries again" in row:
-                waited.append(number)
-                for reason in event["conflict"]:
-                    self.assertIn(reason["message"], row)
-            if event["origin"] == "situation":
-                self.assertEqual(self.text(f".mark[data-event='{number}'] text"), f"{number} s")
-                self.assertIn(f"{event['name']} does not fit: ", row)
-            if event.get("name", "") is None:
-                self.assertIn("finish task TAKE_OFF, which nothing performs", row)
-            self.browser.key("ArrowRight")
-        self.assertEqual(len(waited), 1)
-        self.assertEqual(self.events[waited[0] - 1]["origin"], "reactive")
-        self.assertEqual(self.browser.ask("document.querySelectorAll('#svg .waiting').length"), 1)
-        self.assertEqual(self.browser.ask("[...document.querySelectorAll('.off-text')]"
-                                          ".filter((text) => text.textContent === 'does not fit')"
-                                          ".length > 1"), True)
-        self.assertIn("reactive task that waits", self.text("#legend"))
-        self.browser.screenshot(OUT / "situations.png")
-        self.open(self.target)
-        self.assertNotIn("reactive task that waits", self.text("#legend"))
-        self.events = self.run_of(self.target)["events"]
-
-    def choose_run(self, place):
-        self.browser.ask(f"(() => {{ const run = document.querySelector('#run'); run.value = {place};"
-                         "run.dispatchEvent(new Event('change')); })()")
-        self.browser.settle()
-
     def test_pictures_to_look_at(self):
         for scheme in ("light", "dark"):
             self.browser.set_scheme(scheme)
             self.open(self.target)
             for _ in range(5):
                 self.browser.key("ArrowRight")
-            self.browser.set_size(1600, 1600)
+            self.browser.set_size(1600, 2000)
             self.browser.screenshot(OUT / f"target-following-{scheme}.png")
             self.open(self.quadrotor)
             self.browser.screenshot(OUT / f"quadrotor-{scheme}.png")
         self.browser.set_size(420, 900)
         self.browser.screenshot(OUT / "narrow.png", whole=True)
+        self.open(self.quadrotor)
+        self.browser.screenshot(OUT / "phone.png")
 
     def test_picture_of_the_readme(self):
         """docs/figures/timeline.png is this one, with fewer colors; see CONTRIBUTING.md."""
         self.browser.set_scheme("light")
+        self.browser.set_size(1280, 860, scale=1.5)
         self.open(solve("timeline", "catalogs/target-following.yaml",
                         "catalogs/target-following.mission.yaml"))
         for _ in range(9):
             self.browser.key("ArrowRight")
-        self.browser.set_size(1200, 640, scale=1.5)
         self.browser.screenshot(OUT / "timeline.png")
 
 

@@ -203,6 +203,28 @@ const LowerBound event_lower_bounds[] = {
     {"conflict: faulty", 800},
 };
 
+constexpr std::uint64_t default_limit_cases = 1000;
+
+void run_limit_case(std::uint64_t seed, Results& results) {
+  const Case sample = generate_case(seed);
+  Random forms(~seed);
+  const std::string catalog = catalog_yaml(sample.catalog, forms);
+  const std::string script = script_yaml(sample.catalog, sample.script, forms);
+  try {
+    check_limits(catalog, script, results.statistics);
+  } catch (const std::exception& error) {
+    results.faults.push_back({seed, "seed " + std::to_string(seed) + "\n--- catalog\n" + catalog +
+                                        "--- script\n" + script + "--- " + error.what() + "\n"});
+  }
+}
+
+const LowerBound limit_lower_bounds[] = {
+    {"limited: optimal", 1000},
+    {"limited: feasible", 1000},
+    {"limited: same requests", 500},
+    {"limited: infeasible", 500},
+};
+
 // A conflict with something left out, added or altered must not pass.
 TEST(Property, ConflictCheckSeesWhatIsWrong) {
   constexpr std::uint64_t cases = 40;
@@ -250,6 +272,11 @@ TEST(Property, ConflictCheckSeesWhatIsWrong) {
 
 TEST(Property, SameEventsAsTheOracle) {
   run_random_cases(default_event_cases, run_event_case, event_lower_bounds);
+}
+
+// The proven answers are those of the oracle, by the test before.
+TEST(Property, LimitsGiveAnswersWithinTheirBounds) {
+  run_random_cases(default_limit_cases, run_limit_case, limit_lower_bounds);
 }
 
 }  // namespace

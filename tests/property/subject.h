@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "statistics.h"
+
 namespace cbc::oracle {
 
 // The "events" that `cbc solve --format json` prints for one catalog and one script. Throws
@@ -16,5 +18,11 @@ nlohmann::ordered_json run_subject(const std::string& catalog_yaml, const std::s
 // tasks in the same form ("displaced"), and the best configurations ("alternatives").
 nlohmann::ordered_json explain_subject(const std::string& catalog_yaml,
                                        const std::string& script_yaml, std::uint32_t alternatives);
+
+// Handles each event of the script once more with very low limits, from the same state, and throws
+// std::runtime_error if the answer is better than the proven one, or beyond its own bound, or
+// missing where there must be one.
+void check_limits(const std::string& catalog_yaml, const std::string& script_yaml,
+                  Statistics& statistics);
 
 }  // namespace cbc::oracle

@@ -115,6 +115,8 @@ const lies = {
     ['an accepted event without an objective', outcome('accepted'), {objective: null}],
     ['an accepted event without a search', outcome('accepted'), {search: null}],
     ['an accepted event that is infeasible', search('accepted'), {status: 'infeasible'}],
+    ['a proven answer with a bound', search('accepted'), {bound: {satisfied: 1, suitability: 1}}],
+    ['a feasible answer without a bound', search('accepted'), {status: 'feasible'}],
     ['an accepted event with a conflict', outcome('accepted'), {conflict: [faulty]}],
     [
       'an accepted wait',

@@ -1,5 +1,7 @@
 #include "coordinator/coordinator.h"
 
+#include <chrono>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -1076,36 +1078,87 @@ TEST(ClockEvents, DoNotCountWhatTheScriptDoes) {
   }
 }
 
-TEST(SearchLimits, ThatLeaveNoSolutionRejectTheEvent) {
+/// M goes on with m1 alone: m2 needs four tasks, which have three places. That takes more than one
+/// decision to find out. K is in the same group.
+std::string four_in_three_places() {
+  std::string text = R"(
+default_values: {tasks: {start_on_request: false}}
+behaviors:
+- {behavior: b, task: B, requires: [{task: M}]}
+- {behavior: k, task: K}
+- {behavior: m1, task: M}
+- {behavior: m2, tasks: [{task: M, suitability: 50}, {task: N}],
+   requires: [{task: T0}, {task: T1}, {task: T2}, {task: T3}]}
+)";
+  std::string lists = "- mutually_exclusive: [K, N]\n";
+  for (const std::string place : {"0", "1", "2"}) {
+    for (const std::string task : {"T0", "T1", "T2", "T3"}) {
+      text += "- {behavior: " + task + "at" + place + ", task: " + task +
+              ", requires: [{task: " + task + place + "}]}\n- {behavior: of" + task + place +
+              ", task: " + task + place + "}\n";
+    }
+    lists += "- mutually_exclusive: [T0" + place + ", T1" + place + ", T2" + place + ", T3" +
+             place + "]\n";
+  }
+  return text + "exclusivity_constraints:\n" + lists;
+}
+
+TEST(SearchLimits, ThatLeaveNoSolutionRejectAStart) {
   CoordinatorOptions options;
   options.search.max_nodes = 1;
-  Stage stage(supported, options);
-  EXPECT_EQ(stage.start("B", 1), "rejected");
+  Stage stage(four_in_three_places(), options);
+  EXPECT_EQ(stage.start("N"), "rejected");
   EXPECT_EQ(stage.searches().substr(0, 7), "unknown");
   EXPECT_EQ(stage.running(), "");
 }
 
-TEST(SearchLimits, ThatLeaveAFinishWithoutSolutionLeaveTheBehaviorActive) {
+TEST(SearchLimits, ThatLeaveAFinishWithoutSolutionStopWhatNeedsTheBehavior) {
   CoordinatorOptions options;
   options.search.max_nodes = 1;
-  Stage stage(R"(
-default_values: {tasks: {start_on_request: false}}
-behaviors:
-- {behavior: a1, task: A}
-- {behavior: a2, task: A, suitability: 50, requires: [{task: S}, {task: T}]}
-- {behavior: s1, task: S}
-- {behavior: s2, task: S}
-- {behavior: t1, task: T}
-- {behavior: t2, task: T}
-)",
-              options);
-  EXPECT_EQ(stage.start("A"), "accepted");
-  EXPECT_EQ(stage.running(), "A=a1");
-  EXPECT_EQ(stage.finish("a1", FinishCause::wrong_progress), "rejected");
-  EXPECT_EQ(stage.searches().substr(0, 7), "unknown");
-  EXPECT_EQ(stage.running(), "A=a1");
-  EXPECT_EQ(stage.active(), "a1");
-  EXPECT_EQ(stage.changes(), "");
+  Stage stage(four_in_three_places(), options);
+  EXPECT_EQ(stage.start("B"), "accepted");
+  EXPECT_EQ(stage.start("K"), "accepted");
+  EXPECT_EQ(stage.running(), "B=b K=k M=m1");
+  EXPECT_EQ(stage.finish("m1", FinishCause::wrong_progress), "accepted");
+  EXPECT_EQ(stage.searches().substr(0, 8), "feasible");
+  EXPECT_EQ(stage.running(), "K=k");
+  EXPECT_EQ(stage.active(), "k");
+}
+
+TEST(SearchLimits, OfTimeEndTheSearchForReasons) {
+  struct Reasons final : EventListener {
+    void on_event(const EventRecord& record) override {
+      status = record.search->result.status;
+      count = record.conflict.size();
+    }
+    SearchStatus status = SearchStatus::unknown;
+    std::size_t count = 0;
+  };
+  const CompiledCatalog catalog = test::compile_text(rivals);
+  for (const auto limit : {std::chrono::microseconds(0), std::chrono::microseconds(1)}) {
+    CoordinatorOptions options;
+    options.search.time_limit = limit;
+    Reasons reasons;
+    Coordinator coordinator(catalog, options, reasons);
+    coordinator.begin({});
+    Event start;
+    start.verb = Verb::start;
+    start.priority = 2;
+    EXPECT_EQ(coordinator.handle(start), Coordinator::Status::ok);
+    start.subject = 1;
+    start.priority = 1;
+    EXPECT_EQ(coordinator.handle(start), Coordinator::Status::ok);
+    EXPECT_EQ(reasons.status, SearchStatus::infeasible) << "by propagation at the root";
+    EXPECT_EQ(reasons.count == 0, limit.count() > 0);
+  }
+}
+
+TEST(SearchLimits, ThatComeBeforeTheFirstSolutionLeaveARepair) {
+  CoordinatorOptions options;
+  options.search.max_nodes = 1;
+  Stage stage(supported, options);
+  EXPECT_EQ(stage.start("B", 1), "accepted");
+  EXPECT_EQ(stage.searches().substr(0, 8), "feasible");
 }
 
 TEST(SearchLimits, ThePapersOrderTakesTheFirstSolution) {

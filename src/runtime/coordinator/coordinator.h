@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -118,6 +119,7 @@ class Coordinator {
 
   Status coordinate(const Trigger& trigger);
   [[nodiscard]] const Problem* search(const Trigger& trigger);
+  [[nodiscard]] const Problem& keep_present(std::int32_t protection);
   [[nodiscard]] const Problem* timed_search(const Trigger& trigger);
   [[nodiscard]] std::string describe_refusal(const std::string& violation) const;
   void note_domain_sizes(const Problem& problem);
@@ -143,6 +145,7 @@ class Coordinator {
   State state_;
   EventRecord record_;
   SearchRecord search_;
+  std::optional<std::chrono::steady_clock::time_point> deadline_;  ///< of the present event
   ProblemBuilder problem_builder_;
   Transition transition_;
   Solver solver_;

@@ -123,10 +123,13 @@ class Candidates {
   std::vector<Reason> reasons_;
 };
 
-/// One search for each of several ways, with a limit of effort for all together.
+/// One search for each of several ways, with a limit of effort for all together, and a deadline if
+/// there is one.
 class ConflictSearches {
  public:
-  explicit ConflictSearches(std::vector<ConflictSearch>& searches) : searches_(searches) {}
+  ConflictSearches(std::vector<ConflictSearch>& searches,
+                   std::optional<std::chrono::steady_clock::time_point> deadline)
+      : searches_(searches), deadline_(deadline) {}
 
   /// Whether one of the ways has a solution. Unknown counts as yes, so that no reason is left out
   /// by mistake.
@@ -136,6 +139,7 @@ class ConflictSearches {
       const std::uint64_t before = search.effort();
       const Feasibility answer = search.solve(reasons);
       effort_left_ -= std::min(search.effort() - before, effort_left_);
+      if (deadline_ && std::chrono::steady_clock::now() >= *deadline_) effort_left_ = 0;
       return answer != Feasibility::no;
     });
   }
@@ -161,6 +165,7 @@ class ConflictSearches {
 
  private:
   std::vector<ConflictSearch>& searches_;
+  const std::optional<std::chrono::steady_clock::time_point> deadline_;
   std::uint64_t effort_left_ = most_effort;
 };
 
@@ -214,7 +219,7 @@ std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
     demands.insert(demands.end(), way.begin(), way.end());
     searches.emplace_back(catalog, trigger.group, present, std::move(demands));
   }
-  ConflictSearches all(searches);
+  ConflictSearches all(searches, circumstances.deadline);
   if (!all.has_solution({})) return std::vector<Reason>();
   if (!all.keep_used(candidates)) return std::nullopt;
   std::vector<Reason> reasons = minimal_conflict_set(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,10 +22,12 @@ struct Circumstances {
   const Trigger& trigger;
   std::int32_t protection = 0;         ///< the last level that was tried
   std::span<const BehaviorId> failed;  ///< behaviors that failed in this event
+  /// When to give up finding reasons.
+  std::optional<std::chrono::steady_clock::time_point> deadline = std::nullopt;
 };
 
 /// A minimal conflict set of a start or stop that has no solution. Empty where that takes too long
-/// (a group with very many constraints).
+/// (a group with very many constraints, or the deadline).
 [[nodiscard]] std::vector<Reason> find_conflict(const CompiledCatalog& catalog,
                                                 const Circumstances& circumstances);
 

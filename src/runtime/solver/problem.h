@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
+#include "solver/search_bound.h"
 
 namespace cbc {
 
@@ -41,6 +42,7 @@ struct SearchResult {
   std::uint64_t nodes = 0;  ///< decisions taken
   /// How often the constraints of a task with a changed domain were applied to the other tasks.
   std::uint64_t propagations = 0;
+  SearchBound bound;  ///< of a feasible answer
 };
 
 }  // namespace cbc

@@ -14,7 +14,9 @@ Solver::Solver(const CompiledCatalog& catalog, const SearchOptions& options,
       propagator_(catalog, domains_),
       components_(catalog, domains_),
       objective_(catalog, domains_, components_, ranks),
-      cost_bound_(catalog, domains_, components_) {
+      cost_bound_(catalog, domains_, components_),
+      learning_(catalog, domains_, objective_),
+      repair_(catalog, domains_, propagator_) {
   const std::size_t tasks = most_in_a_group(catalog.group_tasks);
   frames_.reserve(tasks + most_values_in_a_group(catalog));
   for (ComponentSearch& search : searches_) {
@@ -24,17 +26,90 @@ Solver::Solver(const CompiledCatalog& catalog, const SearchOptions& options,
 }
 
 SearchResult Solver::solve(const Problem& problem, Assignment& solution) {
+  budget_.max_nodes = options_.max_nodes;
+  budget_.nodes_before = 0;
+  budget_.has_deadline = options_.time_limit.count() > 0;
+  if (budget_.has_deadline) {
+    budget_.deadline = std::chrono::steady_clock::now() + options_.time_limit;
+  }
+  return solve_again(problem, solution);
+}
+
+SearchResult Solver::solve_again(const Problem& problem, Assignment& solution) {
   load(problem);
-  const bool is_complete = search();
-  result_.propagations = propagator_.propagations();
   const Incumbent& best = searches_.front().best;
+  bool is_complete = search();
+  if (!is_complete && !best.exists && !options_.any_solution) repair();
+  result_.propagations = propagator_.propagations();
+  if (is_hopeless_) is_complete = search_learning();
+  budget_.nodes_before += result_.nodes;
   if (best.exists) {
     result_.status = is_complete ? SearchStatus::optimal : SearchStatus::feasible;
     solution = best.assignment;
+    if (!is_complete && !options_.any_solution) {
+      if (is_hopeless_) {
+        learning_.return_to_root();
+      } else {
+        return_to_root();
+        static_cast<void>(begin());
+      }
+      result_.bound = bound_of_best(solution);
+    }
   } else {
     result_.status = is_complete ? SearchStatus::infeasible : SearchStatus::unknown;
   }
   return result_;
+}
+
+SearchBound Solver::bound(const Problem& problem, const Assignment& answer) {
+  problem_ = &problem;
+  return_to_root();
+  propagator_.load(problem);
+  static_cast<void>(begin());  // `answer` is left
+  SearchBound bound = compare_requests(answer);
+  bound.same_requests = false;
+  bound.suitability = bound_suitability();
+  return bound;
+}
+
+/// Bounds the best solution. The domains have what holds in every solution, or in every one better
+/// than the answer.
+SearchBound Solver::bound_of_best(const Assignment& answer) {
+  SearchBound bound = compare_requests(answer);
+  // Without a better solution any bound holds.
+  const bool may_improve = !bound.same_requests || serve_requests_of(answer);
+  bound.suitability = may_improve ? bound_suitability() : 0;
+  return bound;
+}
+
+SearchBound Solver::compare_requests(const Assignment& answer) const {
+  SearchBound bound;
+  bound.same_requests = true;
+  std::uint32_t possible = 0;
+  std::uint32_t served = 0;
+  for (const std::uint32_t task : problem_->requests) {
+    const bool is_served = answer[task] != none;
+    const bool is_possible = domains_.count(task) > 0;
+    if (is_served) ++served;
+    if (is_possible) ++possible;
+    if (is_possible && !is_served) bound.same_requests = false;
+  }
+  bound.more_requests = possible > served ? possible - served : 0;
+  return bound;
+}
+
+bool Solver::serve_requests_of(const Assignment& answer) {
+  for (const std::uint32_t task : problem_->requests) {
+    if (answer[task] != none && !domains_.need(task)) return false;
+  }
+  return propagator_.propagate();
+}
+
+double Solver::bound_suitability() {
+  if (is_hopeless_) return highest_product(learning_.bound_cost(), domains_.task_count());
+  const CostBound::Cost bound =
+      cost_bound_.bound({INT64_MAX, INT64_MAX}, CostBound::Roots::in_component);
+  return highest_product(bound.log, domains_.task_count());
 }
 
 void Solver::load(const Problem& problem) {
@@ -45,14 +120,18 @@ void Solver::load(const Problem& problem) {
   objective_.load(problem);
   result_ = {};
   is_hard_ = false;
+  is_hopeless_ = false;
+  has_split_ = false;
   frames_.clear();
   current().best.exists = false;
   current().base = 0;
   current().best_cost_outside = 0;
   current().cost_bound_outside = 0;
-  if (options_.time_limit.count() > 0) {
-    deadline_ = std::chrono::steady_clock::now() + options_.time_limit;
-  }
+}
+
+void Solver::return_to_root() {
+  while (components_.depth() > 0) components_.leave();
+  domains_.load(*problem_);
 }
 
 /// Takes "not running" out of the domains of the tasks that must run.
@@ -69,7 +148,11 @@ bool Solver::search() {
   for (;;) {
     if (is_consistent && may_improve()) {
       if (const std::optional<Decision> decision = decide()) {
-        if (is_out_of_budget()) return false;
+        if (budget_.is_spent(result_.nodes)) return false;
+        if (should_learn()) {
+          is_hopeless_ = true;
+          return false;
+        }
         if (should_restart()) {
           restart();
         } else if (!enter_component(*decision)) {
@@ -79,13 +162,11 @@ bool Solver::search() {
       }
       if (!accept()) return false;
     }
-    if (frames_.size() > current().base) {
-      is_consistent = backtrack();
-    } else if (components_.depth() > 0) {
-      is_consistent = leave_component();
-    } else {
-      return true;
-    }
+    const bool is_component_solved = frames_.size() == current().base;
+    if (is_component_solved && components_.depth() == 0) return true;
+    // A hard search may refute many subtrees in a row without a decision.
+    if (budget_.is_out_of_time()) return false;
+    is_consistent = is_component_solved ? leave_component() : backtrack();
   }
 }
 
@@ -110,12 +191,8 @@ bool Solver::may_improve() {
 
 /// What the cost bound has to exceed to prove that nothing better than `best` is left.
 CostBound::Cost Solver::pruning_threshold(const Incumbent& best) const {
-  constexpr CostBound::Cost unbounded{INT64_MAX, INT64_MAX};
-  if (!best.exists || best.sums.zeros > 0 || !objective_.ties_on_requests(best)) return unbounded;
-  // Costs are exact, so that f3 may decide, only where all are 0.
-  if (best.sums.factors == 0) return {0, best.sums.idle};
-  const std::int64_t factors = std::int64_t{best.sums.factors} + domains_.task_count();
-  return {best.sums.cost + log_cost_error * factors, INT64_MAX};
+  if (!best.exists || !objective_.ties_on_requests(best)) return {INT64_MAX, INT64_MAX};
+  return cbc::pruning_threshold(best, domains_.task_count());
 }
 
 /// Takes the solution of the present component. False if it is one too many, or if
@@ -128,17 +205,37 @@ bool Solver::accept() {
   return !options_.any_solution || components_.depth() > 0;
 }
 
-bool Solver::is_out_of_budget() const {
-  if (options_.max_nodes > 0 && result_.nodes >= options_.max_nodes) return true;
-  constexpr std::uint64_t nodes_between_looks = 64;
-  return options_.time_limit.count() > 0 && result_.nodes % nodes_between_looks == 0 &&
-         std::chrono::steady_clock::now() >= deadline_;
-}
-
 /// Whether the search turns out to be hard. The enumeration of the first m solutions never
 /// restarts.
 bool Solver::should_restart() const {
   return !is_hard_ && options_.max_solutions == 0 && result_.nodes >= options_.easy_nodes;
+}
+
+/// Whether the search turns out to be too hard for branch and bound: it has no solution yet, or it
+/// does not fall into components.
+bool Solver::should_learn() const {
+  if (options_.max_solutions > 0 || options_.bounded_nodes == UINT64_MAX) return false;
+  if (result_.nodes < options_.easy_nodes) return false;
+  if (!searches_.front().best.exists) return true;
+  constexpr std::uint64_t nodes_before_split = 50;
+  const std::uint64_t bounded = options_.easy_nodes + nodes_before_split;
+  return result_.nodes >=
+         (has_split_ ? options_.bounded_nodes : std::min(bounded, options_.bounded_nodes));
+}
+
+/// Looks for an incumbent near the present configuration.
+void Solver::repair() {
+  return_to_root();
+  if (!begin() || !repair_.find_solution(*problem_)) return;
+  ++result_.solutions;
+  objective_.record(searches_.front().best);
+}
+
+/// Starts again with the incumbent. False if a limit ended the search.
+bool Solver::search_learning() {
+  return_to_root();
+  return learning_.search(*problem_, searches_.front().best, options_.any_solution, budget_,
+                          result_);
 }
 
 /// Restarts at the root, and keeps the incumbent.
@@ -155,6 +252,7 @@ bool Solver::enter_component(const Decision& decision) {
       !components_.enter_component_of(decision.task)) {
     return false;
   }
+  has_split_ = true;
   const ComponentSearch& around = searches_[components_.depth() - 1];
   ComponentSearch& component = current();
   component.best.exists = false;

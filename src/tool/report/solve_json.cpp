@@ -27,6 +27,7 @@ void JsonReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   json.open('{');
   json.write_members({{"catalog", catalog.file}, {"script", script.file}});
   json.open("events", '[');
+  json.flush();
   write(text);
   is_first_event_ = true;
   failures_.clear();
@@ -234,10 +235,6 @@ std::string for_script_element(std::string_view json) {
   return text;
 }
 
-void put(std::string& page, std::string_view marker, std::string_view content) {
-  page.replace(page.find(marker), marker.size(), content);
-}
-
 }  // namespace
 
 void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
@@ -270,16 +267,12 @@ void HtmlReport::end_run(const RunResult& result, const std::string& error) {
 void HtmlReport::end() { json_.end(); }
 
 std::string HtmlReport::page() {
-  std::string data =
-      R"({"catalogs":)" + catalogs_json_ + R"(],"runs":)" + runs_json_ + R"(],"report":)";
-  data += memory_.text();
-  data += "}";
-  std::string script;
-  for (const std::string_view file : {model_js, picture_js, panels_js, page_js}) script += file;
-  std::string page(page_html);
-  put(page, "{{style}}", page_css);
-  put(page, "{{script}}", script);
-  put(page, "{{data}}", for_script_element(data));
+  const std::string data = R"({"catalogs":)" + catalogs_json_ + R"(],"runs":)" + runs_json_ +
+                           R"(],"report":)" + std::string(memory_.text()) + "}";
+  std::string page;
+  for (const std::string_view part : page_before_data) page += part;
+  page += for_script_element(data);
+  for (const std::string_view part : page_after_data) page += part;
   return page;
 }
 

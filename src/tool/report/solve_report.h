@@ -271,7 +271,7 @@ class TextReport final : public SolveReport {
   void add_part(std::string_view text, const RunResult& result) override;
 
  private:
-  [[nodiscard]] std::string describe_outcome(const EventRecord& record) const;
+  [[nodiscard]] std::string describe_outcome(const EventRecord& record, const State& state) const;
   [[nodiscard]] std::string describe_briefly(const EventRecord& record) const;
   void write_details(const EventRecord& record, const State& state);
   void write_change(const EventRecord& record, const Change& change);

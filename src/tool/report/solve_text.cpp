@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "report/answer_bound.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
 #include "report/table_parts.h"
@@ -193,9 +194,9 @@ void TextReport::on_event(const EventRecord& record, const Step* step, const Sta
   story_.add(record, step, state);
   summary_.add(*catalog_, record, step);
   const std::string note = describe_note(*catalog_, record, state);
-  std::string line =
-      fmt::format("{:>10}  {}{}{}{}", format_time(record.time), style_.strong,
-                  describe_event(*catalog_, record, step), style_.reset, describe_outcome(record));
+  std::string line = fmt::format("{:>10}  {}{}{}{}", format_time(record.time), style_.strong,
+                                 describe_event(*catalog_, record, step), style_.reset,
+                                 describe_outcome(record, state));
   if (layout_.is_brief) {
     line += describe_briefly(record);
     if (!note.empty()) line += "; " + note;
@@ -246,14 +247,18 @@ void TextReport::write_details(const EventRecord& record, const State& state) {
   }
 }
 
-std::string TextReport::describe_outcome(const EventRecord& record) const {
+std::string TextReport::describe_outcome(const EventRecord& record, const State& state) const {
   if (!form_of(record.verb).is_decided) return {};
   std::string_view color = style_.faint;
   if (record.outcome == Outcome::accepted) color = style_.good;
   if (record.outcome == Outcome::rejected) color = style_.bad;
-  const bool is_cut = record.search && record.search->result.status == SearchStatus::feasible;
-  return fmt::format(": {}{}{}{}", color, name_of(record.outcome), style_.reset,
-                     is_cut ? " (not proven best: a search limit was reached)" : "");
+  std::string text = fmt::format(": {}{}{}", color, name_of(record.outcome), style_.reset);
+  if (record.search && record.search->result.status == SearchStatus::feasible) {
+    const std::string bound = describe_bound(*catalog_, record, state);
+    text += fmt::format(" (not proven best: a search limit was reached{}{})",
+                        bound.empty() ? "" : "; ", bound);
+  }
+  return text;
 }
 
 void TextReport::write_change(const EventRecord& record, const Change& change) {

@@ -1,169 +1,226 @@
-// Puts the parts of the page together: which run and which event are shown, keys, and paper.
-
-const byId = (id) => document.getElementById(id);
+// Puts the parts of the page together: which run and which event are shown, keys, files and paper.
 
 class Page {
   constructor(runs) {
     this.runs = runs;
-    this.body = byId('events').tBodies[0];
-    this.picture = new Picture(
-      { labels: byId('labels'), plot: byId('plot'), extent: byId('extent'), svg: byId('svg') },
-      (number) => this.choose(number), (event, span, number) => this.hover(event, span, number));
+    this.timeline = new Timeline({
+      picture: byId('picture'), sheet: byId('sheet'), names: byId('labels'), plot: byId('plot'), canvas: byId('canvas'),
+    });
+    this.minimap = new Minimap(byId('minimap'), this.timeline);
+    this.timeline.onDraw = () => this.minimap.draw();
+    this.gestures = new Gestures(this.timeline, {
+      onChoose: (number) => this.choose(number),
+      onHover: (event, target) => this.hover(event, target),
+    });
+    this.table = new EventsTable(byId('events'), byId('log-scroll'), (number) => this.choose(number));
+    this.overview = new Overview(
+      { section: byId('overview'), summary: byId('overview-summary'), body: byId('missions').tBodies[0] }, runs,
+      (place) => this.show(place));
+    this.address = new Address(runs, ({ place, number }) => this.show(place, number));
     fillLegend(byId('legend'), runs);
-    this.setUpRuns();
+    byId('legend-fold').open = innerWidth >= 900 && innerHeight >= 1100;
+    byId('wants-graph').checked = innerWidth >= 1400;
+    byId('help-choice').append(...choiceElement().querySelectorAll('p'));
     this.setUpControls();
     this.setUpPaper();
-    if (runs.length > 0) this.show(0);
+    if (runs.length > 0) this.showFirst();
   }
 
-  setUpRuns() {
-    const choice = byId('run');
-    this.runs.forEach((run, place) => {
-      const option = html('option', '', run.data.script + (this.hasFailed(run) ? ' (failed)' : ''));
-      option.value = place;
-      choice.append(option);
-    });
-    byId('run-choice').hidden = this.runs.length < 2;
-    choice.addEventListener('change', () => this.show(Number(choice.value)));
-  }
-
-  hasFailed(run) {
-    return run.data.expectations.failed > 0 || run.data.error !== undefined;
+  /** Opens at what the address asks for, or at the first failure. */
+  showFirst() {
+    const wanted = this.address.read();
+    const failed = this.runs.findIndex((run) => run.hasFailed);
+    this.show(wanted?.place ?? Math.max(0, failed), wanted?.number);
   }
 
   setUpControls() {
-    const { picture } = this;
-    const onClick = (id, action) => byId(id).addEventListener('click', action);
+    const { timeline } = this;
+    const on = (id, name, action) => byId(id).addEventListener(name, action);
     this.slider = byId('slider');
-    this.slider.addEventListener('input', () => this.choose(Number(this.slider.value)));
-    onClick('first', () => this.choose(1));
-    onClick('back', () => this.choose(this.number - 1));
-    onClick('next', () => this.choose(this.number + 1));
-    onClick('last', () => this.choose(this.run.size));
-    onClick('zoom-in', () => picture.zoomBy(1.6));
-    onClick('zoom-out', () => picture.zoomBy(1 / 1.6));
-    onClick('fit', () => picture.fit());
-    byId('scale').addEventListener('change', (event) => {
-      picture.scale = event.target.value;
-      picture.layOut();
-      picture.choose(this.number);
+    on('slider', 'input', () => this.choose(Number(this.slider.value)));
+    on('first', 'click', () => this.choose(1));
+    on('back', 'click', () => this.choose(this.number - 1));
+    on('next', 'click', () => this.choose(this.number + 1));
+    on('last', 'click', () => this.choose(this.run.size));
+    on('problem-back', 'click', () => this.stepIn(this.run.problems, -1));
+    on('problem-next', 'click', () => this.stepIn(this.run.problems, 1));
+    on('zoom-in', 'click', () => timeline.zoomBy(1.6));
+    on('zoom-out', 'click', () => timeline.zoomBy(1 / 1.6));
+    on('fit', 'click', () => timeline.fit());
+    on('save', 'click', () => this.save());
+    on('help-open', 'click', () => byId('help').showModal());
+    on('search', 'input', () => this.search());
+    on('outcome', 'change', () => this.search());
+    on('search', 'keydown', (event) => this.onSearchKey(event));
+    on('more', 'click', () => {
+      const isOpen = byId('more').getAttribute('aria-expanded') === 'true';
+      byId('more').setAttribute('aria-expanded', `${!isOpen}`);
     });
-    byId('all-rows').addEventListener('change', (event) => {
-      picture.wantsAll = event.target.checked;
-      picture.setUpRows();
-      picture.layOut();
+    on('scale', 'change', (event) => timeline.setScale(event.target.value));
+    on('wants-graph', 'change', () => this.fillGraph());
+    on('all-links', 'change', (event) => {
+      timeline.wantsLinks = event.target.checked;
+      timeline.drawSoon();
     });
-    this.body.addEventListener('click', (event) => {
-      const row = event.target.closest('tr[data-event]');
-      if (row !== null) this.choose(Number(row.dataset.event));
+    on('all-rows', 'change', (event) => {
+      timeline.wantsAll = event.target.checked;
+      timeline.setUpRows();
     });
-    byId('plot').addEventListener('wheel', (event) => {
-      if (!event.ctrlKey) return;
-      event.preventDefault();
-      picture.zoomBy(event.deltaY < 0 ? 1.25 : 0.8);
-    }, { passive: false });
     document.addEventListener('keydown', (event) => this.onKey(event));
+    new ResizeObserver(() => this.fillGraph()).observe(byId('graph-body'));
   }
 
   onKey(event) {
-    if (event.ctrlKey || event.altKey || event.metaKey) return;
-    if (event.key === 'Escape') this.hover(null);
+    if (event.ctrlKey || event.altKey || event.metaKey || byId('help').open || this.run === undefined) return;
+    if (event.key === 'Escape') this.hover(null, null);
     const { target } = event;
-    if (target.closest?.('input, select')) return; // they have keys of their own
-    const isInTable = this.body.contains(target);
-    const steps = {
-      ArrowLeft: this.number - 1, ArrowRight: this.number + 1, Home: 1, End: this.run?.size,
-      ...(isInTable ? { ArrowUp: this.number - 1, ArrowDown: this.number + 1 } : {}),
+    if (target.closest?.('input:not([type=checkbox]), select')) return; // they have keys of their own
+    const isInTable = this.table.contains(target);
+    const actions = {
+      ArrowLeft: () => this.choose(this.number - 1),
+      ArrowRight: () => this.choose(this.number + 1),
+      Home: () => this.choose(1),
+      End: () => this.choose(this.run.size),
+      ...(isInTable ? { ArrowUp: () => this.choose(this.number - 1), ArrowDown: () => this.choose(this.number + 1) } : {}),
+      p: () => this.stepIn(this.run.problems, -1),
+      n: () => this.stepIn(this.run.problems, 1),
+      '[': () => this.show(Math.max(0, this.place - 1)),
+      ']': () => this.show(Math.min(this.runs.length - 1, this.place + 1)),
+      '/': () => this.openSearch(),
+      '+': () => this.timeline.zoomBy(1.6),
+      '=': () => this.timeline.zoomBy(1.6),
+      '-': () => this.timeline.zoomBy(1 / 1.6),
+      0: () => this.timeline.fit(),
+      a: () => byId('all-links').click(),
+      g: () => byId('wants-graph').click(),
+      s: () => this.save(),
+      '?': () => byId('help').showModal(),
     };
-    if (steps[event.key] !== undefined) {
-      event.preventDefault();
-      this.choose(steps[event.key]);
-      if (isInTable) this.body.rows[this.number - 1]?.querySelector('button').focus();
-    } else if (byId('plot').contains(target)) {
-      if (event.key === '+' || event.key === '=') this.picture.zoomBy(1.6);
-      if (event.key === '-') this.picture.zoomBy(1 / 1.6);
-      if (event.key === '0') this.picture.fit();
-    }
+    if (!Object.hasOwn(actions, event.key)) return;
+    event.preventDefault();
+    actions[event.key]();
+    if (isInTable && /^(Arrow|Home|End)/.test(event.key)) this.table.focus(this.number);
   }
 
-  show(place) {
+  openSearch() {
+    byId('more').setAttribute('aria-expanded', 'true'); // where there is little room
+    byId('search').focus();
+  }
+
+  onSearchKey(event) {
+    if (event.key === 'Enter' && this.found !== null) this.stepIn([...this.found], event.shiftKey ? -1 : 1);
+    if (event.key !== 'Escape') return;
+    byId('search').value = '';
+    this.search();
+    byId('plot').focus();
+  }
+
+  /** Shows a mission, at an event or at what is of interest first. */
+  show(place, number = null) {
     const run = this.runs[place];
+    const isNew = run !== this.run;
     this.run = run;
+    this.place = place;
+    if (isNew) this.fillRun(run);
+    this.overview.choose(place);
+    this.choose(number ?? run.firstOfInterest);
+  }
+
+  fillRun(run) {
     this.number = 0;
+    this.finder = new Search(run);
+    this.found = null;
+    for (const id of ['search', 'outcome']) byId(id).value = '';
+    byId('found').textContent = '';
     const { script, catalog, expectations, error } = run.data;
-    document.title = `${script} \u2013 cbc solve`;
+    document.title = `${run.hasFailed ? '\u00d7 ' : ''}${script} \u2013 cbc solve`;
     byId('title').textContent = script;
     byId('subtitle').textContent = `catalog ${catalog}`;
     const count = (outcome) => run.events.filter((event) => isAsked(event) && event.outcome === outcome).length;
     const [accepted, rejected] = [count('accepted'), count('rejected')];
     const others = run.size - accepted - rejected;
-    byId('counts').textContent = `${run.size} events: ${accepted} accepted, ${rejected} rejected` +
-      (others > 0 ? `, ${others} neither` : '') + ` \u00b7 expectations: ${expectations.passed} passed, ${expectations.failed} failed`;
+    byId('counts').textContent = `${quantity(run.size, 'event')}: ${accepted} accepted, ${rejected} rejected` +
+      (others > 0 ? `, ${others} neither` : '') +
+      ` \u00b7 expectations: ${expectations.passed} passed, ${expectations.failed} failed`;
     const alarms = [...expectations.failures.map((failure) => this.alarm(failure)),
                     ...(error === undefined ? [] : [html('p', 'alarm', `the run ended early: ${error}`)])];
     byId('alarms').replaceChildren(...alarms);
     byId('alarms').hidden = alarms.length === 0;
+    for (const id of ['problem-back', 'problem-next']) byId(id).disabled = run.problems.length === 0;
     this.slider.max = Math.max(1, run.size);
-    fillTable(this.body, run);
-    this.picture.show(run, Math.min(1, run.size));
-    byId('scale').value = this.picture.scale;
-    this.choose(1);
+    byId('names').replaceChildren(...[...run.catalog.taskPlace.keys(), ...run.catalog.behaviors.keys()]
+      .map((name) => Object.assign(document.createElement('option'), { value: name })));
+    this.table.show(run);
+    this.timeline.show(run, Math.min(1, run.size));
+    byId('scale').value = this.timeline.view.scale;
   }
 
   alarm(failure) {
     const line = failureElement(this.run, failure);
-    if (failure.index > 0) {
-      const button = html('button', '', `event ${failure.index}`);
-      button.type = 'button';
-      button.addEventListener('click', () => this.choose(failure.index));
-      line.append(' after ', button);
-    }
+    const { index } = failure;
+    if (index > 0) line.append(' after ', buttonElement(`event ${index}`, () => this.choose(index)));
     return line;
   }
 
   choose(wanted) {
     const { run } = this;
     for (const id of ['first', 'back', 'next', 'last', 'slider']) byId(id).disabled = run.size === 0;
+    this.address.write(this.place, run.size === 0 ? 0 : Math.min(run.size, Math.max(1, wanted)));
     if (run.size === 0) {
-      byId('status').textContent = 'No events.';
-      for (const id of ['detail-body', 'state-body', 'numbers']) byId(id).replaceChildren();
+      this.tell('No events.');
+      for (const id of ['detail-body', 'state-body', 'graph-body']) byId(id).replaceChildren();
       return;
     }
     const number = Math.min(run.size, Math.max(1, wanted));
     if (number === this.number) return;
-    this.mark(this.number, false);
     this.number = number;
-    this.mark(number, true);
+    this.table.choose(number);
     const event = run.event(number);
     const outcome = isAsked(event) ? ` \u00b7 ${event.outcome}` : '';
-    const text = `Event ${number} of ${run.size} \u00b7 ${formatTime(event.time)} s \u00b7 ${describeEvent(event, run.catalog)}${outcome}`;
-    byId('status').textContent = text;
+    const failed = run.isFailed(number) ? ' \u00b7 failed expectation' : '';
+    this.tell(`Event ${number} of ${run.size} \u00b7 ${formatTime(event.time)} s \u00b7 ` +
+      `${describeEvent(event, run.catalog)}${outcome}${failed}`);
     this.slider.value = number;
-    this.slider.setAttribute('aria-valuetext', text);
-    fillDetail({ title: byId('detail-title'), body: byId('detail-body'), numbers: byId('numbers') }, run, number);
+    this.slider.setAttribute('aria-valuetext', byId('status').textContent);
+    fillDetail({ title: byId('detail-title'), body: byId('detail-body') }, run, number, (other) => this.choose(other));
+    byId('detail').scrollTop = 0;
     fillState(byId('state-body'), run, number);
-    this.picture.choose(number);
+    this.fillGraph();
+    this.timeline.choose(number);
   }
 
-  /** Shows in the table which event is chosen, without scrolling the page. */
-  mark(number, isChosen) {
-    const row = this.body.rows[number - 1];
-    if (row === undefined) return;
-    row.querySelector('button').tabIndex = isChosen ? 0 : -1;
-    if (!isChosen) return row.removeAttribute('aria-current');
-    row.setAttribute('aria-current', 'true');
-    const view = byId('log-scroll');
-    const head = this.body.offsetTop;
-    if (row.offsetTop < view.scrollTop + head || row.offsetTop + row.offsetHeight > view.scrollTop + view.clientHeight) {
-      view.scrollTop = row.offsetTop - head - view.clientHeight / 3;
-    }
+  tell(text) {
+    byId('status').textContent = text;
+    byId('status').title = text;
   }
 
-  hover(event, span = null, number = null) {
+  fillGraph() {
+    byId('graph').hidden = !byId('wants-graph').checked;
+    if (!byId('graph').hidden && this.run !== undefined && this.number > 0) fillGraph(byId('graph-body'), this.run, this.number);
+  }
+
+  /** Chooses the next event of a list of numbers, or the previous one; at its end, the first again. */
+  stepIn(numbers, step) {
+    if (numbers.length === 0) return;
+    const next = step > 0 ? numbers.find((number) => number > this.number) ?? numbers[0]
+                          : numbers.findLast((number) => number < this.number) ?? numbers.at(-1);
+    this.choose(next);
+  }
+
+  search() {
+    const text = byId('search').value;
+    this.found = this.finder.find(text, byId('outcome').value);
+    byId('found').textContent = this.found === null ? '' : `${this.found.size} of ${this.run.size}`;
+    this.table.filter(this.found);
+    const wanted = text.trim().toLowerCase();
+    this.timeline.setFilter(this.found, wanted === '' ? null : (name) => name.toLowerCase().includes(wanted));
+  }
+
+  hover(event, target) {
     const tip = byId('tip');
-    tip.hidden = event === null;
-    if (event === null) return;
-    tip.replaceChildren(...tipContent(this.run, span, number));
+    tip.hidden = target === null;
+    if (target === null) return;
+    tip.replaceChildren(...tipContent(this.run, target));
     const { width, height } = tip.getBoundingClientRect();
     const x = event.clientX + 14 + width > innerWidth ? event.clientX - 14 - width : event.clientX + 14;
     const y = event.clientY + 16 + height > innerHeight ? event.clientY - 12 - height : event.clientY + 16;
@@ -171,30 +228,35 @@ class Page {
     tip.style.top = `${Math.max(4, y)}px`;
   }
 
+  /** The part of the timeline that is in view, as the text of an SVG file. */
+  svgText() {
+    return new XMLSerializer().serializeToString(this.timeline.toSvg());
+  }
+
+  save() {
+    if (this.run.size === 0) return;
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(new Blob([this.svgText()], { type: 'image/svg+xml' }));
+    link.download = `${this.run.data.script.replace(/^.*\//, '').replace(/\.ya?ml$/, '')}.svg`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+  }
+
   /** On paper the whole run is in the picture, and the table has all changes. */
   setUpPaper() {
     const pageWidth = 1030; // of A4, landscape, within its margins
     const pageHeight = 600;
-    let zoom = 1;
     addEventListener('beforeprint', () => {
-      const { picture } = this;
-      if (picture.run === undefined) return;
-      zoom = picture.zoom;
-      picture.zoom = 1;
-      picture.layOut(pageWidth);
-      const shrink = Math.min(1, pageHeight / picture.height);
-      picture.layOut(pageWidth / shrink - byId('labels').offsetWidth - 4);
-      byId('picture').style.zoom = shrink;
-      addPrintedChanges(this.body, this.run);
+      if (this.run === undefined) return;
+      const svg = this.timeline.wholeSvg(pageWidth, pageHeight);
+      byId('paper').replaceChildren(svg);
+      this.table.addPrintedChanges();
     });
     addEventListener('afterprint', () => {
-      if (this.picture.run === undefined) return;
-      byId('picture').style.zoom = '';
-      this.picture.zoom = zoom;
-      this.picture.layOut();
-      removePrintedChanges(this.body);
+      byId('paper').replaceChildren();
+      this.table.removePrintedChanges();
     });
   }
 }
 
-new Page(readRuns(JSON.parse(byId('data').textContent)));
+const page = new Page(readRuns(JSON.parse(byId('data').textContent)));

@@ -1,0 +1,129 @@
+#include "solver/repair.h"
+
+#include <algorithm>
+
+namespace cbc {
+namespace {
+
+/// Dead ends that are left before the tasks at hand count as having no place.
+constexpr std::uint32_t most_dead_ends = 20;
+
+}  // namespace
+
+Repair::Repair(const CompiledCatalog& catalog, Domains& domains, Propagator& propagator)
+    : catalog_(catalog), domains_(domains), propagator_(propagator) {
+  choices_.reserve(most_in_a_group(catalog.group_tasks));
+}
+
+/// With all requests in view, propagation keeps the first choices from taking the place of later
+/// ones; but one request without a place then hinders all others.
+bool Repair::find_solution(const Problem& problem) {
+  problem_ = &problem;
+  const Domains::Mark root = domains_.mark();
+  if (find_solution_with(problem.requests.size())) return true;
+  domains_.undo_to(root);
+  return find_solution_with(0);
+}
+
+/// Looks for places for what must run together with the first requests, and then for the others
+/// one by one.
+bool Repair::find_solution_with(std::size_t together) {
+  const std::vector<std::uint32_t>& requests = problem_->requests;
+  for (std::size_t place = 0; place < together; ++place) {
+    const Domains::Mark before = domains_.mark();
+    const std::uint32_t task = requests[place];
+    if (!serve(task) && !drop(task, before)) return false;
+  }
+  if (!assign_needed_tasks()) return false;
+  for (std::size_t place = together; place < requests.size(); ++place) {
+    const Domains::Mark before = domains_.mark();
+    const std::uint32_t task = requests[place];
+    if (!(serve(task) && assign_needed_tasks()) && !drop(task, before)) return false;
+  }
+  return true;
+}
+
+bool Repair::serve(std::uint32_t task) { return domains_.need(task) && propagator_.propagate(); }
+
+bool Repair::drop(std::uint32_t task, const Domains::Mark& before) {
+  domains_.undo_to(before);
+  return domains_.close(task) && propagator_.propagate();
+}
+
+/// Gives each needed task one behavior. False after too many dead ends.
+bool Repair::assign_needed_tasks() {
+  choices_.clear();
+  std::uint32_t dead_ends = 0;
+  for (;;) {
+    const std::uint32_t task = choose_task();
+    if (task == none) return true;
+    const std::uint32_t index = choose_value(task);
+    bool is_consistent = false;
+    if (index != none) {
+      choices_.push_back({task, index, domains_.mark()});
+      is_consistent = assign(task, index);
+    }
+    while (!is_consistent) {
+      if (choices_.empty() || ++dead_ends > most_dead_ends) return false;
+      const Choice last = choices_.back();
+      choices_.pop_back();
+      domains_.undo_to(last.before);
+      is_consistent = domains_.remove(last.task, last.index) && propagator_.propagate();
+    }
+  }
+}
+
+/// The next task with a choice. Those that cannot keep their behavior come first, so that the
+/// others can make way; then the highest level, so that a task comes after those that require it.
+std::uint32_t Repair::choose_task() const {
+  std::uint32_t chosen = none;
+  std::pair<bool, std::uint32_t> best;
+  for (const std::uint32_t task : domains_.needed_tasks()) {
+    if (domains_.count(task) == 1) continue;
+    const std::pair<bool, std::uint32_t> rank(!has_present_value(task),
+                                              catalog_.tasks[domains_.first_task() + task].level);
+    if (chosen != none && rank <= best) continue;
+    chosen = task;
+    best = rank;
+  }
+  return chosen;
+}
+
+/// The present value, or the one that leaves most: of the requests, and then of f2. None if
+/// propagation refutes all.
+std::uint32_t Repair::choose_value(std::uint32_t task) {
+  if (has_present_value(task)) return problem_->present[task];
+  std::uint32_t chosen = none;
+  std::pair<std::uint32_t, std::int64_t> least;
+  const auto values = static_cast<std::uint32_t>(domains_.values(task).size());
+  for (std::uint32_t index = 0; index < values; ++index) {
+    if (!domains_.has(task, index)) continue;
+    const auto loss = try_value(task, index);
+    if (!loss || (chosen != none && *loss >= least)) continue;
+    chosen = index;
+    least = *loss;
+  }
+  return chosen;
+}
+
+/// What a value costs: requests, and -log of f2; nothing if propagation refutes it.
+std::optional<std::pair<std::uint32_t, std::int64_t>> Repair::try_value(std::uint32_t task,
+                                                                        std::uint32_t index) {
+  const Domains::Mark before = domains_.mark();
+  std::optional<std::pair<std::uint32_t, std::int64_t>> loss;
+  if (assign(task, index)) loss.emplace(count_lost_requests(), domains_.sums().cost);
+  domains_.undo_to(before);
+  return loss;
+}
+
+bool Repair::assign(std::uint32_t task, std::uint32_t index) {
+  return domains_.keep_only(task, index) && domains_.need(task) && propagator_.propagate();
+}
+
+std::uint32_t Repair::count_lost_requests() const {
+  return static_cast<std::uint32_t>(
+      std::count_if(problem_->requests.begin(), problem_->requests.end(),
+                    [this](std::uint32_t task) { return domains_.count(task) == 0; }));
+}
+
+}  // namespace cbc

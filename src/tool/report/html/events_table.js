@@ -1,0 +1,121 @@
+// The table of events.
+
+const chunkSize = 50; // rows that the browser lays out together
+
+/** A row for each event, in chunks. What happened is written into a chunk when it comes near the part in
+ * view. */
+class EventsTable {
+  constructor(table, view, onChoose) {
+    this.table = table;
+    this.view = view;
+    this.observer = new IntersectionObserver((entries) => {
+      for (const entry of entries) if (entry.isIntersecting) this.fill(entry.target);
+    }, { root: view, rootMargin: '400px' });
+    table.addEventListener('click', (event) => {
+      const row = event.target.closest('tr[data-event]');
+      if (row !== null) onChoose(Number(row.dataset.event));
+    });
+  }
+
+  show(run) {
+    this.run = run;
+    this.chosen = 0;
+    this.rows = run.events.map((event, place) => this.makeRow(event, place + 1));
+    this.observer.disconnect();
+    for (const body of [...this.table.tBodies]) body.remove();
+    this.unfilled = new Set();
+    for (let begin = 0; begin < this.rows.length; begin += chunkSize) {
+      const body = html('tbody', '', ...this.rows.slice(begin, begin + chunkSize));
+      body.setAttribute('role', 'rowgroup');
+      this.unfilled.add(body);
+      this.table.append(body);
+      this.observer.observe(body);
+    }
+  }
+
+  makeRow(event, number) {
+    const button = html('button', '', `${number}`);
+    button.type = 'button';
+    button.tabIndex = -1;
+    button.setAttribute('aria-label', `Event ${number}`);
+    const look = this.run.isFailed(number) ? 'is-failed' : this.run.isRejected(number) ? 'rejected' : '';
+    const row = html('tr', look,
+      html('td', '', button),
+      html('td', '', formatTime(event.time)),
+      html('td', '', nameEvent(event, this.run.catalog)),
+      html('td', '', outcomeElement(event)),
+      html('td', '', html('div', 'story')));
+    row.dataset.event = number;
+    // A row is no row of a table to a screen reader where the style sheet lays it out by itself.
+    row.setAttribute('role', 'row');
+    for (const cell of row.cells) cell.setAttribute('role', 'cell');
+    return row;
+  }
+
+  fill(body) {
+    if (!this.unfilled.delete(body)) return;
+    this.observer.unobserve(body);
+    for (const row of body.rows) {
+      const number = Number(row.dataset.event);
+      row.cells[2].replaceChildren(breakable(row.cells[2].textContent));
+      row.querySelector('.story').append(...reasonElements(this.run.event(number)), ...sentenceElements(this.run, number));
+    }
+  }
+
+  fillAll() {
+    for (const body of this.unfilled) this.fill(body);
+  }
+
+  contains(element) {
+    return element.closest?.('#events tbody') !== null && this.table.contains(element);
+  }
+
+  focus(number) {
+    this.rows[number - 1]?.querySelector('button').focus();
+  }
+
+  /** Shows which event is chosen, and scrolls the table to it, not the page. */
+  choose(number) {
+    this.mark(this.chosen, false);
+    this.chosen = number;
+    this.mark(number, true);
+  }
+
+  mark(number, isChosen) {
+    const row = this.rows[number - 1];
+    if (row === undefined) return;
+    row.querySelector('button').tabIndex = isChosen ? 0 : -1;
+    if (!isChosen) return row.removeAttribute('aria-current');
+    row.setAttribute('aria-current', 'true');
+    this.fill(row.parentElement);
+    const { view } = this;
+    if (getComputedStyle(view).overflowY === 'visible') return;
+    const [outer, inner] = [view.getBoundingClientRect(), row.getBoundingClientRect()];
+    const head = this.table.tHead.offsetHeight;
+    if (inner.top < outer.top + head || inner.bottom > outer.bottom) {
+      view.scrollTop += inner.top - outer.top - head - view.clientHeight / 3;
+    }
+  }
+
+  /** Hides the events that a search has not found; null shows all. */
+  filter(found) {
+    for (const row of this.rows) row.hidden = found !== null && !found.has(Number(row.dataset.event));
+    for (const body of this.table.tBodies) body.hidden = [...body.rows].every((row) => row.hidden);
+  }
+
+  /** All changes of all events, for paper. */
+  addPrintedChanges() {
+    this.fillAll();
+    for (const row of this.rows) {
+      const number = Number(row.dataset.event);
+      const { changes } = this.run.event(number);
+      if (changes.length === 0) continue;
+      const table = html('table', '', html('tbody', '', ...changes.map((change) => changeRow(this.run, number, change))));
+      row.lastElementChild.append(html('div', 'for-print', table));
+    }
+  }
+
+  removePrintedChanges() {
+    for (const element of this.table.querySelectorAll('.for-print')) element.remove();
+  }
+}

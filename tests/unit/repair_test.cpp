@@ -1,0 +1,111 @@
+// The repair of the present configuration, and the bounds of answers that are not proven.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "property/random.h"
+#include "solver/solver.h"
+#include "unit/compiled_fixture.h"
+
+namespace cbc {
+namespace {
+
+/// The answer after one decision, by a repair where there is none yet.
+std::string repair(const CompiledCatalog& catalog, const Problem& problem,
+                   SearchBound* bound = nullptr) {
+  SearchOptions options;
+  options.max_nodes = 1;
+  const std::vector<std::uint32_t> ranks;
+  Solver solver(catalog, options, ranks);
+  Assignment solution;
+  const SearchResult result = solver.solve(problem, solution);
+  EXPECT_EQ(result.status, SearchStatus::feasible);
+  if (bound != nullptr) *bound = result.bound;
+  return test::show(catalog, solution);
+}
+
+constexpr const char* pairs = R"(
+default_values: {tasks: {start_on_request: false}}
+behaviors:
+- {behavior: a, task: A, requires: [{task: P}, {task: Q}]}
+- {behavior: b, task: B, requires: [{task: Q}, {task: R}]}
+- {behavior: p1, task: P, suitability: 90}
+- {behavior: p2, task: P, suitability: 80}
+- {behavior: q1, task: Q, suitability: 90}
+- {behavior: q2, task: Q, suitability: 80, requires: [{task: S}]}
+- {behavior: r1, task: R, suitability: 90, requires: [{task: S}]}
+- {behavior: r2, task: R, suitability: 80, requires: [{task: S}]}
+- {behavior: s, task: S}
+- {behavior: c, task: C}
+exclusivity_constraints:
+- mutually_exclusive: [C, S]
+)";
+
+TEST(Repair, KeepsWhatRuns) {
+  const CompiledCatalog catalog = test::compile_text(pairs);
+  Problem problem = test::open_problem(catalog);
+  test::demand(problem, catalog, "A");
+  test::set_present(problem, catalog, "P", "p2");
+  EXPECT_EQ(repair(catalog, problem), "A=a P=p2 Q=q1");
+}
+
+TEST(Repair, ServesTheMoreImportantRequest) {
+  const CompiledCatalog catalog = test::compile_text(pairs);
+  for (const bool c_first : {true, false}) {
+    Problem problem = test::open_problem(catalog);
+    test::demand(problem, catalog, "A");
+    if (c_first) test::request(problem, catalog, "C");
+    test::request(problem, catalog, "B");
+    if (!c_first) test::request(problem, catalog, "C");
+    test::set_present(problem, catalog, "C", "c");
+    SearchBound bound;
+    EXPECT_EQ(repair(catalog, problem, &bound),
+              c_first ? "A=a P=p1 Q=q1 C=c" : "A=a B=b P=p1 Q=q1 R=r1 S=s");
+    EXPECT_EQ(bound.more_requests, 1U);
+    EXPECT_FALSE(bound.same_requests);
+  }
+}
+
+TEST(SearchBound, OfAnAnswerThatServesAllRequests) {
+  const CompiledCatalog catalog = test::compile_text(pairs);
+  Problem problem = test::open_problem(catalog);
+  test::request(problem, catalog, "A");
+  test::set_present(problem, catalog, "P", "p2");
+  SearchBound bound;
+  EXPECT_EQ(repair(catalog, problem, &bound), "A=a P=p2 Q=q1");
+  EXPECT_EQ(bound.more_requests, 0U);
+  EXPECT_TRUE(bound.same_requests);
+  EXPECT_GE(bound.suitability, 0.81);
+  EXPECT_LT(bound.suitability, 0.8100001);
+}
+
+TEST(HighestProduct, IsJustAboveTheProduct) {
+  oracle::Random random(3);
+  for (int round = 0; round < 2'000; ++round) {
+    const auto factors = static_cast<std::uint32_t>(random.between(1, 200));
+    std::int64_t cost = 0;
+    long double product = 1;
+    for (std::uint32_t factor = 0; factor < factors; ++factor) {
+      const auto degree = static_cast<Millionths>(random.between(30'000, 1'000'000));
+      cost += log_cost(degree);
+      product *= static_cast<long double>(degree) / one_million;
+    }
+    if (product < 1e-300L) continue;
+    const double highest = highest_product(cost, factors);
+    ASSERT_GE(highest, product);
+    ASSERT_LT(highest, product * (1 + 1e-8L));
+  }
+}
+
+TEST(HighestProduct, AtTheEnds) {
+  EXPECT_EQ(highest_product(0, 800), 1);
+  EXPECT_EQ(highest_product(1, 1), 1) << "less than the error of one cost";
+  EXPECT_EQ(highest_product(std::int64_t{1} << 61, 5), 0) << "a suitability of 0";
+  EXPECT_GT(highest_product(std::int64_t{1} << 50, 5), 0) << "e^-1024";
+  EXPECT_LT(highest_product(std::int64_t{1} << 50, 5), 1e-300);
+}
+
+}  // namespace
+}  // namespace cbc
