@@ -32,9 +32,13 @@ namespace cbc::cli {
 /// Whether it is a script, or would be one but for a misspelt key.
 [[nodiscard]] bool looks_like_script(const yaml::Document& document);
 
-/// Whether a text, even one that is not valid YAML, is meant as a catalog: misspelt keys count,
-/// too.
-[[nodiscard]] bool looks_like_catalog(std::string_view text);
+/// What a file is that was found in a folder.
+enum class FoundFile : std::uint8_t { catalog, script, properties, other };
+
+/// What a text, even one that is not valid YAML, is meant as. A catalog may have misspelt keys; a
+/// script names a catalog or has an event with a known verb, as folders have all kinds of YAML
+/// files.
+[[nodiscard]] FoundFile recognize(std::string_view text);
 
 /// The content of a file, or of standard input for "-". If it cannot be read, prints why to
 /// standard error.
@@ -156,10 +160,10 @@ class CatalogLoader {
 
   /// Keeps a catalog that was read in another way, or null for one that cannot be used.
   void keep(const std::string& path, std::shared_ptr<const CompiledCatalog> catalog) {
-    known_.insert_or_assign(path, std::move(catalog));
+    known_.insert_or_assign(key_of(path), std::move(catalog));
   }
   /// Whether the catalog of the path is kept.
-  [[nodiscard]] bool knows(const std::string& path) const { return known_.contains(path); }
+  [[nodiscard]] bool knows(const std::string& path) const { return known_.contains(key_of(path)); }
 
   /// A catalog in YAML, fit to be compiled; empty if there are errors.
   [[nodiscard]] std::optional<Catalog> understand(
@@ -167,8 +171,11 @@ class CatalogLoader {
       InputFiles::Purpose purpose = InputFiles::Purpose::compilation);
 
  private:
+  /// The same for './robot.yaml' and 'robot.yaml'.
+  [[nodiscard]] static std::string key_of(const std::string& path);
+
   InputFiles& files_;
-  std::map<std::string, std::shared_ptr<const CompiledCatalog>> known_;  ///< by path
+  std::map<std::string, std::shared_ptr<const CompiledCatalog>> known_;
 };
 
 /// Loads the only catalog of a command line. Null if it cannot be used; the reason is printed.
