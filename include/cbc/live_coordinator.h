@@ -17,9 +17,10 @@ namespace cbc {
 struct LiveOptions {
   /// From the moment when a reactive task could start until it starts; 1 to longest_time.
   Microseconds reactive_delay = 80'000;
-  // Limits of one search; an event may take several. Without limits every answer is proven optimal.
-  // A search that a limit stops takes the best answer so far; if there is none yet, the event is
-  // rejected. max_nodes gives the same answers on every run, time_limit does not.
+  // Limits of the search for one event. Without limits every answer is proven optimal. A search
+  // that a limit stops takes the best answer so far; if there is none yet, a start or stop is
+  // rejected, and a finish stops what needs the finished behavior. max_nodes gives the same answers
+  // on every run, time_limit does not.
   std::uint64_t max_nodes = 0;  ///< decisions; 0: no limit
   Microseconds time_limit = 0;  ///< 0 to longest_time; 0: no limit
 };

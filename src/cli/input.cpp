@@ -542,6 +542,7 @@ LineInput::Status LineInput::next() {
 
 /// Reads more input. Returns `line` if there may be one now.
 LineInput::Status LineInput::fill() {
+  before_reading_();
   buffer_.erase(0, begin_);
   scanned_ -= begin_;
   begin_ = 0;

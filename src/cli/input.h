@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <memory>
@@ -214,9 +215,14 @@ class LineInput {
   };
 
   /// `descriptor` is not closed. `stop`: a descriptor that becomes readable when it is time to
-  /// stop, or -1.
-  LineInput(int descriptor, int stop, std::size_t longest_line)
-      : descriptor_(descriptor), stop_(stop), longest_line_(longest_line) {}
+  /// stop, or -1. `before_reading` is called when all complete lines were handed out, before the
+  /// next ones are read or waited for.
+  LineInput(int descriptor, int stop, std::size_t longest_line,
+            std::function<void()> before_reading)
+      : descriptor_(descriptor),
+        stop_(stop),
+        longest_line_(longest_line),
+        before_reading_(std::move(before_reading)) {}
 
   [[nodiscard]] Status next();
   /// Without its end; valid until the next call.
@@ -231,6 +237,7 @@ class LineInput {
   int descriptor_;
   int stop_;
   std::size_t longest_line_;
+  std::function<void()> before_reading_;
   std::string buffer_;
   std::size_t begin_ = 0;    ///< of the next line
   std::size_t scanned_ = 0;  ///< there is no line end before this

@@ -163,10 +163,21 @@ LineOutput::LineOutput() { std::signal(SIGPIPE, SIG_IGN); }
 LineOutput::~LineOutput() { std::signal(SIGPIPE, SIG_DFL); }
 
 void LineOutput::write(std::string_view line) {
-  while (!line.empty() && !has_failed_) {
-    const ssize_t count = ::write(STDOUT_FILENO, line.data(), line.size());
+  constexpr std::size_t enough = std::size_t{1} << 16;   // more would not be faster
+  constexpr std::chrono::milliseconds longest_wait(10);  // nobody notices it
+  if (has_failed_) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (waiting_.empty()) waits_since_ = now;
+  waiting_ += line;
+  if (waiting_.size() >= enough || now - waits_since_ >= longest_wait) flush();
+}
+
+void LineOutput::flush() {
+  std::string_view rest = waiting_;
+  while (!rest.empty() && !has_failed_) {
+    const ssize_t count = ::write(STDOUT_FILENO, rest.data(), rest.size());
     if (count >= 0) {
-      line.remove_prefix(static_cast<std::size_t>(count));
+      rest.remove_prefix(static_cast<std::size_t>(count));
     } else if (errno == EAGAIN) {
       // Another process that shares the pipe may have made it non-blocking.
       pollfd reader{STDOUT_FILENO, POLLOUT, 0};
@@ -176,6 +187,7 @@ void LineOutput::write(std::string_view line) {
       complain("cannot write the output: {}", std::strerror(errno));
     }
   }
+  waiting_.clear();
 }
 
 void hold_standard_descriptors() {

@@ -97,8 +97,8 @@ class StopSignals {
   [[nodiscard]] int descriptor() const;
 };
 
-/// Writes lines to standard output, each immediately and as a whole. While this object lives, a
-/// closed pipe is an ordinary error.
+/// Writes whole lines to standard output, many of them with one system call. While this object
+/// lives, a closed pipe is an ordinary error.
 class LineOutput {
  public:
   LineOutput();
@@ -106,11 +106,17 @@ class LineOutput {
   LineOutput(const LineOutput&) = delete;
   LineOutput& operator=(const LineOutput&) = delete;
 
-  /// Does nothing after an error, which is reported once.
+  /// Takes a line, with its end. It is written by flush(), or earlier if many lines are waiting or
+  /// the first of them has been waiting for some time.
   void write(std::string_view line);
+  /// Writes what is waiting. Call it before the program waits for input, and at the end. Does
+  /// nothing after an error, which is reported once.
+  void flush();
   [[nodiscard]] bool has_failed() const { return has_failed_; }
 
  private:
+  std::string waiting_;
+  std::chrono::steady_clock::time_point waits_since_;
   bool has_failed_ = false;
 };
 

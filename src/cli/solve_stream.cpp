@@ -116,7 +116,8 @@ class Stream {
 
   void run_standard_input() {
     begin({});
-    LineInput input(STDIN_FILENO, signals_.descriptor(), longest_event);
+    LineInput input(STDIN_FILENO, signals_.descriptor(), longest_event,
+                    [this] { output_.flush(); });
     EventLines lines(catalog_);
     lines.resume(runner_.coordinator().now(), runner_.coordinator().state());
     while (!signals_.have_come() && !output_.has_failed()) {
@@ -147,8 +148,10 @@ class Stream {
     if (goes_on && !options_.stream.state_out && !output_.has_failed()) {
       static_cast<void>(runner_.settle());
     }
+    output_.flush();
     status_ = std::max(status_, report_end(runner_, of_coordinator_));
     if (const auto& totals = runner_.result().totals) output_.write(stream_totals(*totals));
+    output_.flush();
     if (!save_state(options_.stream, catalog_, runner_) || output_.has_failed()) {
       status_ = std::max<int>(status_, exit_unusable);
     }
@@ -161,7 +164,9 @@ class Stream {
     for (const std::string& warning : reading.warnings) {
       if (++warnings_ > most_warnings) break;
       complain_of_line(number, "warning: " + warning);
-      if (warnings_ == most_warnings) complain("further warnings are not shown");
+      if (warnings_ < most_warnings) continue;
+      complain("further warnings are not shown");
+      lines.stop_warnings();
     }
     if (!reading.error.empty()) {
       refuse(reading.error, number);
@@ -178,7 +183,9 @@ class Stream {
     status_ = exit_unusable;
   }
 
-  void complain_of_line(std::uint64_t number, const std::string& message) const {
+  /// The lines before the message come first, also where both go to the same place.
+  void complain_of_line(std::uint64_t number, const std::string& message) {
+    output_.flush();
     complain("{}:{}: {}", printable(script_), number, message);
   }
 
@@ -307,7 +314,7 @@ class Replay {
       : name_(std::move(name)),
         catalog_(std::move(catalog)),
         options_(options),
-        input_(descriptor, -1, longest_line),
+        input_(descriptor, -1, longest_line, [this] { output_.flush(); }),
         log_(catalog_) {}
 
   int run(const std::optional<Snapshot>& state) {
@@ -333,8 +340,10 @@ class Replay {
     }
     run_steps(runner);
     if (!is_over() && runner.result().status == Coordinator::Status::ok) run_to_end(runner);
+    output_.flush();
     if (!is_over()) status_ = report_end(runner, of_coordinator);
     if (!is_over()) look_for_rest();
+    output_.flush();
     if (!is_over() && !save_state(options_.stream, catalog_, runner)) status_ = exit_unusable;
     return output_.has_failed() ? std::max<int>(status_, exit_unusable) : status_;
   }
@@ -477,6 +486,7 @@ class Replay {
   [[nodiscard]] bool is_over() const { return status_ != exit_ok || output_.has_failed(); }
 
   int refuse(const std::string& reason) {
+    output_.flush();
     complain("cannot replay {}: {}", quote(name_), reason);
     return status_ = exit_unusable;
   }
@@ -487,6 +497,7 @@ class Replay {
         fmt::format("{}:{}: the first difference: {}", printable(name_), number, what);
     if (!logged.empty()) message += "\n  log:    " + printable(logged);
     if (!found.empty()) message += "\n  replay: " + printable(found);
+    output_.flush();
     complain(message);
     status_ = exit_no;
   }

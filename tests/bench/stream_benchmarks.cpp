@@ -1,6 +1,8 @@
 #include <array>
+#include <cstdint>
 #include <fcntl.h>
 #include <memory>
+#include <random>
 #include <spawn.h>
 #include <stdexcept>
 #include <string>
@@ -37,6 +39,28 @@ std::string make_events() {
               R"(},"wait":0.25})";
     }
     text += '\n';
+  }
+  return text;
+}
+
+/// Starts with priorities, stops and finishes in mixed order.
+std::string make_mixed_events() {
+  constexpr std::array motions{"TAKE_OFF", "HOVER", "ROTATE", "FOLLOW_PATH", "LAND"};
+  std::mt19937_64 random(1);
+  const auto below = [&random](std::uint64_t bound) { return random() % bound; };
+  std::string text;
+  for (int event = 0; event < events; ++event) {
+    const std::string motion = motions[below(motions.size())];
+    const std::uint64_t kind = below(20);
+    if (kind < 11) {
+      text += R"({"start":")" + motion + R"(","priority":)" + std::to_string(1 + below(5));
+    } else if (kind < 15) {
+      text += R"({"stop":")" + motion + '"';
+    } else {
+      text += R"({"finish":{"task":")" + motion + R"("},"cause":"goal_achieved")";
+    }
+    text += R"(,"wait":0.25})"
+            "\n";
   }
   return text;
 }
@@ -97,11 +121,15 @@ void time_stream(benchmark::State& state, const TemporaryFile& input) {
 }  // namespace
 
 void register_stream_benchmarks() {
-  const auto input = std::make_shared<const TemporaryFile>(make_events());
-  benchmark::RegisterBenchmark("stream/quadrotor",
-                               [input](benchmark::State& state) { time_stream(state, *input); })
-      ->UseManualTime()
-      ->Iterations(1);
+  const auto add = [](const char* name, const std::string& text) {
+    const auto input = std::make_shared<const TemporaryFile>(text);
+    benchmark::RegisterBenchmark(name,
+                                 [input](benchmark::State& state) { time_stream(state, *input); })
+        ->UseManualTime()
+        ->Iterations(1);
+  };
+  add("stream/quadrotor", make_events());
+  add("stream/quadrotor-mixed", make_mixed_events());
 }
 
 }  // namespace cbc::bench

@@ -264,6 +264,43 @@ TEST_F(StreamTest, AnswersEachEventBeforeTheNextOneComes) {
   ::close(out);
 }
 
+TEST_F(StreamTest, AnswersAllCompleteLinesBeforeItWaits) {
+  make_pipe("in");
+  make_pipe("out");
+  const int in = ::open((folder_ / "in").c_str(), O_RDWR | O_CLOEXEC);
+  const int out = ::open((folder_ / "out").c_str(), O_RDWR | O_CLOEXEC);
+  Call of_stream = stream();
+  of_stream.standard_input = folder_ / "in";
+  of_stream.standard_output = folder_ / "out";
+  const Result result = run(of_stream, [in, out](pid_t process) {
+    write_all(in, "{\"wait\":1}\n{\"wait\":2}\n{\"wait\":3}\n{\"wa");
+    std::vector<std::string> lines = lines_of(read_rest(out));
+    ASSERT_EQ(lines.size(), 4U) << "the header and three answers";
+    write_all(in, "it\":4}\n");
+    lines = lines_of(read_rest(out));
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(json::parse(lines.front())["time"], 10);
+    ::kill(process, SIGTERM);
+  });
+  EXPECT_EQ(result.status, 0);
+  ::close(in);
+  ::close(out);
+}
+
+TEST_F(StreamTest, MessagesStandAmongTheAnswers) {
+  folder_.write("input",
+                "{\"wait\":1}\n"
+                "{\"start\":\"ROTATE\",\"parameters\":{\"unknown\":1}}\n"
+                "{\"expect\":{\"outcome\":\"rejected\"}}\n"
+                "{\"wait\":1}\n");
+  EXPECT_EQ(run_in_shell("< input > all 2>&1"), 1);
+  std::vector<bool> are_messages;
+  for (const std::string& line : lines_of(folder_.read("all"))) {
+    are_messages.push_back(line.starts_with("cbc: "));
+  }
+  EXPECT_EQ(are_messages, (std::vector<bool>{false, false, true, false, true, false}));
+}
+
 TEST_F(StreamTest, TotalsComeLast) {
   const std::string events =
       "{\"start\":\"HOVER\"}\nno event\n{\"stop\":\"HOVER\"}\n{\"wait\":1}\n";

@@ -1085,27 +1085,34 @@ TEST(SearchLimits, ThatLeaveNoSolutionRejectTheEvent) {
   EXPECT_EQ(stage.running(), "");
 }
 
-TEST(SearchLimits, ThatLeaveAFinishWithoutSolutionLeaveTheBehaviorActive) {
+TEST(SearchLimits, ThatLeaveAFinishWithoutSolutionStopWhatNeedsTheBehavior) {
   CoordinatorOptions options;
-  options.search.max_nodes = 1;
+  options.search.max_nodes = 2;
   Stage stage(R"(
 default_values: {tasks: {start_on_request: false}}
 behaviors:
 - {behavior: a1, task: A}
-- {behavior: a2, task: A, suitability: 50, requires: [{task: S}, {task: T}]}
+- {behavior: b1, task: B, requires: [{task: A}]}
+- {behavior: a2, task: A, suitability: 50, requires: [{task: S}, {task: T}, {task: U}]}
 - {behavior: s1, task: S}
 - {behavior: s2, task: S}
 - {behavior: t1, task: T}
 - {behavior: t2, task: T}
+- {behavior: u1, task: U}
+- {behavior: u2, task: U}
+- {behavior: k, task: K}
+exclusivity_constraints:
+- mutually_exclusive: [K, S]
 )",
               options);
-  EXPECT_EQ(stage.start("A"), "accepted");
-  EXPECT_EQ(stage.running(), "A=a1");
-  EXPECT_EQ(stage.finish("a1", FinishCause::wrong_progress), "rejected");
-  EXPECT_EQ(stage.searches().substr(0, 7), "unknown");
-  EXPECT_EQ(stage.running(), "A=a1");
-  EXPECT_EQ(stage.active(), "a1");
-  EXPECT_EQ(stage.changes(), "");
+  EXPECT_EQ(stage.start("B"), "accepted");
+  EXPECT_EQ(stage.start("K", 3), "accepted");
+  EXPECT_EQ(stage.running(), "A=a1 B=b1 K=k");
+  EXPECT_EQ(stage.finish("k", FinishCause::goal_achieved), "accepted");
+  EXPECT_EQ(stage.finish("a1", FinishCause::wrong_progress), "accepted");
+  EXPECT_EQ(stage.searches().substr(0, 8), "feasible");
+  EXPECT_EQ(stage.running(), "");
+  EXPECT_EQ(stage.active(), "");
 }
 
 TEST(SearchLimits, ThePapersOrderTakesTheFirstSolution) {

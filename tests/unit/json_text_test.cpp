@@ -31,7 +31,7 @@ std::string text_of(std::string_view text) {
 
 std::string seconds_of(Microseconds time) {
   std::string json;
-  append_seconds(json, time);
+  JsonBuffer(json).put_millionths(time);
   return json;
 }
 
@@ -53,7 +53,7 @@ TEST(JsonText, TextIsThatOfTheTree) {
 TEST(JsonText, NumberIsThatOfTheTree) {
   const auto check = [](double number) {
     std::string json;
-    append_number(json, number);
+    append_value(json, number);
     ASSERT_EQ(json, dump(number));
   };
   for (const double number :
@@ -61,14 +61,15 @@ TEST(JsonText, NumberIsThatOfTheTree) {
     check(number);
     check(-number);
   }
+  for (int number = 0; number <= 1000; ++number) check(number / 1000.0);
   std::mt19937_64 random(1);
   for (int round = 0; round < test::rounds(100'000); ++round) {
     check(static_cast<double>(random() % 1'000'000) / 1'000'000);
     check(static_cast<double>(static_cast<std::int64_t>(random() >> (random() % 64))));
   }
   std::string json;
-  append_integer(json, std::numeric_limits<std::int64_t>::min());
-  append_integer(json, std::numeric_limits<std::uint64_t>::max());
+  append_value(json, std::numeric_limits<std::int64_t>::min());
+  append_value(json, std::numeric_limits<std::uint64_t>::max());
   EXPECT_EQ(json, "-922337203685477580818446744073709551615");
 }
 

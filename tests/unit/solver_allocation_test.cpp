@@ -33,6 +33,7 @@ TEST(SolverAllocation, NothingIsAllocatedInTheSearch) {
     for (const std::uint64_t easy_nodes : {0U, 20U}) {
       SearchOptions options;
       options.easy_nodes = easy_nodes;
+      options.bounded_nodes = UINT64_MAX;
       options.max_nodes = 3'000;
       options.max_solutions = random.percent(20) ? 10 : 0;
       const std::vector<std::uint32_t> ranks;

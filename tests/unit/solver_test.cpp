@@ -27,6 +27,14 @@ constexpr std::uint64_t never = UINT64_MAX;
 SearchOptions restarting_after(std::uint64_t easy_nodes) {
   SearchOptions options;
   options.easy_nodes = easy_nodes;
+  options.bounded_nodes = never;
+  return options;
+}
+
+SearchOptions learning_after(std::uint64_t easy_nodes, std::uint64_t bounded_nodes) {
+  SearchOptions options;
+  options.easy_nodes = easy_nodes;
+  options.bounded_nodes = bounded_nodes;
   return options;
 }
 
@@ -196,9 +204,11 @@ class Agreement {
         random.percent(30) ? random_ranks(random, catalog) : std::vector<std::uint32_t>{};
     const test::BruteForce truth(catalog, problem, ranks);
     const std::optional<Assignment> best = truth.best();
-    for (const std::uint64_t easy_nodes :
-         {std::uint64_t{0}, static_cast<std::uint64_t>(random.between(1, 6)), never}) {
-      const Answer answer = solve(catalog, problem, restarting_after(easy_nodes), ranks);
+    const auto some = static_cast<std::uint64_t>(random.between(1, 6));
+    for (const SearchOptions& options :
+         {restarting_after(0), restarting_after(some), restarting_after(never),
+          learning_after(0, 0), learning_after(0, some)}) {
+      const Answer answer = solve(catalog, problem, options, ranks);
       ASSERT_EQ(answer.result.status, best ? SearchStatus::optimal : SearchStatus::infeasible);
       if (best) {
         ASSERT_EQ(test::show(catalog, answer.assignment, problem.group),
@@ -415,9 +425,9 @@ TEST(Solver, AnswersOfLargerProblemsDoNotDependOnRestarts) {
     const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
     const Problem problem = random_open_problem(random, catalog);
     std::optional<Answer> first;
-    for (const std::uint64_t easy_nodes :
-         {std::uint64_t{0}, SearchOptions{}.easy_nodes, std::uint64_t{7}, never}) {
-      SearchOptions options = restarting_after(easy_nodes);
+    for (SearchOptions options :
+         {restarting_after(0), SearchOptions(), restarting_after(7), restarting_after(never),
+          learning_after(0, 0), learning_after(0, 20)}) {
       options.max_nodes = 20'000;
       const Answer answer = solve(catalog, problem, options);
       const bool is_proven = answer.result.status == SearchStatus::optimal ||

@@ -38,6 +38,8 @@ class Natural {
 
   /// In decimal digits.
   [[nodiscard]] std::string digits() const {
+    if (limbs_.size() == 1) return std::to_string(limbs_[0]);
+    if (limbs_.size() == 2) return std::to_string(std::uint64_t{limbs_[1]} << 32 | limbs_[0]);
     constexpr std::uint32_t chunk = 1'000'000'000;
     std::string reversed;
     for (std::vector<std::uint32_t> rest = limbs_; !rest.empty();) {
@@ -53,7 +55,6 @@ class Natural {
         remainder /= 10;
       }
     }
-    if (reversed.empty()) reversed += '0';
     return {reversed.rbegin(), reversed.rend()};
   }
 

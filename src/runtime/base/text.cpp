@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <string>
+#include <utility>
 
 namespace cbc::utf8 {
 namespace {
@@ -30,6 +33,18 @@ bool contains(const std::array<Interval, size>& intervals, char32_t character) {
   return std::any_of(intervals.begin(), intervals.end(), [character](const Interval& interval) {
     return interval.first <= character && character <= interval.last;
   });
+}
+
+/// How many bytes at a place are certainly ASCII: a multiple of eight.
+std::size_t skip_ascii(std::string_view text, std::size_t offset) {
+  std::size_t bytes = 0;
+  std::uint64_t word = 0;
+  while (text.size() - offset - bytes >= sizeof word) {
+    std::memcpy(&word, text.data() + offset + bytes, sizeof word);
+    if ((word & 0x8080808080808080) != 0) break;
+    bytes += sizeof word;
+  }
+  return bytes;
 }
 
 bool is_continuation(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
@@ -75,18 +90,22 @@ Decoded decode(std::string_view text, std::size_t offset) {
 }
 
 std::optional<std::size_t> find_invalid(std::string_view text) {
-  for (std::size_t offset = 0; offset < text.size();) {
+  for (std::size_t offset = skip_ascii(text, 0); offset < text.size();) {
     const Decoded decoded = decode(text, offset);
     if (!decoded.valid) return offset;
     offset += decoded.bytes;
+    if (decoded.bytes > 1) offset += skip_ascii(text, offset);
   }
   return std::nullopt;
 }
 
 std::size_t count_characters(std::string_view text) {
-  std::size_t count = 0;
-  for (std::size_t offset = 0; offset < text.size(); ++count) {
-    offset += decode(text, offset).bytes;
+  std::size_t count = skip_ascii(text, 0);
+  for (std::size_t offset = count; offset < text.size(); ++count) {
+    const std::size_t bytes = decode(text, offset).bytes;
+    const std::size_t skipped = bytes > 1 ? skip_ascii(text, offset + bytes) : 0;
+    offset += bytes + skipped;
+    count += skipped;
   }
   return count;
 }
@@ -127,7 +146,14 @@ std::string escape(char32_t character) {
 std::string escape_some(std::string_view text, std::size_t limit) {
   std::string result;
   std::size_t characters = 0;
+  const auto prints = [](char byte) { return byte >= ' ' && byte < 0x7F; };
   for (std::size_t offset = 0; offset < text.size(); ++characters) {
+    const std::size_t begin = offset;
+    for (; offset < text.size() && characters < limit && prints(text[offset]); ++characters) {
+      ++offset;
+    }
+    result += text.substr(begin, offset - begin);
+    if (offset == text.size()) break;
     if (characters == limit) return result + "...";
     const utf8::Decoded decoded = utf8::decode(text, offset);
     if (!decoded.valid) {
@@ -170,14 +196,14 @@ class Scanner {
   std::optional<Number> scan() {
     Number number;
     number.negative = take_sign();
-    std::string digits = take_digits();
+    std::string digits(take_digits());
     const std::size_t before_point = digits.size();
     if (take('.')) digits += take_digits();
     if (digits.empty()) return std::nullopt;
     std::int64_t exponent = 0;
     if (take('e') || take('E')) {
       const bool negative = take_sign();
-      const std::string exponent_digits = take_digits();
+      const std::string_view exponent_digits = take_digits();
       if (exponent_digits.empty()) return std::nullopt;
       for (const char digit : exponent_digits) {
         exponent = std::min(exponent * 10 + (digit - '0'), exponent_limit);
@@ -191,7 +217,8 @@ class Scanner {
     digits.erase(digits.find_last_not_of('0') + 1);
     number.exponent =
         exponent + static_cast<std::int64_t>(before_point) - static_cast<std::int64_t>(first);
-    number.digits = digits.substr(first);
+    digits.erase(0, first);
+    number.digits = std::move(digits);
     return number;
   }
 
@@ -208,10 +235,10 @@ class Scanner {
     return take('-');
   }
 
-  std::string take_digits() {
+  std::string_view take_digits() {
     std::size_t size = 0;
     while (size < text_.size() && is_digit(text_[size])) ++size;
-    std::string digits(text_.substr(0, size));
+    const std::string_view digits = text_.substr(0, size);
     text_.remove_prefix(size);
     return digits;
   }

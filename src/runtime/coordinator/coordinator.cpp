@@ -357,10 +357,12 @@ std::string Coordinator::describe_refusal(const std::string& violation) const {
 }
 
 /// Solves the problem of the trigger. A finish without a solution escalates to higher protection
-/// levels, up to the one that protects nothing. Returns the problem that was solved, or null.
+/// levels, up to the one that protects nothing. All searches of an event share its limits. Returns
+/// the problem that was solved, or null.
 const Problem* Coordinator::search(const Trigger& trigger) {
   std::int32_t protection = problem_builder_.first_protection();
-  if (record_.search == nullptr) {
+  bool is_first = record_.search == nullptr;
+  if (is_first) {
     search_.result = {};
     search_.elapsed.reset();
   }
@@ -368,7 +370,9 @@ const Problem* Coordinator::search(const Trigger& trigger) {
   search_.group = trigger.group;
   for (;;) {
     const Problem& problem = problem_builder_.build(protection);
-    const SearchResult result = solver_.solve(problem, solution_);
+    const SearchResult result =
+        is_first ? solver_.solve(problem, solution_) : solver_.solve_again(problem, solution_);
+    is_first = false;
     search_.protection = protection;
     search_.is_escalated = protection != problem_builder_.first_protection();
     search_.result.status = result.status;
@@ -378,6 +382,9 @@ const Problem* Coordinator::search(const Trigger& trigger) {
     if (has_solution(result.status)) {
       note_domain_sizes(problem);
       return &problem;
+    }
+    if (trigger.kind == Trigger::Kind::finish && result.status == SearchStatus::unknown) {
+      return &keep_present(protection);
     }
     const auto next =
         trigger.kind == Trigger::Kind::finish && result.status == SearchStatus::infeasible
@@ -389,6 +396,27 @@ const Problem* Coordinator::search(const Trigger& trigger) {
     }
     protection = *next;
   }
+}
+
+/// The answer to a finish where a limit ended the search without one: the present values, apart
+/// from what has ended and what then violates something.
+const Problem& Coordinator::keep_present(std::int32_t protection) {
+  for (auto next = problem_builder_.next_protection(protection); next;
+       next = problem_builder_.next_protection(protection)) {
+    protection = *next;
+  }
+  const Problem& problem = problem_builder_.build(protection);
+  solution_ = problem.present;
+  const TaskId first = catalog_.group_tasks[problem.group];
+  for (std::uint32_t task = 0; task < solution_.size(); ++task) {
+    if (problem_builder_.has_finished(first + task)) solution_[task] = none;
+  }
+  checker_.stop_violating_tasks(problem, solution_);
+  search_.protection = protection;
+  search_.is_escalated = protection != problem_builder_.first_protection();
+  search_.result.status = SearchStatus::feasible;
+  note_domain_sizes(problem);
+  return problem;
 }
 
 /// The same, with its time measured.

@@ -110,6 +110,7 @@ class Coordinator {
 
   Status coordinate(const Trigger& trigger);
   [[nodiscard]] const Problem* search(const Trigger& trigger);
+  [[nodiscard]] const Problem& keep_present(std::int32_t protection);
   [[nodiscard]] const Problem* timed_search(const Trigger& trigger);
   [[nodiscard]] std::string describe_refusal(const std::string& violation) const;
   void note_domain_sizes(const Problem& problem);

@@ -21,6 +21,10 @@ std::optional<std::string> Checker::find_violation(const Problem& problem,
   return check_requirements();
 }
 
+void Checker::stop_violating_tasks(const Problem& problem, Assignment& answer) {
+  while (find_violation(problem, answer)) answer[violating_ - first_task_] = none;
+}
+
 BehaviorId Checker::behavior_of(TaskId task) const {
   const std::uint32_t index = (*answer_)[task - first_task_];
   return index == none ? none : catalog_.values[task][index].behavior;
@@ -34,8 +38,9 @@ bool Checker::is_in_domain(const Problem& problem, TaskId task) const {
   return ((problem.domains[word] >> (index % 64)) & 1) != 0;
 }
 
-std::optional<std::string> Checker::check_domains(const Problem& problem) const {
+std::optional<std::string> Checker::check_domains(const Problem& problem) {
   for (TaskId task = first_task_; task < end_task_; ++task) {
+    violating_ = task;
     if (!is_in_domain(problem, task)) {
       return concat("task ", quote(catalog_.name_of_task(task)), " has a value outside its domain");
     }
@@ -46,6 +51,7 @@ std::optional<std::string> Checker::check_domains(const Problem& problem) const 
 std::optional<std::string> Checker::check_exclusivity() {
   ++number_;
   for (TaskId task = first_task_; task < end_task_; ++task) {
+    violating_ = task;
     if (behavior_of(task) == none) continue;
     for (const std::uint32_t clique : catalog_.task_cliques[task]) {
       if (clique_marks_[clique] == number_) {
@@ -61,6 +67,7 @@ std::optional<std::string> Checker::check_exclusivity() {
 
 std::optional<std::string> Checker::check_requirements() {
   for (TaskId task = first_task_; task < end_task_; ++task) {
+    violating_ = task;
     const BehaviorId behavior = behavior_of(task);
     if (behavior == none) continue;
     if (!performs_at_least(task, catalog_.tasks[task].minimum_performance)) {

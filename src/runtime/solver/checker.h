@@ -20,10 +20,14 @@ class Checker {
   [[nodiscard]] std::optional<std::string> find_violation(const Problem& problem,
                                                           const Assignment& answer);
 
+  /// Stops tasks of `answer` that violate something, one by one, until nothing does. "Not running"
+  /// must be in all domains.
+  void stop_violating_tasks(const Problem& problem, Assignment& answer);
+
  private:
   [[nodiscard]] BehaviorId behavior_of(TaskId task) const;
   [[nodiscard]] bool is_in_domain(const Problem& problem, TaskId task) const;
-  [[nodiscard]] std::optional<std::string> check_domains(const Problem& problem) const;
+  [[nodiscard]] std::optional<std::string> check_domains(const Problem& problem);
   [[nodiscard]] std::optional<std::string> check_exclusivity();
   [[nodiscard]] std::optional<std::string> check_requirements();
   [[nodiscard]] bool performs_at_least(TaskId task, Millionths minimum);
@@ -33,6 +37,7 @@ class Checker {
   const Assignment* answer_ = nullptr;
   TaskId first_task_ = 0;
   TaskId end_task_ = 0;
+  TaskId violating_ = 0;                      ///< the task that the last violation is about
   std::uint64_t number_ = 0;                  ///< of the present check; marks what it has seen
   std::vector<std::uint64_t> clique_marks_;   ///< by clique
   std::vector<TaskId> clique_holders_;        ///< by clique: its running task, if marked

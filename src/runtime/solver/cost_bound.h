@@ -2,11 +2,13 @@
 
 #include <compare>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
 #include "solver/components.h"
 #include "solver/domains.h"
+#include "solver/objective.h"
 #include "solver/problem.h"
 
 namespace cbc {
@@ -46,6 +48,21 @@ class CostBound {
   /// the bound exceeds `threshold`.
   [[nodiscard]] Cost bound(const Cost& threshold, Roots roots);
 
+  /// What a bound rests on: it holds wherever these tasks are needed and these values are removed.
+  struct Grounds {
+    std::vector<std::uint32_t> needed;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> removed;  ///< tasks and value indices
+    std::vector<std::uint32_t> opened;  ///< the tasks that the bound has looked at
+  };
+  /// The same for all needed tasks, with its grounds.
+  [[nodiscard]] Cost bound_with_grounds(const Cost& threshold);
+  [[nodiscard]] const Grounds& grounds() const { return grounds_; }
+  /// After a bound with grounds that did not exceed its threshold: by how much the bound would grow
+  /// at least if the task, one of those opened, had this value.
+  [[nodiscard]] const Cost& least_increase(std::uint32_t task, std::uint32_t index) {
+    return residual(task, index);
+  }
+
   /// After a bound that did not exceed its threshold: an estimate of what a value of the domain
   /// costs beyond the bound. 0 for the values that the bound assumes.
   [[nodiscard]] Cost reduced_cost(std::uint32_t task, std::uint32_t index);
@@ -68,6 +85,7 @@ class CostBound {
   void begin_visit(std::uint32_t task);
   [[nodiscard]] bool requires_cut(const Value& value) const;
   [[nodiscard]] Cost subtract_cut_minimum();
+  void subtract_if_removed(std::uint32_t task, std::uint32_t index, const Cost& cost);
   [[nodiscard]] Cost& residual(std::uint32_t task, std::uint32_t index);
 
   const CompiledCatalog& catalog_;
@@ -82,6 +100,14 @@ class CostBound {
   std::vector<Visit> visits_;
   std::uint64_t bound_number_ = 0;
   std::uint64_t cut_number_ = 0;
+  bool has_grounds_ = false;
+  Grounds grounds_;
+  std::vector<std::uint64_t>
+      in_grounds_;  ///< by value of the group: last bound whose grounds it is in
 };
+
+/// What the cost bound has to exceed to prove that nothing better than the incumbent is left where
+/// it serves the same requests. `tasks`: of the group.
+[[nodiscard]] CostBound::Cost pruning_threshold(const Incumbent& incumbent, std::uint32_t tasks);
 
 }  // namespace cbc

@@ -5,15 +5,13 @@
 namespace cbc {
 
 Propagator::Propagator(const CompiledCatalog& catalog, Domains& domains)
-    : catalog_(catalog), domains_(domains), has_rules_(catalog.group_count(), 0) {
-  const std::size_t most_tasks = most_in_a_group(catalog.group_tasks);
+    : catalog_(catalog),
+      domains_(domains),
+      has_rules_(catalog.group_count(), 0),
+      performance_(catalog, domains) {
   for (const CompiledTask& task : catalog.tasks) {
     if (task.has_performance_rules) has_rules_[task.group] = 1;
   }
-  closure_.reserve(most_tasks);
-  in_closure_.resize(most_tasks, 0);
-  product_.reserve(most_tasks);
-  minimum_.reserve(most_tasks);
 }
 
 void Propagator::load(const Problem& problem) {
@@ -91,7 +89,8 @@ bool Propagator::revise_performance_of(std::uint32_t task) {
       const std::uint32_t target = rule.task - first_task_;
       if (domains_.count(task) == 1) {
         if (!enforce(target, rule.minimum_performance, rule.minimum_cost)) return false;
-      } else if (is_below(bound_performance(target), rule.minimum_performance, rule.minimum_cost)) {
+      } else if (performance_.is_below(performance_.bound(target), rule.minimum_performance,
+                                       rule.minimum_cost)) {
         if (!domains_.remove(task, index)) return false;
         break;
       }
@@ -100,54 +99,12 @@ bool Propagator::revise_performance_of(std::uint32_t task) {
   return true;
 }
 
-Propagator::Bound Propagator::bound_performance(std::uint32_t task) {
-  ++closure_number_;
-  closure_.clear();
-  closure_.push_back(task);
-  in_closure_[task] = closure_number_;
-  Bound bound;
-  for (std::size_t next = 0; next < closure_.size(); ++next) {
-    const std::uint32_t member = closure_[next];
-    if (domains_.count(member) == 0) {
-      bound.reachable = false;
-      return bound;
-    }
-    const Value& best = domains_.value(member, domains_.best(member));
-    bound.cost += best.cost;
-    if (best.suitability == 0) bound.zero = true;
-    if (best.suitability != one_million) ++bound.factors;
-    for (const Arc& arc : catalog_.arcs[first_task_ + member]) {
-      const std::uint32_t target = arc.target - first_task_;
-      if (in_closure_[target] == closure_number_) continue;
-      if (!domains_.all_within(member, &catalog_.masks[arc.mask])) continue;
-      in_closure_[target] = closure_number_;
-      closure_.push_back(target);
-    }
-  }
-  return bound;
-}
-
-bool Propagator::is_below(const Bound& bound, Millionths minimum, std::int64_t minimum_cost) {
-  if (!bound.reachable || bound.zero) return true;
-  const std::int64_t slack = log_cost_error * (bound.factors + 1);
-  if (bound.cost > minimum_cost + slack) return true;
-  if (bound.cost < minimum_cost - slack) return false;
-  product_.clear();
-  for (const std::uint32_t member : closure_) {
-    const Millionths best = domains_.value(member, domains_.best(member)).suitability;
-    if (best != one_million) product_.multiply(best);
-  }
-  minimum_.clear();
-  minimum_.multiply(minimum);
-  return ExactProduct::compare(product_, minimum_) < 0;
-}
-
 bool Propagator::enforce(std::uint32_t task, Millionths minimum, std::int64_t minimum_cost) {
-  const Bound bound = bound_performance(task);
-  if (is_below(bound, minimum, minimum_cost)) return false;
+  const PerformanceBound::Bound bound = performance_.bound(task);
+  if (performance_.is_below(bound, minimum, minimum_cost)) return false;
   // Removes values that push the product below the minimum, whatever else is chosen. A value that
   // is too close to tell stays: the exact test above decides once it is chosen.
-  for (const std::uint32_t member : closure_) {
+  for (const std::uint32_t member : performance_.closure()) {
     if (domains_.count(member) == 1) continue;
     const std::int64_t best_cost = domains_.value(member, domains_.best(member)).cost;
     const auto values = domains_.values(member);
@@ -157,7 +114,7 @@ bool Propagator::enforce(std::uint32_t task, Millionths minimum, std::int64_t mi
       std::uint32_t factors = bound.factors + 2;
       for (const CompiledRequirement& rule : catalog_.requirements[values[index].behavior]) {
         const std::uint32_t required = rule.task - first_task_;
-        if (in_closure_[required] == closure_number_ || domains_.count(required) == 0) continue;
+        if (performance_.in_closure(required) || domains_.count(required) == 0) continue;
         cost += domains_.value(required, domains_.best(required)).cost;
         ++factors;
       }

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
 #include "solver/domains.h"
-#include "solver/objective.h"
+#include "solver/performance_bound.h"
 
 namespace cbc {
 
@@ -30,15 +29,6 @@ class Propagator {
   [[nodiscard]] std::uint64_t propagations() const { return propagations_; }
 
  private:
-  /// An upper bound on the performance of a task: the product of the best suitabilities of the task
-  /// and of all that it requires with every behavior it has left (its closure).
-  struct Bound {
-    bool reachable = true;  ///< false: a task of the closure cannot run
-    bool zero = false;
-    std::int64_t cost = 0;
-    std::uint32_t factors = 0;
-  };
-
   [[nodiscard]] bool revise(std::uint32_t task);
   [[nodiscard]] bool close_dependents(std::uint32_t task);
   [[nodiscard]] bool close_rivals(std::uint32_t task);
@@ -46,8 +36,6 @@ class Propagator {
 
   [[nodiscard]] bool revise_performance();
   [[nodiscard]] bool revise_performance_of(std::uint32_t task);
-  [[nodiscard]] Bound bound_performance(std::uint32_t task);
-  [[nodiscard]] bool is_below(const Bound& bound, Millionths minimum, std::int64_t minimum_cost);
   [[nodiscard]] bool enforce(std::uint32_t task, Millionths minimum, std::int64_t minimum_cost);
 
   const CompiledCatalog& catalog_;
@@ -56,12 +44,7 @@ class Propagator {
   bool has_performance_rules_ = false;
   std::uint64_t propagations_ = 0;
   std::vector<std::uint8_t> has_rules_;  ///< by group
-
-  std::vector<std::uint32_t> closure_;
-  std::vector<std::uint64_t> in_closure_;  ///< by task: number of the last closure it was in
-  std::uint64_t closure_number_ = 0;
-  ExactProduct product_;
-  ExactProduct minimum_;
+  PerformanceBound performance_;
 };
 
 }  // namespace cbc

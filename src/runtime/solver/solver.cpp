@@ -14,7 +14,8 @@ Solver::Solver(const CompiledCatalog& catalog, const SearchOptions& options,
       propagator_(catalog, domains_),
       components_(catalog, domains_),
       objective_(catalog, domains_, components_, ranks),
-      cost_bound_(catalog, domains_, components_) {
+      cost_bound_(catalog, domains_, components_),
+      learning_(catalog, domains_, objective_, cost_bound_) {
   const std::size_t tasks = most_in_a_group(catalog.group_tasks);
   frames_.reserve(tasks + most_values_in_a_group(catalog));
   for (ComponentSearch& search : searches_) {
@@ -24,9 +25,21 @@ Solver::Solver(const CompiledCatalog& catalog, const SearchOptions& options,
 }
 
 SearchResult Solver::solve(const Problem& problem, Assignment& solution) {
+  budget_.max_nodes = options_.max_nodes;
+  budget_.nodes_before = 0;
+  budget_.has_deadline = options_.time_limit.count() > 0;
+  if (budget_.has_deadline) {
+    budget_.deadline = std::chrono::steady_clock::now() + options_.time_limit;
+  }
+  return solve_again(problem, solution);
+}
+
+SearchResult Solver::solve_again(const Problem& problem, Assignment& solution) {
   load(problem);
-  const bool is_complete = search();
+  bool is_complete = search();
   result_.propagations = propagator_.propagations();
+  if (is_hopeless_) is_complete = search_learning();
+  budget_.nodes_before += result_.nodes;
   const Incumbent& best = searches_.front().best;
   if (best.exists) {
     result_.status = is_complete ? SearchStatus::optimal : SearchStatus::feasible;
@@ -45,14 +58,12 @@ void Solver::load(const Problem& problem) {
   objective_.load(problem);
   result_ = {};
   is_hard_ = false;
+  is_hopeless_ = false;
   frames_.clear();
   current().best.exists = false;
   current().base = 0;
   current().best_cost_outside = 0;
   current().cost_bound_outside = 0;
-  if (options_.time_limit.count() > 0) {
-    deadline_ = std::chrono::steady_clock::now() + options_.time_limit;
-  }
 }
 
 /// Takes "not running" out of the domains of the tasks that must run.
@@ -70,6 +81,10 @@ bool Solver::search() {
     if (is_consistent && may_improve()) {
       if (const std::optional<Decision> decision = decide()) {
         if (is_out_of_budget()) return false;
+        if (should_learn()) {
+          is_hopeless_ = true;
+          return false;
+        }
         if (should_restart()) {
           restart();
         } else if (!enter_component(*decision)) {
@@ -110,12 +125,8 @@ bool Solver::may_improve() {
 
 /// What the cost bound has to exceed to prove that nothing better than `best` is left.
 CostBound::Cost Solver::pruning_threshold(const Incumbent& best) const {
-  constexpr CostBound::Cost unbounded{INT64_MAX, INT64_MAX};
-  if (!best.exists || best.sums.zeros > 0 || !objective_.ties_on_requests(best)) return unbounded;
-  // Costs are exact, so that f3 may decide, only where all are 0.
-  if (best.sums.factors == 0) return {0, best.sums.idle};
-  const std::int64_t factors = std::int64_t{best.sums.factors} + domains_.task_count();
-  return {best.sums.cost + log_cost_error * factors, INT64_MAX};
+  if (!best.exists || !objective_.ties_on_requests(best)) return {INT64_MAX, INT64_MAX};
+  return cbc::pruning_threshold(best, domains_.task_count());
 }
 
 /// Takes the solution of the present component. False if it is one too many, or if
@@ -129,16 +140,31 @@ bool Solver::accept() {
 }
 
 bool Solver::is_out_of_budget() const {
-  if (options_.max_nodes > 0 && result_.nodes >= options_.max_nodes) return true;
-  constexpr std::uint64_t nodes_between_looks = 64;
-  return options_.time_limit.count() > 0 && result_.nodes % nodes_between_looks == 0 &&
-         std::chrono::steady_clock::now() >= deadline_;
+  if (!budget_.has_nodes_left(result_.nodes)) return true;
+  constexpr std::uint64_t nodes_between_looks = 16;
+  return budget_.has_deadline && result_.nodes % nodes_between_looks == 0 &&
+         budget_.is_spent(result_.nodes);
 }
 
 /// Whether the search turns out to be hard. The enumeration of the first m solutions never
 /// restarts.
 bool Solver::should_restart() const {
   return !is_hard_ && options_.max_solutions == 0 && result_.nodes >= options_.easy_nodes;
+}
+
+/// Whether the search turns out to be too hard for branch and bound.
+bool Solver::should_learn() const {
+  if (options_.max_solutions > 0 || options_.bounded_nodes == UINT64_MAX) return false;
+  if (result_.nodes < options_.easy_nodes) return false;
+  return !searches_.front().best.exists || result_.nodes >= options_.bounded_nodes;
+}
+
+/// Starts again with the incumbent. False if a limit ended the search.
+bool Solver::search_learning() {
+  while (components_.depth() > 0) components_.leave();
+  domains_.load(*problem_);
+  return learning_.search(*problem_, searches_.front().best, options_.any_solution, budget_,
+                          result_);
 }
 
 /// Restarts at the root, and keeps the incumbent.

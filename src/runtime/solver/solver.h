@@ -10,16 +10,19 @@
 #include "solver/components.h"
 #include "solver/cost_bound.h"
 #include "solver/domains.h"
+#include "solver/learning_search.h"
 #include "solver/objective.h"
 #include "solver/problem.h"
 #include "solver/propagator.h"
+#include "solver/search_budget.h"
 
 namespace cbc {
 
 /// How to search. Without limits every answer is proven.
 struct SearchOptions {
-  std::uint64_t max_nodes = 0;              ///< decisions of one search; 0: no limit
-  std::chrono::microseconds time_limit{0};  ///< for one search; 0: no limit
+  // The limits of Solver::solve, together with the calls of solve_again after it.
+  std::uint64_t max_nodes = 0;              ///< decisions; 0: no limit
+  std::chrono::microseconds time_limit{0};  ///< 0: no limit
   /// The paper's m: take the best of the first m solutions, found depth first, with tasks in
   /// catalog order and values by rank. 0: branch and bound to the proven optimum.
   std::uint64_t max_solutions = 0;
@@ -28,10 +31,14 @@ struct SearchOptions {
   /// A search that takes more decisions than this is hard: it restarts with cost bounds and
   /// component decomposition, which cost too much for the many easy ones. No answer depends on it.
   std::uint64_t easy_nodes = 100;
+  /// A hard search learns no-goods: from the start if it has no incumbent by then, else after this
+  /// many decisions. UINT64_MAX: never. No answer depends on it, either.
+  std::uint64_t bounded_nodes = 1000;
 };
 
-/// Finds the best solution of a problem (docs/semantics.md, "Objectives") by depth-first branch and
-/// bound. Allocates in its constructor only.
+/// Finds the best solution of a problem (docs/semantics.md, "Objectives"): by depth-first branch
+/// and bound, which allocates in the constructor only, or else by a search that learns, whose
+/// memory grows to what the problems need.
 class Solver {
  public:
   /// `ranks`: by value, its rank in the task; empty: as the values stand. Both references must
@@ -41,6 +48,9 @@ class Solver {
 
   /// If the status has a solution, `solution` is set.
   SearchResult solve(const Problem& problem, Assignment& solution);
+  /// The same, within what the last call of solve, and those of this function since then, have left
+  /// of the limits.
+  SearchResult solve_again(const Problem& problem, Assignment& solution);
 
  private:
   struct Decision {
@@ -75,6 +85,8 @@ class Solver {
   [[nodiscard]] CostBound::Cost pruning_threshold(const Incumbent& best) const;
   [[nodiscard]] bool accept();
   [[nodiscard]] bool is_out_of_budget() const;
+  [[nodiscard]] bool should_learn() const;
+  [[nodiscard]] bool search_learning();
   [[nodiscard]] bool should_restart() const;
   void restart();
   [[nodiscard]] bool enter_component(const Decision& decision);
@@ -98,13 +110,15 @@ class Solver {
   Components components_;
   Objective objective_;
   CostBound cost_bound_;
+  LearningSearch learning_;
 
   const Problem* problem_ = nullptr;
   SearchResult result_;
   bool is_hard_ = false;
+  bool is_hopeless_ = false;  ///< learning takes over
   std::vector<Frame> frames_;
   std::array<ComponentSearch, Components::deepest + 1> searches_;
-  std::chrono::steady_clock::time_point deadline_;
+  SearchBudget budget_;
 };
 
 }  // namespace cbc

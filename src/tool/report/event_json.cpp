@@ -54,11 +54,13 @@ std::optional<std::string_view> name_of_value(const CompiledCatalog& catalog, Ta
 }
 
 void write_objective(JsonWriter& json, const ObjectiveValues& objective, double suitability) {
-  json.write_object("objective", {{"satisfied", objective.satisfied},
-                                  {"requests", objective.requests},
-                                  {"suitability", suitability},
-                                  {"idle", idle_share(objective)},
-                                  {"changes", objective.changes}});
+  json.open("objective", '{');
+  json.write("satisfied", objective.satisfied);
+  json.write("requests", objective.requests);
+  json.write("suitability", suitability);
+  json.write("idle", idle_share(objective));
+  json.write("changes", objective.changes);
+  json.close('}');
 }
 
 /// The running tasks of the group, in catalog order, and the objectives.
@@ -227,17 +229,19 @@ class EventText {
       json_.write("behavior", catalog_.name_of_behavior(change.behavior));
       json_.write_list("tasks", record_.tasks_of(change),
                        [&](TaskId task) { json_.write(catalog_.name_of_task(task)); });
-      json_.write_members({{"cause", name_of(change.cause)},
-                           {"priority", change.priority},
-                           {"success", change.success}});
+      json_.write("cause", name_of(change.cause));
+      json_.write("priority", change.priority);
+      json_.write("success", change.success);
       json_.close('}');
     });
   }
 
   void write_stopped() {
     json_.write_list("stopped_tasks", record_.stopped_tasks, [&](const StoppedTask& entry) {
-      json_.write_object(
-          {{"task", catalog_.name_of_task(entry.task)}, {"cause", name_of(entry.cause)}});
+      json_.open('{');
+      json_.write("task", catalog_.name_of_task(entry.task));
+      json_.write("cause", name_of(entry.cause));
+      json_.close('}');
     });
   }
 

@@ -27,6 +27,7 @@ void JsonReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   json.open('{');
   json.write_members({{"catalog", catalog.file}, {"script", script.file}});
   json.open("events", '[');
+  json.flush();
   write(text);
   is_first_event_ = true;
   failures_.clear();

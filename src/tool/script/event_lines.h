@@ -37,6 +37,9 @@ class EventLines {
   /// Continues from the state of a coordinator: at the beginning, or to forget a line with errors.
   void resume(Microseconds now, const State& state) { reader_.resume(now, state); }
 
+  /// Saves the time that warnings take, for a caller that shows no more of them.
+  void stop_warnings() { reader_.stop_checking_parameters(); }
+
  private:
   yaml::JsonReader json_;
   StepReader reader_;
@@ -59,7 +62,9 @@ class EventLog {
 
   /// The catalog must outlive this object.
   explicit EventLog(const CompiledCatalog& catalog)
-      : catalog_(catalog), reader_(catalog, Severity::note) {}
+      : catalog_(catalog), reader_(catalog, Severity::note) {
+    reader_.stop_checking_parameters();
+  }
 
   /// Both are empty if the line is not as expected: see error().
   [[nodiscard]] std::optional<Header> read_header(std::string_view line);

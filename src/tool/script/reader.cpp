@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <string>
@@ -58,6 +59,20 @@ using yaml::Node;
 
 constexpr std::string_view expect = "expect";
 
+/// The keys that say what an entry is: a verb with a subject, or an expectation.
+constexpr auto event_words = [] {
+  constexpr auto count = std::count_if(
+      verb_forms.begin(), verb_forms.end(),
+      [](const VerbForm& form) { return form.subject != VerbForm::SubjectKind::nothing; });
+  std::array<std::string_view, count + 1> words;
+  std::size_t place = 0;
+  for (const VerbForm& form : verb_forms) {
+    if (form.subject != VerbForm::SubjectKind::nothing) words[place++] = form.name;
+  }
+  words[place] = expect;
+  return words;
+}();
+
 /// A key that belongs to some verbs only.
 struct Detail {
   std::string_view key;
@@ -80,10 +95,8 @@ std::string list_verbs(bool VerbForm::*belongs) {
 const std::string& all_event_words() {
   static const std::string words = [] {
     std::string text;
-    for (const VerbForm& form : verb_forms) {
-      if (form.subject != VerbForm::SubjectKind::nothing) text += quote(form.name) + ", ";
-    }
-    return text + "'expect', 'at' and 'wait'";
+    for (const std::string_view word : event_words) text += quote(word) + ", ";
+    return text + "'at' and 'wait'";
   }();
   return words;
 }
@@ -101,13 +114,8 @@ void report_misplaced(const Fields& fields, std::string_view verb, Reporter& rep
 
 // The verb of an entry; "wait" if it only has a time; empty after an error.
 std::string_view find_verb(const Fields& fields, const Range& range, Reporter& reporter) {
-  std::vector<std::string_view> verbs;
-  for (const VerbForm& form : verb_forms) {
-    if (form.subject != VerbForm::SubjectKind::nothing) verbs.push_back(form.name);
-  }
-  verbs.push_back(expect);
   const yaml::ChosenKey chosen =
-      yaml::choose_key(fields, verbs, "an event must have exactly one verb", reporter);
+      yaml::choose_key(fields, event_words, "an event must have exactly one verb", reporter);
   if (!chosen.name.empty() || chosen.is_reported) return chosen.name;
   if (fields.has_unknown()) {
     // Probably a misspelt verb; it is reported as such.
@@ -231,7 +239,7 @@ void StepReader::read_parts(const EventParts& parts, Step& step, Reporter& repor
   }
   if (form.has_parameters && parts.parameters != nullptr) {
     step.parameters = read_parameters(*parts.parameters, reporter);
-    if (subject && step.parameters) {
+    if (subject && step.parameters && checks_parameters_) {
       parameter_checks_.check(*subject, *parts.parameters, reporter);
     }
   }

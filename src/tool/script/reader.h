@@ -100,6 +100,9 @@ class StepReader {
   /// Notes that something not understood may have been meant to change the situation.
   void doubt_situation() { knows_situation_ = false; }
 
+  /// From here on nothing is found about parameters.
+  void stop_checking_parameters() { checks_parameters_ = false; }
+
  private:
   void read_time(const yaml::Fields& fields, Step& step, Reporter& reporter);
   void check_finish(std::uint32_t subject, bool is_task, const Range& range, Reporter& reporter);
@@ -108,6 +111,7 @@ class StepReader {
   Microseconds clock_ = 0;
   NameIndex names_;
   ParameterChecks parameter_checks_;
+  bool checks_parameters_ = true;
   // The situation at this place of the script.
   std::vector<bool> is_denied_;  ///< by behavior
   std::vector<std::uint32_t> variables_;

@@ -1,9 +1,16 @@
 #include "support/json.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <string>
+#include <string_view>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
@@ -11,32 +18,37 @@
 namespace cbc {
 namespace {
 
-/// A word of eight times the same character.
-constexpr std::uint64_t eight(char character) {
-  return static_cast<std::uint64_t>(character) * 0x0101010101010101;
+/// Copies a few characters of a text. Returns 0 if all of them stand for themselves in JSON: they
+/// are ASCII, not below the space, and neither a quote nor a backslash. Each of the others sets the
+/// highest bit of its byte.
+template <std::unsigned_integral Word>
+Word copy_word(char* to, const char* from) {
+  constexpr Word ones = std::numeric_limits<Word>::max() / 0xFF;
+  constexpr auto all = [](unsigned char character) { return static_cast<Word>(ones * character); };
+  Word word = 0;
+  std::memcpy(&word, from, sizeof word);
+  std::memcpy(to, &word, sizeof word);
+  return static_cast<Word>(
+      (word | (word - all(' ')) | ((word ^ all('"')) - ones) | ((word ^ all('\\')) - ones)) &
+      all(0x80));
 }
 
-/// Whether eight characters stand for themselves in a text of JSON: they are ASCII, not below the
-/// space, and neither a quote nor a backslash. Each of the others sets the highest bit of its byte.
-bool is_plain(std::uint64_t word) {
-  return ((word | (word - eight(' ')) | ((word ^ eight('"')) - eight(1)) |
-           ((word ^ eight('\\')) - eight(1))) &
-          0x8080808080808080) == 0;
+/// Copies a text that is no shorter than a word. Returns whether all of it stands for itself.
+template <std::unsigned_integral Word>
+bool copy_words(char* to, std::string_view text) {
+  const std::size_t last = text.size() - sizeof(Word);
+  Word special = copy_word<Word>(to + last, text.data() + last);
+  for (std::size_t place = 0; place < last; place += sizeof(Word)) {
+    const Word found = copy_word<Word>(to + place, text.data() + place);
+    special = static_cast<Word>(special | found);
+  }
+  return special == 0;
 }
 
-bool is_plain(std::string_view text) {
-  std::uint64_t word = eight(' ');
-  if (text.size() < sizeof word) {
-    std::memcpy(&word, text.data(), text.size());
-    return is_plain(word);
-  }
-  const char* const last = text.data() + text.size() - sizeof word;
-  for (const char* place = text.data(); place < last; place += sizeof word) {
-    std::memcpy(&word, place, sizeof word);
-    if (!is_plain(word)) return false;
-  }
-  std::memcpy(&word, last, sizeof word);
-  return is_plain(word);
+bool copy_plain(char* to, std::string_view text) {
+  if (text.size() >= sizeof(std::uint64_t)) return copy_words<std::uint64_t>(to, text);
+  if (text.size() >= sizeof(std::uint32_t)) return copy_words<std::uint32_t>(to, text);
+  return text.empty() || copy_words<std::uint8_t>(to, text);
 }
 
 bool is_digit(char character) { return character >= '0' && character <= '9'; }
@@ -61,25 +73,75 @@ std::string dump(const nlohmann::json& value) {
 
 }  // namespace
 
-void append_text(std::string& json, std::string_view text) {
-  if (!is_plain(text)) {
-    json += dump(text);
-    return;
+void JsonBuffer::put(std::string_view json) {
+  make_room(json.size());
+  if (json.size() > block_.size()) {
+    text_ += json;
+  } else {
+    std::memcpy(block_.data() + used_, json.data(), json.size());
+    used_ += json.size();
   }
-  json += '"';
-  json += text;
-  json += '"';
 }
 
-void append_number(std::string& json, double number) {
-  // Whole numbers, which are many, need no search for the fewest digits.
-  constexpr double few_digits = 1e9;
-  if (std::abs(number) < few_digits && std::trunc(number) == number && !std::signbit(number)) {
-    append_integer(json, static_cast<std::int64_t>(number));
-    json += ".0";
+void JsonBuffer::put_text(std::string_view text) {
+  make_room(text.size() + 2);
+  char* const begin = block_.data() + used_;
+  if (text.size() + 2 > block_.size() || !copy_plain(begin + 1, text)) {
+    put(dump(text));
     return;
   }
-  json += dump(number);
+  begin[0] = '"';
+  begin[text.size() + 1] = '"';
+  used_ += text.size() + 2;
+}
+
+void JsonBuffer::put_name(std::string_view name, bool has_comma) {
+  make_room(name.size() + 4);
+  char* end = block_.data() + used_;
+  if (has_comma) *end++ = ',';
+  if (name.size() + 4 > block_.size() || !copy_plain(end + 1, name)) {
+    if (has_comma) put(',');
+    put(dump(name));
+    put(':');
+    return;
+  }
+  *end = '"';
+  end += name.size() + 1;
+  *end++ = '"';
+  *end++ = ':';
+  used_ = static_cast<std::size_t>(end - block_.data());
+}
+
+void JsonBuffer::put_number(double number) {
+  // Whole numbers and thousandths, which are many, need no search for the fewest digits.
+  constexpr double few_digits = 1e9;
+  if (std::abs(number) < few_digits && std::trunc(number) == number && !std::signbit(number)) {
+    put_integer(static_cast<std::int64_t>(number));
+    put(std::string_view(".0"));
+    return;
+  }
+  if (number > 0 && number < 1) {
+    constexpr double thousand = 1000;
+    const std::int64_t thousandths = std::lround(number * thousand);
+    if (static_cast<double>(thousandths) / thousand == number) {
+      put_millionths(thousandths * 1000);
+      return;
+    }
+  }
+  put(dump(number));
+}
+
+void JsonBuffer::put_millionths(std::int64_t number) {
+  constexpr std::int64_t million = 1'000'000;
+  put_integer(number / million);
+  std::array<char, 7> fraction{'.'};
+  auto rest = static_cast<std::uint32_t>(number % million);
+  std::size_t size = 2;
+  for (std::size_t place = fraction.size() - 1; place > 0; --place, rest /= 10) {
+    fraction[place] = static_cast<char>('0' + rest % 10);
+    if (rest % 10 != 0) size = std::max(size, place + 1);
+  }
+  put({fraction.data(), size});
 }
 
 void append_as_written(std::string& json, std::string_view text) {
@@ -93,14 +155,6 @@ void append_as_written(std::string& json, std::string_view text) {
 void append_shortest(std::string& json, std::string_view text) {
   const auto number = nlohmann::json::parse(text, nullptr, false);
   json += dump(number.is_number() ? number : nlohmann::json(text));
-}
-
-void append_seconds(std::string& json, Microseconds time) {
-  append_integer(json, time / second);
-  std::string fraction = std::to_string(second + time % second);
-  fraction.front() = '.';
-  while (fraction.size() > 2 && fraction.back() == '0') fraction.pop_back();
-  json += fraction;
 }
 
 void JsonWriter::write_percent(std::string_view name, std::optional<Millionths> degree) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <charconv>
 #include <concepts>
 #include <cstddef>
@@ -17,15 +18,88 @@
 
 namespace cbc {
 
+/// Collects JSON in a block of its own before it goes to the end of a text: much is written in
+/// small pieces, and a block takes them faster than a string does.
+class JsonBuffer {
+ public:
+  /// The text must outlive this object. It is complete after flush(), or when this object ends.
+  explicit JsonBuffer(std::string& text) : text_(text) {}
+  ~JsonBuffer() { flush(); }
+  JsonBuffer(const JsonBuffer&) = delete;
+  JsonBuffer& operator=(const JsonBuffer&) = delete;
+
+  /// The last character; '[' of an empty text.
+  [[nodiscard]] char last() const {
+    if (used_ > 0) return block_[used_ - 1];
+    return text_.empty() ? '[' : text_.back();
+  }
+
+  // As it is.
+
+  void put(char character) {
+    make_room(1);
+    block_[used_++] = character;
+  }
+  void put(std::string_view json);
+
+  // Values.
+
+  /// Invalid UTF-8 is replaced by U+FFFD.
+  void put_text(std::string_view text);
+  /// The name of a member with its colon, behind a comma or not.
+  void put_name(std::string_view name, bool has_comma);
+  void put_number(double number);
+  template <std::integral Integer>
+  void put_integer(Integer number) {
+    make_room(most_digits);
+    char* const begin = block_.data() + used_;
+    used_ +=
+        static_cast<std::size_t>(std::to_chars(begin, begin + most_digits, number).ptr - begin);
+  }
+  /// A number of millionths, which is not negative, in units: exactly, as a double could not be.
+  void put_millionths(std::int64_t number);
+  /// A boolean, a number, a text, nullptr, or an optional, which is null if it is empty.
+  template <typename Value>
+  void put_value(const Value& value) {
+    if constexpr (std::is_same_v<Value, bool>) {
+      put(value ? std::string_view("true") : std::string_view("false"));
+    } else if constexpr (std::is_same_v<Value, std::nullptr_t>) {
+      put(std::string_view("null"));
+    } else if constexpr (std::integral<Value>) {
+      put_integer(value);
+    } else if constexpr (std::floating_point<Value>) {
+      put_number(value);
+    } else if constexpr (requires { value.has_value(); }) {
+      if (value.has_value()) {
+        put_value(*value);
+      } else {
+        put_value(nullptr);
+      }
+    } else {
+      put_text(value);
+    }
+  }
+
+  void flush() {
+    text_.append(block_.data(), used_);
+    used_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t most_digits = 24;
+
+  void make_room(std::size_t bytes) {
+    if (block_.size() - used_ < bytes) flush();
+  }
+
+  std::string& text_;
+  std::size_t used_ = 0;
+  std::array<char, 2048> block_;  // most events fit
+};
+
 /// Invalid UTF-8 is replaced by U+FFFD.
-void append_text(std::string& json, std::string_view text);
-
-void append_number(std::string& json, double number);
-
-template <std::integral Integer>
-void append_integer(std::string& json, Integer number) {
-  char digits[24];
-  json.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+inline void append_text(std::string& json, std::string_view text) {
+  JsonBuffer(json).put_text(text);
 }
 
 /// Appends what a person wrote: a number as it stands, so that no digit is lost, if it is one in
@@ -35,30 +109,10 @@ void append_as_written(std::string& json, std::string_view text);
 /// The same in the shortest form of the number: 0.5 for 0.50.
 void append_shortest(std::string& json, std::string_view text);
 
-/// Appends a time, which is not negative, in seconds. It is exact to the microsecond; a double
-/// would not be, as some of them need more digits.
-void append_seconds(std::string& json, Microseconds time);
-
-/// Appends a boolean, a number, a text, nullptr, or an optional, which is null if it is empty.
+/// See JsonBuffer::put_value.
 template <typename Value>
 void append_value(std::string& json, const Value& value) {
-  if constexpr (std::is_same_v<Value, bool>) {
-    json += value ? "true" : "false";
-  } else if constexpr (std::is_same_v<Value, std::nullptr_t>) {
-    json += "null";
-  } else if constexpr (std::integral<Value>) {
-    append_integer(json, value);
-  } else if constexpr (std::floating_point<Value>) {
-    append_number(json, value);
-  } else if constexpr (requires { value.has_value(); }) {
-    if (value.has_value()) {
-      append_value(json, *value);
-    } else {
-      json += "null";
-    }
-  } else {
-    append_text(json, value);
-  }
+  JsonBuffer(json).put_value(value);
 }
 
 /// A boolean, a number, a text that outlives it, or null, which an empty optional is as well.
@@ -79,8 +133,8 @@ class JsonPlain {
     }
   }
 
-  void append_to(std::string& json) const {
-    std::visit([&](const auto& value) { append_value(json, value); }, value_);
+  void put_to(JsonBuffer& json) const {
+    std::visit([&](const auto& value) { json.put_value(value); }, value_);
   }
 
  private:
@@ -95,7 +149,8 @@ struct JsonMember {
 using JsonMembers = std::initializer_list<JsonMember>;
 
 /// Writes JSON value by value to the end of a text, without a tree in memory. The caller opens and
-/// closes brackets in pairs, and gives names to the members of objects only.
+/// closes brackets in pairs, and gives names to the members of objects only. The text is complete
+/// when all brackets are closed, after flush(), and when the writer ends.
 class JsonWriter {
  public:
   enum class Layout : std::uint8_t { line, indented };
@@ -103,24 +158,26 @@ class JsonWriter {
   /// The text must outlive this object. `indented`: every item and member on its own line, one
   /// blank deeper than its bracket.
   explicit JsonWriter(std::string& text, Layout layout = Layout::line)
-      : text_(text), is_indented_(layout == Layout::indented) {}
+      : json_(text), is_indented_(layout == Layout::indented) {}
 
   /// Begins an object or an array.
   void open(char bracket) {
     separate();
-    text_ += bracket;
+    json_.put(bracket);
     ++depth_;
   }
   void open(std::string_view name, char bracket) {
     key(name);
-    text_ += bracket;
+    json_.put(bracket);
     ++depth_;
   }
   void close(char bracket) {
     --depth_;
-    if (is_indented_ && text_.back() != '{' && text_.back() != '[') break_line();
-    text_ += bracket;
+    if (is_indented_ && json_.last() != '{' && json_.last() != '[') break_line();
+    json_.put(bracket);
+    if (depth_ <= 0) flush();
   }
+  void flush() { json_.flush(); }
 
   /// Puts the next item or member on a line of its own.
   JsonWriter& on_new_line() {
@@ -130,9 +187,13 @@ class JsonWriter {
 
   /// The name of a member; its value is written next.
   void key(std::string_view name) {
+    if (!is_indented_ && !has_new_line_) {
+      json_.put_name(name, follows_another());
+      return;
+    }
     separate();
-    append_text(text_, name);
-    text_ += is_indented_ ? ": " : ":";
+    json_.put_name(name, false);
+    if (is_indented_) json_.put(' ');
   }
 
   // An item of an array, the value of a key, or the whole; with a name, a member of an object.
@@ -140,18 +201,18 @@ class JsonWriter {
   template <typename Value>
   void write(const Value& value) {
     separate();
-    append_value(text_, value);
+    json_.put_value(value);
   }
   template <typename Value>
   void write(std::string_view name, const Value& value) {
     key(name);
-    append_value(text_, value);
+    json_.put_value(value);
   }
   /// Members of the open object.
   void write_members(JsonMembers members) {
     for (const JsonMember& member : members) {
       key(member.name);
-      member.value.append_to(text_);
+      member.value.put_to(json_);
     }
   }
   /// An object of plain members only.
@@ -165,20 +226,22 @@ class JsonWriter {
     write_members(members);
     close('}');
   }
+  /// A time, which is not negative.
   void write_seconds(std::string_view name, Microseconds time) {
     key(name);
-    append_seconds(text_, time);
+    static_assert(second == 1'000'000);
+    json_.put_millionths(time);
   }
   /// In percent: a whole number where it is one.
   void write_percent(std::string_view name, std::optional<Millionths> degree);
   /// `json` is JSON already.
   void write_json(std::string_view json) {
     separate();
-    text_ += json;
+    json_.put(json);
   }
   void write_json(std::string_view name, std::string_view json) {
     key(name);
-    text_ += json;
+    json_.put(json);
   }
   /// An array. `write_item` writes one of `items`.
   template <typename Items, typename WriteItem>
@@ -195,22 +258,27 @@ class JsonWriter {
 
  private:
   void separate() {
-    const char last = text_.empty() ? '[' : text_.back();
+    const char last = json_.last();
     if (last == ':' || last == ' ') return;  // after a key
-    if (last != '{' && last != '[') text_ += ',';
+    if (follows_another()) json_.put(',');
     if (is_indented_ && depth_ > 0) break_line();
-    if (has_new_line_) text_ += '\n';
+    if (has_new_line_) json_.put('\n');
     has_new_line_ = false;
   }
+  /// Whether the next item or member is not the first one.
+  [[nodiscard]] bool follows_another() const {
+    const char last = json_.last();
+    return last != '{' && last != '[';
+  }
   void break_line() {
-    text_ += '\n';
-    text_.append(depth_, ' ');
+    json_.put('\n');
+    for (int blank = 0; blank < depth_; ++blank) json_.put(' ');
   }
 
-  std::string& text_;
+  JsonBuffer json_;
   const bool is_indented_;
   bool has_new_line_ = false;
-  std::size_t depth_ = 0;
+  int depth_ = 0;  ///< negative if it closes brackets that were in the text
 };
 
 /// An object on a line of its own. `write_members` writes its members to a JsonWriter.

@@ -156,7 +156,7 @@ std::string draw_value(const Parameter& parameter, RandomSource& random) {
   if (type == "string" || type == "text") {
     append_text(json, random.below(2) == 0 ? "a" : "b");
   } else if (type == "integer" || type == "int" || type == "number" || type == "float") {
-    append_integer(json, random.below(10));
+    append_value(json, random.below(10));
   } else if (type == "boolean" || type == "bool") {
     append_value(json, random.below(2) == 0);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <istream>
 #include <optional>
 #include <stdexcept>
@@ -200,11 +201,17 @@ class Builder : public YAML::EventHandler {
       }
     }
     if (found.empty()) return;
-    for (const auto& node : document_.nodes_) node->shared = found.contains(node.get());
+    for (Node& node : document_.nodes_) node.shared = found.contains(&node);
   }
 
   [[nodiscard]] Range range_at(std::size_t begin, std::size_t end) const {
-    return {positions_.at(begin), positions_.at(std::max(begin, end))};
+    const Position first = positions_.at(begin);
+    const std::string_view within = text_.substr(std::min(begin, text_.size()), end - begin);
+    if (end <= begin || within.find('\n') != std::string_view::npos) {
+      return {first, positions_.at(std::max(begin, end))};
+    }
+    const auto characters = static_cast<std::uint32_t>(utf8::count_characters(within));
+    return {first, {first.line, first.column + characters}};
   }
 
   // Possible start of the unfinished token.
@@ -319,11 +326,10 @@ class Builder : public YAML::EventHandler {
   void progress() { input_.reset(); }
 
   Node* create(Kind kind, const Range& range) {
-    document_.nodes_.push_back(std::make_unique<Node>());
-    Node* node = document_.nodes_.back().get();
-    node->kind = kind;
-    node->range = range;
-    return node;
+    Node& node = document_.nodes_.emplace_back();
+    node.kind = kind;
+    node.range = range;
+    return &node;
   }
 
   const Node* create_scalar(const Range& range, std::string_view tag, bool plain,
@@ -506,6 +512,10 @@ bool is_forbidden(char32_t character) {
 
 void check_characters(std::string_view text, const PositionMap& positions) {
   for (std::size_t offset = 0; offset < text.size();) {
+    if ((text[offset] >= ' ' && text[offset] < 0x7F) || text[offset] == '\n') {
+      ++offset;
+      continue;
+    }
     const utf8::Decoded decoded = utf8::decode(text, offset);
     const auto refuse = [&](const std::string& message) {
       const Position begin = positions.at(offset);

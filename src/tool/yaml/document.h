@@ -36,12 +36,12 @@ class Document {
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const Node& root() const { return *root_; }
   /// All nodes, including those that the root does not reach; scalars in the order of the text.
-  [[nodiscard]] const std::vector<std::unique_ptr<Node>>& nodes() const { return nodes_; }
+  [[nodiscard]] const std::deque<Node>& nodes() const { return nodes_; }
 
  private:
   friend class Builder;
   std::string file_;
-  std::vector<std::unique_ptr<Node>> nodes_;
+  std::deque<Node> nodes_;
   const Node* root_ = nullptr;
 };
 
@@ -84,7 +84,7 @@ class JsonReader {
   std::size_t at_ = 0;
   std::uint32_t line_ = 1;
   bool has_merge_key_ = false;
-  std::deque<Node> nodes_;
+  std::vector<std::unique_ptr<Node>> nodes_;
   std::size_t used_ = 0;
 };
 

@@ -187,8 +187,10 @@ bool JsonReader::read_word(std::string_view word) {
 }
 
 void JsonReader::skip_space() {
-  constexpr std::string_view space = " \t\r\n";
-  while (at_ < text_.size() && space.find(text_[at_]) != std::string_view::npos) ++at_;
+  const auto is_space = [](char character) {
+    return character == ' ' || character == '\t' || character == '\r' || character == '\n';
+  };
+  while (at_ < text_.size() && is_space(text_[at_])) ++at_;
 }
 
 bool JsonReader::take(char character) {
@@ -198,8 +200,8 @@ bool JsonReader::take(char character) {
 }
 
 Node& JsonReader::make_node(Kind kind) {
-  if (used_ == nodes_.size()) nodes_.emplace_back();
-  Node& node = nodes_[used_++];
+  if (used_ == nodes_.size()) nodes_.push_back(std::make_unique<Node>());
+  Node& node = *nodes_[used_++];
   node.kind = kind;
   node.plain = false;
   node.text.clear();

@@ -242,14 +242,14 @@ Span find_block_text(std::string_view text, std::size_t indicator, std::string_v
 std::vector<Span> find_scalars(std::string_view text, const Document& document) {
   std::vector<Span> scalars;
   Cursor cursor(text);
-  for (const auto& node : document.nodes()) {
-    if (node->kind != Kind::scalar) continue;
-    const std::size_t begin = cursor.advance_to(node->range.begin);
+  for (const Node& node : document.nodes()) {
+    if (node.kind != Kind::scalar) continue;
+    const std::size_t begin = cursor.advance_to(node.range.begin);
     const char first = begin < text.size() ? text[begin] : '\0';
     if (first == '"' || first == '\'') {
-      scalars.push_back({begin, cursor.advance_to(node->range.end)});
+      scalars.push_back({begin, cursor.advance_to(node.range.end)});
     } else if (first == '|' || first == '>') {
-      scalars.push_back(find_block_text(text, begin, node->text));
+      scalars.push_back(find_block_text(text, begin, node.text));
     }
   }
   return scalars;

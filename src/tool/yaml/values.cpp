@@ -15,6 +15,7 @@
 namespace cbc::yaml {
 
 void report_duplicate_keys(const Node& mapping, Reporter& reporter) {
+  if (mapping.entries.size() < 2) return;
   std::unordered_map<std::string_view, const Node*> known;
   for (const auto& entry : mapping.entries) {
     const Node& key = *entry.first;
@@ -168,40 +169,44 @@ std::optional<Millionths> read_percent(const Node& node, std::string_view what,
 
 std::optional<Microseconds> read_seconds(const Node& node, std::string_view what, bool positive,
                                          Reporter& reporter) {
-  const std::string expected = "a number of seconds " +
-                               std::string(positive ? "above 0, up to " : "from 0 to ") +
-                               std::to_string(longest_time / second);
+  const auto expected = [positive] {
+    return concat("a number of seconds ", positive ? "above 0, up to " : "from 0 to ",
+                  longest_time / second);
+  };
   if (node.kind != Kind::scalar || !node.plain) {
-    report_wrong_type(node, what, expected, reporter);
+    report_wrong_type(node, what, expected(), reporter);
     return std::nullopt;
   }
   Decimal decimal = parse_seconds(node.text);
   if (positive && decimal.error == DecimalError::no_error && decimal.value == 0) {
     decimal.error = DecimalError::out_of_range;
   }
-  report_number(node, what, expected, "at most 6 decimals", decimal.error, reporter);
-  if (decimal.error != DecimalError::no_error) return std::nullopt;
-  return decimal.value;
+  if (decimal.error == DecimalError::no_error) return decimal.value;
+  report_number(node, what, expected(), "at most 6 decimals", decimal.error, reporter);
+  return std::nullopt;
 }
 
 std::optional<std::int32_t> read_integer(const Node& node, std::string_view what,
                                          std::int32_t lowest, Reporter& reporter) {
   constexpr std::int32_t highest = std::numeric_limits<std::int32_t>::max();
-  const std::string expected =
-      "an integer from " + std::to_string(lowest) + " to " + std::to_string(highest);
+  const auto expected = [=] { return concat("an integer from ", lowest, " to ", highest); };
   if (node.kind != Kind::scalar || !node.plain) {
-    report_wrong_type(node, what, expected, reporter);
+    report_wrong_type(node, what, expected(), reporter);
     return std::nullopt;
   }
   const Decimal decimal = parse_integer(node.text, lowest, highest);
-  report_number(node, what, expected, {}, decimal.error, reporter);
-  if (decimal.error != DecimalError::no_error) return std::nullopt;
-  return static_cast<std::int32_t>(decimal.value);
+  if (decimal.error == DecimalError::no_error) return static_cast<std::int32_t>(decimal.value);
+  report_number(node, what, expected(), {}, decimal.error, reporter);
+  return std::nullopt;
 }
 
 std::optional<std::size_t> read_choice(const Node& node, std::string_view what,
                                        std::span<const std::string_view> choices,
                                        Reporter& reporter) {
+  if (node.kind == Kind::scalar) {
+    const auto found = std::find(choices.begin(), choices.end(), node.text);
+    if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
+  }
   std::string expected;
   std::size_t place = 0;
   for (const std::string_view choice : choices) {
@@ -211,9 +216,6 @@ std::optional<std::size_t> read_choice(const Node& node, std::string_view what,
   }
   const std::optional<std::string_view> text = read_text(node, what, expected, reporter);
   if (!text) return std::nullopt;
-  const auto found = std::find(choices.begin(), choices.end(), *text);
-  if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
-
   std::string message = must_be(what, expected) + ", found " + describe(node);
   message += did_you_mean(nearest(*text, choices));
   reporter.report(rule::invalid_value, node.range, std::move(message));
@@ -262,13 +264,13 @@ bool Shape::has(std::string_view key) const {
 }
 
 Fields::Fields(std::span<const Node* const> mappings, const Shape& shape, Reporter& reporter)
-    : shape_(shape), reporter_(reporter), what_(shape.what), fields_(shape.keys.size()) {
+    : shape_(shape), reporter_(reporter), what_(shape.what) {
   for (const Node* mapping : mappings) add_all(*mapping);
   report_older_names();
 }
 
 Fields::Fields(const Node& mapping, const Shape& shape, Reporter& reporter)
-    : shape_(shape), reporter_(reporter), what_(shape.what), fields_(shape.keys.size()) {
+    : shape_(shape), reporter_(reporter), what_(shape.what) {
   add_all(mapping);
   report_older_names();
 }
@@ -308,73 +310,78 @@ void Fields::add(const Node& key, const Node& value) {
     return;
   }
   const std::size_t place = place_of(key.text);
-  if (place == fields_.size()) {
-    unknown_.push_back({&key, &value, false});
+  if (place == shape_.keys.size()) {
+    unknown_.push_back({place, &key, &value, false});
     return;
   }
-  Field& field = fields_[place];
-  if (field.key == nullptr) {
-    field = {&key, &value, false};
+  const auto known = std::find_if(fields_.begin(), fields_.end(),
+                                  [place](const Field& field) { return field.place == place; });
+  if (known == fields_.end()) {
+    fields_.push_back({place, &key, &value, false});
   } else {
-    field.is_repeated = true;
+    known->is_repeated = true;
     reporter_.report(rule::duplicate_key, key.range, quote(key.text) + " is given twice",
-                     {reporter_.note(field.key->range, "first given here")});
+                     {reporter_.note(known->key->range, "first given here")});
   }
 }
 
 // An older name and the present one at once are one key given twice.
 void Fields::report_older_names() {
-  for (std::size_t place = 0; place < fields_.size(); ++place) {
-    const Key& key = shape_.keys[place];
-    Field& older = fields_[place];
-    if (key.replaced_by.empty() || older.key == nullptr) continue;
-    const Field& present = fields_[place_of(key.replaced_by)];
-    const bool both = older.value->kind != Kind::null && present.value != nullptr &&
-                      present.value->kind != Kind::null;
+  for (const Key& key : shape_.keys) {
+    if (key.replaced_by.empty()) continue;
+    const Field* const older = find_field(key.name);
+    if (older == nullptr) continue;
+    const Field* const present = find_field(key.replaced_by);
+    const bool both = older->value->kind != Kind::null && present != nullptr &&
+                      present->value->kind != Kind::null;
     if (!both) {
       // It cannot be renamed if the present name is there, even without a value, or if it is
       // repeated.
       std::vector<Edit> edits;
-      if (present.key == nullptr && !older.is_repeated)
-        edits = modernize(key, *older.key, *older.value);
+      if (present == nullptr && !older->is_repeated)
+        edits = modernize(key, *older->key, *older->value);
       std::string written(key.replaced_by);
       if (key.translate != nullptr) {
         // A new name alone would change the meaning.
-        if (const auto value = key.translate(*older.value)) written += ": " + std::string(*value);
+        if (const auto value = key.translate(*older->value)) written += ": " + std::string(*value);
       }
-      reporter_.report(rule::deprecated_key, older.key->range,
+      reporter_.report(rule::deprecated_key, older->key->range,
                        quote(key.name) + " is an older name: write " + quote(written), {},
                        std::move(edits));
       continue;
     }
-    const bool older_first = older.key->range.begin < present.key->range.begin;
-    const Range& first = older_first ? older.key->range : present.key->range;
-    const Range& second = older_first ? present.key->range : older.key->range;
+    const bool older_first = older->key->range.begin < present->key->range.begin;
+    const Range& first = older_first ? older->key->range : present->key->range;
+    const Range& second = older_first ? present->key->range : older->key->range;
     reporter_.report(
         rule::duplicate_key, second,
         quote(key.name) + ", an older name, and " + quote(key.replaced_by) + " are both given",
         {reporter_.note(first, "first given here")});
-    older = {};
+    fields_.erase(fields_.begin() + (older - fields_.data()));
   }
 }
 
+const Fields::Field* Fields::find_field(std::string_view key) const {
+  for (const Field& field : fields_) {
+    if (shape_.keys[field.place].name == key) return &field;
+  }
+  return nullptr;
+}
+
 const Node* Fields::find(std::string_view key) const {
-  const Node* value = fields_[place_of(key)].value;
-  return value == nullptr || value->kind == Kind::null ? nullptr : value;
+  const Field* const field = find_field(key);
+  return field == nullptr || field->value->kind == Kind::null ? nullptr : field->value;
 }
 
-bool Fields::has(std::string_view key) const { return fields_[place_of(key)].key != nullptr; }
+bool Fields::has(std::string_view key) const { return find_field(key) != nullptr; }
 
-const Range& Fields::range_of(std::string_view key) const {
-  return fields_[place_of(key)].key->range;
-}
+const Range& Fields::range_of(std::string_view key) const { return find_field(key)->key->range; }
 
 const Node* Fields::require(std::string_view key, const Range& range) {
   if (const Node* value = find(key)) return value;
   if (const Node* value = adopt(key)) return value;
-  const Field& field = fields_[place_of(key)];
-  if (field.key != nullptr) {
-    reporter_.report(rule::missing_key, field.key->range, quote(key) + " has no value");
+  if (const Field* const field = find_field(key)) {
+    reporter_.report(rule::missing_key, field->key->range, quote(key) + " has no value");
   } else {
     reporter_.report(rule::missing_key, range, "missing key " + quote(key) + " in " + what_);
   }
@@ -387,7 +394,9 @@ const Node* Fields::adopt(std::string_view key) {
     reporter_.report(rule::missing_key, field->key->range,
                      "missing key " + quote(key) + " in " + what_ + ": " + quote(field->key->text) +
                          " is unknown" + did_you_mean(key));
-    fields_[place_of(key)] = *field;
+    std::erase_if(fields_,
+                  [place = place_of(key)](const Field& one) { return one.place == place; });
+    fields_.push_back({place_of(key), field->key, field->value, false});
     unknown_.erase(field);
     return find(key);
   }
@@ -404,10 +413,9 @@ std::string_view Fields::suggestion_for(std::string_view key) const {
 
 bool Fields::is_given(std::string_view key) const {
   const std::string_view present = present_name(shape_.keys[place_of(key)]);
-  for (std::size_t place = 0; place < fields_.size(); ++place) {
-    if (fields_[place].key != nullptr && present_name(shape_.keys[place]) == present) return true;
-  }
-  return false;
+  return std::any_of(fields_.begin(), fields_.end(), [&](const Field& field) {
+    return present_name(shape_.keys[field.place]) == present;
+  });
 }
 
 void Fields::report_unknown(UnknownKeys treatment) {
@@ -440,30 +448,30 @@ void Fields::report_unknown(UnknownKeys treatment) {
 
 ChosenKey choose_key(const Fields& fields, std::span<const std::string_view> keys,
                      std::string_view what, Reporter& reporter) {
-  std::vector<std::string_view> found;
+  // The first two in the order of the text.
+  std::string_view first;
+  std::string_view second;
   std::string_view without_value;
-  for (const std::string_view key : keys) {
-    if (fields.find(key) != nullptr) {
-      found.push_back(key);
-    } else if (fields.has(key)) {
+  for (std::string_view key : keys) {
+    if (!fields.has(key)) continue;
+    if (fields.find(key) == nullptr) {
       without_value = key;
+      continue;
     }
+    const auto is_before = [&](std::string_view other) {
+      return other.empty() || fields.range_of(key) < fields.range_of(other);
+    };
+    if (is_before(first)) std::swap(first, key);
+    if (!key.empty() && is_before(second)) second = key;
   }
-  if (found.size() == 1) return {found.front(), false, {}};
-  if (found.size() > 1) {
-    std::sort(found.begin(), found.end(), [&fields](std::string_view a, std::string_view b) {
-      return fields.range_of(a) < fields.range_of(b);
-    });
-    const std::string advice = fields.is_block()
-                                   ? concat("begin another entry with '- ", found[1], ":'")
-                                   : "each needs an entry of its own";
-    reporter.report(
-        rule::invalid_value, fields.range_of(found[1]),
-        concat(what, ", found ", quote(found[0]), " and ", quote(found[1]), "; ", advice),
-        {reporter.note(fields.range_of(found[0]), "the first one is here")});
-    return {{}, true, {}};
-  }
-  return {{}, false, without_value};
+  if (second.empty()) return {first, false, first.empty() ? without_value : std::string_view()};
+  const std::string advice = fields.is_block()
+                                 ? concat("begin another entry with '- ", second, ":'")
+                                 : "each needs an entry of its own";
+  reporter.report(rule::invalid_value, fields.range_of(second),
+                  concat(what, ", found ", quote(first), " and ", quote(second), "; ", advice),
+                  {reporter.note(fields.range_of(first), "the first one is here")});
+  return {{}, true, {}};
 }
 
 }  // namespace cbc::yaml

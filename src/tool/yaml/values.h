@@ -83,6 +83,7 @@ class Fields {
 
  private:
   struct Field {
+    std::size_t place = 0;  ///< of its key in the shape
     const Node* key = nullptr;
     const Node* value = nullptr;
     bool is_repeated = false;
@@ -90,6 +91,8 @@ class Fields {
 
   void add_all(const Node& mapping);
   [[nodiscard]] bool begins_entry(const Node& mapping, const Node& key);
+  /// Null if the key is not there.
+  [[nodiscard]] const Field* find_field(std::string_view key) const;
   void add(const Node& key, const Node& value);
   void report_older_names();
   [[nodiscard]] std::string_view suggestion_for(std::string_view key) const;
@@ -100,7 +103,7 @@ class Fields {
   const Shape& shape_;
   Reporter& reporter_;
   std::string what_;
-  std::vector<Field> fields_;  // one for each key of the shape
+  std::vector<Field> fields_;  // those that are there; most mappings have few of their keys
   std::vector<Field> unknown_;
   bool has_own_ = false;  // a key that begins with "x-"
   bool is_block_ = false;

@@ -1,0 +1,108 @@
+// The search that learns: problems that branch and bound alone does not finish.
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "solver/nogoods.h"
+#include "solver/solver.h"
+#include "unit/compiled_fixture.h"
+
+namespace cbc {
+namespace {
+
+struct Answer {
+  SearchResult result;
+  std::string text;
+};
+
+Answer solve(const CompiledCatalog& catalog, const Problem& problem, std::uint64_t bounded_nodes) {
+  SearchOptions options;
+  options.bounded_nodes = bounded_nodes;
+  options.max_nodes = 20'000;
+  const std::vector<std::uint32_t> ranks;
+  Solver solver(catalog, options, ranks);
+  Answer answer;
+  Assignment solution;
+  answer.result = solver.solve(problem, solution);
+  if (has_solution(answer.result.status)) answer.text = test::show(catalog, solution, 0);
+  return answer;
+}
+
+/// A task that requires three others, each of which fits into one of `holes`, and 20 that have two
+/// ways each and nothing to do with it. A minimum performance keeps all of it together.
+CompiledCatalog catalog_with_holes(int holes) {
+  std::string behaviors;
+  std::string required = "{task: A}, {task: B}, {task: C}";
+  for (int i = 0; i < 20; ++i) {
+    required += fmt::format(", {{task: P{}}}", i);
+    for (const char way : {'Q', 'R'}) {
+      behaviors += fmt::format(
+          "- {{behavior: p{0}{1}, task: P{0}, requires: [{{task: {1}{0}}}]}}\n"
+          "- {{behavior: {1}{0}, task: {1}{0}, suitability: 90}}\n",
+          i, way);
+    }
+  }
+  std::string lists;
+  for (int hole = 0; hole < holes; ++hole) {
+    lists += fmt::format("- mutually_exclusive: [A{0}, B{0}, C{0}]\n", hole);
+    for (const char task : {'A', 'B', 'C'}) {
+      behaviors += fmt::format(
+          "- {{behavior: {0}_in_{1}, task: {0}, requires: [{{task: {0}{1}}}]}}\n"
+          "- {{behavior: {0}{1}, task: {0}{1}}}\n",
+          task, hole);
+    }
+  }
+  return test::compile_text(
+      fmt::format("default_values: {{tasks: {{start_on_request: false}}}}\n"
+                  "behaviors:\n- {{behavior: all, task: ALL, requires: [{}]}}\n{}"
+                  "tasks:\n- {{task: ALL, minimum_performance: 1}}\nexclusivity_constraints:\n{}",
+                  required, behaviors, lists));
+}
+
+TEST(LearningSearch, RefutesWhatBacktrackingDoesNot) {
+  const CompiledCatalog catalog = catalog_with_holes(2);
+  Problem problem = test::open_problem(catalog);
+  test::demand(problem, catalog, "ALL");
+  EXPECT_EQ(solve(catalog, problem, UINT64_MAX).result.status, SearchStatus::unknown);
+  const Answer learned = solve(catalog, problem, SearchOptions{}.bounded_nodes);
+  EXPECT_EQ(learned.result.status, SearchStatus::infeasible);
+  EXPECT_LT(learned.result.nodes, 500U);
+}
+
+TEST(LearningSearch, DropsTheRequestThatHasNoPlace) {
+  const CompiledCatalog catalog = catalog_with_holes(2);
+  Problem problem = test::open_problem(catalog);
+  for (const char* task : {"P0", "C", "A", "B", "P1"}) test::request(problem, catalog, task);
+  const Answer learned = solve(catalog, problem, 0);
+  EXPECT_EQ(learned.result.status, SearchStatus::optimal);
+  EXPECT_EQ(learned.text.find("B="), std::string::npos) << learned.text;
+  for (const char* task : {"P0=", "C=", "A=", "P1="}) {
+    EXPECT_NE(learned.text.find(task), std::string::npos) << learned.text;
+  }
+}
+
+TEST(Nogoods, ForgetThoseUsedLeast) {
+  Nogoods nogoods;
+  nogoods.clear(8);
+  for (Literal literal = 0; literal < 8; literal += 2) {
+    const std::array<Literal, 3> clause{literal, literal + 2, literal + 4};
+    const std::uint32_t number = nogoods.add(clause, 3);
+    if (literal >= 4) nogoods.note_use(number);
+  }
+  const std::array<Literal, 2> short_clause{1, 3};
+  static_cast<void>(nogoods.add(short_clause, 2));
+  nogoods.forget_half();
+  ASSERT_EQ(nogoods.size(), 3U);
+  EXPECT_EQ(nogoods.literals(0)[0], 4U);
+  EXPECT_EQ(nogoods.literals(1)[0], 6U);
+  EXPECT_EQ(nogoods.literals(2)[0], 1U) << "few levels";
+  EXPECT_EQ(nogoods.watches(0).size(), 0U);
+  EXPECT_EQ(nogoods.watches(6).size(), 2U);
+}
+
+}  // namespace
+}  // namespace cbc
