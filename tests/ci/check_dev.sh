@@ -25,6 +25,20 @@ expect() {
   fi
 }
 
+# A failed test does not hide why others were skipped.
+check_skipped() {
+  local status=0 output
+  replace cmake <<<'exit 0'
+  replace ctest <<<'exit 8'
+  replace awk <<<'echo there is no tool'
+  output=$(PATH=$bin:$PATH "$source/dev" test 2>&1) || status=$?
+  rm -- "$bin/awk"
+  if [[ $status != 8 || $output != *"skipped: 1, since there is no tool"* ]]; then
+    echo "check_dev.sh: FAILED: status $status, and the reasons of skipped tests in '$output'"
+    exit 1
+  fi
+}
+
 replace dpkg-query <<<'for package; do echo "install ok installed $package"; done'
 replace xargs <<<'cat >/dev/null; exit 0'
 expect 0 'dev format: passed'
@@ -32,3 +46,4 @@ replace xargs <<<'cat >/dev/null; exit 3'
 expect 3 'dev format: FAILED at: format (exit status 3)'
 replace xargs <<<'cat >/dev/null; kill -TERM $PPID; sleep 0.1'
 expect 143 'dev format: INTERRUPTED at: format'
+check_skipped
