@@ -518,7 +518,7 @@ std::unique_ptr<Drawable> read_drawable(const std::string& path) {
   return drawable;
 }
 
-LineInput::Status LineInput::next() {
+LineInput::Status LineInput::next(int longest_wait) {
   for (;;) {
     const std::size_t end = buffer_.find('\n', scanned_);
     const bool is_last = end == std::string::npos && has_ended_;
@@ -536,12 +536,12 @@ LineInput::Status LineInput::next() {
       skips_ = true;
       begin_ = scanned_;
     }
-    if (const Status status = fill(); status != Status::line) return status;
+    if (const Status status = fill(longest_wait); status != Status::line) return status;
   }
 }
 
 /// Reads more input. Returns `line` if there may be one now.
-LineInput::Status LineInput::fill() {
+LineInput::Status LineInput::fill(int longest_wait) {
   before_reading_();
   buffer_.erase(0, begin_);
   scanned_ -= begin_;
@@ -549,7 +549,9 @@ LineInput::Status LineInput::fill() {
   constexpr std::size_t block_size = std::size_t{1} << 16;
   for (;;) {
     std::array<pollfd, 2> waiting{{{descriptor_, POLLIN, 0}, {stop_, POLLIN, 0}}};
-    if (::poll(waiting.data(), waiting.size(), -1) < 0 && errno == EINTR) continue;
+    const int ready = ::poll(waiting.data(), waiting.size(), longest_wait);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready == 0) return Status::waiting;
     if (waiting[1].revents != 0) return Status::stopped;
     const std::size_t size = buffer_.size();
     buffer_.resize(size + block_size);

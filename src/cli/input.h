@@ -208,6 +208,7 @@ class LineInput {
  public:
   enum class Status : std::uint8_t {
     line,      ///< see line() and number()
+    waiting,   ///< nothing has come in the given time
     too_long,  ///< a line was skipped because it is too long; see number()
     end,
     stopped,  ///< a signal has come
@@ -224,7 +225,8 @@ class LineInput {
         longest_line_(longest_line),
         before_reading_(std::move(before_reading)) {}
 
-  [[nodiscard]] Status next();
+  /// Waits for the next line, at most `longest_wait` milliseconds if that is not negative.
+  [[nodiscard]] Status next(int longest_wait = -1);
   /// Without its end; valid until the next call.
   [[nodiscard]] std::string_view line() const { return line_; }
   /// Counts lines from 1.
@@ -232,7 +234,7 @@ class LineInput {
   [[nodiscard]] const std::string& error() const { return error_; }
 
  private:
-  [[nodiscard]] Status fill();
+  [[nodiscard]] Status fill(int longest_wait);
 
   int descriptor_;
   int stop_;
