@@ -103,12 +103,60 @@ bool looks_like_script(const yaml::Document& document) {
          });
 }
 
-bool looks_like_catalog(std::string_view text) {
+namespace {
+
+/// A list of events, of which at least one has a known verb.
+bool has_events(const yaml::Node& node) {
+  return node.kind == yaml::Kind::sequence &&
+         std::any_of(node.items.begin(), node.items.end(), [](const yaml::Node* item) {
+           return has_any(*item, words_of<Verb>()) || item->find("expect") != nullptr;
+         });
+}
+
+/// Other YAML files, such as JSON schemas, have a mapping under this key.
+bool has_properties(const yaml::Node& root) {
+  const yaml::Node* const properties = root.find("properties");
+  return properties == nullptr || properties->kind == yaml::Kind::sequence;
+}
+
+/// Whether lines of a text that is not valid YAML begin with the keys of a script.
+bool has_lines_of_script(std::string_view text) {
+  text = utf8::without_byte_order_mark(text);
+  bool has_verb = false;
+  bool has_key = false;
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::string_view line = text.substr(begin, text.find('\n', begin) - begin);
+    begin += line.size() + 1;
+    has_key |= line.starts_with("events:");
+    line.remove_prefix(std::min(line.find_first_not_of(" -{"), line.size()));
+    const std::string_view word = line.substr(0, line.find(':'));
+    has_verb |=
+        word.size() < line.size() && (word == "expect" || find_word<Verb>(word).has_value());
+  }
+  return has_key && has_verb;
+}
+
+}  // namespace
+
+FoundFile recognize(std::string_view text) {
   Diagnostics ignored;
   const auto document = yaml::parse(text, {}, ignored);
-  if (document == nullptr) return has_lines_of_catalog(text);
-  return !is_script(*document) && !is_property_file(*document) &&
-         resembles_catalog(document->root());
+  if (document == nullptr) {
+    if (has_lines_of_catalog(text)) return FoundFile::catalog;
+    return has_lines_of_script(text) ? FoundFile::script : FoundFile::other;
+  }
+  const yaml::Node& root = document->root();
+  if (is_property_file(*document)) {
+    return has_properties(root) ? FoundFile::properties : FoundFile::other;
+  }
+  if (looks_like_script(*document)) {
+    const bool names_both = root.find("catalog") != nullptr && root.find("events") != nullptr;
+    const bool is_found = names_both || has_events(root) ||
+                          std::any_of(root.entries.begin(), root.entries.end(),
+                                      [](const auto& entry) { return has_events(*entry.second); });
+    return is_found ? FoundFile::script : FoundFile::other;
+  }
+  return resembles_catalog(root) ? FoundFile::catalog : FoundFile::other;
 }
 
 namespace {
@@ -338,8 +386,12 @@ std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const InputFile& file
   return std::make_shared<const CompiledCatalog>(compile(*catalog));
 }
 
+std::string CatalogLoader::key_of(const std::string& path) {
+  return fs::path(path).lexically_normal().string();
+}
+
 std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const std::string& path) {
-  const auto [entry, is_new] = known_.try_emplace(path, nullptr);
+  const auto [entry, is_new] = known_.try_emplace(key_of(path), nullptr);
   if (is_new) {
     if (const std::optional<InputFile> file = files_.read_catalog(path))
       entry->second = load(*file);
@@ -466,7 +518,7 @@ std::unique_ptr<Drawable> read_drawable(const std::string& path) {
   return drawable;
 }
 
-LineInput::Status LineInput::next() {
+LineInput::Status LineInput::next(int longest_wait) {
   for (;;) {
     const std::size_t end = buffer_.find('\n', scanned_);
     const bool is_last = end == std::string::npos && has_ended_;
@@ -484,12 +536,12 @@ LineInput::Status LineInput::next() {
       skips_ = true;
       begin_ = scanned_;
     }
-    if (const Status status = fill(); status != Status::line) return status;
+    if (const Status status = fill(longest_wait); status != Status::line) return status;
   }
 }
 
 /// Reads more input. Returns `line` if there may be one now.
-LineInput::Status LineInput::fill() {
+LineInput::Status LineInput::fill(int longest_wait) {
   before_reading_();
   buffer_.erase(0, begin_);
   scanned_ -= begin_;
@@ -497,7 +549,9 @@ LineInput::Status LineInput::fill() {
   constexpr std::size_t block_size = std::size_t{1} << 16;
   for (;;) {
     std::array<pollfd, 2> waiting{{{descriptor_, POLLIN, 0}, {stop_, POLLIN, 0}}};
-    if (::poll(waiting.data(), waiting.size(), -1) < 0 && errno == EINTR) continue;
+    const int ready = ::poll(waiting.data(), waiting.size(), longest_wait);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready == 0) return Status::waiting;
     if (waiting[1].revents != 0) return Status::stopped;
     const std::size_t size = buffer_.size();
     buffer_.resize(size + block_size);

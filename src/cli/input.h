@@ -33,9 +33,13 @@ namespace cbc::cli {
 /// Whether it is a script, or would be one but for a misspelt key.
 [[nodiscard]] bool looks_like_script(const yaml::Document& document);
 
-/// Whether a text, even one that is not valid YAML, is meant as a catalog: misspelt keys count,
-/// too.
-[[nodiscard]] bool looks_like_catalog(std::string_view text);
+/// What a file is that was found in a folder.
+enum class FoundFile : std::uint8_t { catalog, script, properties, other };
+
+/// What a text, even one that is not valid YAML, is meant as. A catalog may have misspelt keys; a
+/// script names a catalog or has an event with a known verb, as folders have all kinds of YAML
+/// files.
+[[nodiscard]] FoundFile recognize(std::string_view text);
 
 /// The content of a file, or of standard input for "-". If it cannot be read, prints why to
 /// standard error.
@@ -157,10 +161,10 @@ class CatalogLoader {
 
   /// Keeps a catalog that was read in another way, or null for one that cannot be used.
   void keep(const std::string& path, std::shared_ptr<const CompiledCatalog> catalog) {
-    known_.insert_or_assign(path, std::move(catalog));
+    known_.insert_or_assign(key_of(path), std::move(catalog));
   }
   /// Whether the catalog of the path is kept.
-  [[nodiscard]] bool knows(const std::string& path) const { return known_.contains(path); }
+  [[nodiscard]] bool knows(const std::string& path) const { return known_.contains(key_of(path)); }
 
   /// A catalog in YAML, fit to be compiled; empty if there are errors.
   [[nodiscard]] std::optional<Catalog> understand(
@@ -168,8 +172,11 @@ class CatalogLoader {
       InputFiles::Purpose purpose = InputFiles::Purpose::compilation);
 
  private:
+  /// The same for './robot.yaml' and 'robot.yaml'.
+  [[nodiscard]] static std::string key_of(const std::string& path);
+
   InputFiles& files_;
-  std::map<std::string, std::shared_ptr<const CompiledCatalog>> known_;  ///< by path
+  std::map<std::string, std::shared_ptr<const CompiledCatalog>> known_;
 };
 
 /// Loads the only catalog of a command line. Null if it cannot be used; the reason is printed.
@@ -201,6 +208,7 @@ class LineInput {
  public:
   enum class Status : std::uint8_t {
     line,      ///< see line() and number()
+    waiting,   ///< nothing has come in the given time
     too_long,  ///< a line was skipped because it is too long; see number()
     end,
     stopped,  ///< a signal has come
@@ -217,7 +225,8 @@ class LineInput {
         longest_line_(longest_line),
         before_reading_(std::move(before_reading)) {}
 
-  [[nodiscard]] Status next();
+  /// Waits for the next line, at most `longest_wait` milliseconds if that is not negative.
+  [[nodiscard]] Status next(int longest_wait = -1);
   /// Without its end; valid until the next call.
   [[nodiscard]] std::string_view line() const { return line_; }
   /// Counts lines from 1.
@@ -225,7 +234,7 @@ class LineInput {
   [[nodiscard]] const std::string& error() const { return error_; }
 
  private:
-  [[nodiscard]] Status fill();
+  [[nodiscard]] Status fill(int longest_wait);
 
   int descriptor_;
   int stop_;

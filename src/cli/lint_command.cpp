@@ -62,8 +62,12 @@ class Linter {
 
   /// A catalog; or an event script or a property file that names its catalog.
   void lint_catalog(const std::string& path);
-  /// Lints a file of a folder if it is a catalog. Returns whether it is one.
-  bool lint_if_catalog(const std::string& path);
+  /// Lints a file that was found in a folder if it is a catalog, or keeps it for lint_found if it
+  /// is a script or a property file. Returns whether it is any of these.
+  void lint_in_folder(const std::string& path, const std::string& folder);
+  /// Lints the scripts and the property files that were found in folders, with the catalogs that
+  /// they name, or else with the only one beside them. Comes after all catalogs.
+  void lint_found();
   /// An event script or a property file. `catalog`: path of its catalog; if empty, the one that the
   /// file names.
   void lint_script(const std::string& path, const std::string& catalog);
@@ -71,6 +75,10 @@ class Linter {
   void check_settings();
 
   [[nodiscard]] const std::vector<LintedFile>& files() const { return files_; }
+  /// Whether a file was linted that was found in a folder of the command line.
+  [[nodiscard]] bool has_checked(const std::string& folder) const {
+    return checked_folders_.contains(folder);
+  }
   /// Whether a file could not be read, or not be written.
   [[nodiscard]] bool has_failed() const { return has_failed_; }
   /// Whether there was an internal error.
@@ -94,6 +102,13 @@ class Linter {
   [[nodiscard]] Linted lint_text(const std::string& name, std::string text,
                                  const SeveritySettings& settings) const;
   void fix(const std::string& path, Linted& linted, const SeveritySettings& settings);
+  /// A script or a property file of a folder.
+  struct Found {
+    std::string path;
+    std::string folder;  ///< of the command line
+    std::string text;
+  };
+  [[nodiscard]] std::string catalog_beside(const Found& found) const;
   [[nodiscard]] static bool write_fixed(const std::string& path, const std::string& before,
                                         const std::string& after);
   [[nodiscard]] std::shared_ptr<const CompiledCatalog> catalog_of(const yaml::Document& document,
@@ -118,12 +133,21 @@ class Linter {
     bool has_all = true;  ///< all catalogs could be read
   };
   std::map<std::string, NamedTasks> named_tasks_;
+  std::vector<Found> found_;
+  std::set<std::string> checked_folders_;
+  /// The catalogs that were linted, by folder.
+  std::map<std::filesystem::path, std::vector<std::string>> catalogs_in_;
   std::string diff_;
   bool has_failed_ = false;
   bool has_internal_error_ = false;
   bool has_found_ = false;
   bool has_mended_ = false;
 };
+
+/// The same for './robot.yaml' and 'robot.yaml'.
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.lexically_normal().parent_path();
+}
 
 void complain_of_catalog(const std::string& name) {
   complain("{} is a catalog; expected an event script or a property file", quote(name));
@@ -141,12 +165,58 @@ void Linter::lint_catalog(const std::string& path) {
   }
 }
 
-bool Linter::lint_if_catalog(const std::string& path) {
+void Linter::lint_in_folder(const std::string& path, const std::string& folder) {
   std::optional<CatalogInput> input = read_catalog_input(path);
   has_failed_ |= !input;
-  if (!input || input->is_compiled || !looks_like_catalog(input->content)) return false;
-  lint_catalog_text(path, std::move(input->content));
-  return true;
+  if (!input || input->is_compiled) return;
+  switch (recognize(input->content)) {
+    case FoundFile::catalog:
+      lint_catalog_text(path, std::move(input->content));
+      checked_folders_.insert(folder);
+      break;
+    case FoundFile::script:
+    case FoundFile::properties:
+      found_.push_back({path, folder, std::move(input->content)});
+      break;
+    case FoundFile::other:
+      break;
+  }
+}
+
+void Linter::lint_found() {
+  std::vector<std::string> unchecked;
+  for (Found& found : found_) {
+    Diagnostics ignored;
+    const auto document = yaml::parse(found.text, found.path, ignored);
+    std::string catalog;
+    if (document != nullptr && !path_of_catalog(found.path, *document)) {
+      catalog = catalog_beside(found);
+      if (catalog.empty()) {
+        unchecked.push_back(quote(found.path));
+        continue;
+      }
+    }
+    lint_script_text(found.path, std::move(found.text), catalog);
+    checked_folders_.insert(found.folder);
+  }
+  if (unchecked.empty()) return;
+  complain("not checked, as {} no catalog, and there is not exactly one beside {}: {}",
+           unchecked.size() == 1 ? "it names" : "they name", unchecked.size() == 1 ? "it" : "them",
+           join(unchecked, ", "));
+}
+
+/// The only catalog in the nearest folder that has catalogs: the file's own one, or one above it
+/// that was linted, too. Empty if there is none, or several.
+std::string Linter::catalog_beside(const Found& found) const {
+  const std::filesystem::path top = folder_of(std::filesystem::path(found.folder) / "any");
+  std::filesystem::path folder = folder_of(found.path);
+  for (;;) {
+    if (const auto known = catalogs_in_.find(folder); known != catalogs_in_.end()) {
+      return known->second.size() == 1 ? known->second.front() : std::string();
+    }
+    if (folder == top || !folder.has_relative_path()) return {};
+    folder = folder.parent_path();
+  }
 }
 
 /// A compiled catalog has no text to lint.
@@ -186,6 +256,7 @@ void Linter::lint_catalog_text(const std::string& path, std::string text) {
     lint_script_text(path, std::move(linted.file.text), "");
     return;
   }
+  catalogs_in_[folder_of(path)].push_back(path);
   if (is_to_fix()) fix(path, linted, *settings);
   note_tasks(linted.catalog, !linted.catalog.tasks.empty(), *settings);
   catalogs_.keep(path, linted.compiled);
@@ -200,6 +271,7 @@ Linter::Linted Linter::lint_text(const std::string& name, std::string text,
   Diagnostics diagnostics;
   const auto document = yaml::parse(linted.file.text, name, diagnostics);
   if (document == nullptr) {
+    linted.file.kind = LintedFile::Kind::unknown;
     linted.errors = diagnostics.count(Severity::error);
     linted.file.findings =
         control_findings(diagnostics.release(), {name, linted.file.text, nullptr, false}, settings);
@@ -283,12 +355,13 @@ void Linter::lint_script(const std::string& path, const std::string& catalog) {
 void Linter::lint_script_text(const std::string& path, std::string text,
                               const std::string& catalog) {
   LintedFile file;
-  file.is_catalog = false;
   file.file = name_of(path);
   file.text = std::move(text);
   const std::optional<SeveritySettings> settings = settings_.find(path == "-" ? file.file : path);
   Diagnostics diagnostics;
   const auto document = yaml::parse(file.text, file.file, diagnostics);
+  file.kind = document != nullptr && is_property_file(*document) ? LintedFile::Kind::properties
+                                                                 : LintedFile::Kind::script;
   CommentedFile commented{file.file, file.text, document.get(), false};
   if (document != nullptr && is_catalog(*document)) {
     complain_of_catalog(file.file);
@@ -365,7 +438,7 @@ void Linter::check_settings() {
                                {named.tasks.begin(), named.tasks.end()}, diagnostics);
     if (diagnostics.all().empty()) continue;
     LintedFile settings;
-    settings.is_catalog = false;
+    settings.kind = LintedFile::Kind::settings;
     settings.file = file;
     settings.text = read_input(file).value_or("");
     diagnostics.sort();
@@ -386,7 +459,7 @@ constexpr const char* lint_examples =
 
 constexpr const char* lint_footer =
     "More examples:\n"
-    "  cbc lint --strict catalogs/               a folder; also fail on warnings\n"
+    "  cbc lint --strict .                       a folder; also fail on warnings\n"
     "  cbc lint --format sarif catalogs/ > lint.sarif\n"
     "                                            for code scanning\n"
     "  cbc lint --script mission.yaml robot.yaml  also check an event script\n"
@@ -466,26 +539,22 @@ std::vector<Target> find_targets(const std::vector<std::string>& paths, bool& ha
   return targets;
 }
 
-/// Whether there was a catalog to lint.
-bool lint_target(const Target& target, Linter& linter) {
-  if (!target.is_named) return linter.lint_if_catalog(target.path);
-  const std::size_t before = linter.files().size();
-  linter.lint_catalog(target.path);
-  return linter.files().size() > before && linter.files().back().is_catalog;
-}
-
 /// Lints everything. Returns whether each path had something to lint.
 bool lint_all(const LintCommand& command, Linter& linter) {
   bool has_failed = false;
   const std::vector<Target> targets = find_targets(command.paths, has_failed);
-  std::set<std::string> folders_with_files;
-  std::set<std::string> folders_with_catalogs;
+  std::set<std::string> folders_of_named;
   Progress progress("linting", targets.size() + command.scripts.size());
   for (const Target& target : targets) {
     progress.begin(target.path);
-    folders_with_files.insert(target.folder);
-    if (lint_target(target, linter)) folders_with_catalogs.insert(target.folder);
+    if (target.is_named) {
+      linter.lint_catalog(target.path);
+      folders_of_named.insert(target.folder);
+    } else {
+      linter.lint_in_folder(target.path, target.folder);
+    }
   }
+  linter.lint_found();
   for (const std::string& script : command.scripts) {
     progress.begin(script);
     linter.lint_script(script, command.paths.empty() ? "" : command.paths[0]);
@@ -493,11 +562,8 @@ bool lint_all(const LintCommand& command, Linter& linter) {
   progress.clear();
   linter.check_settings();
   for (const std::string& path : command.paths) {
-    if (!is_folder(path) || folders_with_catalogs.contains(path)) continue;
-    complain("found no catalog in {}{}", quote(path),
-             folders_with_files.contains(path) ? "; to check an event script or a property "
-                                                 "file, name the file itself"
-                                               : "");
+    if (!is_folder(path) || linter.has_checked(path) || folders_of_named.contains(path)) continue;
+    complain("found nothing to check in {}", quote(path));
     has_failed = true;
   }
   return !has_failed;
@@ -512,7 +578,9 @@ void print_report(const LintCommand& command, const Linter& linter, bool is_comp
   const LintRun run{std::filesystem::current_path().string(), is_complete, style_for(stdout)};
   if (command.summary && command.format == "text") {
     for (const LintedFile& file : linter.files()) {
-      if (file.is_catalog) fmt::print("{}", lint_summary(file, run.style));
+      if (file.kind == LintedFile::Kind::catalog || file.kind == LintedFile::Kind::unknown) {
+        fmt::print("{}", lint_summary(file, run.style));
+      }
     }
   }
   fmt::print("{}", find_named(lint_formats(), command.format)->write(linter.files(), run));
@@ -560,10 +628,11 @@ void add_lint_command(Program& program) {
                             "--explain RULE", "--list-rules"},
                            lint_examples,
                            lint_footer});
-  command.argument("CATALOG", options->paths, input("...", ValueKind::catalog),
-                   "Catalogs: files, folders (all *.yaml and *.yml in them that look like "
-                   "catalogs), or - for standard input; also event scripts and property files that "
-                   "name their catalogs");
+  command.argument(
+      "CATALOG", options->paths, input("...", ValueKind::catalog),
+      "Catalogs: files, folders (all *.yaml and *.yml in them that look like catalogs, "
+      "and their event scripts and property files), or - for standard input; also "
+      "event scripts and property files that name their catalogs");
   command.option("--script", options->scripts, input("FILE", ValueKind::script),
                  "Also check this event script or property file against the catalog. May be "
                  "repeated");

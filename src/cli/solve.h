@@ -50,6 +50,7 @@ struct StreamOptions {
   std::optional<std::string> state_in;
   std::optional<std::string> state_out;
   std::optional<std::string> replay;
+  std::string clock = "events";  ///< or "real"
 };
 
 /// The options of `cbc solve`.

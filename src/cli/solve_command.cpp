@@ -226,6 +226,13 @@ void add_solve_command(Program& program) {
               "reactive delay, and without timeouts if it has none")
       .only_with({"--format jsonl", "--replay"});
   command
+      .option(
+          "--clock", options->stream.clock, one_of("CLOCK", {"events", "real"}),
+          "Time of lines without at or wait: that of the event before (events, the default), or "
+          "since the start (real); then timeouts and reactive starts happen between lines")
+      .only_with({"--format jsonl"})
+      .not_with({"--replay"}, "a replay takes its times from the log");
+  command
       .option("--replay", options->stream.replay, input("LOG", ValueKind::file),
               "Run the events of LOG (from --format jsonl) again with the same options, and "
               "compare byte for byte")

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -104,7 +105,9 @@ class Stream {
       runner_.begin(situation);
     }
     output_.write(stream_header(catalog_, catalog_.file, of_coordinator_, situation,
-                                runner_.coordinator().state().variables()));
+                                runner_.coordinator().state().variables(), has_real_clock()));
+    begin_ = std::chrono::steady_clock::now();
+    first_ = runner_.coordinator().now();
   }
 
   void run(const Script& script) {
@@ -121,7 +124,11 @@ class Stream {
     EventLines lines(catalog_);
     lines.resume(runner_.coordinator().now(), runner_.coordinator().state());
     while (!signals_.have_come() && !output_.has_failed()) {
-      switch (input.next()) {
+      switch (input.next(longest_wait())) {
+        case LineInput::Status::waiting:
+          if (!run_clock()) return;
+          lines.resume(runner_.coordinator().now(), runner_.coordinator().state());
+          break;
         case LineInput::Status::line:
           if (!take(lines.read(input.line(), static_cast<std::uint32_t>(input.number())),
                     input.number(), lines)) {
@@ -175,7 +182,46 @@ class Stream {
     if (!reading.step) return true;
     // The limit of clock events applies to each line, since a stream has no end.
     runner_.restart_count();
-    return runner_.take(*reading.step);
+    if (!has_real_clock() || reading.step->time) return runner_.take(*reading.step);
+    Step now = *reading.step;
+    now.time = std::max({clock_time(), settled_ + 1, runner_.coordinator().now()});
+    const bool goes_on = runner_.take(now);
+    // Times of lines are relative to the real clock.
+    lines.resume(runner_.coordinator().now(), runner_.coordinator().state());
+    return goes_on;
+  }
+
+  [[nodiscard]] bool has_real_clock() const { return options_.stream.clock == "real"; }
+
+  /// Time since the beginning, which is that of the saved state if there is one.
+  [[nodiscard]] Microseconds clock_time() const {
+    const auto passed = std::chrono::steady_clock::now() - begin_;
+    return std::min(longest_time,
+                    first_ + std::chrono::duration_cast<std::chrono::microseconds>(passed).count());
+  }
+
+  /// Milliseconds until something falls due, for LineInput: negative if nothing will.
+  [[nodiscard]] int longest_wait() const {
+    const auto due = runner_.coordinator().next_due();
+    if (!has_real_clock() || !due) return -1;
+    constexpr Microseconds longest = 60'000'000;
+    const Microseconds wait = std::clamp<Microseconds>(*due - clock_time(), 0, longest);
+    return static_cast<int>((wait + 999) / 1000);
+  }
+
+  /// Runs what has fallen due while no line came, each at its own time. False if the run ended.
+  bool run_clock() {
+    runner_.restart_count();
+    for (;;) {
+      const auto due = runner_.coordinator().next_due();
+      if (!due || *due > clock_time()) return true;
+      Step nothing;
+      nothing.time = *due;
+      nothing.expect.emplace();
+      if (!runner_.take(nothing) || !runner_.settle()) return false;
+      // A replay runs what is due at the time of a line after it, so no line may have this time.
+      settled_ = *due;
+    }
   }
 
   void refuse(const std::string& error, std::uint64_t number) {
@@ -198,6 +244,9 @@ class Stream {
   LineOutput output_;
   EventStream events_;
   Runner runner_;
+  std::chrono::steady_clock::time_point begin_;
+  Microseconds first_ = 0;     ///< the time at begin_
+  Microseconds settled_ = -1;  ///< all that was due until then is done
   int status_ = exit_ok;
   int warnings_ = 0;
 };
@@ -371,8 +420,9 @@ class Replay {
     of_coordinator.timeouts = header->timeouts;
     State first(catalog_);
     first.change_situation(header->situation.availability, header->situation.variables);
-    std::string text = stream_header(catalog_, header->catalog, of_coordinator, header->situation,
-                                     state ? state->variables : first.variables());
+    std::string text =
+        stream_header(catalog_, header->catalog, of_coordinator, header->situation,
+                      state ? state->variables : first.variables(), header->has_real_clock);
     output_.write(text);
     text.pop_back();
     if (text != input_.line()) {
@@ -427,6 +477,7 @@ class Replay {
       case LineInput::Status::failed:
         refuse(input_.error());
         return false;
+      case LineInput::Status::waiting:
       case LineInput::Status::end:
       case LineInput::Status::stopped:
         return false;
@@ -522,6 +573,9 @@ int solve_stream(const SolveOptions& options) {
     return complain("--format jsonl runs one script at a time: cbc solve CATALOG SCRIPT");
   }
   const bool is_stream = paths.back() == "-";
+  if (!is_stream && options.stream.clock == "real") {
+    return complain("--clock real needs a stream of events: cbc solve CATALOG - --format jsonl");
+  }
   if (paths.size() == 1) {
     if (!is_stream) return solve_mission(options);
     return complain("a stream of events needs a catalog: cbc solve CATALOG - --format jsonl");

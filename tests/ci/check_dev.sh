@@ -25,6 +25,20 @@ expect() {
   fi
 }
 
+# A failed test does not hide why others were skipped.
+check_skipped() {
+  local status=0 output
+  replace cmake <<<'exit 0'
+  replace ctest <<<'exit 8'
+  replace awk <<<'echo there is no tool'
+  output=$(PATH=$bin:$PATH "$source/dev" test 2>&1) || status=$?
+  rm -- "$bin/awk"
+  if [[ $status != 8 || $output != *"skipped: 1, since there is no tool"* ]]; then
+    echo "check_dev.sh: FAILED: status $status, and the reasons of skipped tests in '$output'"
+    exit 1
+  fi
+}
+
 replace dpkg-query <<<'for package; do echo "install ok installed $package"; done'
 replace xargs <<<'cat >/dev/null; exit 0'
 expect 0 'dev format: passed'
@@ -47,3 +61,4 @@ for line in "  export PATH=\"$project/build/release:\$PATH\"" "  cbc init " "  c
     exit 1
   }
 done
+check_skipped

@@ -48,7 +48,7 @@ echo 'strict: true' >catalogs/.cbc.yaml    # no catalog either
 hook cbc-lint-fix
 [[ $status == 0 && $output == *"fix behavior catalogs"*Passed* ]] || fail "a sound catalog to be fixed"
 hook cbc-lint
-[[ $status == 0 && $output == *"check behavior catalogs"*Passed*"no findings in 1 file"* ]] || fail "a sound catalog"
+[[ $status == 0 && $output == *"check behavior catalogs"*Passed*"no findings in 1 catalog"* ]] || fail "a sound catalog"
 
 printf 'behaviors:\n- behavior: A\n  tasc: B\n' >catalogs/wrong.yaml
 hook cbc-lint
@@ -75,7 +75,7 @@ example() {
 mkdir robot
 cp -- catalogs/.cbc.yaml "$source/catalogs/quadrotor.yaml" robot
 example
-[[ $status == 0 && $output == *"no findings in 1 file"* ]] || fail "the example, with a sound catalog"
+[[ $status == 0 && $output == *"no findings in 1 catalog"* ]] || fail "the example, with a sound catalog"
 printf 'behaviors:\n- behavior: A\n  task: B\ntasks:\n- task: B\n  category: recurrent\n' >robot/older.yaml
 example
 [[ $status == 1 && $output == *"fix behavior catalogs"*Failed*"check behavior catalogs"*Passed* ]] ||

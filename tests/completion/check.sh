@@ -18,6 +18,11 @@ for tool in "$shell" python3; do
   }
 done
 
+python3 -c 'import os; os.openpty()' 2>/dev/null || {
+  echo "check.sh: skipped: there is no terminal: is /dev/pts mounted?" >&2
+  exit 77
+}
+
 rm -rf -- "$folder"
 mkdir -p -- "$folder/bin" "$folder/home"
 ln -s -- "$program" "$folder/bin/cbc"

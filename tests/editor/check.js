@@ -101,6 +101,8 @@ async function checkHelp() {
   const document = edit(file, read(file));
   const hover = await service.doHover(document, positionOf(document, '\n  start_on_req'));
   assert.match(JSON.stringify(hover), /starts only when it is requested/);
+  const name = await service.doHover(document, positionOf(document, '\n- behav'));
+  assert.match(JSON.stringify(name), /as scripts and the robot use it/);
 
   const offered = async (file, before, begun) => {
     const open = edit(file, replace(read(file), before, begun));

@@ -77,7 +77,7 @@ TEST_F(CompiledCatalog, GivesSolveNoScript) {
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.err, "");
   expect_result(cbc({"lint", "--script", "missions/robot.yaml", "robot.yaml"}), 2,
-                "no findings in 1 file\n",
+                "no findings in 1 catalog\n",
                 "cbc: 'missions/robot.yaml' is a catalog; expected an event script or a property "
                 "file\n");
 }
@@ -128,7 +128,7 @@ TEST_F(CompiledCatalog, GivesLintNoText) {
     expect_result(cbc(arguments), 2, "", complaint);
   }
   const Result both = cbc({"lint", "robot.cbc", "robot.yaml"});
-  expect_result(both, 2, "no findings in 1 file\n", complaint);
+  expect_result(both, 2, "no findings in 1 catalog\n", complaint);
   EXPECT_EQ(folder.read("robot.yaml"), robot);
 }
 
@@ -157,14 +157,14 @@ TEST_F(CompiledCatalog, ThatIsCutOffMeanwhileEndsTheProgramWithAMessage) {
 TEST_F(CompiledCatalog, IsPassedOverByLintInFolders) {
   compile_robot();
   fs::copy_file(folder / "robot.cbc", folder / "copy.yaml");
-  expect_result(cbc({"lint", "."}), 0, "no findings in 1 file\n", "");
+  expect_result(cbc({"lint", "."}), 0, "no findings in 1 catalog\n", "");
 }
 
 TEST_F(CompiledCatalog, GivesLintACatalogForScripts) {
   compile_robot();
   folder.write("good.yaml", script);
   folder.write("bad.yaml", "[{start: HOVR}]\n");
-  expect_result(cbc({"lint", "--script", "good.yaml", "robot.cbc"}), 0, "no findings in 1 file\n",
+  expect_result(cbc({"lint", "--script", "good.yaml", "robot.cbc"}), 0, "no findings in 1 script\n",
                 "");
   const Result result = cbc({"lint", "--script", "bad.yaml", "robot.cbc"});
   EXPECT_EQ(result.status, 1);

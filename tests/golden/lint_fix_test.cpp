@@ -107,7 +107,7 @@ TEST_F(LintFix, MendsInPlaceAndReportsTheRest) {
             "[suspicious-suitability]\n"
             "    suitability: 0.5          # a guess\n"
             "                 ^~~\n"
-            "1 warning in 1 file\n");
+            "1 warning in 1 catalog\n");
   EXPECT_EQ(folder.names(), std::set<std::string>{"plow.yaml"});
 }
 

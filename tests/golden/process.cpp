@@ -66,7 +66,9 @@ Ends open_pipe() {
 Ends open_terminal() {
   int master = -1;
   int slave = -1;
-  if (::openpty(&master, &slave, nullptr, nullptr, nullptr) != 0) fail("openpty", errno);
+  if (::openpty(&master, &slave, nullptr, nullptr, nullptr) != 0) {
+    fail("openpty (is /dev/pts mounted?)", errno);
+  }
   ::fcntl(master, F_SETFD, FD_CLOEXEC);
   ::fcntl(slave, F_SETFD, FD_CLOEXEC);
   return {File(master), File(slave)};

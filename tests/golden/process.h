@@ -34,7 +34,8 @@ struct Result {
 [[nodiscard]] Result run(const Call& call, const std::function<void(pid_t)>& meanwhile);
 
 /// Runs the program with its output, that is both of its streams, on a terminal. The result has all
-/// of it in `out`, with the line ends of a terminal ("\r\n").
+/// of it in `out`, with the line ends of a terminal ("\r\n"). Throws std::system_error where there
+/// are no terminals.
 [[nodiscard]] Result run_on_terminal(const Call& call);
 
 /// The same, until the output has this text: then the program is interrupted.

@@ -233,6 +233,39 @@ TEST_F(StreamTest, BadLinesGetAnAnswerAndTheStreamGoesOn) {
   EXPECT_EQ(verbs, (std::vector<std::string>{"start", "stop"}));
 }
 
+/// The times are those of the machine, so only their order is known.
+TEST_F(StreamTest, FollowsTheRealClockBetweenLines) {
+  folder_.write("quadrotor.yaml",
+                "behaviors:\n- {behavior: SCAN_AREA, task: SCAN, timeout: 0.3}\n"
+                "- {behavior: STAND_BY, task: WAIT}\ntasks:\n- task: SCAN\n"
+                "- {task: WAIT, reactive_start: true, execution_goal: keep_running,"
+                " start_on_request: false}\n"
+                "exclusivity_constraints:\n- mutually_exclusive: [SCAN, WAIT]\n");
+  // The input stays open, and silent, for longer than everything takes to fall due.
+  const std::string lines = "(sleep 0.3; echo '{start: SCAN}'; sleep 1; echo '{stop: WAIT}')";
+  const std::string command = "cd '" + folder_.path() + "' && " + lines +
+                              " | '" CBC_PROGRAM_PATH
+                              "' solve quadrotor.yaml - --format jsonl --clock real >log";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  std::ifstream log(folder_ / "log");
+  std::vector<json> found;
+  for (std::string line; std::getline(log, line);) found.push_back(json::parse(line));
+  ASSERT_EQ(found.size(), 6U);
+  EXPECT_EQ(found[0]["clock"], "real");
+  EXPECT_EQ(found[1]["time"], 0.08);  // before the first line
+  EXPECT_EQ(found[1]["origin"], "reactive");
+  const double start = found[2]["time"];
+  EXPECT_EQ(found[2]["name"], "SCAN");
+  EXPECT_GE(start, 0.2);
+  EXPECT_EQ(found[3]["origin"], "timeout");
+  EXPECT_NEAR(found[3]["time"], start + 0.3, 1e-6);
+  EXPECT_EQ(found[4]["origin"], "reactive");
+  EXPECT_NEAR(found[4]["time"], start + 0.38, 1e-6);
+  EXPECT_GT(found[5]["time"], start + 0.38);
+  const Result replayed = run(call({"--replay", "log", "quadrotor.yaml"}));
+  EXPECT_EQ(replayed.status, 0) << replayed.err;
+}
+
 TEST_F(StreamTest, AnswersEachEventBeforeTheNextOneComes) {
   make_pipe("in");
   make_pipe("out");

@@ -349,7 +349,7 @@ TEST(CatalogReader, UnknownKeys) {
             "1:36-43 error unknown-key: unknown key 'eficacy' in behavior 'B'; did you mean "
             "'suitability'?\n");
   EXPECT_EQ(findings("behaviors: [{behavior: B, task: X, package:p}]\n"),
-            "1:36-45 warning unknown-key: unknown key 'package:p' in behavior 'B': is a space "
+            "1:36-45 error unknown-key: unknown key 'package:p' in behavior 'B': is a space "
             "missing after ':'?\n");
   EXPECT_EQ(findings("default_values: {tasks: {suitability: 3}, tsks: 3}\nbehaviors: []\n"),
             "1:26-37 warning unknown-key: unknown key 'suitability' in the defaults of tasks\n"
@@ -835,8 +835,8 @@ tasks:
 
 TEST(CatalogReader, SyntaxErrorsAreFindings) {
   EXPECT_EQ(findings("behaviors: [\n"),
-            "2:1-1 error yaml-syntax: expected ',' or ']' in a list in brackets\n"
-            "  1:12-13 opened here\n");
+            "1:12-13 error yaml-syntax: '[' is not closed\n"
+            "  2:1-1 expected ',' or ']' before this\n");
 }
 
 TEST(CatalogReader, LargeCatalogsTakeLinearTime) {

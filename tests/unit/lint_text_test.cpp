@@ -58,13 +58,21 @@ TEST(LintText, ShowsFindingsWithTheirLinesFileByFile) {
             "a.yaml:1:1: note: as here\n"
             "  tasks:\n"
             "  ^~~~~\n"
-            "1 error, 1 warning in 3 files\n");
+            "1 error, 1 warning in 3 catalogs\n");
 }
 
 TEST(LintText, SaysThatThereIsNothing) {
   EXPECT_EQ(plain({}), "no findings in 0 files\n");
-  EXPECT_EQ(plain({{"a.yaml", "", {}, {}}}), "no findings in 1 file\n");
-  EXPECT_EQ(plain({{"a.yaml", "", {}, {}}, {"b.yaml", "", {}, {}}}), "no findings in 2 files\n");
+  EXPECT_EQ(plain({{"a.yaml", "", {}, {}}}), "no findings in 1 catalog\n");
+  EXPECT_EQ(plain({{"a.yaml", "", {}, {}}, {"b.yaml", "", {}, {}}}), "no findings in 2 catalogs\n");
+  using Kind = LintedFile::Kind;
+  std::vector<LintedFile> files;
+  for (const Kind kind : {Kind::unknown, Kind::settings, Kind::script, Kind::properties,
+                          Kind::catalog, Kind::script}) {
+    files.push_back({"a.yaml", "", {}, {}, {}, kind});
+  }
+  EXPECT_EQ(plain(files),
+            "no findings in 1 catalog, 2 scripts, 1 property file, 1 settings file, 1 file\n");
 }
 
 TEST(LintText, CountsEverySeverity) {
@@ -78,7 +86,7 @@ TEST(LintText, CountsEverySeverity) {
             "a.yaml:3:1: warning: c [dead-task]\n"
             "a.yaml:4:1: note: d [implicit-task]\n"
             "a.yaml:5:1: note: e [implicit-task]\n"
-            "2 errors, 1 warning, 2 notes in 1 file\n");
+            "2 errors, 1 warning, 2 notes in 1 catalog\n");
 }
 
 TEST(LintText, GroupsFindingsThatSayTheSame) {
@@ -88,7 +96,7 @@ TEST(LintText, GroupsFindingsThatSayTheSame) {
             "  and 2 more like this, on lines 5, 11\n"
             "a.yaml:4:1: warning: other [deprecated-key]\n"
             "  and 1 more like this, on line 9\n"
-            "5 warnings in 1 file\n");
+            "5 warnings in 1 catalog\n");
 }
 
 TEST(LintText, GroupsWithinOneRuleSeverityAndFileOnly) {
@@ -104,7 +112,7 @@ TEST(LintText, GroupsWithinOneRuleSeverityAndFileOnly) {
             "a.yaml:2:1: warning: old [unknown-key]\n"
             "a.yaml:3:1: note: old [deprecated-key]\n"
             "b.yaml:3:1: warning: old [deprecated-key]\n"
-            "3 warnings, 1 note in 2 files\n");
+            "3 warnings, 1 note in 2 catalogs\n");
 }
 
 TEST(LintText, NamesEachLineOnceAndTenAtMost) {
@@ -112,7 +120,7 @@ TEST(LintText, NamesEachLineOnceAndTenAtMost) {
   EXPECT_EQ(plain_of(findings),
             "a.yaml:2:1: warning: old [deprecated-key]\n"
             "  and 1 more like this, on line 2\n"
-            "2 warnings in 1 file\n");
+            "2 warnings in 1 catalog\n");
   for (std::uint32_t line = 3; line <= 11; ++line) {
     findings.push_back(finding_at(line));
     findings.push_back(finding_at(line));
@@ -120,12 +128,12 @@ TEST(LintText, NamesEachLineOnceAndTenAtMost) {
   EXPECT_EQ(plain_of(findings),
             "a.yaml:2:1: warning: old [deprecated-key]\n"
             "  and 19 more like this, on lines 2, 3, 4, 5, 6, 7, 8, 9, 10, 11\n"
-            "20 warnings in 1 file\n");
+            "20 warnings in 1 catalog\n");
   findings.push_back(finding_at(12));
   EXPECT_EQ(plain_of(findings),
             "a.yaml:2:1: warning: old [deprecated-key]\n"
             "  and 20 more like this, on lines 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, ...\n"
-            "21 warnings in 1 file\n");
+            "21 warnings in 1 catalog\n");
 }
 
 TEST(LintText, MakesHostileNamesHarmless) {
@@ -142,16 +150,16 @@ TEST(LintText, MakesHostileNamesHarmless) {
             "  \xEF\xBF\xBD[2J\n"
             "  ^\n"
             "b\\n.yaml:1:1: note: \\x1b[31m\n"
-            "1 error in 1 file\n");
+            "1 error in 1 catalog\n");
 }
 
 TEST(LintText, ColorsOnRequest) {
   EXPECT_EQ(lint_text({{"a.yaml", "", {finding_at(1), finding_at(2)}, {}}}, color_style()),
             "\x1b[1ma.yaml:1:1:\x1b[0m \x1b[1;35mwarning:\x1b[0m old [deprecated-key]\n"
             "\x1b[2m  and 1 more like this, on line 2\x1b[0m\n"
-            "\x1b[1;35m2 warnings\x1b[0m in 1 file\n");
+            "\x1b[1;35m2 warnings\x1b[0m in 1 catalog\n");
   EXPECT_EQ(lint_text({{"a.yaml", "", {}, {}}}, color_style()),
-            "\x1b[32mno findings\x1b[0m in 1 file\n");
+            "\x1b[32mno findings\x1b[0m in 1 catalog\n");
 }
 
 }  // namespace

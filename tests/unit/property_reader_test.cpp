@@ -313,7 +313,7 @@ TEST(Properties, HaveOneKind) {
   EXPECT_EQ(
       findings_of_property("{can_start: LAND, never: {running: [LAND]}}"),
       "3:21-26 error invalid-value: a property must be of exactly one kind, found 'can_start' "
-      "and 'never'\n"
+      "and 'never'; each needs an entry of its own\n"
       "  3:4-13 the first one is here\n");
   EXPECT_EQ(findings_of_property("name: x"),
             "3:3-4 error missing-key: a property needs one of 'can_start', 'always', 'never' and "

@@ -237,7 +237,8 @@ TEST(ScriptReader, WrongScripts) {
 TEST(ScriptReader, OneVerbForEachEvent) {
   EXPECT_EQ(
       findings("- {stop: LAND, start: LAND}\n- {}\n- {priority: 3}\n- start:\n- 7\n- ~\n"),
-      "1:16-21 error invalid-value: an event must have exactly one verb, found 'stop' and 'start'\n"
+      "1:16-21 error invalid-value: an event must have exactly one verb, found 'stop' and 'start'; "
+      "each needs an entry of its own\n"
       "  1:4-8 the first one is here\n"
       "2:3-4 error missing-key: an event needs one of 'start', 'stop', 'finish', 'situation', "
       "'fault', 'repair', 'expect', 'at' and 'wait'\n"

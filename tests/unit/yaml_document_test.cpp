@@ -251,8 +251,13 @@ TEST(YamlDocument, RefusesWhatIsNotYaml) {
 }
 
 TEST(YamlDocument, RefusesWhatIsNotClosed) {
-  EXPECT_EQ(tree("a: [1, 2\n"), syntax_error("2:1-1", "expected ',' or ']' in a list in brackets") +
-                                    "  1:4-5 opened here\n");
+  EXPECT_EQ(tree("a: [1, 2\n"), syntax_error("1:4-5", "'[' is not closed") +
+                                    "  2:1-1 expected ',' or ']' before this\n");
+  EXPECT_EQ(tree("a: [1, 2\nb: 3\n"), syntax_error("1:4-5", "'[' is not closed") +
+                                          "  2:2-3 expected ',' or ']' before this\n");
+  EXPECT_EQ(tree("a: [{b: 1, c: 2\nd: 3\n"), syntax_error("1:5-6", "'{' is not closed"));
+  EXPECT_EQ(tree("a: [b: 1, c: 2\nd: 3\n"), syntax_error("1:4-5", "'[' is not closed") +
+                                                "  2:2-3 expected ',' or ']' before this\n");
   EXPECT_EQ(tree("[1, 2"), syntax_error("1:1-2", "'[' is not closed"));
   EXPECT_EQ(tree("{a: 1"), syntax_error("1:1-2", "'{' is not closed"));
   const std::string message = "a text in quotes does not end";

@@ -68,13 +68,14 @@ const Shape catalog{"a catalog", catalog_keys, nullptr, in_catalog};
 const Shape default_values{"default_values", default_values_keys, &catalog, in_default_values};
 const Shape task_defaults{"the defaults of tasks", task_defaults_keys, &default_values};
 const Shape behavior_defaults{"the defaults of behaviors", behavior_defaults_keys, &default_values};
-const Shape behavior{"a behavior", behavior_keys, &catalog, in_behavior};
-const Shape performance{"a task of a behavior", performance_keys, &behavior};
-const Shape requirement{"a requirement", requirement_keys, &behavior};
-const Shape task{"a task", task_keys, &catalog, in_task};
-const Shape parameter{"a parameter", parameter_keys, &task};
-const Shape exclusivity_list{"an exclusivity constraint", exclusivity_list_keys, &catalog};
-const Shape variable{"a situation variable", variable_keys, &catalog};
+const Shape behavior{"a behavior", behavior_keys, &catalog, in_behavior, true};
+const Shape performance{"a task of a behavior", performance_keys, &behavior, {}, true};
+const Shape requirement{"a requirement", requirement_keys, &behavior, {}, true};
+const Shape task{"a task", task_keys, &catalog, in_task, true};
+const Shape parameter{"a parameter", parameter_keys, &task, {}, true};
+const Shape exclusivity_list{
+    "an exclusivity constraint", exclusivity_list_keys, &catalog, {}, true};
+const Shape variable{"a situation variable", variable_keys, &catalog, {}, true};
 
 }  // namespace cbc::shape
 

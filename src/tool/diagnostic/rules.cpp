@@ -50,7 +50,8 @@ const Rule unknown_key = {
         "one; with a misspelled 'requires' it requires nothing, and the coordinator runs it "
         "without what it needs. The message gives the key that is probably meant, or the level of "
         "the file at which the key belongs.\n\n"
-        "In a catalog it is an error if a known key is probably meant, and a warning otherwise. In "
+        "In a catalog it is an error if a known key of this place is probably meant, and a "
+        "warning otherwise. In "
         "an event script or a property file it is an error that settings cannot change. Keys that "
         "begin with 'x-' are the user's own, and are ignored. If a required key is misspelled, the "
         "finding is missing-key.",

@@ -45,8 +45,11 @@ std::string at_least(Millionths degree) { return "≥ " + format_percent(degree)
 
 std::string with_sign(Mark mark, std::string label) {
   std::string_view sign;
-  if (mark == Mark::added || mark == Mark::started) sign = "+";
-  if (mark == Mark::removed || mark == Mark::stopped) sign = "−";
+  if (mark == Mark::added) sign = "+";
+  if (mark == Mark::removed) sign = "−";
+  // A plus or minus before a number would read as a part of it.
+  if (mark == Mark::started) sign = "▶";
+  if (mark == Mark::stopped) sign = "■";
   if (mark == Mark::changed) sign = "~";
   if (sign.empty()) return label;
   return std::string(sign) + (label.empty() ? "" : " ") + std::move(label);

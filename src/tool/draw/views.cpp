@@ -341,7 +341,10 @@ std::map<std::uint32_t, Requirements> required_behaviors(const Builder& builder,
       const std::uint32_t node = builder.node_of_behavior(graph.performances[link].behavior);
       if (node == none) continue;
       const auto mark = join(requirement.mark, use_of(graph.performances[link].mark));
-      if (mark) required[node].emplace_back(requirement).mark = *mark;
+      // A performance is never higher than the suitability.
+      const bool is_possible = mark == Mark::removed || graph.performances[link].suitability >=
+                                                            requirement.minimum_performance;
+      if (mark && is_possible) required[node].emplace_back(requirement).mark = *mark;
     }
   }
   return required;

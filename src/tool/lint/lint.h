@@ -60,12 +60,14 @@ struct CheckedCatalog {
 
 /// What lint has to say about one file.
 struct LintedFile {
+  /// What the file is. `unknown`: it is not valid YAML.
+  enum class Kind : std::uint8_t { catalog, script, properties, settings, unknown };
   std::string file;                              ///< name in messages
   std::string text;                              ///< as it was read
   std::vector<Diagnostic> findings;              ///< in the order of Diagnostics::sort
   std::optional<CatalogSummary> summary;         ///< of a catalog that was understood
   std::optional<TogetherSummary> together = {};  ///< the same, if it was asked for
-  bool is_catalog = true;  ///< not an event script or settings, which have no summary
+  Kind kind = Kind::catalog;                     ///< only a catalog has a summary
 };
 
 /// Number of findings of a severity in a file, in all files.

@@ -31,7 +31,7 @@ struct GithubPlace {
 ///       efficacy: 90
 ///       ^~~~~~~~
 ///       and 2 more like this, on lines 9, 15
-///     3 warnings in 1 file
+///     3 warnings in 1 catalog
 [[nodiscard]] std::string lint_text(const std::vector<LintedFile>& files, const Style& style);
 
 /// The findings in the format of gcc, which editors understand, one place per line:

@@ -2,8 +2,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -307,7 +309,26 @@ std::string file_to_text(const LintedFile& file, const SourceTexts& sources, con
   return text;
 }
 
-/// "2 errors, 1 warning in 4 files"
+/// "2 catalogs, 1 script"
+std::string describe_files(const std::vector<LintedFile>& files) {
+  using Kind = LintedFile::Kind;
+  static constexpr std::pair<Kind, std::string_view> names[] = {{Kind::catalog, "catalog"},
+                                                                {Kind::script, "script"},
+                                                                {Kind::properties, "property file"},
+                                                                {Kind::settings, "settings file"},
+                                                                {Kind::unknown, "file"}};
+  if (files.empty()) return "0 files";
+  std::string text;
+  for (const auto& [kind, name] : names) {
+    const auto number = static_cast<std::size_t>(
+        std::count_if(files.begin(), files.end(),
+                      [kind = kind](const LintedFile& file) { return file.kind == kind; }));
+    if (number > 0) text += (text.empty() ? "" : ", ") + quantity(number, name);
+  }
+  return text;
+}
+
+/// "2 errors, 1 warning in 2 catalogs, 1 script"
 std::string describe_total(const std::vector<LintedFile>& files, const Style& style) {
   std::string text;
   for (const Severity severity : {Severity::error, Severity::warning, Severity::note}) {
@@ -317,7 +338,7 @@ std::string describe_total(const std::vector<LintedFile>& files, const Style& st
     text += style.paint(style.of(severity), quantity(findings, name_of(severity)));
   }
   if (text.empty()) text = style.paint(style.good, "no findings");
-  return text + " in " + quantity(files.size(), "file") + "\n";
+  return text + " in " + describe_files(files) + "\n";
 }
 
 }  // namespace

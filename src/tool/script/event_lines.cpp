@@ -104,6 +104,8 @@ std::optional<EventLog::Header> EventLog::read_header(std::string_view line) {
     if (const Node* const timeouts = root->find("timeouts")) {
       header.timeouts = yaml::read_boolean(*timeouts, "timeouts", reporter).value_or(true);
     }
+    header.has_real_clock =
+        root->find("clock") != nullptr && text_of(*root, "clock", reporter) == "real";
     if (const Node* const situation = require(*root, "situation", reporter)) {
       header.situation = reader_.read_situation(*situation, reporter);
     }

@@ -52,6 +52,7 @@ class EventLog {
     std::string catalog;  ///< its path, as the user gave it
     Microseconds reactive_delay = 0;
     bool timeouts = true;
+    bool has_real_clock = false;
     Situation situation;  ///< with the values of all variables
   };
   struct Entry {

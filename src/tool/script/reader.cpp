@@ -44,7 +44,7 @@ constexpr const Shape* in_event[] = {&expectation, &finished_task};
 }  // namespace
 
 const Shape script{"a script", script_keys};
-const Shape event{"an event", event_keys, nullptr, in_event};
+const Shape event{"an event", event_keys, nullptr, in_event, true};
 const Shape expectation{"an expect", expectation_keys, &event};
 const Shape finished_task{"a finish", finished_task_keys, &event};
 

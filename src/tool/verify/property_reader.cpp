@@ -33,7 +33,7 @@ constexpr const Shape* in_property[] = {&condition};
 
 const Shape property_file{"a property file", file_keys, nullptr, in_file};
 const Shape assumptions{"an assume", assumption_keys, &property_file};
-const Shape property{"a property", property_keys, &property_file, in_property};
+const Shape property{"a property", property_keys, &property_file, in_property, true};
 const Shape condition{"a condition", condition_keys, &property};
 
 }  // namespace cbc::shape

@@ -217,10 +217,12 @@ class Builder : public YAML::EventHandler {
   // Possible start of the unfinished token.
   [[nodiscard]] std::size_t last_end() const { return last_end_; }
 
-  // The innermost collection in brackets or braces that is still open.
-  [[nodiscard]] std::optional<Range> open_bracket() const {
+  // Where the innermost collection in brackets or braces begins that is still open.
+  [[nodiscard]] std::optional<std::size_t> open_bracket() const {
     for (std::size_t i = frames_.size(); i > 0; --i) {
-      if (frames_[i - 1].flow) return frames_[i - 1].node->range;
+      const std::optional<std::size_t> bracket = frames_[i - 1].bracket;
+      // A pair in a list, 'a: b' in '[a: b]', is a mapping without braces.
+      if (bracket && (text_[*bracket] == '[' || text_[*bracket] == '{')) return bracket;
     }
     return std::nullopt;
   }
@@ -307,8 +309,8 @@ class Builder : public YAML::EventHandler {
   struct Frame {
     Node* node = nullptr;
     YAML::anchor_t anchor = 0;
-    bool flow = false;
-    const Node* key = nullptr;  // of a mapping, while its value is awaited
+    std::optional<std::size_t> bracket;  // where a collection in brackets or braces begins
+    const Node* key = nullptr;           // of a mapping, while its value is awaited
     const Node* merge_key = nullptr;
     std::vector<std::pair<const Node*, Range>> merges;  // mappings to merge, and where it says so
     std::size_t merge_at = 0;                           // place among the entries
@@ -365,7 +367,7 @@ class Builder : public YAML::EventHandler {
     Frame frame;
     frame.node = create(kind, range);
     frame.anchor = anchor;
-    frame.flow = is_flow(style);
+    if (is_flow(style)) frame.bracket = begin;
     frames_.push_back(std::move(frame));
   }
 
@@ -480,7 +482,7 @@ class Builder : public YAML::EventHandler {
     const Frame& frame = frames_.back();
     if (frame.key != nullptr) return frame.key->range;
     if (frame.merge_key != nullptr) return frame.merge_key->range;
-    if (frame.node->kind == Kind::sequence && !frame.flow) {
+    if (frame.node->kind == Kind::sequence && !frame.bracket) {
       const std::size_t dash = find_dash(text_, last_end_);
       last_end_ = std::min(dash + 1, text_.size());
       return range_at(dash, dash + 1);
@@ -554,6 +556,16 @@ void check_characters(std::string_view text, const PositionMap& positions) {
     throw Refusal(builder.range_at(offset, offset + 1),
                   "this escape is no character; write the character itself, or \\U and 8 digits");
   }
+  // The parser comes upon an unclosed bracket only where the next lines do not fit into it.
+  if (const auto bracket = builder.open_bracket();
+      bracket && exception.msg != YAML::ErrorMsg::FLOW_END && !is_closed(text, *bracket)) {
+    const bool is_list = text[*bracket] == '[';
+    throw Refusal(
+        builder.range_at(*bracket, *bracket + 1),
+        quote(text.substr(*bracket, 1)) + " is not closed",
+        {{file, builder.range_at(offset, offset + 1),
+          is_list ? "expected ',' or ']' before this" : "expected ',' or '}' before this"}});
+  }
   if (may_lack_colon(exception.msg)) {
     const std::string_view line = find_line_without_key(text, offset);
     if (!line.empty()) {
@@ -562,16 +574,13 @@ void check_characters(std::string_view text, const PositionMap& positions) {
                     "expected a key and a value: is ':' missing, or the space after it?");
     }
   }
-  std::vector<Note> notes;
-  const std::optional<Range> bracket = builder.open_bracket();
-  if (bracket && offset >= text.size()) notes.push_back({file, *bracket, "opened here"});
   if (exception.msg == YAML::ErrorMsg::MAP_VALUE) {
     const std::string_view key = key_before(text, offset);
     if (is_long_key(key)) {
       throw Refusal(builder.range_at(offset - key.size(), offset), too_long_key());
     }
   }
-  throw Refusal(builder.range_at(offset, offset + 1), explain(exception.msg), std::move(notes));
+  throw Refusal(builder.range_at(offset, offset + 1), explain(exception.msg));
 }
 
 void parse_document(std::string_view text, const PositionMap& positions, const std::string& file,

@@ -265,16 +265,37 @@ bool Shape::has(std::string_view key) const {
 
 Fields::Fields(std::span<const Node* const> mappings, const Shape& shape, Reporter& reporter)
     : shape_(shape), reporter_(reporter), what_(shape.what) {
-  for (const Node* mapping : mappings) {
-    for (const auto& [key, value] : mapping->entries) add(*key, *value);
-  }
+  for (const Node* mapping : mappings) add_all(*mapping);
   report_older_names();
 }
 
 Fields::Fields(const Node& mapping, const Shape& shape, Reporter& reporter)
     : shape_(shape), reporter_(reporter), what_(shape.what) {
-  for (const auto& [key, value] : mapping.entries) add(*key, *value);
+  add_all(mapping);
   report_older_names();
+}
+
+void Fields::add_all(const Node& mapping) {
+  // A mapping in braces begins with the brace.
+  is_block_ =
+      !mapping.entries.empty() && mapping.entries.front().first->range.begin == mapping.range.begin;
+  for (const auto& [key, value] : mapping.entries) {
+    // What follows is about another entry, so more findings about it would be consequences.
+    if (begins_entry(mapping, *key)) break;
+    add(*key, *value);
+  }
+}
+
+/// Reports a key that begins another entry of a list, but for its '-': the one that the mapping
+/// begins with, for the second time.
+bool Fields::begins_entry(const Node& mapping, const Node& key) {
+  const Node& first = *mapping.entries.front().first;
+  if (!shape_.is_entry || !is_block_ || &key == &first || key.text != first.text) return false;
+  reporter_.report(rule::duplicate_key, key.range,
+                   quote(key.text) + " is given twice: is '-' missing before it? '- " + key.text +
+                       ":' begins another entry",
+                   {reporter_.note(first.range, "first given here")});
+  return true;
 }
 
 std::size_t Fields::place_of(std::string_view key) const {
@@ -413,6 +434,9 @@ void Fields::report_unknown(UnknownKeys treatment) {
       message += ": it belongs to " + std::string(shape_.outer->what) + ", one level up";
     } else if (field.value->kind == Kind::null && key.find(':') != std::string::npos) {
       message += ": is a space missing after ':'?";
+      const std::string_view before = std::string_view(key).substr(0, key.find(':'));
+      if (shape_.has(before) || !suggestion_for(before).empty())
+        standing.severity = Severity::error;
     } else if (!suggestion.empty()) {
       message += did_you_mean(suggestion);
       standing.severity = Severity::error;
@@ -441,8 +465,11 @@ ChosenKey choose_key(const Fields& fields, std::span<const std::string_view> key
     if (!key.empty() && is_before(second)) second = key;
   }
   if (second.empty()) return {first, false, first.empty() ? without_value : std::string_view()};
+  const std::string advice = fields.is_block()
+                                 ? concat("begin another entry with '- ", second, ":'")
+                                 : "each needs an entry of its own";
   reporter.report(rule::invalid_value, fields.range_of(second),
-                  concat(what, ", found ", quote(first), " and ", quote(second)),
+                  concat(what, ", found ", quote(first), " and ", quote(second), "; ", advice),
                   {reporter.note(fields.range_of(first), "the first one is here")});
   return {{}, true, {}};
 }

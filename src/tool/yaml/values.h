@@ -37,6 +37,7 @@ struct Shape {
   std::span<const Key> keys;
   const Shape* outer = nullptr;              ///< the mapping this one stands in
   std::span<const Shape* const> inner = {};  ///< mappings that stand in this one
+  bool is_entry = false;                     ///< it stands in a list
 
   [[nodiscard]] bool has(std::string_view key) const;
 };
@@ -59,6 +60,8 @@ class Fields {
   [[nodiscard]] const Node* find(std::string_view key) const;
   /// Whether a key is there, with or without a value.
   [[nodiscard]] bool has(std::string_view key) const;
+  /// Whether the keys stand on lines of their own, not in braces.
+  [[nodiscard]] bool is_block() const { return is_block_; }
   [[nodiscard]] bool has_unknown() const { return !unknown_.empty(); }
   /// Whether all keys are understood: none is unknown, or the user's own.
   [[nodiscard]] bool is_understood() const { return unknown_.empty() && !has_own_; }
@@ -86,6 +89,8 @@ class Fields {
     bool is_repeated = false;
   };
 
+  void add_all(const Node& mapping);
+  [[nodiscard]] bool begins_entry(const Node& mapping, const Node& key);
   /// Null if the key is not there.
   [[nodiscard]] const Field* find_field(std::string_view key) const;
   void add(const Node& key, const Node& value);
@@ -101,6 +106,7 @@ class Fields {
   std::vector<Field> fields_;  // those that are there; most mappings have few of their keys
   std::vector<Field> unknown_;
   bool has_own_ = false;  // a key that begins with "x-"
+  bool is_block_ = false;
 };
 
 /// Which of some keys a mapping has.
