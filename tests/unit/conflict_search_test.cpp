@@ -45,7 +45,7 @@ class RandomSearch {
   Feasibility solve(const std::vector<Reason>& some) {
     ConflictSearch problem(catalog_, group_, present, demands);
     if (low) problem.keep_below(low->task, low->minimum);
-    const Feasibility answer = problem.solve(some);
+    const Feasibility answer = problem.solve(some, UINT64_MAX);
     used.clear();
     for (std::size_t index = 0; index < some.size(); ++index) {
       if (problem.is_used()[index] != 0) used.push_back(some[index]);
@@ -231,50 +231,76 @@ TEST(ConflictSearch, AnswersAsASearchThroughAllAssignments) {
   EXPECT_GT(narrowed, test::rounds(300U)) << "what does not matter is noted";
 }
 
-/// Four tasks that need one of three places each, so that one is left over: that takes a search.
-/// Beside them stand thirty tasks that can run in two ways each, and that are decided on before.
-TEST(ConflictSearch, DoesNotSearchWhatHasNoPartInAFailure) {
+/// A task that requires others. Some of them run in two ways each, whatever else runs; the rest
+/// need one of several places each, and each place has room for one of them.
+std::string crowded_catalog(int free_tasks, int crowded_tasks, int places) {
   std::string text = "behaviors:\n";
   const auto add = [&text](const std::string& behavior, const std::string& task,
                            const std::string& required) {
     text += fmt::format("- {{behavior: {}, task: {}, requires: [{}]}}\n", behavior, task, required);
   };
   std::string all;
-  for (int task = 0; task < 30; ++task) {
+  for (int task = 0; task < free_tasks; ++task) {
     const std::string name = fmt::format("A{}", task);
     for (const char* const way : {"x", "y"}) add(name + way, name, "");
     all += fmt::format("{{task: {}}}, ", name);
   }
   std::string lists;
-  for (const char* const place : {"P", "Q", "R"}) {
+  for (int place = 0; place < places; ++place) {
     std::string list;
-    for (const char* const task : {"B0", "B1", "B2", "B3"}) {
-      const std::string at_place = fmt::format("{}at{}", task, place);
-      add(fmt::format("{}to{}", task, place), task, fmt::format("{{task: {}}}", at_place));
+    for (int task = 0; task < crowded_tasks; ++task) {
+      const std::string at_place = fmt::format("B{}at{}", task, place);
+      add(fmt::format("B{}to{}", task, place), fmt::format("B{}", task),
+          fmt::format("{{task: {}}}", at_place));
       add(at_place, at_place, "");
       list += at_place + ", ";
     }
     lists += fmt::format("- mutually_exclusive: [{}]\n", list);
   }
-  for (const char* const task : {"B0", "B1", "B2", "B3"})
-    all += fmt::format("{{task: {}}}, ", task);
+  for (int task = 0; task < crowded_tasks; ++task) all += fmt::format("{{task: B{}}}, ", task);
   add("all", "ALL", all);
-  const CompiledCatalog catalog = test::compile_text(text + "exclusivity_constraints:\n" + lists);
-  ASSERT_EQ(catalog.group_count(), 1U);
+  return text + "exclusivity_constraints:\n" + lists;
+}
 
-  RelevantTasks relevant(catalog, 0);
-  const TaskId task = catalog.task_ids[*catalog.find_task("ALL")];
-  relevant.add(task);
-  relevant.close();
-  std::vector<Reason> reasons;
-  for (const TaskId one : relevant.tasks()) {
-    add_exclusions(catalog, one, relevant, SIZE_MAX, reasons);
+/// That all of these tasks run, under all constraints.
+class CrowdedSearch {
+ public:
+  explicit CrowdedSearch(const std::string& text)
+      : catalog_(test::compile_text(text)),
+        present_(catalog_.tasks.size(), none),
+        task_(catalog_.task_ids[*catalog_.find_task("ALL")]),
+        search_(catalog_, 0, present_, {{Demand::Kind::run, task_, none}}) {
+    RelevantTasks relevant(catalog_, 0);
+    relevant.add(task_);
+    relevant.close();
+    for (const TaskId one : relevant.tasks()) {
+      add_exclusions(catalog_, one, relevant, SIZE_MAX, reasons_);
+    }
+    for (const BehaviorId one : relevant.behaviors()) add_requirements(catalog_, one, reasons_);
   }
-  for (const BehaviorId one : relevant.behaviors()) add_requirements(catalog, one, reasons);
-  const std::vector<std::uint32_t> present(catalog.tasks.size(), none);
-  ConflictSearch problem(catalog, 0, present, {{Demand::Kind::run, task, none}});
-  EXPECT_EQ(problem.solve(reasons), Feasibility::no);
-  EXPECT_LT(problem.effort(), 100'000U);
+
+  ConflictSearch& operator*() { return search_; }
+  [[nodiscard]] const std::vector<Reason>& reasons() const { return reasons_; }
+
+ private:
+  CompiledCatalog catalog_;
+  std::vector<std::uint32_t> present_;
+  TaskId task_;
+  ConflictSearch search_;
+  std::vector<Reason> reasons_;
+};
+
+/// One task too many for the places: that takes a search. The free tasks are decided on before.
+TEST(ConflictSearch, DoesNotSearchWhatHasNoPartInAFailure) {
+  CrowdedSearch crowded(crowded_catalog(30, 4, 3));
+  EXPECT_EQ((*crowded).solve(crowded.reasons(), 100'000), Feasibility::no);
+}
+
+/// A search that does not learn refutes the same again and again here.
+TEST(ConflictSearch, LearnsFromFailures) {
+  CrowdedSearch crowded(crowded_catalog(10, 8, 7));
+  EXPECT_EQ((*crowded).solve(crowded.reasons(), 100'000'000), Feasibility::no);
+  EXPECT_EQ((*crowded).solve(crowded.reasons(), 1'000'000), Feasibility::unknown);
 }
 
 }  // namespace

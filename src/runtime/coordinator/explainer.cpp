@@ -137,7 +137,7 @@ class ConflictSearches {
     return std::any_of(searches_.begin(), searches_.end(), [&](ConflictSearch& search) {
       if (is_exhausted()) return true;
       const std::uint64_t before = search.effort();
-      const Feasibility answer = search.solve(reasons);
+      const Feasibility answer = search.solve(reasons, effort_left_);
       effort_left_ -= std::min(search.effort() - before, effort_left_);
       if (deadline_ && std::chrono::steady_clock::now() >= *deadline_) effort_left_ = 0;
       return answer != Feasibility::no;
@@ -242,7 +242,7 @@ bool needs_event(const CompiledCatalog& catalog, const Circumstances& circumstan
   const std::vector<std::uint32_t> present = present_values(catalog, circumstances);
   return std::any_of(ways.begin(), ways.end(), [&](const Demands& way) {
     ConflictSearch search(catalog, trigger.group, present, way);
-    return search.solve(reasons) == Feasibility::yes;
+    return search.solve(reasons, most_effort) == Feasibility::yes;
   });
 }
 

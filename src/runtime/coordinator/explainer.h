@@ -27,7 +27,7 @@ struct Circumstances {
 };
 
 /// A minimal conflict set of a start or stop that has no solution. Empty where that takes too long
-/// (a group with very many constraints, or the deadline).
+/// (a group with very many constraints, a proof of very many conflicts, or the deadline).
 [[nodiscard]] std::vector<Reason> find_conflict(const CompiledCatalog& catalog,
                                                 const Circumstances& circumstances);
 

@@ -6,6 +6,8 @@
 
 #include "compiled/compiled_catalog.h"
 #include "explain/reasons.h"
+#include "explain/relaxed_trail.h"
+#include "solver/conflict_analysis.h"
 #include "solver/objective.h"
 
 namespace cbc {
@@ -15,13 +17,10 @@ enum class Feasibility : std::uint8_t { no, yes, unknown };
 
 /// Searches for a solution with only some of the reasons in force: the demands hold; otherwise
 /// every task of the group may have any of its behaviors or none, and the reasons are all
-/// constraints. It records the cause of each removal, so that a failure yields the reasons that it
-/// comes from.
+/// constraints.
 ///
-/// That is conflict-directed backjumping (P. Prosser, "Hybrid algorithms for the constraint
-/// satisfaction problem", Computational Intelligence 9, 1993) on propagated domains: the conflict
-/// set of a level is read off the causes of the failure, as in the analysis of a SAT solver, but no
-/// clause is learned from it.
+/// It learns a no-good from each failure, as LearningSearch does, together with the reasons that
+/// the no-good was derived from, so that a proof of no solution yields the reasons that it used.
 class ConflictSearch {
  public:
   /// `present`: by task of the group, its value index, or none.
@@ -34,74 +33,40 @@ class ConflictSearch {
     low_minimum_ = minimum;
   }
 
-  [[nodiscard]] Feasibility solve(std::span<const Reason> reasons);
+  /// The answer is unknown where it would take more than `most_effort`.
+  [[nodiscard]] Feasibility solve(std::span<const Reason> reasons, std::uint64_t most_effort);
 
   /// After the answer no: by reason, whether the proof used it. The reasons that it used leave no
   /// solution by themselves.
   [[nodiscard]] const std::vector<std::uint8_t>& is_used() const { return is_used_; }
 
-  /// Reasons and values visited so far: a measure of time that does not depend on the machine.
-  [[nodiscard]] std::uint64_t effort() const { return effort_; }
+  /// Literals, reasons and values visited so far: a measure of time that does not depend on the
+  /// machine.
+  [[nodiscard]] std::uint64_t effort() const { return effort_ + trail_.effort(); }
 
  private:
-  /// The domains in a subtree, and the causes of their changes. A cause is the index of a reason,
-  /// or first_decision + the level of a decision, or none: a demand.
-  struct Domains {
-    std::vector<std::uint8_t> values;       ///< by value of the group: whether it is in the domain
-    std::vector<std::uint32_t> counts;      ///< by task: number of values left
-    std::vector<std::uint8_t> needed;       ///< by task: whether it runs
-    std::vector<std::uint32_t> removed_by;  ///< by removed value: the cause
-    std::vector<std::uint32_t> needed_by;   ///< by task that runs: the cause
-    std::vector<std::uint32_t> needed_through;  ///< the value whose requirement it is
-  };
-
-  /// A subtree, after `level` decisions.
-  struct Branch {
-    Domains domains;
-    std::uint32_t level = 0;
-    TaskId decided = none;  ///< by the last of them
-  };
-  static constexpr std::uint32_t first_decision = std::uint32_t{1} << 31U;
-
-  void decide(Branch& now, TaskId task);
-  void decide_whether_to_run(Branch& now, TaskId task);
-  [[nodiscard]] Branch& branch(Branch& now, TaskId task);
-  [[nodiscard]] bool backjump(Branch& now);
-  [[nodiscard]] bool demand(Domains& domains, const Demand& demand);
-  [[nodiscard]] bool begin(Domains& domains, std::span<const Reason> reasons);
-  [[nodiscard]] bool remove(Domains& domains, TaskId task, std::uint32_t index);
-  [[nodiscard]] bool close(Domains& domains, TaskId task);
-  [[nodiscard]] bool need(Domains& domains, TaskId task);
+  [[nodiscard]] bool begin(std::span<const Reason> reasons);
+  [[nodiscard]] bool demand(const Demand& demand);
   void sort(std::span<const Reason> reasons);
-  void note_change(TaskId task);
-  void forget_changes();
-  [[nodiscard]] bool propagate(Domains& domains, std::span<const Reason> reasons);
-  [[nodiscard]] bool follow_changes(Domains& domains, std::span<const Reason> reasons);
-  [[nodiscard]] bool apply(Domains& domains, const Reason& reason);
-  [[nodiscard]] bool apply_state(Domains& domains, const Reason& reason);
-  [[nodiscard]] bool apply_requirement(Domains& domains, const Reason& reason);
-  [[nodiscard]] bool may_perform(const Domains& domains, const Reason& reason);
-  [[nodiscard]] bool may_reach(const Domains& domains, TaskId reached, Millionths minimum);
-  void analyze_conflict(const Domains& domains, std::span<const Reason> reasons);
-  void explain_performance(const Domains& domains);
-  void explain_value(ValueId id);
-  void explain_running(TaskId task);
-  void explain_removals(TaskId task, std::uint32_t kept);
-  void add_fact(std::size_t fact);
-  [[nodiscard]] TaskId choose(const Domains& domains) const;
-  [[nodiscard]] TaskId optional_factor(const Domains& domains) const;
+  [[nodiscard]] bool apply(const Reason& reason, std::uint32_t index);
 
-  [[nodiscard]] std::size_t value(TaskId task, std::uint32_t index) const {
-    return catalog_.values.begin[task] + index - first_value_;
-  }
-  [[nodiscard]] std::uint32_t best(const Domains& domains, TaskId task) const;
-  [[nodiscard]] bool is_needed(const Domains& domains, TaskId task) const {
-    return domains.needed[task - first_task_] != 0;
-  }
-  [[nodiscard]] bool is_fixed(const Domains& domains, TaskId task) const {
-    return is_needed(domains, task) && domains.counts[task - first_task_] == 1;
-  }
-  [[nodiscard]] BehaviorId fixed_behavior(const Domains& domains, TaskId task) const;
+  [[nodiscard]] bool propagate(std::span<const Reason> reasons);
+  [[nodiscard]] bool may_perform(const Reason& reason, std::uint32_t index);
+  [[nodiscard]] bool may_reach(TaskId reached, Millionths minimum);
+  void explain_performance(const RelaxedTrail::Cause& cause);
+
+  [[nodiscard]] bool learn();
+  [[nodiscard]] bool leave_dead_end();
+  void note_activity();
+  void restart();
+  void begin_derivation();
+  void add_cause(const RelaxedTrail::Cause& cause);
+  void add_reason(std::uint32_t reason);
+  void trace_facts(std::span<const Literal> facts);
+
+  [[nodiscard]] TaskId choose_task() const;
+  [[nodiscard]] std::uint32_t choose_value(TaskId task);
+  [[nodiscard]] TaskId optional_factor() const;
 
   const CompiledCatalog& catalog_;
   const std::vector<std::uint32_t>& present_;
@@ -110,30 +75,31 @@ class ConflictSearch {
   Millionths low_minimum_ = 0;
   const TaskId first_task_;
   const TaskId end_task_;
-  const std::uint32_t first_value_;
-  std::vector<std::vector<std::uint32_t>> reasons_of_task_;  ///< exclusions and requirements
-  std::vector<std::uint32_t> performances_;                  ///< the reasons of that kind
-  std::vector<std::uint32_t> state_;       ///< the other reasons, which apply once
-  std::vector<TaskId> changed_;            ///< tasks whose reasons have to be applied again
-  std::vector<std::uint8_t> has_changed_;  ///< by task of the group: whether it is in changed_
-  std::uint64_t effort_ = 0;
-  std::vector<Branch> open_;           ///< second branches; at most one of each level
+  RelaxedTrail trail_;
+  ConflictAnalysis analysis_;
+  std::vector<std::uint32_t> performances_;  ///< the reasons of that kind
+  std::vector<std::uint32_t> state_;         ///< the reasons that apply once
+  std::uint64_t effort_ = 0;                 ///< apart from that of the trail
+
+  std::vector<std::uint32_t> saved_;  ///< by task of the group: the value chosen last, or none
+  std::vector<double> activities_;    ///< by task of the group
+  double increment_ = 1;
+  std::uint64_t conflicts_ = 0;
+  std::uint64_t restarts_ = 0;
+  std::uint64_t next_restart_ = 0;
+
+  // The derivation of a no-good.
   std::vector<std::uint8_t> is_used_;  ///< by reason
-  std::vector<std::uint8_t>
-      conflict_set_;  ///< by level: whether the failure depends on its decision
-  std::vector<std::vector<std::uint8_t>>
-      conflict_sets_before_;    ///< by level: that of its first branch
-  std::uint32_t cause_ = none;  ///< of the removals and needs that follow
-  ValueId through_ = none;      ///< the value whose requirement cause_ is
-  TaskId dead_end_ = none;      ///< the needed task without values; none: a performance is too low
+  std::vector<std::uint32_t> used_;
+  std::vector<Literal> facts_;
+  std::vector<std::uint8_t> is_known_fact_;  ///< by variable
+  std::vector<std::uint32_t> known_facts_;
+
   ExactProduct product_;
   ExactProduct minimum_;
   std::vector<TaskId> closure_;
   std::vector<std::uint8_t> in_closure_;  ///< by task of the group
-  /// Facts that the failure comes from: a value is removed (its number in the group), or a task
-  /// runs (its number, after all values).
-  std::vector<std::size_t> facts_;
-  std::vector<std::uint8_t> is_known_fact_;
+  std::vector<Literal> literals_;
 };
 
 }  // namespace cbc

@@ -2,28 +2,13 @@
 
 #include <algorithm>
 
+#include "solver/luby.h"
+
 namespace cbc {
 namespace {
 
 constexpr std::uint64_t conflicts_of_a_restart = 64;
 constexpr std::size_t first_most_nogoods = 2000;
-
-/// 1, 1, 2, 1, 1, 2, 4, ...: M. Luby, A. Sinclair and D. Zuckerman, "Optimal speedup of Las Vegas
-/// algorithms", Information Processing Letters 47 (1993). `place` counts from 0.
-std::uint64_t luby(std::uint64_t place) {
-  std::uint64_t size = 1;
-  std::uint64_t value = 1;
-  while (size < place + 1) {
-    size = 2 * size + 1;
-    value *= 2;
-  }
-  while (size - 1 != place) {
-    size = (size - 1) / 2;
-    value /= 2;
-    place %= size;
-  }
-  return value;
-}
 
 }  // namespace
 

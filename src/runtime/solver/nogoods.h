@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/literal.h"
@@ -34,8 +36,12 @@ class Nogoods {
     return {literals_.data() + nogoods_[nogood].begin, nogoods_[nogood].size};
   }
 
-  /// The clauses that watch a literal.
-  [[nodiscard]] std::vector<Watch>& watches(Literal literal) { return watches_[literal]; }
+  /// Propagates that a literal holds: every clause that watches its negation needs another literal
+  /// to watch; where none is left, the other watched literal follows. `truth` of a literal: 1 true,
+  /// -1 false, 0 undecided. `imply` of a literal and a clause: infers it; false ends the
+  /// propagation. False if it did.
+  template <typename Truth, typename Imply>
+  [[nodiscard]] bool follow(Literal literal, const Truth& truth, const Imply& imply);
 
   /// Notes that a clause has taken part in a conflict.
   void note_use(std::uint32_t nogood);
@@ -63,5 +69,38 @@ class Nogoods {
   std::vector<double> activities_;
   double increment_ = 1;
 };
+
+template <typename Truth, typename Imply>
+bool Nogoods::follow(Literal literal, const Truth& truth, const Imply& imply) {
+  const Literal lost = negate(literal);
+  std::vector<Watch>& watches = watches_[lost];
+  std::size_t kept = 0;
+  std::size_t next = 0;
+  bool is_consistent = true;
+  while (is_consistent && next < watches.size()) {
+    const Watch watch = watches[next++];
+    if (truth(watch.other) > 0) {
+      watches[kept++] = watch;
+      continue;
+    }
+    const std::span<Literal> clause = literals(watch.nogood);
+    if (clause[0] == lost) std::swap(clause[0], clause[1]);
+    const Watch again{watch.nogood, clause[0]};
+    const auto other = truth(clause[0]) > 0
+                           ? clause.end()
+                           : std::find_if(clause.begin() + 2, clause.end(),
+                                          [&](Literal some) { return truth(some) >= 0; });
+    if (other != clause.end()) {
+      std::swap(clause[1], *other);
+      watches_[clause[1]].push_back(again);
+      continue;
+    }
+    watches[kept++] = again;
+    is_consistent = imply(clause[0], watch.nogood);
+  }
+  watches.erase(watches.begin() + static_cast<std::ptrdiff_t>(kept),
+                watches.begin() + static_cast<std::ptrdiff_t>(next));
+  return is_consistent;
+}
 
 }  // namespace cbc

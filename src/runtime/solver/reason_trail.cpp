@@ -246,41 +246,12 @@ bool ReasonTrail::follow_remaining_values(std::uint32_t task) {
   return true;
 }
 
-/// Every clause that watches the negation of the literal needs another literal to watch; where none
-/// is left, the other watched literal follows.
 bool ReasonTrail::follow_nogoods(Literal literal) {
-  const Literal lost = negate(literal);
-  std::vector<Nogoods::Watch>& watches = nogoods_.watches(lost);
-  std::size_t kept = 0;
-  std::size_t next = 0;
-  bool is_consistent = true;
-  while (is_consistent && next < watches.size()) {
-    const Nogoods::Watch watch = watches[next++];
-    if (is_true(watch.other)) {
-      watches[kept++] = watch;
-      continue;
-    }
-    const std::span<Literal> clause = nogoods_.literals(watch.nogood);
-    if (clause[0] == lost) std::swap(clause[0], clause[1]);
-    const Nogoods::Watch again{watch.nogood, clause[0]};
-    const auto other = is_true(clause[0])
-                           ? clause.end()
-                           : std::find_if(clause.begin() + 2, clause.end(),
-                                          [&](Literal some) { return !is_false(some); });
-    if (other != clause.end()) {
-      std::swap(clause[1], *other);
-      nogoods_.watches(clause[1]).push_back(again);
-      continue;
-    }
-    watches[kept++] = again;
-    is_consistent = imply(clause[0], {Reason::Kind::nogood, watch.nogood});
-  }
-  kept = static_cast<std::size_t>(std::copy(watches.begin() + static_cast<std::ptrdiff_t>(next),
-                                            watches.end(),
-                                            watches.begin() + static_cast<std::ptrdiff_t>(kept)) -
-                                  watches.begin());
-  watches.resize(kept);
-  return is_consistent;
+  return nogoods_.follow(
+      literal, [this](Literal one) { return truth_[one]; },
+      [this](Literal implied, std::uint32_t nogood) {
+        return imply(implied, {Reason::Kind::nogood, nogood});
+      });
 }
 
 }  // namespace cbc

@@ -362,7 +362,7 @@ ConflictSearch ProofContext::relaxed(const Goal& goal) const {
 Feasibility ProofContext::solve(ConflictSearch& problem, std::span<const Reason> reasons) {
   if (effort_left_ == 0) return Feasibility::unknown;
   const std::uint64_t before = problem.effort();
-  const Feasibility answer = problem.solve(reasons);
+  const Feasibility answer = problem.solve(reasons, effort_left_);
   effort_left_ -= std::min(problem.effort() - before, effort_left_);
   return answer;
 }

@@ -154,7 +154,7 @@ class ConflictInSituations {
     }
     if (effort_left_ == 0) return Feasibility::unknown;
     const std::uint64_t before = part.problem->effort();
-    const Feasibility answer = part.problem->solve(in_force);
+    const Feasibility answer = part.problem->solve(in_force, effort_left_);
     const std::uint64_t effort = part.problem->effort() - before + reasons.size();
     effort_left_ -= std::min(effort, effort_left_);
     if (answer == Feasibility::no && is_used != nullptr) {

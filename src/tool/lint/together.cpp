@@ -193,7 +193,7 @@ TogetherSearch::Witness TogetherSearch::find_witness(TaskId a, TaskId b) {
 Feasibility TogetherSearch::solve(ConflictSearch& problem, std::span<const Reason> reasons) {
   if (effort_left_ == 0) return Feasibility::unknown;
   const std::uint64_t before = problem.effort();
-  const Feasibility answer = problem.solve(reasons);
+  const Feasibility answer = problem.solve(reasons, effort_left_);
   effort_left_ -= std::min(problem.effort() - before, effort_left_);
   return answer;
 }
