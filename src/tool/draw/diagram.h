@@ -150,8 +150,8 @@ void add_legend(Diagram& diagram);
 /// situation.
 [[nodiscard]] std::vector<std::string> caption_of(const Moment& moment);
 
-/// The label of a line with a sign for its mark: "+ 90 %" if it is added, "− 90 %" if it is removed,
-/// "~ 90 %" if it is changed, "▶ 90 %" if it is started, "■ 90 %" if it is stopped.
+/// The label of a line with a sign for its mark: "+ 90 %" if it is added, "− 90 %" if it is
+/// removed, "~ 90 %" if it is changed, "▶ 90 %" if it is started, "■ 90 %" if it is stopped.
 [[nodiscard]] std::string with_sign(Mark mark, std::string label);
 
 /// The nodes of each cluster, in their order.
