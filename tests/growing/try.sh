@@ -78,7 +78,7 @@ try_patch rule lint_rule_long_name
 cd -- "$source/tests/golden/cases"
 expect 'long-name                 note' "$cbc" lint --list-rules
 expect '[long-name]' "$cbc" lint lint_rule_long_name/catalog.yaml
-expect 'no findings in 1 file' "$cbc" lint --allow long-name lint_rule_long_name/catalog.yaml
+expect 'no findings in 1 catalog' "$cbc" lint --allow long-name lint_rule_long_name/catalog.yaml
 cd -- "$folder"
 take_back rule
 
