@@ -286,7 +286,7 @@ class Agreement {
     const long double suitability = suitability_of(catalog, problem, best);
     ASSERT_GE(static_cast<long double>(bound.suitability), suitability);
     constexpr long double close = 1.0001L;
-    if (bound.suitability < suitability * close) ++with_close_bound;
+    if (static_cast<long double>(bound.suitability) < suitability * close) ++with_close_bound;
   }
 
   static long double suitability_of(const CompiledCatalog& catalog, const Problem& problem,
