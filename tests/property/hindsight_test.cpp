@@ -59,7 +59,7 @@ class Questions final : private EventListener {
       rejected_.erase(record.search->group);
       for (const Why& why : record.explanation.why) {
         // Of what is in the queue, it says what comes next.
-        if (why.behavior != none) known_[why.behavior] = {record.index, why};
+        if (why.behavior != cbc::none) known_[why.behavior] = {record.index, why};
         if (why.due) known_.erase(why.behavior);
       }
     } else if (record.verb != cbc::Verb::finish) {
