@@ -3,14 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/luby.h"
-
 namespace cbc {
-namespace {
-
-constexpr std::uint64_t conflicts_of_a_restart = 64;
-
-}  // namespace
 
 ConflictSearch::ConflictSearch(const CompiledCatalog& catalog, std::uint32_t group,
                                const std::vector<std::uint32_t>& present, Demands demands)
@@ -21,9 +14,9 @@ ConflictSearch::ConflictSearch(const CompiledCatalog& catalog, std::uint32_t gro
       end_task_(catalog.group_tasks[group + 1]),
       trail_(catalog, group),
       saved_(end_task_ - first_task_, none),
-      activities_(end_task_ - first_task_, 0),
       is_known_fact_(trail_.variable_count(), 0),
       in_closure_(end_task_ - first_task_, 0) {
+  activities_.clear(end_task_ - first_task_);
   analysis_.resize(trail_.variable_count());
 }
 
@@ -31,9 +24,7 @@ ConflictSearch::ConflictSearch(const CompiledCatalog& catalog, std::uint32_t gro
 /// task has one value; only to keep a performance low, a task that nothing needs may have to run.
 Feasibility ConflictSearch::solve(std::span<const Reason> reasons, std::uint64_t most_effort) {
   const std::uint64_t effort_before = effort();
-  conflicts_ = 0;
-  restarts_ = 0;
-  next_restart_ = conflicts_of_a_restart;
+  restarts_.clear();
   is_used_.assign(reasons.size(), 0);
   used_.clear();
   sort(reasons);
@@ -47,7 +38,7 @@ Feasibility ConflictSearch::solve(std::span<const Reason> reasons, std::uint64_t
       is_consistent = true;
       continue;
     }
-    if (conflicts_ >= next_restart_) {
+    if (restarts_.is_due()) {
       restart();
       continue;
     }
@@ -214,7 +205,7 @@ bool ConflictSearch::learn() {
   trace_facts(analysis_.facts());
   effort_ += trail_.conflict().size() + analysis_.variables().size() + used_.size();
   note_activity();
-  ++conflicts_;
+  restarts_.note_conflict();
   trail_.backtrack_to(analysis_.back_level());
   // The literal is undecided at that level.
   static_cast<void>(trail_.learn(analysis_.learned(), analysis_.level_count(), used_));
@@ -232,29 +223,22 @@ bool ConflictSearch::leave_dead_end() {
     literals_.push_back(negate(trail_.decision(level)));
   }
   effort_ += literals_.size() + used_.size();
-  ++conflicts_;
+  restarts_.note_conflict();
   trail_.backtrack_to(trail_.level() - 1);
   static_cast<void>(trail_.learn(literals_, static_cast<std::uint32_t>(literals_.size()), used_));
   return true;
 }
 
 void ConflictSearch::note_activity() {
-  constexpr double growth = 1.05;
-  constexpr double too_large = 1e100;
   for (const std::uint32_t variable : analysis_.variables()) {
-    double& activity = activities_[trail_.task_of(variable) - first_task_];
-    activity += increment_;
-    if (activity < too_large) continue;
-    for (double& each : activities_) each /= too_large;
-    increment_ /= too_large;
+    activities_.note(trail_.task_of(variable) - first_task_);
   }
-  increment_ *= growth;
+  activities_.age();
 }
 
 void ConflictSearch::restart() {
   trail_.backtrack_to(0);
-  ++restarts_;
-  next_restart_ = conflicts_ + conflicts_of_a_restart * luby(restarts_);
+  restarts_.restart();
 }
 
 void ConflictSearch::begin_derivation() {

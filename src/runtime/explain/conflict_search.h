@@ -9,6 +9,7 @@
 #include "explain/relaxed_trail.h"
 #include "solver/conflict_analysis.h"
 #include "solver/objective.h"
+#include "solver/restarts.h"
 
 namespace cbc {
 
@@ -82,11 +83,8 @@ class ConflictSearch {
   std::uint64_t effort_ = 0;                 ///< apart from that of the trail
 
   std::vector<std::uint32_t> saved_;  ///< by task of the group: the value chosen last, or none
-  std::vector<double> activities_;    ///< by task of the group
-  double increment_ = 1;
-  std::uint64_t conflicts_ = 0;
-  std::uint64_t restarts_ = 0;
-  std::uint64_t next_restart_ = 0;
+  Activities activities_;             ///< by task of the group
+  Restarts restarts_;
 
   // The derivation of a no-good.
   std::vector<std::uint8_t> is_used_;  ///< by reason

@@ -3,15 +3,9 @@
 #include <algorithm>
 
 namespace cbc {
-namespace {
-
-/// More than any sum of costs: a suitability of 0 makes the whole product 0.
-constexpr std::int64_t prohibitive = std::int64_t{1} << 61;
-
-}  // namespace
 
 CostBound::Cost& CostBound::Cost::operator+=(const Cost& other) {
-  log = std::min(prohibitive, log + other.log);
+  log = std::min(prohibitive_cost, log + other.log);
   idle += other.idle;
   return *this;
 }
@@ -40,7 +34,6 @@ CostBound::CostBound(const CompiledCatalog& catalog, const Domains& domains,
   in_cut_.resize(most_tasks, 0);
   cut_.reserve(most_tasks);
   visits_.reserve(most_tasks);
-  in_grounds_.resize(residual_.size(), 0);
 }
 
 CostBound::Cost CostBound::bound(const Cost& threshold, Roots roots) {
@@ -53,25 +46,6 @@ CostBound::Cost CostBound::bound(const Cost& threshold, Roots roots) {
       if (total > threshold) return total;
     }
   }
-  return total;
-}
-
-CostBound::Cost CostBound::bound_with_grounds(const Cost& threshold) {
-  ++bound_number_;
-  has_grounds_ = true;
-  grounds_.needed.clear();
-  grounds_.removed.clear();
-  grounds_.opened.clear();
-  Cost total;
-  for (const std::uint32_t task : domains_.needed_tasks()) {
-    if (total > threshold) break;
-    if (!collect_cut(task)) continue;
-    grounds_.needed.push_back(task);
-    do {
-      total += subtract_cut_minimum();
-    } while (total <= threshold && collect_cut(task));
-  }
-  has_grounds_ = false;
   return total;
 }
 
@@ -99,7 +73,7 @@ bool CostBound::is_root(std::uint32_t task, Roots roots) const {
 }
 
 CostBound::Cost CostBound::least_residual(std::uint32_t task) {
-  Cost cheapest{prohibitive, 0};
+  Cost cheapest{prohibitive_cost, 0};
   for (std::uint32_t index = 0; index < domains_.values(task).size(); ++index) {
     if (domains_.has(task, index)) cheapest = std::min(cheapest, residual(task, index));
   }
@@ -109,11 +83,10 @@ CostBound::Cost CostBound::least_residual(std::uint32_t task) {
 void CostBound::open(std::uint32_t task) {
   if (opened_[task] == bound_number_) return;
   opened_[task] = bound_number_;
-  if (has_grounds_) grounds_.opened.push_back(task);
   const std::int64_t idle = catalog_.tasks[domains_.first_task() + task].start_on_request ? 0 : 1;
   const auto values = domains_.values(task);
   for (std::uint32_t index = 0; index < values.size(); ++index) {
-    residual(task, index) = {values[index].suitability == 0 ? prohibitive : values[index].cost,
+    residual(task, index) = {values[index].suitability == 0 ? prohibitive_cost : values[index].cost,
                              idle};
   }
 }
@@ -196,29 +169,12 @@ CostBound::Cost CostBound::subtract_cut_minimum() {
   for (const std::uint32_t task : cut_) {
     const auto values = domains_.values(task);
     for (std::uint32_t index = 0; index < values.size(); ++index) {
-      if (domains_.has(task, index)) {
-        if (!requires_cut(values[index])) residual(task, index) -= cheapest;
-      } else if (has_grounds_) {
-        subtract_if_removed(task, index, cheapest);
+      if (domains_.has(task, index) && !requires_cut(values[index])) {
+        residual(task, index) -= cheapest;
       }
     }
   }
   return cheapest;
-}
-
-/// A removed value that costs no less than the cut's minimum might as well be there. Otherwise the
-/// minimum rests on its removal.
-void CostBound::subtract_if_removed(std::uint32_t task, std::uint32_t index, const Cost& cost) {
-  if (requires_cut(domains_.value(task, index))) return;
-  Cost& left = residual(task, index);
-  if (left >= cost) {
-    left -= cost;
-    return;
-  }
-  std::uint64_t& noted = in_grounds_[static_cast<std::size_t>(&left - residual_.data())];
-  if (noted == bound_number_) return;
-  noted = bound_number_;
-  grounds_.removed.emplace_back(task, index);
 }
 
 }  // namespace cbc

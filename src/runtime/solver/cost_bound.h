@@ -2,7 +2,6 @@
 
 #include <compare>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
@@ -12,6 +11,10 @@
 #include "solver/problem.h"
 
 namespace cbc {
+
+/// Stands for the cost of a suitability of 0, which makes the whole product 0: more than any sum of
+/// others.
+inline constexpr std::int64_t prohibitive_cost = std::int64_t{1} << 61;
 
 /// A lower bound on the cost of the needed tasks and all that they require, by dual ascent.
 ///
@@ -48,21 +51,6 @@ class CostBound {
   /// the bound exceeds `threshold`.
   [[nodiscard]] Cost bound(const Cost& threshold, Roots roots);
 
-  /// What a bound rests on: it holds wherever these tasks are needed and these values are removed.
-  struct Grounds {
-    std::vector<std::uint32_t> needed;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> removed;  ///< tasks and value indices
-    std::vector<std::uint32_t> opened;  ///< the tasks that the bound has looked at
-  };
-  /// The same for all needed tasks, with its grounds.
-  [[nodiscard]] Cost bound_with_grounds(const Cost& threshold);
-  [[nodiscard]] const Grounds& grounds() const { return grounds_; }
-  /// After a bound with grounds that did not exceed its threshold: by how much the bound would grow
-  /// at least if the task, one of those opened, had this value.
-  [[nodiscard]] const Cost& least_increase(std::uint32_t task, std::uint32_t index) {
-    return residual(task, index);
-  }
-
   /// After a bound that did not exceed its threshold: an estimate of what a value of the domain
   /// costs beyond the bound. 0 for the values that the bound assumes.
   [[nodiscard]] Cost reduced_cost(std::uint32_t task, std::uint32_t index);
@@ -85,7 +73,6 @@ class CostBound {
   void begin_visit(std::uint32_t task);
   [[nodiscard]] bool requires_cut(const Value& value) const;
   [[nodiscard]] Cost subtract_cut_minimum();
-  void subtract_if_removed(std::uint32_t task, std::uint32_t index, const Cost& cost);
   [[nodiscard]] Cost& residual(std::uint32_t task, std::uint32_t index);
 
   const CompiledCatalog& catalog_;
@@ -100,10 +87,6 @@ class CostBound {
   std::vector<Visit> visits_;
   std::uint64_t bound_number_ = 0;
   std::uint64_t cut_number_ = 0;
-  bool has_grounds_ = false;
-  Grounds grounds_;
-  std::vector<std::uint64_t>
-      in_grounds_;  ///< by value of the group: last bound whose grounds it is in
 };
 
 /// What the cost bound has to exceed to prove that nothing better than the incumbent is left where

@@ -3,21 +3,20 @@
 #include <algorithm>
 #include <bit>
 
+#include "solver/cost_bound.h"
+
 namespace cbc {
 namespace {
-
-/// More than any sum of costs: a suitability of 0 makes the whole product 0.
-constexpr std::int64_t prohibitive = std::int64_t{1} << 61;
 
 /// In place of a supporter.
 constexpr std::uint32_t removed = none - 1;
 
-std::int64_t add(std::int64_t a, std::int64_t b) { return std::min(prohibitive, a + b); }
+std::int64_t add(std::int64_t a, std::int64_t b) { return std::min(prohibitive_cost, a + b); }
 
 }  // namespace
 
 LandmarkBound::LandmarkBound(const CompiledCatalog& catalog, const Domains& domains,
-                             ReasonTrail& trail)
+                             const ReasonTrail& trail)
     : catalog_(catalog), domains_(domains), trail_(trail) {
   const std::size_t most_tasks = most_in_a_group(catalog.group_tasks);
   in_cut_.resize(most_tasks, 0);
@@ -63,7 +62,7 @@ void LandmarkBound::load() {
   seen_heights_.assign(tasks, 0);
   cuts_.clear();
   grounds_.clear();
-  reasons_.clear();
+  saved_.clear();
   marks_.clear();
   find_relevant_tasks();
   marked_.assign((order_.size() + 63) / 64, 0);
@@ -80,8 +79,8 @@ void LandmarkBound::set_measure(Measure measure) {
   for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
     const bool is_idle = catalog_.tasks[domains_.first_task() + task].start_on_request == 0;
     for (const Value& value : domains_.values(task)) {
-      std::int64_t cost = value.suitability == 0 ? prohibitive : value.cost;
-      if (measure == Measure::idle) cost = cost > 0 ? prohibitive : is_idle ? 1 : 0;
+      std::int64_t cost = value.suitability == 0 ? prohibitive_cost : value.cost;
+      if (measure == Measure::idle) cost = cost > 0 ? prohibitive_cost : is_idle ? 1 : 0;
       costs_.push_back(cost);
       highest_cost_ = std::max(highest_cost_, cost);
     }
@@ -114,7 +113,7 @@ void LandmarkBound::find_relevant_tasks() {
 }
 
 void LandmarkBound::begin_level() {
-  marks_.push_back({cuts_.size(), grounds_.size(), reasons_.size()});
+  marks_.push_back({cuts_.size(), grounds_.size(), saved_.size()});
 }
 
 void LandmarkBound::backtrack_to(std::uint32_t level) {
@@ -123,14 +122,14 @@ void LandmarkBound::backtrack_to(std::uint32_t level) {
   if (level_ != none && level_ > level) level_ = none;
   cuts_.resize(marks_[level].cuts);
   grounds_.resize(marks_[level].grounds);
-  reasons_.resize(marks_[level].reasons);
+  saved_.resize(marks_[level].saved);
   marks_.resize(level);
 }
 
 void LandmarkBound::start_ascent() {
   bound_ = 0;
   level_ = trail_.level();
-  first_cut_ = cuts_.size();
+  first_cut_ = static_cast<std::uint32_t>(cuts_.size());
   residuals_ = costs_;
   unsettled_.clear();
   find_reached_tasks();
@@ -142,7 +141,7 @@ void LandmarkBound::start_ascent() {
     }
     const std::uint32_t begin = value_begin_[task];
     const std::uint32_t end = value_begin_[task + 1];
-    std::int64_t height = prohibitive;
+    std::int64_t height = prohibitive_cost;
     for (std::uint32_t value = begin; value < end; ++value) {
       if (!domains_.has(task, value - begin)) {
         supporters_[value] = removed;
@@ -294,7 +293,7 @@ bool LandmarkBound::requires_cut(std::uint32_t value) const {
 /// no less than the minimum might as well be there; otherwise the minimum rests on its removal.
 void LandmarkBound::subtract_cut(std::uint32_t root) {
   arcs_.clear();
-  std::int64_t amount = prohibitive;
+  std::int64_t amount = prohibitive_cost;
   for (const std::uint32_t task : cut_) {
     const std::uint32_t begin = value_begin_[task];
     const std::uint32_t end = value_begin_[task + 1];
@@ -325,10 +324,10 @@ void LandmarkBound::subtract_cut(std::uint32_t root) {
 
 /// Leaves out cuts of the highest levels, as far as the slack allows, so that the search goes back
 /// further.
-void LandmarkBound::append_grounds(std::size_t first, std::size_t end_cut, std::int64_t slack,
-                                   std::vector<Literal>& reason) const {
+void LandmarkBound::append_grounds(const Grounds& grounds, std::vector<Literal>& reason) const {
+  std::int64_t slack = grounds.slack;
   sorted_cuts_.clear();
-  for (auto number = static_cast<std::uint32_t>(first); number < end_cut; ++number) {
+  for (std::uint32_t number = grounds.first_cut; number < grounds.end_cut; ++number) {
     if (cuts_[number].level > 0) sorted_cuts_.push_back(number);
   }
   std::sort(sorted_cuts_.begin(), sorted_cuts_.end(), [this](std::uint32_t a, std::uint32_t b) {
@@ -352,22 +351,9 @@ void LandmarkBound::append_grounds(std::size_t first, std::size_t end_cut, std::
   }
 }
 
-ReasonTrail::Reason LandmarkBound::make_reason(std::int64_t slack) {
-  reasons_.push_back({first_cut_, cuts_.size(), slack});
-  return {ReasonTrail::Reason::Kind::lazy, static_cast<std::uint32_t>(reasons_.size() - 1)};
-}
-
-void LandmarkBound::append_reason(Literal literal, std::uint32_t data,
-                                  std::vector<Literal>& reason) const {
-  // The requests that were ruled out before.
-  for (const std::uint32_t task : trail_.requests()) {
-    const Literal stops = negate(ReasonTrail::runs(task));
-    if (trail_.is_true(stops) && trail_.place_of(stops) < trail_.place_of(literal)) {
-      reason.push_back(stops);
-    }
-  }
-  const BoundReason& why = reasons_[data];
-  append_grounds(why.first_cut, why.end_cut, why.slack, reason);
+std::uint32_t LandmarkBound::save_grounds(std::int64_t slack) {
+  saved_.push_back(present_grounds(slack));
+  return static_cast<std::uint32_t>(saved_.size() - 1);
 }
 
 }  // namespace cbc

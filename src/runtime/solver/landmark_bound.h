@@ -30,9 +30,9 @@ namespace cbc {
 ///
 /// Every ascent begins anew. Those that continued the ascent of the node above were ten times
 /// faster, but so much weaker that searches took far more than ten times as many nodes.
-class LandmarkBound final : public LazyReasons {
+class LandmarkBound {
  public:
-  LandmarkBound(const CompiledCatalog& catalog, const Domains& domains, ReasonTrail& trail);
+  LandmarkBound(const CompiledCatalog& catalog, const Domains& domains, const ReasonTrail& trail);
 
   /// What is bounded: -log of f2, or, where f2 is 1, the number of idle tasks that run (f3); then a
   /// value with another suitability is prohibitive.
@@ -71,12 +71,13 @@ class LandmarkBound final : public LazyReasons {
 
   /// Appends literals from which the bound follows, if it may be lower by `slack`.
   void append_grounds(std::int64_t slack, std::vector<Literal>& reason) const {
-    append_grounds(first_cut_, cuts_.size(), slack, reason);
+    append_grounds(present_grounds(slack), reason);
   }
-  /// A reason for a literal: the present bound, if it may be lower by `slack`.
-  [[nodiscard]] ReasonTrail::Reason make_reason(std::int64_t slack);
-  void append_reason(Literal literal, std::uint32_t data,
-                     std::vector<Literal>& reason) const override;
+  /// The same for later, while the present level lasts: for append_saved_grounds.
+  [[nodiscard]] std::uint32_t save_grounds(std::int64_t slack);
+  void append_saved_grounds(std::uint32_t number, std::vector<Literal>& reason) const {
+    append_grounds(saved_[number], reason);
+  }
 
  private:
   struct Cut {
@@ -85,9 +86,10 @@ class LandmarkBound final : public LazyReasons {
     std::uint32_t level = 0;       ///< highest of its root and grounds
     std::size_t first_ground = 0;  ///< in grounds_, up to that of the next cut
   };
-  struct BoundReason {
-    std::size_t first_cut = 0;
-    std::size_t end_cut = 0;
+  /// The cuts that a bound is made of, and by how much it may be lower.
+  struct Grounds {
+    std::uint32_t first_cut = 0;
+    std::uint32_t end_cut = 0;
     std::int64_t slack = 0;
   };
   /// A value of a task of the cut that requires no task of the cut.
@@ -99,8 +101,9 @@ class LandmarkBound final : public LazyReasons {
   struct LevelMark {
     std::size_t cuts = 0;
     std::size_t grounds = 0;
-    std::size_t reasons = 0;
+    std::size_t saved = 0;
   };
+
   void find_relevant_tasks();
   void start_ascent();
   void find_reached_tasks();
@@ -116,12 +119,14 @@ class LandmarkBound final : public LazyReasons {
   [[nodiscard]] std::uint32_t highest_requirement(std::uint32_t value) const;
   void subtract_cut(std::uint32_t root);
   [[nodiscard]] bool requires_cut(std::uint32_t value) const;
-  void append_grounds(std::size_t first, std::size_t end, std::int64_t slack,
-                      std::vector<Literal>& reason) const;
+  [[nodiscard]] Grounds present_grounds(std::int64_t slack) const {
+    return {first_cut_, static_cast<std::uint32_t>(cuts_.size()), slack};
+  }
+  void append_grounds(const Grounds& grounds, std::vector<Literal>& reason) const;
 
   const CompiledCatalog& catalog_;
   const Domains& domains_;
-  ReasonTrail& trail_;
+  const ReasonTrail& trail_;
 
   // The group. Values are counted within it.
   std::vector<std::uint32_t> value_begin_;        ///< by task, and the end
@@ -157,10 +162,10 @@ class LandmarkBound final : public LazyReasons {
   std::vector<Arc> arcs_;
 
   // Reasons. Those of level 0 are not needed.
-  std::vector<Cut> cuts_;      ///< of all ascents on the present branch
-  std::size_t first_cut_ = 0;  ///< of the last ascent
+  std::vector<Cut> cuts_;        ///< of all ascents on the present branch
+  std::uint32_t first_cut_ = 0;  ///< of the last ascent
   std::vector<Literal> grounds_;
-  std::vector<BoundReason> reasons_;
+  std::vector<Grounds> saved_;
   std::vector<LevelMark> marks_;
   mutable std::vector<std::uint32_t> sorted_cuts_;  ///< scratch of append_grounds
 };

@@ -1,13 +1,8 @@
 #include "solver/learning_search.h"
 
-#include <algorithm>
-
-#include "solver/luby.h"
-
 namespace cbc {
 namespace {
 
-constexpr std::uint64_t conflicts_of_a_restart = 64;
 constexpr std::size_t first_most_nogoods = 2000;
 
 }  // namespace
@@ -21,7 +16,7 @@ LearningSearch::LearningSearch(const CompiledCatalog& catalog, Domains& domains,
       bound_(catalog, domains, trail_),
       performance_(catalog, domains, trail_),
       objectives_(domains, objective, bound_, trail_) {
-  trail_.set_lazy_reasons(bound_);
+  trail_.set_lazy_reasons(objectives_);
 }
 
 void LearningSearch::load(const Problem& problem) {
@@ -29,11 +24,8 @@ void LearningSearch::load(const Problem& problem) {
   performance_.load();
   objectives_.load(problem);
   saved_.assign(problem.present.begin(), problem.present.end());
-  activities_.assign(domains_.task_count(), 0);
-  increment_ = 1;
-  conflicts_ = 0;
-  restarts_ = 0;
-  next_restart_ = conflicts_of_a_restart;
+  activities_.clear(domains_.task_count());
+  restarts_.clear();
   most_nogoods_ = first_most_nogoods;
 }
 
@@ -43,8 +35,7 @@ bool LearningSearch::search(const Problem& problem, Incumbent& best, bool any_so
   const std::uint64_t propagations_before = result.propagations;
   bool is_consistent = trail_.load(problem);
   bound_.load();
-  is_noted_.assign(trail_.variable_count(), 0);
-  counted_.assign(trail_.variable_count() + 1, 0);
+  analysis_.resize(trail_.variable_count());
   for (;;) {
     is_consistent = is_consistent && propagate(best, budget);
     result.propagations = propagations_before + trail_.propagations();
@@ -55,7 +46,7 @@ bool LearningSearch::search(const Problem& problem, Incumbent& best, bool any_so
       if (budget.is_spent(result.nodes)) return false;
       continue;
     }
-    if (conflicts_ >= next_restart_) {
+    if (restarts_.is_due()) {
       restart();
       continue;
     }
@@ -90,102 +81,20 @@ bool LearningSearch::propagate(const Incumbent& best, const SearchBudget& budget
 /// Learns from the conflict and goes back. False if the conflict rests on no decision: nothing
 /// better is left.
 bool LearningSearch::learn() {
-  ++conflicts_;
-  conflict_level_ = 0;
-  for (const Literal literal : trail_.conflict()) {
-    conflict_level_ = std::max(conflict_level_, trail_.level_of(literal));
-  }
-  if (conflict_level_ == 0) return false;
+  restarts_.note_conflict();
+  const std::uint32_t level = ConflictAnalysis::level_of(trail_.conflict(), trail_);
+  if (level == 0) return false;
   save_values();
-  backtrack_to(conflict_level_);
-  trace_conflict();
-  drop_implied_literals();
-  for (const std::uint32_t variable : noted_) is_noted_[variable] = 0;
-  noted_.clear();
-
-  constexpr double growth = 1.05;
-  increment_ *= growth;
+  backtrack_to(level);
+  analysis_.analyze(trail_.conflict(), trail_);
+  for (const Literal literal : analysis_.resolved()) trail_.note_use_of_reason(literal);
+  for (const std::uint32_t variable : analysis_.variables()) {
+    activities_.note(trail_.task_of(variable));
+  }
+  activities_.age();
   trail_.nogoods().age();
-  if (learned_.size() == 1) {
-    backtrack_to(0);
-    return trail_.imply(learned_.front(), {});
-  }
-  // The second literal watched is one of the highest level, to which the search goes back.
-  const auto next_highest = std::max_element(
-      learned_.begin() + 1, learned_.end(),
-      [this](Literal a, Literal b) { return trail_.level_of(a) < trail_.level_of(b); });
-  std::swap(learned_[1], *next_highest);
-  const std::uint32_t levels = count_levels();
-  backtrack_to(trail_.level_of(learned_[1]));
-  const std::uint32_t nogood = trail_.nogoods().add(learned_, levels);
-  return trail_.imply(learned_.front(), {ReasonTrail::Reason::Kind::nogood, nogood});
-}
-
-/// Resolves the conflict with the reasons of its literals, last inference first, until one literal
-/// of the conflict level is left (the first unique implication point).
-void LearningSearch::trace_conflict() {
-  learned_.assign(1, 0);
-  open_ = 0;
-  for (const Literal literal : trail_.conflict()) note(literal);
-  std::size_t place = trail_.literals().size();
-  for (;;) {
-    do --place;
-    while (is_noted_[variable_of(trail_.literals()[place])] == 0);
-    const Literal literal = trail_.literals()[place];
-    if (--open_ == 0) {
-      learned_.front() = negate(literal);
-      return;
-    }
-    const ReasonTrail::Reason& reason = trail_.reason_of(literal);
-    if (reason.kind == ReasonTrail::Reason::Kind::nogood) trail_.nogoods().note_use(reason.data);
-    reason_.clear();
-    trail_.append_reason(literal, reason_);
-    for (const Literal other : reason_) note(other);
-  }
-}
-
-void LearningSearch::note(Literal literal) {
-  const std::uint32_t variable = variable_of(literal);
-  const std::uint32_t level = trail_.level_of(literal);
-  if (level == 0 || is_noted_[variable] != 0) return;
-  is_noted_[variable] = 1;
-  noted_.push_back(variable);
-  if (level == conflict_level_) {
-    ++open_;
-  } else {
-    learned_.push_back(negate(literal));
-  }
-  constexpr double too_large = 1e100;
-  double& activity = activities_[trail_.task_of(variable)];
-  activity += increment_;
-  if (activity < too_large) return;
-  for (double& each : activities_) each /= too_large;
-  increment_ /= too_large;
-}
-
-/// Drops the literals that follow from the others of the no-good.
-void LearningSearch::drop_implied_literals() {
-  const auto is_implied = [this](Literal literal) {
-    if (trail_.reason_of(literal).kind == ReasonTrail::Reason::Kind::given) return false;
-    reason_.clear();
-    trail_.append_reason(negate(literal), reason_);
-    return std::all_of(reason_.begin(), reason_.end(), [this](Literal other) {
-      return trail_.level_of(other) == 0 || is_noted_[variable_of(other)] != 0;
-    });
-  };
-  learned_.erase(std::remove_if(learned_.begin() + 1, learned_.end(), is_implied), learned_.end());
-}
-
-std::uint32_t LearningSearch::count_levels() {
-  ++count_number_;
-  std::uint32_t levels = 0;
-  for (const Literal literal : learned_) {
-    std::uint64_t& counted = counted_[trail_.level_of(literal)];
-    if (counted == count_number_) continue;
-    counted = count_number_;
-    ++levels;
-  }
-  return levels;
+  backtrack_to(analysis_.back_level());
+  return trail_.learn(analysis_.learned(), analysis_.level_count());
 }
 
 void LearningSearch::backtrack_to(std::uint32_t level) {
@@ -195,8 +104,7 @@ void LearningSearch::backtrack_to(std::uint32_t level) {
 
 void LearningSearch::restart() {
   backtrack_to(0);
-  ++restarts_;
-  next_restart_ = conflicts_ + conflicts_of_a_restart * luby(restarts_);
+  restarts_.restart();
   if (trail_.nogoods().size() <= most_nogoods_) return;
   trail_.nogoods().forget_half();
   most_nogoods_ += most_nogoods_ / 8;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
+#include "solver/conflict_analysis.h"
 #include "solver/domains.h"
 #include "solver/landmark_bound.h"
 #include "solver/objective.h"
@@ -11,6 +12,7 @@
 #include "solver/performance_reasons.h"
 #include "solver/problem.h"
 #include "solver/reason_trail.h"
+#include "solver/restarts.h"
 #include "solver/search_budget.h"
 
 namespace cbc {
@@ -43,10 +45,6 @@ class LearningSearch {
   void load(const Problem& problem);
   [[nodiscard]] bool propagate(const Incumbent& best, const SearchBudget& budget);
   [[nodiscard]] bool learn();
-  void trace_conflict();
-  void note(Literal literal);
-  void drop_implied_literals();
-  [[nodiscard]] std::uint32_t count_levels();
   void backtrack_to(std::uint32_t level);
   void restart();
   [[nodiscard]] Literal decide(const Incumbent& best);
@@ -64,22 +62,10 @@ class LearningSearch {
   const Problem* problem_ = nullptr;
 
   std::vector<std::uint32_t> saved_;  ///< by task: the value to try first, or none
-  std::vector<double> activities_;    ///< by task
-  double increment_ = 1;
-
-  std::uint64_t conflicts_ = 0;
-  std::uint64_t restarts_ = 0;
-  std::uint64_t next_restart_ = 0;
+  Activities activities_;
+  Restarts restarts_;
   std::size_t most_nogoods_ = 0;
-
-  std::uint32_t conflict_level_ = 0;
-  std::vector<Literal> learned_;        ///< a clause; the literal that it implies comes first
-  std::vector<std::uint8_t> is_noted_;  ///< by variable: seen in the present analysis
-  std::vector<std::uint32_t> noted_;
-  std::uint32_t open_ = 0;  ///< noted literals of the conflict level, not yet resolved
-  std::vector<Literal> reason_;
-  std::vector<std::uint64_t> counted_;  ///< by level
-  std::uint64_t count_number_ = 0;
+  ConflictAnalysis analysis_;
 };
 
 }  // namespace cbc

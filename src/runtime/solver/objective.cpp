@@ -123,7 +123,6 @@ bool Objective::may_beat(const Incumbent& incumbent, std::uint32_t depth) {
   return compare_keys(incumbent, depth) < 0;
 }
 
-/// f1, then the requests from the most important one down. "less" is better.
 std::strong_ordering Objective::compare_requests(const Incumbent& incumbent) const {
   std::uint32_t possible = 0;
   auto order = std::strong_ordering::equal;

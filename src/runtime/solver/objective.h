@@ -81,8 +81,10 @@ class Objective {
   /// component has one behavior left and no request is undecided.
   [[nodiscard]] bool may_beat(const Incumbent& incumbent, std::uint32_t depth);
 
-  /// Whether the best of the subtree satisfies the same requests as `incumbent`, so that f2
-  /// decides.
+  /// f1, then the requests from the most important one down: how the best of the subtree compares
+  /// with `incumbent`. "less" is better.
+  [[nodiscard]] std::strong_ordering compare_requests(const Incumbent& incumbent) const;
+  /// Whether it satisfies the same requests as `incumbent`, so that f2 decides.
   [[nodiscard]] bool ties_on_requests(const Incumbent& incumbent) const {
     return compare_requests(incumbent) == 0;
   }
@@ -101,7 +103,6 @@ class Objective {
   }
 
  private:
-  [[nodiscard]] std::strong_ordering compare_requests(const Incumbent& incumbent) const;
   [[nodiscard]] std::strong_ordering compare_suitability(const Incumbent& incumbent);
   [[nodiscard]] std::strong_ordering compare_exactly(const Incumbent& incumbent);
   [[nodiscard]] std::strong_ordering compare_keys(const Incumbent& incumbent,

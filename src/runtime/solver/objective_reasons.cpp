@@ -1,21 +1,20 @@
 #include "solver/objective_reasons.h"
 
+#include <algorithm>
+
 namespace cbc {
+
 ObjectiveReasons::ObjectiveReasons(const Domains& domains, Objective& objective,
                                    LandmarkBound& bound, ReasonTrail& trail)
     : domains_(domains), objective_(objective), bound_(bound), trail_(trail) {}
 
 bool ObjectiveReasons::propagate(const Incumbent& incumbent) {
-  switch (compare_requests(incumbent)) {
-    case Requests::worse:
-      explain_requests();
-      trail_.set_conflict(reason_);
-      return false;
-    case Requests::more:
-      return true;
-    case Requests::as_many:
-      break;
+  if (objective_.compare_requests(incumbent) > 0) {
+    explain_requests();
+    trail_.set_conflict(reason_);
+    return false;
   }
+  if (may_serve_more(incumbent)) return true;
   const std::size_t before = trail_.literals().size();
   if (!serve_open_requests()) return false;
   if (trail_.literals().size() > before || !objective_.ties_on_requests(incumbent)) return true;
@@ -30,22 +29,11 @@ bool ObjectiveReasons::propagate(const Incumbent& incumbent) {
   return false;
 }
 
-/// How many requests may be served, against the incumbent; where as many, which of them.
-ObjectiveReasons::Requests ObjectiveReasons::compare_requests(const Incumbent& incumbent) const {
-  std::uint32_t possible = 0;
-  bool is_decided = false;
-  bool is_worse = false;
-  for (const std::uint32_t task : problem_->requests) {
-    const bool ours = !trail_.is_false(ReasonTrail::runs(task));
-    if (ours) ++possible;
-    if (is_decided || ours == (incumbent.assignment[task] != none)) continue;
-    is_decided = true;
-    is_worse = !ours;
-  }
-  if (possible != incumbent.satisfied) {
-    return possible < incumbent.satisfied ? Requests::worse : Requests::more;
-  }
-  return is_worse ? Requests::worse : Requests::as_many;
+bool ObjectiveReasons::may_serve_more(const Incumbent& incumbent) const {
+  const auto possible = std::count_if(
+      problem_->requests.begin(), problem_->requests.end(),
+      [this](std::uint32_t task) { return !trail_.is_false(ReasonTrail::runs(task)); });
+  return static_cast<std::uint32_t>(possible) > incumbent.satisfied;
 }
 
 /// To leave out one more request would be worse.
@@ -93,19 +81,31 @@ bool ObjectiveReasons::bound_costs(const CostBound::Cost& limits, bool is_final)
       if (with_value <= threshold || !domains_.has(task, index)) continue;
       const Literal value = trail_.has_value(task, index);
       if (trail_.is_true(value)) continue;
-      const ReasonTrail::Reason reason = bound_.make_reason(with_value - threshold - 1);
+      const ReasonTrail::Reason reason{ReasonTrail::Reason::Kind::lazy,
+                                       bound_.save_grounds(with_value - threshold - 1)};
       if (!trail_.imply(negate(value), reason)) return false;
     }
   }
   return true;
 }
 
+void ObjectiveReasons::append_reason(Literal literal, std::uint32_t data,
+                                     std::vector<Literal>& reason) const {
+  append_lost_requests(trail_.place_of(literal), reason);
+  bound_.append_saved_grounds(data, reason);
+}
+
 /// No more requests can be served than the ones that are not ruled out.
 void ObjectiveReasons::explain_requests() {
   reason_.clear();
+  append_lost_requests(trail_.literals().size(), reason_);
+}
+
+/// Appends the requests that were ruled out before the place `end` of the trail.
+void ObjectiveReasons::append_lost_requests(std::size_t end, std::vector<Literal>& reason) const {
   for (const std::uint32_t task : problem_->requests) {
     const Literal stops = negate(ReasonTrail::runs(task));
-    if (trail_.is_true(stops)) reason_.push_back(stops);
+    if (trail_.is_true(stops) && trail_.place_of(stops) < end) reason.push_back(stops);
   }
 }
 

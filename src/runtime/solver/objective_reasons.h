@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace cbc {
 
 /// Propagates "better than the incumbent" with reasons: the requests that it serves, the bound on
 /// its f2, and then the exact comparison of all objectives.
-class ObjectiveReasons {
+class ObjectiveReasons final : public LazyReasons {
  public:
   ObjectiveReasons(const Domains& domains, Objective& objective, LandmarkBound& bound,
                    ReasonTrail& trail);
@@ -24,12 +25,15 @@ class ObjectiveReasons {
   /// the trail's conflict.
   [[nodiscard]] bool propagate(const Incumbent& incumbent);
 
- private:
-  enum class Requests : std::uint8_t { worse, as_many, more };
+  /// Of a removed value: that it costs too much.
+  void append_reason(Literal literal, std::uint32_t data,
+                     std::vector<Literal>& reason) const override;
 
-  [[nodiscard]] Requests compare_requests(const Incumbent& incumbent) const;
+ private:
+  [[nodiscard]] bool may_serve_more(const Incumbent& incumbent) const;
   [[nodiscard]] bool serve_open_requests();
   [[nodiscard]] bool bound_costs(const CostBound::Cost& limits, bool is_final);
+  void append_lost_requests(std::size_t end, std::vector<Literal>& reason) const;
   void explain_requests();
   void explain_all();
 

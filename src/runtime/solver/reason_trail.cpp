@@ -87,6 +87,11 @@ void ReasonTrail::set_conflict(std::span<const Literal> literals) {
   conflict_.assign(literals.begin(), literals.end());
 }
 
+bool ReasonTrail::learn(std::span<const Literal> clause, std::uint32_t levels) {
+  if (clause.size() == 1) return imply(clause.front(), {});
+  return imply(clause.front(), {Reason::Kind::nogood, nogoods_.add(clause, levels)});
+}
+
 void ReasonTrail::backtrack_to(std::uint32_t level) {
   if (level >= marks_.size()) return;
   ++version_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
+#include "solver/conflict_analysis.h"
 #include "solver/domains.h"
 #include "solver/literal.h"
 #include "solver/nogoods.h"
@@ -28,7 +29,7 @@ class LazyReasons {
 /// Exclusivity, requirements and "a running task has one value" are propagated here, as far as the
 /// propagator does, and so are the learned no-goods. A reason that follows from the catalog is
 /// worked out only when asked for; others are stored.
-class ReasonTrail {
+class ReasonTrail final : public Inferences {
  public:
   /// Why a literal holds.
   struct Reason {
@@ -82,7 +83,8 @@ class ReasonTrail {
   [[nodiscard]] std::uint32_t level() const { return static_cast<std::uint32_t>(marks_.size()); }
   [[nodiscard]] std::size_t variable_count() const { return variable_count_; }
   /// What holds, in the order of inference.
-  [[nodiscard]] const std::vector<Literal>& literals() const { return literals_; }
+  [[nodiscard]] std::span<const Literal> literals() const override { return literals_; }
+  [[nodiscard]] std::span<const std::uint32_t> levels() const override { return levels_; }
 
   void decide(Literal literal);
   /// Propagates to a fixpoint. False: see conflict().
@@ -97,13 +99,20 @@ class ReasonTrail {
 
   /// Literals that hold and cannot all hold.
   [[nodiscard]] const std::vector<Literal>& conflict() const { return conflict_; }
-  [[nodiscard]] const Reason& reason_of(Literal literal) const {
-    return reasons_[variable_of(literal)];
+  [[nodiscard]] bool is_given(Literal literal) const override {
+    return reason_of(literal).kind == Reason::Kind::given;
   }
-  /// Appends what a literal that holds follows from; nothing if it has no reason.
-  void append_reason(Literal literal, std::vector<Literal>& reason) const {
+  void append_reason(Literal literal, std::vector<Literal>& reason) const override {
     append_reason(literal, reason_of(literal), reason);
   }
+  /// Notes that the reason of a literal has taken part in a conflict.
+  void note_use_of_reason(Literal literal) {
+    const Reason& reason = reason_of(literal);
+    if (reason.kind == Reason::Kind::nogood) nogoods_.note_use(reason.data);
+  }
+  /// Learns a no-good, and infers its first literal: to be called after going back. `levels`: see
+  /// Nogoods::add. False if the literal is false.
+  [[nodiscard]] bool learn(std::span<const Literal> clause, std::uint32_t levels);
 
   void backtrack_to(std::uint32_t level);
   [[nodiscard]] Nogoods& nogoods() { return nogoods_; }
@@ -113,6 +122,10 @@ class ReasonTrail {
   [[nodiscard]] std::uint64_t propagations() const { return propagations_; }
 
  private:
+  [[nodiscard]] const Reason& reason_of(Literal literal) const {
+    return reasons_[variable_of(literal)];
+  }
+
   struct LevelMark {
     std::size_t literals = 0;
     std::size_t stored = 0;
