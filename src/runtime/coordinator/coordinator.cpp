@@ -371,9 +371,6 @@ const Problem* Coordinator::search(const Trigger& trigger) {
   if (is_first) {
     search_.result = {};
     search_.elapsed.reset();
-    if (options_.search.time_limit.count() > 0) {
-      deadline_ = std::chrono::steady_clock::now() + options_.search.time_limit;
-    }
   }
   record_.search = &search_;
   search_.group = trigger.group;
@@ -501,7 +498,7 @@ void Coordinator::explain(const Trigger& trigger, const Problem& problem) {
 
 /// Of the event, while the state is still the one before it.
 Circumstances Coordinator::circumstances_of(const Trigger& trigger) const {
-  return {state_, trigger, search_.protection, problem_builder_.excluded(), deadline_};
+  return {state_, trigger, search_.protection, problem_builder_.excluded(), solver_.deadline()};
 }
 
 /// Rolls back. Behaviors that cannot be activated again are lost.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -145,7 +144,6 @@ class Coordinator {
   State state_;
   EventRecord record_;
   SearchRecord search_;
-  std::optional<std::chrono::steady_clock::time_point> deadline_;  ///< of the present event
   ProblemBuilder problem_builder_;
   Transition transition_;
   Solver solver_;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 
 namespace cbc {
 
@@ -9,15 +10,14 @@ namespace cbc {
 struct SearchBudget {
   std::uint64_t max_nodes = 0;     ///< 0: no limit
   std::uint64_t nodes_before = 0;  ///< of earlier searches
-  bool has_deadline = false;
-  std::chrono::steady_clock::time_point deadline;
+  std::optional<std::chrono::steady_clock::time_point> deadline;
 
   /// `nodes`: of the present search.
   [[nodiscard]] bool has_nodes_left(std::uint64_t nodes) const {
     return max_nodes == 0 || nodes_before + nodes < max_nodes;
   }
   [[nodiscard]] bool is_out_of_time() const {
-    return has_deadline && std::chrono::steady_clock::now() >= deadline;
+    return deadline && std::chrono::steady_clock::now() >= *deadline;
   }
   [[nodiscard]] bool is_spent(std::uint64_t nodes) const {
     return !has_nodes_left(nodes) || is_out_of_time();

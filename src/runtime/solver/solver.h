@@ -53,6 +53,11 @@ class Solver {
   /// of the limits.
   SearchResult solve_again(const Problem& problem, Assignment& solution);
 
+  /// When the last call of solve, with those of solve_again after it, has to end.
+  [[nodiscard]] const std::optional<std::chrono::steady_clock::time_point>& deadline() const {
+    return budget_.deadline;
+  }
+
   /// What no solution of the problem exceeds. `answer`: a solution, to count the requests beyond
   /// its own; the best may also serve others.
   [[nodiscard]] SearchBound bound(const Problem& problem, const Assignment& answer);
