@@ -113,6 +113,14 @@ bool has_events(const yaml::Node& node) {
          });
 }
 
+/// Other YAML files may begin like a script.
+bool is_script_surely(const yaml::Node& root) {
+  const bool names_both = root.find("catalog") != nullptr && root.find("events") != nullptr;
+  return names_both || has_events(root) ||
+         std::any_of(root.entries.begin(), root.entries.end(),
+                     [](const auto& entry) { return has_events(*entry.second); });
+}
+
 /// Other YAML files, such as JSON schemas, have a mapping under this key.
 bool has_properties(const yaml::Node& root) {
   const yaml::Node* const properties = root.find("properties");
@@ -146,17 +154,12 @@ FoundFile recognize(std::string_view text) {
     return has_lines_of_script(text) ? FoundFile::script : FoundFile::other;
   }
   const yaml::Node& root = document->root();
-  if (is_property_file(*document)) {
-    return has_properties(root) ? FoundFile::properties : FoundFile::other;
+  const bool is_of_properties = is_property_file(*document);
+  if (!is_of_properties && !looks_like_script(*document)) {
+    return resembles_catalog(root) ? FoundFile::catalog : FoundFile::other;
   }
-  if (looks_like_script(*document)) {
-    const bool names_both = root.find("catalog") != nullptr && root.find("events") != nullptr;
-    const bool is_found = names_both || has_events(root) ||
-                          std::any_of(root.entries.begin(), root.entries.end(),
-                                      [](const auto& entry) { return has_events(*entry.second); });
-    return is_found ? FoundFile::script : FoundFile::other;
-  }
-  return resembles_catalog(root) ? FoundFile::catalog : FoundFile::other;
+  if (!(is_of_properties ? has_properties(root) : is_script_surely(root))) return FoundFile::other;
+  return catalog_of_script(*document) ? FoundFile::script : FoundFile::script_without_catalog;
 }
 
 namespace {

@@ -34,7 +34,12 @@ namespace cbc::cli {
 [[nodiscard]] bool looks_like_script(const yaml::Document& document);
 
 /// What a file is that was found in a folder.
-enum class FoundFile : std::uint8_t { catalog, script, properties, other };
+enum class FoundFile : std::uint8_t {
+  catalog,
+  script,                  ///< or a property file
+  script_without_catalog,  ///< the same, but it is valid and names no catalog
+  other
+};
 
 /// What a text, even one that is not valid YAML, is meant as. A catalog may have misspelt keys; a
 /// script names a catalog or has an event with a known verb, as folders have all kinds of YAML

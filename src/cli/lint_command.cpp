@@ -63,7 +63,7 @@ class Linter {
   /// A catalog; or an event script or a property file that names its catalog.
   void lint_catalog(const std::string& path);
   /// Lints a file that was found in a folder if it is a catalog, or keeps it for lint_found if it
-  /// is a script or a property file. Returns whether it is any of these.
+  /// is a script or a property file.
   void lint_in_folder(const std::string& path, const std::string& folder);
   /// Lints the scripts and the property files that were found in folders, with the catalogs that
   /// they name, or else with the only one beside them. Comes after all catalogs.
@@ -107,6 +107,7 @@ class Linter {
     std::string path;
     std::string folder;  ///< of the command line
     std::string text;
+    bool needs_catalog = false;  ///< it names none
   };
   [[nodiscard]] std::string catalog_beside(const Found& found) const;
   [[nodiscard]] static bool write_fixed(const std::string& path, const std::string& before,
@@ -169,32 +170,23 @@ void Linter::lint_in_folder(const std::string& path, const std::string& folder) 
   std::optional<CatalogInput> input = read_catalog_input(path);
   has_failed_ |= !input;
   if (!input || input->is_compiled) return;
-  switch (recognize(input->content)) {
-    case FoundFile::catalog:
-      lint_catalog_text(path, std::move(input->content));
-      checked_folders_.insert(folder);
-      break;
-    case FoundFile::script:
-    case FoundFile::properties:
-      found_.push_back({path, folder, std::move(input->content)});
-      break;
-    case FoundFile::other:
-      break;
+  const FoundFile kind = recognize(input->content);
+  if (kind == FoundFile::catalog) {
+    lint_catalog_text(path, std::move(input->content));
+    checked_folders_.insert(folder);
+  } else if (kind != FoundFile::other) {
+    found_.push_back(
+        {path, folder, std::move(input->content), kind == FoundFile::script_without_catalog});
   }
 }
 
 void Linter::lint_found() {
   std::vector<std::string> unchecked;
   for (Found& found : found_) {
-    Diagnostics ignored;
-    const auto document = yaml::parse(found.text, found.path, ignored);
-    std::string catalog;
-    if (document != nullptr && !path_of_catalog(found.path, *document)) {
-      catalog = catalog_beside(found);
-      if (catalog.empty()) {
-        unchecked.push_back(quote(found.path));
-        continue;
-      }
+    const std::string catalog = found.needs_catalog ? catalog_beside(found) : std::string();
+    if (found.needs_catalog && catalog.empty()) {
+      unchecked.push_back(quote(found.path));
+      continue;
     }
     lint_script_text(found.path, std::move(found.text), catalog);
     checked_folders_.insert(found.folder);
