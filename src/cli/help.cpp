@@ -4,13 +4,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "cli/command_line.h"
 #include "cli/output.h"
+#include "report/wrap.h"
 
 // What --help prints, and the command that prints the same.
 namespace cbc::cli {
@@ -19,37 +19,23 @@ namespace {
 constexpr std::size_t line_width = 80;
 constexpr std::size_t column = 26;  ///< where the descriptions of options and commands begin
 
-/// Breaks a text between words into lines that fit. All but the first begin with `indent` blanks;
-/// the first one follows on as many characters.
-std::string wrap(std::string_view text, std::size_t indent) {
-  std::string wrapped;
-  std::size_t used = indent;
-  bool is_first = true;
-  for (const std::string_view word : split(text, ' ')) {
-    if (!std::exchange(is_first, false)) {
-      const bool fits = used + 1 + word.size() <= line_width;
-      wrapped += fits ? " " : '\n' + std::string(indent, ' ');
-      used = fits ? used + 1 : indent;
-    }
-    wrapped += word;
-    used += word.size();
-  }
-  return wrapped;
-}
-
 std::string wrap_lines(std::string_view text) {
   std::string wrapped;
   for (const std::string_view line : split(text, '\n')) {
-    wrapped += (line.starts_with(' ') ? std::string(line) : wrap(line, 0)) + '\n';
+    wrapped += (line.starts_with(' ') ? std::string(line) : wrap_line(line, line_width, 0)) + '\n';
   }
   return wrapped;
 }
 
 std::string entry(const std::string& name, const std::string& text) {
-  std::string line = "  " + name;
-  line += line.size() + 2 <= column ? std::string(column - line.size(), ' ')
-                                    : '\n' + std::string(column, ' ');
-  return line + wrap(text, column) + '\n';
+  std::string above;
+  std::string before = "  " + name;
+  if (before.size() + 2 > column) {
+    above = before + '\n';
+    before.clear();
+  }
+  before.resize(column, ' ');
+  return above + wrap_line(before + text, line_width, column) + '\n';
 }
 
 std::string entry(const Option& option) {
@@ -68,7 +54,7 @@ std::string full_name(const Command& command) {
 
 std::string help_of(const Program& program, const Command& command) {
   const HelpText& text = command.text();
-  std::string help = wrap(command.description(), 0) + "\n\n";
+  std::string help = wrap_line(command.description(), line_width, 0) + "\n\n";
   for (const std::string& usage : text.usages) {
     help += fmt::format("{}{} {}\n", &usage == &text.usages.front() ? "Usage: " : "       ",
                         full_name(command), usage);

@@ -18,9 +18,8 @@ namespace {
 constexpr std::size_t most_places = 20;
 constexpr std::size_t place_indent = 8;
 
-std::string describe_failure(const std::string& file, const FailedExpectation& failed) {
-  return fmt::format("{}:{}:{}: {}", file, failed.range.begin.line, failed.range.begin.column,
-                     failed.message);
+std::string describe_place(const std::string& file, const Range& range) {
+  return fmt::format("{}:{}:{}", file, range.begin.line, range.begin.column);
 }
 
 std::string row(std::string_view what, std::uint64_t count) {
@@ -35,7 +34,8 @@ void add_rest(std::size_t total, std::vector<SummaryLine>& lines) {
 void add_failures(const std::string& file, std::span<const FailedExpectation> failures,
                   std::vector<SummaryLine>& lines) {
   for (const FailedExpectation& failed : failures.first(std::min(failures.size(), most_places))) {
-    lines.push_back({"    " + describe_failure(file, failed), place_indent, true});
+    lines.push_back({fmt::format("    {}: {}", describe_place(file, failed.range), failed.message),
+                     place_indent, true});
   }
   add_rest(failures.size(), lines);
 }
@@ -49,9 +49,7 @@ void RunSummary::begin_run(const Script& script) {
 
 void RunSummary::add(const CompiledCatalog& catalog, const EventRecord& record, const Step* step) {
   if (record.outcome != Outcome::rejected || rejected_.size() == most_places) return;
-  const std::string place = step == nullptr ? file_
-                                            : fmt::format("{}:{}:{}", file_, step->range.begin.line,
-                                                          step->range.begin.column);
+  const std::string place = step == nullptr ? file_ : describe_place(file_, step->range);
   rejected_.push_back(fmt::format("    {}: at {} s, {}", place, format_time(record.time),
                                   describe_event(catalog, record, nullptr)));
 }
