@@ -72,6 +72,11 @@ class StreamTest : public testing::Test {
   void make_pipe(std::string_view name) const {
     ASSERT_EQ(::mkfifo((folder_ / name).c_str(), 0600), 0);
   }
+  /// Makes a pipe, and opens both ends of it, so that no side has to wait for the other.
+  [[nodiscard]] int open_pipe(std::string_view name) const {
+    make_pipe(name);
+    return ::open((folder_ / name).c_str(), O_RDWR | O_CLOEXEC);
+  }
 
   const test::ScratchFolder folder_;
 };
@@ -267,11 +272,8 @@ TEST_F(StreamTest, FollowsTheRealClockBetweenLines) {
 }
 
 TEST_F(StreamTest, AnswersEachEventBeforeTheNextOneComes) {
-  make_pipe("in");
-  make_pipe("out");
-  // Open for both, so that neither side has to wait for the other to open its end.
-  const int in = ::open((folder_ / "in").c_str(), O_RDWR | O_CLOEXEC);
-  const int out = ::open((folder_ / "out").c_str(), O_RDWR | O_CLOEXEC);
+  const int in = open_pipe("in");
+  const int out = open_pipe("out");
   Call of_stream = stream();
   of_stream.standard_input = folder_ / "in";
   of_stream.standard_output = folder_ / "out";
@@ -298,10 +300,8 @@ TEST_F(StreamTest, AnswersEachEventBeforeTheNextOneComes) {
 }
 
 TEST_F(StreamTest, AnswersAllCompleteLinesBeforeItWaits) {
-  make_pipe("in");
-  make_pipe("out");
-  const int in = ::open((folder_ / "in").c_str(), O_RDWR | O_CLOEXEC);
-  const int out = ::open((folder_ / "out").c_str(), O_RDWR | O_CLOEXEC);
+  const int in = open_pipe("in");
+  const int out = open_pipe("out");
   Call of_stream = stream();
   of_stream.standard_input = folder_ / "in";
   of_stream.standard_output = folder_ / "out";
@@ -361,8 +361,7 @@ TEST_F(StreamTest, TotalsComeLast) {
 TEST_F(StreamTest, SignalsEndItWithTheStateSaved) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     fs::remove(folder_ / "in");
-    make_pipe("in");
-    const int in = ::open((folder_ / "in").c_str(), O_RDWR | O_CLOEXEC);
+    const int in = open_pipe("in");
     Call of_stream = stream({"--state-out", "state.json"});
     of_stream.standard_input = folder_ / "in";
     of_stream.standard_output = folder_ / "log";
@@ -404,8 +403,7 @@ class BlockedStreamTest : public StreamTest {
   template <typename Meanwhile>
   Result run_blocked(const Meanwhile& meanwhile) {
     folder_.write("input", many_events(1000));
-    make_pipe("out");
-    const int out = ::open((folder_ / "out").c_str(), O_RDWR | O_CLOEXEC);
+    const int out = open_pipe("out");
     Call of_stream = stream({"--state-out", "state.json"});
     of_stream.standard_input = folder_ / "input";
     of_stream.standard_output = folder_ / "out";
@@ -452,8 +450,7 @@ TEST_F(BlockedStreamTest, SignalsThatGoOnEndItAtLast) {
 TEST_F(StreamTest, OutputThatMustNotBlockGetsAllOfIt) {
   const std::string events = many_events(1000);
   const std::string whole = feed(events).out;
-  make_pipe("out");
-  const int out = ::open((folder_ / "out").c_str(), O_RDWR | O_CLOEXEC);
+  const int out = open_pipe("out");
   Call of_stream = stream();
   of_stream.standard_input = folder_ / "input";
   of_stream.standard_output = folder_ / "out";
@@ -537,8 +534,7 @@ TEST_F(StreamTest, MissionThatSignalsCutIsTheWholeMission) {
   std::size_t done = 0;
   for (int piece = 0; piece < 12; ++piece) {
     fs::remove(folder_ / "in");
-    make_pipe("in");
-    const int in = ::open((folder_ / "in").c_str(), O_RDWR | O_CLOEXEC);
+    const int in = open_pipe("in");
     std::vector<std::string> more{"--state-out", "state.json"};
     if (piece > 0) more.insert(more.end(), {"--state-in", "state.json"});
     Call of_stream = stream(more);
@@ -796,8 +792,7 @@ std::size_t peak_memory(pid_t process) {
 TEST_F(StreamTest, MemoryDoesNotGrowWithTheStream) {
   constexpr std::size_t count = 100'000;
   const std::string tenth = many_events(count / 10);
-  make_pipe("in");
-  const int in = ::open((folder_ / "in").c_str(), O_RDWR | O_CLOEXEC);
+  const int in = open_pipe("in");
   Call of_stream = stream();
   of_stream.environment.insert(gives_back);
   of_stream.standard_input = folder_ / "in";
@@ -821,8 +816,7 @@ TEST_F(StreamTest, MemoryDoesNotGrowWithTheStream) {
 
 TEST_F(StreamTest, LongLinesLeaveNothingBehind) {
   constexpr std::size_t count = 100;
-  make_pipe("in");
-  const int in = ::open((folder_ / "in").c_str(), O_RDWR | O_CLOEXEC);
+  const int in = open_pipe("in");
   Call of_stream = stream();
   of_stream.environment.insert(gives_back);
   of_stream.standard_input = folder_ / "in";
