@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "solver/cost_bound.h"
 
 namespace cbc {
 namespace {
-
-/// In place of a supporter.
-constexpr std::uint32_t removed = none - 1;
 
 std::int64_t add(std::int64_t a, std::int64_t b) { return std::min(prohibitive_cost, a + b); }
 
@@ -40,26 +38,12 @@ void LandmarkBound::load() {
   }
   value_begin_.push_back(static_cast<std::uint32_t>(requirement_begin_.size()));
   requirement_begin_.push_back(static_cast<std::uint32_t>(requirements_.size()));
-  // Each row is filled from its end, which leaves its begin.
-  requiring_begin_.assign(tasks + 1, 0);
-  for (const std::uint32_t target : requirements_) ++requiring_begin_[target];
-  for (std::uint32_t task = 0; task < tasks; ++task) {
-    requiring_begin_[task + 1] += requiring_begin_[task];
-  }
-  requiring_.resize(requirements_.size());
-  for (auto value = static_cast<std::uint32_t>(requirement_begin_.size() - 1); value-- > 0;) {
-    for (std::uint32_t at = requirement_begin_[value]; at < requirement_begin_[value + 1]; ++at) {
-      requiring_[--requiring_begin_[requirements_[at]]] = value;
-    }
-  }
-  tasks_.clear();
-  for (std::uint32_t task = 0; task < tasks; ++task) {
-    tasks_.insert(tasks_.end(), value_begin_[task + 1] - value_begin_[task], task);
-  }
-  supporters_.assign(tasks_.size(), none);
   is_reached_.assign(tasks, 0);
   heights_.assign(tasks, 0);
   seen_heights_.assign(tasks, 0);
+  candidates_begin_.assign(tasks, 0);
+  candidates_end_.assign(tasks, 0);
+  first_supported_.assign(tasks, none);
   cuts_.clear();
   grounds_.clear();
   saved_.clear();
@@ -132,29 +116,43 @@ void LandmarkBound::start_ascent() {
   first_cut_ = static_cast<std::uint32_t>(cuts_.size());
   residuals_ = costs_;
   unsettled_.clear();
+  candidates_.clear();
+  targets_.clear();
   find_reached_tasks();
   for (const std::uint32_t task : order_) {
-    if (is_reached_[task] == 0) {
-      std::fill(supporters_.begin() + value_begin_[task],
-                supporters_.begin() + value_begin_[task + 1], removed);
-      continue;
-    }
-    const std::uint32_t begin = value_begin_[task];
-    const std::uint32_t end = value_begin_[task + 1];
-    std::int64_t height = prohibitive_cost;
-    for (std::uint32_t value = begin; value < end; ++value) {
-      if (!domains_.has(task, value - begin)) {
-        supporters_[value] = removed;
-        continue;
-      }
-      supporters_[value] = highest_requirement(value);
-      height = std::min(height, height_of_value(value));
-    }
-    heights_[task] = height;
-    const bool is_needed = domains_.needed(task);
-    seen_heights_[task] = is_needed ? 0 : height;
-    if (is_needed && height > 0) unsettled_.push_back(task);
+    if (is_reached_[task] != 0) add_candidates(task);
   }
+}
+
+/// Finds the height of a task from those of the tasks that it may require.
+void LandmarkBound::add_candidates(std::uint32_t task) {
+  const auto first = static_cast<std::uint32_t>(candidates_.size());
+  const std::uint32_t begin = value_begin_[task];
+  const std::uint32_t end = value_begin_[task + 1];
+  std::int64_t height = prohibitive_cost;
+  first_supported_[task] = none;
+  for (std::uint32_t value = begin; value < end; ++value) {
+    Candidate candidate;
+    candidate.value = value;
+    candidate.task = task;
+    candidate.first_target = static_cast<std::uint32_t>(targets_.size());
+    for (std::uint32_t at = requirement_begin_[value]; at < requirement_begin_[value + 1]; ++at) {
+      const std::uint32_t target = requirements_[at];
+      if (seen_heights_[target] > 0) targets_.push_back(target);
+    }
+    candidate.end_target = static_cast<std::uint32_t>(targets_.size());
+    candidate.is_removed = !domains_.has(task, value - begin);
+    candidates_.push_back(candidate);
+    if (candidate.is_removed) continue;
+    find_supporter(static_cast<std::uint32_t>(candidates_.size() - 1));
+    height = std::min(height, height_of(candidates_.back()));
+  }
+  heights_[task] = height;
+  const bool is_needed = domains_.needed(task);
+  seen_heights_[task] = is_needed ? 0 : height;
+  candidates_begin_[task] = first;
+  candidates_end_[task] = static_cast<std::uint32_t>(candidates_.size());
+  if (is_needed && height > 0) unsettled_.push_back(task);
 }
 
 /// The tasks that the needed ones may still require.
@@ -176,11 +174,11 @@ void LandmarkBound::find_reached_tasks() {
 std::int64_t LandmarkBound::raise(std::int64_t threshold) {
   if (version_ != trail_.version()) start_ascent();
   version_ = trail_.version();
-  while (bound_ <= threshold) {
-    const std::uint32_t root = highest_root();
-    if (root == none) break;
-    find_cut(root);
-    subtract_cut(root);
+  while (bound_ <= threshold && sort_unsettled()) {
+    for (const std::uint32_t root : unsettled_) {
+      if (bound_ > threshold) break;
+      if (find_cut(root)) subtract_cut(root);
+    }
     update_heights();
   }
   return bound_;
@@ -207,37 +205,40 @@ void LandmarkBound::update_heights() {
       const std::uint32_t task = order_[64 * word + bit];
       if (domains_.needed(task)) continue;
       seen_heights_[task] = heights_[task];
-      for (std::uint32_t at = requiring_begin_[task]; at < requiring_begin_[task + 1]; ++at) {
-        const std::uint32_t value = requiring_[at];
-        if (supporters_[value] != task) continue;
-        supporters_[value] = highest_requirement(value);
-        lower(value);
+      std::uint32_t number = std::exchange(first_supported_[task], none);
+      while (number != none) {
+        const std::uint32_t next = candidates_[number].next;
+        find_supporter(number);
+        lower(candidates_[number]);
+        number = next;
       }
     }
   }
   first_marked_ = SIZE_MAX;
 }
 
-/// Lowers the height of the value's task to that of the value.
-void LandmarkBound::lower(std::uint32_t value) {
-  const std::int64_t height = height_of_value(value);
-  const std::uint32_t task = tasks_[value];
-  if (height >= heights_[task]) return;
-  heights_[task] = height;
-  mark(task);
+/// Lowers the height of the candidate's task to that of the candidate.
+void LandmarkBound::lower(const Candidate& candidate) {
+  const std::int64_t height = height_of(candidate);
+  if (height >= heights_[candidate.task]) return;
+  heights_[candidate.task] = height;
+  mark(candidate.task);
 }
 
-/// The highest of the required tasks; none if all can run at no residual cost.
-std::uint32_t LandmarkBound::highest_requirement(std::uint32_t value) const {
+void LandmarkBound::find_supporter(std::uint32_t number) {
+  Candidate& candidate = candidates_[number];
   std::uint32_t highest = none;
   std::int64_t height = 0;
-  for (std::uint32_t at = requirement_begin_[value]; at < requirement_begin_[value + 1]; ++at) {
-    const std::uint32_t target = requirements_[at];
+  for (std::uint32_t at = candidate.first_target; at < candidate.end_target; ++at) {
+    const std::uint32_t target = targets_[at];
     if (seen_heights_[target] <= height) continue;
     highest = target;
     height = seen_heights_[target];
   }
-  return highest;
+  candidate.supporter = highest;
+  if (highest == none) return;
+  candidate.next = first_supported_[highest];
+  first_supported_[highest] = number;
 }
 
 std::int64_t LandmarkBound::estimate(std::uint32_t task, std::uint32_t index) const {
@@ -249,42 +250,39 @@ std::int64_t LandmarkBound::estimate(std::uint32_t task, std::uint32_t index) co
   return cost;
 }
 
-/// The highest needed task; none if all can run at no residual cost.
-std::uint32_t LandmarkBound::highest_root() {
-  std::uint32_t highest = none;
-  std::int64_t height = 0;
-  for (const std::uint32_t task : unsettled_) {
-    if (heights_[task] <= height) continue;
-    highest = task;
-    height = heights_[task];
-  }
-  return highest;
+/// The highest comes first. False if all needed tasks can run at no residual cost.
+bool LandmarkBound::sort_unsettled() {
+  std::erase_if(unsettled_, [this](std::uint32_t task) { return heights_[task] == 0; });
+  std::sort(unsettled_.begin(), unsettled_.end(), [this](std::uint32_t a, std::uint32_t b) {
+    return heights_[a] != heights_[b] ? heights_[a] > heights_[b] : a < b;
+  });
+  return !unsettled_.empty();
 }
 
-/// Collects the tasks that keep the root from running at no residual cost.
-void LandmarkBound::find_cut(std::uint32_t root) {
+/// Collects the tasks that keep the root from running at no residual cost. False if, after earlier
+/// cuts of the round, nothing does.
+bool LandmarkBound::find_cut(std::uint32_t root) {
   ++cut_number_;
   cut_.assign(1, root);
   in_cut_[root] = cut_number_;
   for (std::size_t next = 0; next < cut_.size(); ++next) {
     const std::uint32_t task = cut_[next];
-    const std::uint32_t begin = value_begin_[task];
-    const std::uint32_t end = value_begin_[task + 1];
-    for (std::uint32_t value = begin; value < end; ++value) {
-      if (residuals_[value] > 0 || !domains_.has(task, value - begin) || requires_cut(value)) {
+    for (std::uint32_t number = candidates_begin_[task]; number < candidates_end_[task]; ++number) {
+      const Candidate& candidate = candidates_[number];
+      if (residuals_[candidate.value] > 0 || candidate.is_removed || requires_cut(candidate)) {
         continue;
       }
-      // There is one: the task has a height.
-      const std::uint32_t highest = highest_requirement(value);
-      in_cut_[highest] = cut_number_;
-      cut_.push_back(highest);
+      if (candidate.supporter == none) return false;
+      in_cut_[candidate.supporter] = cut_number_;
+      cut_.push_back(candidate.supporter);
     }
   }
+  return true;
 }
 
-bool LandmarkBound::requires_cut(std::uint32_t value) const {
-  for (std::uint32_t at = requirement_begin_[value]; at < requirement_begin_[value + 1]; ++at) {
-    if (in_cut_[requirements_[at]] == cut_number_) return true;
+bool LandmarkBound::requires_cut(const Candidate& candidate) const {
+  for (std::uint32_t at = candidate.first_target; at < candidate.end_target; ++at) {
+    if (in_cut_[targets_[at]] == cut_number_) return true;
   }
   return false;
 }
@@ -295,21 +293,20 @@ void LandmarkBound::subtract_cut(std::uint32_t root) {
   arcs_.clear();
   std::int64_t amount = prohibitive_cost;
   for (const std::uint32_t task : cut_) {
-    const std::uint32_t begin = value_begin_[task];
-    const std::uint32_t end = value_begin_[task + 1];
-    for (std::uint32_t value = begin; value < end; ++value) {
-      if (requires_cut(value)) continue;
-      const bool has = domains_.has(task, value - begin);
-      arcs_.push_back({value, task, !has});
-      if (has) amount = std::min(amount, residuals_[value]);
+    for (std::uint32_t number = candidates_begin_[task]; number < candidates_end_[task]; ++number) {
+      const Candidate& candidate = candidates_[number];
+      if (requires_cut(candidate)) continue;
+      arcs_.push_back(number);
+      if (!candidate.is_removed) amount = std::min(amount, residuals_[candidate.value]);
     }
   }
   const std::size_t first_ground = grounds_.size();
   std::uint32_t level = trail_.level_of(ReasonTrail::runs(root));
-  for (const Arc& arc : arcs_) {
+  for (const std::uint32_t number : arcs_) {
+    const Candidate& arc = candidates_[number];
     if (residuals_[arc.value] >= amount) {
       residuals_[arc.value] -= amount;
-      if (!arc.is_removed) lower(arc.value);
+      if (!arc.is_removed) lower(arc);
     } else {
       const Literal removal =
           negate(trail_.has_value(arc.task, arc.value - value_begin_[arc.task]));

@@ -24,9 +24,10 @@ namespace cbc {
 /// "Landmarks, critical paths and abstractions: what's the difference anyway?", ICAPS 2009), a cut
 /// follows the *heights*: the height of a task (h^max in planning) is the least sum of the residual
 /// cost of one of its behaviors and of the height of the highest task that this behavior requires.
-/// The root is the highest of all needed tasks; each behavior of no residual cost leads on to the
-/// highest task that it requires, its supporter. Heights only sink during an ascent, so each cut
-/// updates only those that depend on its arcs.
+/// Each behavior of no residual cost leads on to the highest task that it requires, its supporter.
+/// An ascent goes in rounds: each needed task is the root of a cut, the highest one first, and then
+/// the heights are updated. They only sink, so only those that depend on an arc of a cut change. To
+/// update them after each cut makes bounds slightly stronger, but takes longer than it saves.
 ///
 /// Every ascent begins anew. Those that continued the ascent of the node above were ten times
 /// faster, but so much weaker that searches took far more than ten times as many nodes.
@@ -92,11 +93,15 @@ class LandmarkBound {
     std::uint32_t end_cut = 0;
     std::int64_t slack = 0;
   };
-  /// A value of a task of the cut that requires no task of the cut.
-  struct Arc {
+  /// A value of a task that needed ones may require: only these can be arcs.
+  struct Candidate {
     std::uint32_t value = 0;
     std::uint32_t task = 0;
-    bool is_removed = false;
+    std::uint32_t first_target = 0;  ///< in targets_: the required tasks with a height
+    std::uint32_t end_target = 0;
+    std::uint32_t supporter = none;  ///< the highest of them; none if none has a height any more
+    std::uint32_t next = none;       ///< the next candidate with the same supporter
+    bool is_removed = false;         ///< from the domain; then it has no supporter
   };
   struct LevelMark {
     std::size_t cuts = 0;
@@ -107,18 +112,19 @@ class LandmarkBound {
   void find_relevant_tasks();
   void start_ascent();
   void find_reached_tasks();
+  void add_candidates(std::uint32_t task);
   void mark(std::uint32_t task);
   void update_heights();
-  void lower(std::uint32_t value);
-  [[nodiscard]] std::int64_t height_of_value(std::uint32_t value) const {
-    const std::uint32_t supporter = supporters_[value];
-    return residuals_[value] + (supporter == none ? 0 : seen_heights_[supporter]);
+  void lower(const Candidate& candidate);
+  void find_supporter(std::uint32_t number);
+  [[nodiscard]] std::int64_t height_of(const Candidate& candidate) const {
+    const std::uint32_t supporter = candidate.supporter;
+    return residuals_[candidate.value] + (supporter == none ? 0 : seen_heights_[supporter]);
   }
-  [[nodiscard]] std::uint32_t highest_root();
-  void find_cut(std::uint32_t root);
-  [[nodiscard]] std::uint32_t highest_requirement(std::uint32_t value) const;
+  [[nodiscard]] bool sort_unsettled();
+  [[nodiscard]] bool find_cut(std::uint32_t root);
   void subtract_cut(std::uint32_t root);
-  [[nodiscard]] bool requires_cut(std::uint32_t value) const;
+  [[nodiscard]] bool requires_cut(const Candidate& candidate) const;
   [[nodiscard]] Grounds present_grounds(std::int64_t slack) const {
     return {first_cut_, static_cast<std::uint32_t>(cuts_.size()), slack};
   }
@@ -130,11 +136,8 @@ class LandmarkBound {
 
   // The group. Values are counted within it.
   std::vector<std::uint32_t> value_begin_;        ///< by task, and the end
-  std::vector<std::uint32_t> tasks_;              ///< by value
   std::vector<std::uint32_t> requirement_begin_;  ///< by value, and the end
   std::vector<std::uint32_t> requirements_;       ///< tasks
-  std::vector<std::uint32_t> requiring_begin_;    ///< by task, and the end
-  std::vector<std::uint32_t> requiring_;          ///< values
   std::vector<std::uint32_t> relevant_;
   std::vector<std::uint32_t> order_;   ///< relevant tasks in topological order
   std::vector<std::uint32_t> places_;  ///< by task: its place in order_
@@ -143,23 +146,27 @@ class LandmarkBound {
   Measure measure_ = Measure::log;
 
   // The last ascent.
-  std::uint64_t version_ = 0;               ///< of the trail
-  std::uint32_t level_ = none;              ///< none: it is of another branch
-  std::vector<std::uint8_t> is_reached_;    ///< by task: whether needed ones may require it
-  std::vector<std::int64_t> residuals_;     ///< by value: cost that no cut has charged
-  std::vector<std::uint32_t> supporters_;   ///< by value: its highest requirement
-  std::vector<std::int64_t> heights_;       ///< by task
-  std::vector<std::int64_t> seen_heights_;  ///< by task: as those see it that require it
-  std::vector<std::uint32_t> unsettled_;    ///< needed tasks that had a height at its start
-  std::vector<std::uint64_t> marked_;       ///< bit set of places: tasks whose height has sunk
-  std::size_t first_marked_ = SIZE_MAX;     ///< no word of marked_ before this one is set
+  std::uint64_t version_ = 0;             ///< of the trail
+  std::uint32_t level_ = none;            ///< none: it is of another branch
+  std::vector<std::uint8_t> is_reached_;  ///< by task: whether needed ones may require it
+  std::vector<std::int64_t> residuals_;   ///< by value: cost that no cut has charged
+  std::vector<Candidate> candidates_;
+  std::vector<std::uint32_t> targets_;
+  std::vector<std::uint32_t> candidates_begin_;  ///< by task that is reached, in candidates_
+  std::vector<std::uint32_t> candidates_end_;
+  std::vector<std::uint32_t> first_supported_;  ///< by task: the first candidate it supports
+  std::vector<std::int64_t> heights_;           ///< by task
+  std::vector<std::int64_t> seen_heights_;      ///< by task: as those see it that require it
+  std::vector<std::uint32_t> unsettled_;        ///< needed tasks that had a height before the round
+  std::vector<std::uint64_t> marked_;           ///< bit set of places: tasks whose height has sunk
+  std::size_t first_marked_ = SIZE_MAX;         ///< no word of marked_ before this one is set
   std::int64_t bound_ = 0;
 
   // The last cut.
   std::vector<std::uint32_t> cut_;
   std::vector<std::uint64_t> in_cut_;  ///< by task: number of the last cut it was in
   std::uint64_t cut_number_ = 0;
-  std::vector<Arc> arcs_;
+  std::vector<std::uint32_t> arcs_;  ///< candidates that require no task of the cut
 
   // Reasons. Those of level 0 are not needed.
   std::vector<Cut> cuts_;        ///< of all ascents on the present branch
