@@ -3,6 +3,7 @@
 #include "explain/conflict_search.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -301,6 +302,14 @@ TEST(ConflictSearch, LearnsFromFailures) {
   CrowdedSearch crowded(crowded_catalog(10, 8, 7));
   EXPECT_EQ((*crowded).solve(crowded.reasons(), 100'000'000), Feasibility::no);
   EXPECT_EQ((*crowded).solve(crowded.reasons(), 1'000'000), Feasibility::unknown);
+}
+
+TEST(ConflictSearch, StopsAtItsDeadline) {
+  CrowdedSearch crowded(crowded_catalog(10, 8, 7));
+  const std::uint64_t before = (*crowded).effort();
+  EXPECT_EQ((*crowded).solve(crowded.reasons(), UINT64_MAX, std::chrono::steady_clock::now()),
+            Feasibility::unknown);
+  EXPECT_LT((*crowded).effort() - before, 1'000'000U);
 }
 
 }  // namespace

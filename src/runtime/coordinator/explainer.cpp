@@ -127,8 +127,7 @@ class Candidates {
 /// there is one.
 class ConflictSearches {
  public:
-  ConflictSearches(std::vector<ConflictSearch>& searches,
-                   std::optional<std::chrono::steady_clock::time_point> deadline)
+  ConflictSearches(std::vector<ConflictSearch>& searches, const ConflictSearch::Deadline& deadline)
       : searches_(searches), deadline_(deadline) {}
 
   /// Whether one of the ways has a solution. Unknown counts as yes, so that no reason is left out
@@ -137,7 +136,7 @@ class ConflictSearches {
     return std::any_of(searches_.begin(), searches_.end(), [&](ConflictSearch& search) {
       if (is_exhausted()) return true;
       const std::uint64_t before = search.effort();
-      const Feasibility answer = search.solve(reasons, effort_left_);
+      const Feasibility answer = search.solve(reasons, effort_left_, deadline_);
       effort_left_ -= std::min(search.effort() - before, effort_left_);
       if (deadline_ && std::chrono::steady_clock::now() >= *deadline_) effort_left_ = 0;
       return answer != Feasibility::no;
@@ -165,7 +164,7 @@ class ConflictSearches {
 
  private:
   std::vector<ConflictSearch>& searches_;
-  const std::optional<std::chrono::steady_clock::time_point> deadline_;
+  const ConflictSearch::Deadline deadline_;
   std::uint64_t effort_left_ = most_effort;
 };
 

@@ -22,7 +22,8 @@ ConflictSearch::ConflictSearch(const CompiledCatalog& catalog, std::uint32_t gro
 
 /// As in Domains, tasks that nothing needs can be left out, so a problem is solved when each needed
 /// task has one value; only to keep a performance low, a task that nothing needs may have to run.
-Feasibility ConflictSearch::solve(std::span<const Reason> reasons, std::uint64_t most_effort) {
+Feasibility ConflictSearch::solve(std::span<const Reason> reasons, std::uint64_t most_effort,
+                                  const Deadline& deadline) {
   const std::uint64_t effort_before = effort();
   restarts_.clear();
   is_used_.assign(reasons.size(), 0);
@@ -33,6 +34,7 @@ Feasibility ConflictSearch::solve(std::span<const Reason> reasons, std::uint64_t
   for (;;) {
     is_consistent = is_consistent && propagate(reasons);
     if (effort() - effort_before > most_effort) return Feasibility::unknown;
+    if (deadline && std::chrono::steady_clock::now() >= *deadline) return Feasibility::unknown;
     if (!is_consistent) {
       if (!learn()) return Feasibility::no;
       is_consistent = true;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,8 +36,12 @@ class ConflictSearch {
     low_minimum_ = minimum;
   }
 
-  /// The answer is unknown where it would take more than `most_effort`.
-  [[nodiscard]] Feasibility solve(std::span<const Reason> reasons, std::uint64_t most_effort);
+  using Deadline = std::optional<std::chrono::steady_clock::time_point>;
+
+  /// The answer is unknown where it would take more than `most_effort`, or longer than to the
+  /// deadline.
+  [[nodiscard]] Feasibility solve(std::span<const Reason> reasons, std::uint64_t most_effort,
+                                  const Deadline& deadline = std::nullopt);
 
   /// After the answer no: by reason, whether the proof used it. The reasons that it used leave no
   /// solution by themselves.
