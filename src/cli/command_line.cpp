@@ -253,8 +253,8 @@ void declare(CLI::App& app, const Command& command,
     const std::string names = join(option.names, ",");
     CLI::Option* const added = option.is_flag ? app.add_flag(names) : app.add_option(names);
     if (!option.is_flag) {
-      added->expected(option.missing_value.empty() ? 1 : 0,
-                      option.is_argument && option.is_repeatable ? any_number : 1);
+      added->expected(option.is_argument && option.is_repeatable ? any_number : 1);
+      if (!option.missing_value.empty()) added->expected(0, 1);
       added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     }
     declared[&option] = added;

@@ -62,7 +62,7 @@ class Stream {
       runner_.begin(situation);
     }
     if (options_.stream.serve) {
-      live_ = LivePage::open(catalog_, *options_.stream.serve, script_, state_ ? state_->events : 0,
+      live_ = LivePage::open(catalog_, *options_.stream.serve, "live stream", state_ ? state_->events : 0,
                              runner_.coordinator());
       if (live_ == nullptr) return false;
     }

@@ -120,7 +120,10 @@ std::string stream_page(const CompiledCatalog& catalog, const StreamOfPage& stre
   write_catalog(json, catalog);
   json.close(']');
   json.open("runs", '[');
-  json.write_json(stream.begin);
+  json.open('{');
+  json.write("catalog", 0);
+  json.write_json("state", stream.begin);
+  json.close('}');
   json.close(']');
   json.open("report", '{');
   json.open("runs", '[');

@@ -218,7 +218,7 @@ class Server::Loop::Connection : public std::enable_shared_from_this<Connection>
     reader_ = loop_.history_.reader_after(last_id);
     loop_.has_listeners_ = true;
     watch();
-    text_ = head("200 OK", "text/event-stream");
+    text_ = head("200 OK", "text/event-stream") + "retry: 1000\n\n";
     send_block();
   }
 

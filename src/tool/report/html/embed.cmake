@@ -12,7 +12,7 @@ set(scripts
     text.js catalog.js run.js story.js # what is known
     ink.js view.js marks.js rows.js painter.js timeline.js gestures.js minimap.js # the timeline
     state_graph.js details.js events_table.js search.js overview.js legend.js # beside it
-    address.js page.js)
+    address.js live.js page.js)
 
 # The base64 form of a SHA-256 hash in hexadecimal.
 function(to_base64 hash result)
