@@ -22,6 +22,7 @@ bool History::wants_state() const {
 
 void History::begin_part(std::string_view state) {
   auto part = std::make_shared<Part>();
+  part->text.reserve(limits_.bytes);
   part->number = next_part_++;
   part->first_id = next_id_;
   append_field(part->text, "event", "state");
