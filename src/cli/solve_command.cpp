@@ -127,8 +127,8 @@ Values page_address() {
   values.check = [](const std::string& text) -> std::string {
     if (serve::read_address(text)) return {};
     return fmt::format(
-        "expected ADDRESS:PORT (such as {}, [::1]:8080, or 0.0.0.0:8080 for all networks), found "
-        "{}; without an address, it stands at the end or before another option",
+        "expected a numeric ADDRESS:PORT (such as {}, [::1]:0, or 0.0.0.0:8080 for all networks), "
+        "found {}; without a value, --serve stands last or before another option",
         default_address, quote(text));
   };
   return values;

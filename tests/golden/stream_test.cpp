@@ -746,6 +746,57 @@ TEST_F(StreamTest, ReplayFailsWhereItsOutputDoes) {
   EXPECT_EQ(run(of_replay).status, 2);
 }
 
+/// The data of the page that a replay draws.
+json page_in(const std::string& page) {
+  const std::string begin = "id=\"data\">";
+  const std::size_t from = page.find(begin) + begin.size();
+  return json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+TEST_F(StreamTest, ReplayDrawsThePageOfALog) {
+  const std::string events = joined(random_lines(3, 60));
+  const auto replay = [this](const std::string& log, std::vector<std::string> more = {}) {
+    folder_.write("log.jsonl", log);
+    more.insert(more.begin(), {"--replay", "log.jsonl", "quadrotor.yaml", "--html", "page.html"});
+    Result result = run(call(std::move(more)));
+    return std::pair(std::move(result), page_in(folder_.read("page.html")));
+  };
+  const auto events_of = [](const std::string& log) {
+    json all = json::array();
+    for (const std::string& line : lines_of(log)) {
+      if (json::parse(line).contains("index")) all.push_back(json::parse(line));
+    }
+    return all;
+  };
+  const std::string log = feed(events).out;
+  const auto [result, page] = replay(log, {"--format", "jsonl"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out, log);
+  const json& run_of_page = page["report"]["runs"][0];
+  EXPECT_EQ(run_of_page["script"], "log.jsonl");
+  EXPECT_EQ(run_of_page["events"], events_of(log));
+  EXPECT_FALSE(run_of_page.contains("error"));
+  EXPECT_EQ(page["runs"][0]["state"]["index"], 0);
+  EXPECT_FALSE(page.contains("live"));
+
+  // A log that continues from a state.
+  folder_.write("first", joined(random_lines(4, 40)));
+  EXPECT_EQ(run_in_shell("--state-out state < first > out 2> err"), 2) << "some lines are bad";
+  const std::string second = feed(events, {"--state-in", "state"}).out;
+  const json state = replay(second, {"--state-in", "state"}).second["runs"][0]["state"];
+  EXPECT_EQ(state["index"], json::parse(folder_.read("state"))["events"]);
+  EXPECT_EQ(state["index"], events_of(second)[0]["index"].get<int>() - 1);
+
+  // What was run before the first difference is drawn, too.
+  std::string changed = log;
+  changed.replace(changed.find("\"index\":7,"), 9, "\"index\":8");
+  const auto [different, rest] = replay(changed);
+  EXPECT_EQ(different.status, 1);
+  EXPECT_EQ(rest["report"]["runs"][0]["events"].size(), 7U);
+  EXPECT_TRUE(rest["report"]["runs"][0]["error"].get<std::string>().starts_with(
+      "the replay differs from line "));
+}
+
 TEST_F(StreamTest, ReplayTellsTheFirstDifference) {
   const std::string log = feed(many_events(20)).out;
   std::string changed = log;
