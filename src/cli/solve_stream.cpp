@@ -62,8 +62,8 @@ class Stream {
       runner_.begin(situation);
     }
     if (options_.stream.serve) {
-      live_ = LivePage::open(catalog_, *options_.stream.serve, "live stream", state_ ? state_->events : 0,
-                             runner_.coordinator());
+      live_ = LivePage::open(catalog_, *options_.stream.serve, "live stream",
+                             state_ ? state_->events : 0, runner_.coordinator());
       if (live_ == nullptr) return false;
     }
     output_.write(stream_header(catalog_, catalog_.file, of_coordinator_, situation,
@@ -273,6 +273,8 @@ int run_standard_input(const CompiledCatalog& catalog, const SolveOptions& optio
                        const std::optional<Snapshot>& state) {
   if (!knows_names(catalog, options.explain)) return exit_unusable;
   CoordinatorOptions coordinator = coordinator_options(options, catalog);
+  coordinator.hindsight =
+      options.stream.serve.has_value();  // the page explains failed expectations
   if (state) {
     coordinator.reactive_delay = state->reactive_delay;
     coordinator.timeouts = state->timeouts;

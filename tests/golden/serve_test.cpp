@@ -155,6 +155,7 @@ TEST_F(ServeTest, SendsTheLinesOfTheStream) {
   const json failure = json::parse(messages[4].data);
   EXPECT_EQ(failure["index"], 2);
   EXPECT_EQ(failure["line"], 4);
+  EXPECT_FALSE(failure["why"].empty()) << "the page explains it";
   EXPECT_EQ(messages[5].type, "end");
   EXPECT_EQ(messages[5].data, "{\"passed\":0,\"failed\":1}");
 

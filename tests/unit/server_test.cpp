@@ -157,11 +157,8 @@ TEST_F(ServerTest, ServesAFewOfVeryManyClients) {
   int served = 0;
   int refused = 0;
   for (Client& client : clients) {
-    const std::string text = client.hear("data: one\n\n");
-    if (text.find("one") != std::string::npos)
-      ++served;
-    else
-      ++refused;
+    const bool is_served = client.hear("data: one\n\n").starts_with("HTTP/1.1 200 OK");
+    ++(is_served ? served : refused);
   }
   EXPECT_EQ(served, 100);
   EXPECT_EQ(refused, 200);
@@ -180,9 +177,13 @@ TEST_F(ServerTest, ListensWhereItIsTold) {
   EXPECT_EQ(second, nullptr);
   EXPECT_EQ(error, "Address already in use");
   EXPECT_EQ(Server::start({"192.0.2.1", 0}, {}, history).second, "Cannot assign requested address");
-  const auto [ipv6, reason] = Server::start({"::1", 0}, {}, history);
-  if (ipv6 == nullptr) GTEST_SKIP() << "no IPv6 here: " << reason;
-  EXPECT_EQ(to_url(ipv6->address()), "http://[::1]:" + std::to_string(ipv6->address().port) + "/");
+}
+
+TEST_F(ServerTest, SpeaksIpv6) {
+  const auto [server, reason] = Server::start({"::1", 0}, {}, history_);
+  if (server == nullptr) GTEST_SKIP() << "no IPv6 here: " << reason;
+  EXPECT_EQ(to_url(server->address()),
+            "http://[::1]:" + std::to_string(server->address().port) + "/");
 }
 
 }  // namespace

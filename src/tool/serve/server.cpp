@@ -304,14 +304,15 @@ void Server::Loop::accept() {
       accept_timer_.expires_after(milliseconds(100));
       return accept_timer_.async_wait([this](error_code) { accept(); });
     }
+    accept();
+    error_code ignored;
     if (connections_.size() < most_connections) {
+      socket.set_option(tcp::no_delay(true), ignored);
       std::make_shared<Connection>(*this, std::move(socket))->begin();
     } else {
-      error_code ignored;
       socket.non_blocking(true, ignored);
       socket.write_some(asio::buffer(too_many()), ignored);
     }
-    accept();
   });
 }
 

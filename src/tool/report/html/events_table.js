@@ -29,6 +29,7 @@ class EventsTable {
 
   /** Adds the rows of further events. */
   grow() {
+    this.fitColumns();
     while (this.rows.length < this.run.size) {
       let body = this.table.tBodies[this.table.tBodies.length - 1];
       if (body === undefined || body.rows.length >= chunkSize) body = this.makeBody();
@@ -47,6 +48,15 @@ class EventsTable {
     old.replaceWith(row);
     if (!this.unfilled.has(row.parentElement)) this.fillRow(row);
     if (this.chosen === number) this.mark(number, true);
+  }
+
+  /** Gives numbers and times the room that the last ones need, which are the longest. */
+  fitColumns() {
+    const { run, table } = this;
+    const time = run.size === 0 ? '' : formatTime(run.timeAt(run.size));
+    const widthOf = (text, least) => `${Math.max(least, 1.4 + 0.65 * text.length)}em`;
+    table.style.setProperty('--number-width', widthOf(`${run.indexOf(run.size)}`, 3.8));
+    table.style.setProperty('--time-width', widthOf(time, 6.6));
   }
 
   makeBody() {

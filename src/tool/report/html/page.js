@@ -174,6 +174,7 @@ class Page {
     this.live = new Live(this, this.run, token, {
       bar: byId('live'), state: byId('live-state'), note: byId('live-note'), newest: byId('newest'),
     }, this.address.read()?.index || null);
+    fillLegend(byId('legend'), this.runs, true);
     this.fillCounts();
   }
 
