@@ -1,11 +1,10 @@
 // `cbc solve --format jsonl --serve`: a stream, and the page that shows it.
+#include <cstdint>
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
 #include <poll.h>
-#include <sstream>
 #include <string>
-#include <string_view>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <thread>
@@ -15,6 +14,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "golden/stream_text.h"
 #include "support/http_client.h"
 #include "support/scratch_folder.h"
 
@@ -23,21 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-/// The text between two others; empty if it is not there.
-std::string between(const std::string& text, std::string_view begin, std::string_view end) {
-  const std::size_t found = text.find(begin);
-  if (found == std::string::npos) return {};
-  const std::size_t from = found + begin.size();
-  return text.substr(from, text.find(end, from) - from);
-}
 
 /// A server-sent event.
 struct Message {
@@ -85,7 +70,10 @@ class ServeTest : public testing::Test {
       ::poll(nullptr, 0, 10);
       if (!fs::exists(folder_ / "err")) continue;
       const std::string text = folder_.read("err");
-      if (text.ends_with("/\n")) port_ = between(text, "cbc: live page: http://127.0.0.1:", "/\n");
+      if (!text.ends_with("/\n")) continue;
+      const std::string begin = "cbc: live page: http://127.0.0.1:";
+      ASSERT_TRUE(text.starts_with(begin)) << text;
+      port_ = text.substr(begin.size(), text.size() - begin.size() - 2);
     }
     ASSERT_FALSE(port_.empty()) << "no page is served";
   }
@@ -108,7 +96,7 @@ class ServeTest : public testing::Test {
   [[nodiscard]] json page() const {
     const std::string text = ask("/").hear();
     EXPECT_NE(text.find("connect-src 'self';"), std::string::npos);
-    return json::parse(between(text, "id=\"data\">", "</script>"));
+    return data_of_page(text);
   }
   [[nodiscard]] test::Client listen(const std::string& more = {}) const {
     return ask("/events?run=" + page()["live"].get<std::string>(), more);

@@ -11,7 +11,6 @@
 #include <poll.h>
 #include <random>
 #include <span>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <sys/stat.h>
@@ -25,6 +24,7 @@
 #include <nlohmann/json.hpp>
 
 #include "golden/process.h"
+#include "golden/stream_text.h"
 #include "support/scratch_folder.h"
 
 namespace cbc::golden {
@@ -32,13 +32,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
 
 class StreamTest : public testing::Test {
  protected:
@@ -746,20 +739,13 @@ TEST_F(StreamTest, ReplayFailsWhereItsOutputDoes) {
   EXPECT_EQ(run(of_replay).status, 2);
 }
 
-/// The data of the page that a replay draws.
-json page_in(const std::string& page) {
-  const std::string begin = "id=\"data\">";
-  const std::size_t from = page.find(begin) + begin.size();
-  return json::parse(page.substr(from, page.find("</script>", from) - from));
-}
-
 TEST_F(StreamTest, ReplayDrawsThePageOfALog) {
   const std::string events = joined(random_lines(3, 60));
   const auto replay = [this](const std::string& log, std::vector<std::string> more = {}) {
     folder_.write("log.jsonl", log);
     more.insert(more.begin(), {"--replay", "log.jsonl", "quadrotor.yaml", "--html", "page.html"});
     Result result = run(call(std::move(more)));
-    return std::pair(std::move(result), page_in(folder_.read("page.html")));
+    return std::pair(std::move(result), data_of_page(folder_.read("page.html")));
   };
   const auto events_of = [](const std::string& log) {
     json all = json::array();
