@@ -12,7 +12,7 @@ import unittest
 from page_case import AXE, OUT, PROGRAM, QUADROTOR, ROOT, PageCase, long_script
 
 # What a page knows about a run, however it came to know it.
-KNOWLEDGE = """(() => {
+KNOWLEDGE = r"""(() => {
   const { run, timeline } = page;
   const marks = timeline.marker;
   page.table.fillAll();
@@ -25,7 +25,7 @@ KNOWLEDGE = """(() => {
     lanes: marks.lanes(timeline.view), places: [...timeline.view.places], head: timeline.head,
     names: [...document.querySelectorAll('#labels div')].map((one) => one.textContent),
     table: [...document.querySelectorAll('#events > tbody > tr')].map((row) => row.textContent),
-    counts: document.querySelector('#counts').textContent, picture: page.svgText(),
+    counts: document.querySelector('#counts').textContent, picture: page.svgText().replaceAll(/ink-\d+/g, 'ink'),
   };
 })()"""
 
