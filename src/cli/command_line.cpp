@@ -148,6 +148,11 @@ Option& Option::required() {
   return *this;
 }
 
+Option& Option::value_or(std::string value) {
+  missing_value = std::move(value);
+  return *this;
+}
+
 Option& Option::separated_by(char character) {
   separator = character;
   return *this;
@@ -249,6 +254,7 @@ void declare(CLI::App& app, const Command& command,
     CLI::Option* const added = option.is_flag ? app.add_flag(names) : app.add_option(names);
     if (!option.is_flag) {
       added->expected(option.is_argument && option.is_repeatable ? any_number : 1);
+      if (!option.missing_value.empty()) added->expected(0, 1);
       added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     }
     declared[&option] = added;
@@ -282,6 +288,9 @@ Parsed parse(const Program& program, const std::vector<std::string>& arguments) 
     const CLI::results_t& values = as_declared->results();
     std::vector<std::string>& given = parsed.given[option];
     if (option->separator == '\0') given = values;
+    if (!option->missing_value.empty()) {
+      std::replace(given.begin(), given.end(), std::string(), option->missing_value);
+    }
     for (const std::string& list : values) {
       if (option->separator == '\0') break;
       for (const std::string_view item : split(list, option->separator)) {
@@ -321,7 +330,7 @@ std::string find_bad_equals(const Command& command, const std::vector<std::strin
     const Option* const option = name.starts_with('-') ? command.find(name) : nullptr;
     if (option == nullptr) continue;
     if (name == argument) {
-      if (!option->is_flag) ++i;  // its value, which may be anything
+      if (!option->is_flag && option->missing_value.empty()) ++i;  // its value may be anything
     } else if (option->is_flag) {
       return fmt::format("{} takes no value", option->name());
     } else if (name.size() + 1 == argument.size()) {

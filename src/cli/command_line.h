@@ -99,12 +99,17 @@ struct Option {
   bool is_repeatable = false;
   bool is_required = false;
   char separator = '\0';  ///< between the values of a list
+  /// What stands for a value that is missing, at the end of the line or before another option;
+  /// empty: it may not be missing.
+  std::string missing_value;
   std::function<void(const std::string& value)> store;
 
   /// The longest one, which messages use.
   [[nodiscard]] const std::string& name() const { return names.back(); }
 
   Option& required();
+  /// Lets the value be missing, which is then this one.
+  Option& value_or(std::string value);
   /// Lets several values be given at once.
   Option& separated_by(char character);
   /// Makes a flag turn the arguments into files of this kind.

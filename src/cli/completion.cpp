@@ -54,10 +54,18 @@ void add_option(const std::string& word, TypedLine& line) {
   }
 }
 
+/// Whether a word after an option is its value.
+bool is_value_of(const Option* option, const std::string& word) {
+  return option != nullptr && (option->missing_value.empty() || !is_option(word));
+}
+
 void add_word(const std::string& word, TypedLine& line) {
-  if (line.pending != nullptr) {
+  if (is_value_of(line.pending, word)) {
     add_value(*std::exchange(line.pending, nullptr), word, line);
-  } else if (line.has_separator || !is_option(word)) {
+    return;
+  }
+  line.pending = nullptr;
+  if (line.has_separator || !is_option(word)) {
     line.files.push_back(word);
   } else if (word == "--") {
     line.has_separator = true;
@@ -250,7 +258,7 @@ Completion complete(const Program& program, const std::vector<std::string>& word
     is_dash ? offer_options(program.itself(), completion) : offer_commands(program, completion);
     return completion;
   }
-  if (line.pending != nullptr) {
+  if (is_value_of(line.pending, last)) {
     offer_values(*line.pending, line, last, completion);
     return completion;
   }

@@ -12,6 +12,7 @@
 #include "compiled/compiled_catalog.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/record.h"
+#include "coordinator/state.h"
 #include "report/solve_report.h"
 #include "script/runner.h"
 #include "script/script.h"
@@ -50,7 +51,8 @@ struct StreamOptions {
   std::optional<std::string> state_in;
   std::optional<std::string> state_out;
   std::optional<std::string> replay;
-  std::string clock = "events";  ///< or "real"
+  std::string clock = "events";      ///< or "real"
+  std::optional<std::string> serve;  ///< where a page shows the stream
 };
 
 /// The options of `cbc solve`.
@@ -119,6 +121,20 @@ class MissionLoader {
 
 /// Runs scripts, and reports them in one of the formats for whole runs. Returns the exit status.
 [[nodiscard]] int solve_missions(const SolveOptions& options);
+
+// The beginning and the end of streams and replays. Problems go to standard error.
+
+/// Whether the file of --state-out, if the option is given, can be written.
+[[nodiscard]] bool can_save_state(const StreamOptions& options);
+/// Loads the state of --state-in, if the option is given. False if it cannot be used.
+[[nodiscard]] bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
+                              std::optional<Snapshot>& state);
+/// Writes the state of --state-out, if the option is given and the run did not end early. False
+/// after an error.
+[[nodiscard]] bool save_state(const StreamOptions& options, const CompiledCatalog& catalog,
+                              const Runner& runner);
+/// Reports why a run ended early, if it did. Returns the exit status of the run.
+[[nodiscard]] int report_end(const Runner& runner, const CoordinatorOptions& options);
 
 /// Runs one script, or events from standard input, and writes each event as a line. The paths are
 /// a catalog and a script, "-" for a stream; or a script that names its catalog. Returns the exit

@@ -13,6 +13,7 @@
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/solve.h"
+#include "serve/address.h"
 #include "support/wording.h"
 
 namespace cbc::cli {
@@ -92,6 +93,8 @@ constexpr const char* solve_footer =
     "                                            for CI, a test suite per script\n"
     "  robot | cbc solve robot.cbc - --format jsonl > log.jsonl\n"
     "                                            a live stream, one event per line\n"
+    "  robot | cbc solve robot.cbc - --format jsonl --serve > log.jsonl\n"
+    "                                            the same, shown in a browser\n"
     "  cbc solve --replay log.jsonl robot.cbc    run the log again and compare\n"
     "  cbc solve robot.yaml mission.yaml --max-solutions 5\n"
     "                                            best of the first 5 solutions\n"
@@ -110,6 +113,27 @@ constexpr const char* solve_footer =
     "\n"
     "Read more: man cbc-solve, man cbc-events (how to write a script)";
 
+constexpr const char* default_address = "127.0.0.1:8227";
+
+Values page_address() {
+  Values values;
+  values.placeholder = "[ADDRESS:PORT]";
+  values.expected = "ADDRESS:PORT";
+  values.names = [] {
+    return std::vector<NameWithHelp>{{default_address, "this machine only"},
+                                     {"127.0.0.1:0", "a free port"},
+                                     {"0.0.0.0:8227", "also for other machines"}};
+  };
+  values.check = [](const std::string& text) -> std::string {
+    if (serve::read_address(text)) return {};
+    return fmt::format(
+        "expected a numeric ADDRESS:PORT (such as {}, [::1]:0, or 0.0.0.0:8080 for all networks), "
+        "found {}; without a value, --serve stands last or before another option",
+        default_address, quote(text));
+  };
+  return values;
+}
+
 /// Says what is missing on the command line; empty if nothing is.
 std::string find_missing(const SolveOptions& options) {
   if (!options.paths.empty()) return {};
@@ -122,6 +146,11 @@ std::string find_missing(const SolveOptions& options) {
 int solve(const SolveOptions& options) {
   if (const std::string missing = find_missing(options); !missing.empty()) {
     return usage_error("solve", missing);
+  }
+  if (options.html && options.format == "jsonl" && !options.stream.replay) {
+    return usage_error("solve",
+                       "--html cannot be used with '--format jsonl': it draws whole runs; --serve "
+                       "shows a stream, and --replay LOG --html FILE draws a recorded one");
   }
   if (options.sweep.is_wanted()) return run_sweep(options);
   if (options.stream.replay) return replay_stream(options);
@@ -152,10 +181,11 @@ void add_solve_command(Program& program) {
                              "or a mapping in braces)",
                              join_with_or(formats), formats.front()));
   command
-      .option("--html", options->html, further_output("FILE"),
-              "Also write an HTML page with a timeline of all runs to FILE, to step through in a "
-              "browser, or to print")
-      .not_with({"--sweep", "--merge", "--replay", "--format jsonl"}, "it draws whole scripts");
+      .option(
+          "--html", options->html, further_output("FILE"),
+          "Also write an HTML page with a timeline of all runs, or of a replay, to FILE, to step "
+          "through in a browser, or to print")
+      .not_with({"--sweep", "--merge"}, "it draws whole runs");
   command.option("-j,--jobs", options->jobs, whole_number("N", 1),
                  "Run up to N scripts, or sequences of a sweep, at once (default: the number of "
                  "processors); the output is the same for any N");
@@ -232,6 +262,14 @@ void add_solve_command(Program& program) {
           "since the start (real); then timeouts and reactive starts happen between lines")
       .only_with({"--format jsonl"})
       .not_with({"--replay"}, "a replay takes its times from the log");
+  command
+      .option("--serve", options->stream.serve, page_address(),
+              fmt::format("Show the stream in a browser while it runs, at this address (default: "
+                          "{}; port 0: a free one), which is printed to standard error",
+                          default_address))
+      .value_or(default_address)
+      .only_with({"--format jsonl"})
+      .not_with({"--replay"}, "a log is complete, so --html draws it");
   command
       .option("--replay", options->stream.replay, input("LOG", ValueKind::file),
               "Run the events of LOG (from --format jsonl) again with the same options, and "

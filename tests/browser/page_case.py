@@ -15,6 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("CBC_PROGRAM", str(ROOT / "build/release/cbc"))
 OUT = ROOT / "build/browser"
 QUADROTOR = "catalogs/quadrotor.yaml"
+AXE = ROOT / "build/browser-npm/node_modules/axe-core/axe.min.js"  # where ./dev test-browser puts it
 
 HOSTILE_TASK = "</script><script>alert(1)</script>"
 HOSTILE_BEHAVIORS = ["<img src=x onerror=alert(2)>", "__proto__", "\"quotes' & <!-- <b>bold</b>",
@@ -206,3 +207,10 @@ class PageCase(unittest.TestCase):
 
     def choose_run(self, place):
         self.click(f"#missions tbody tr:nth-child({place + 1}) td:nth-child(3)")
+
+    def assert_no_findings_of_axe(self, name):
+        self.browser.ask(AXE.read_text() + ";0")
+        findings = self.browser.ask("axe.run().then(({ violations }) => violations.map((one) => [one.id, one.help,"
+                                    " one.nodes.map((node) => node.html + node.failureSummary)]))")
+        with self.subTest(page=name):
+            self.assertEqual(findings, [])

@@ -14,10 +14,8 @@ import urllib.parse
 
 from chromium import BrowserError
 from page_case import (
-    HOSTILE_BEHAVIORS, HOSTILE_TASK, OUT, QUADROTOR, ROOT, PageCase, changed, hostile_files, long_script,
+    AXE, HOSTILE_BEHAVIORS, HOSTILE_TASK, OUT, QUADROTOR, ROOT, PageCase, changed, hostile_files, long_script,
     solve, write)
-
-AXE = ROOT / "build/browser-npm/node_modules/axe-core/axe.min.js"  # where ./dev test-browser puts it
 
 
 class Page(PageCase):
@@ -113,13 +111,6 @@ class Page(PageCase):
             f"getComputedStyle(document.documentElement).getPropertyValue('--{name}').trim()"))
             for name in names)
         return (light[1] + 0.05) / (light[0] + 0.05)
-
-    def assert_no_findings_of_axe(self, name):
-        self.browser.ask(AXE.read_text() + ";0")
-        findings = self.browser.ask("axe.run().then(({ violations }) => violations.map((one) => [one.id, one.help,"
-                                    " one.nodes.map((node) => node.html + node.failureSummary)]))")
-        with self.subTest(page=name):
-            self.assertEqual(findings, [])
 
     @unittest.skipUnless(AXE.exists(), "axe-core is not installed")
     def test_axe_finds_nothing(self):

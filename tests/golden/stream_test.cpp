@@ -11,7 +11,6 @@
 #include <poll.h>
 #include <random>
 #include <span>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <sys/stat.h>
@@ -25,6 +24,7 @@
 #include <nlohmann/json.hpp>
 
 #include "golden/process.h"
+#include "golden/stream_text.h"
 #include "support/scratch_folder.h"
 
 namespace cbc::golden {
@@ -32,13 +32,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
 
 class StreamTest : public testing::Test {
  protected:
@@ -744,6 +737,50 @@ TEST_F(StreamTest, ReplayFailsWhereItsOutputDoes) {
   Call of_replay = call({"--replay", "log.jsonl", "quadrotor.yaml"});
   of_replay.standard_output = "/dev/full";
   EXPECT_EQ(run(of_replay).status, 2);
+}
+
+TEST_F(StreamTest, ReplayDrawsThePageOfALog) {
+  const std::string events = joined(random_lines(3, 60));
+  const auto replay = [this](const std::string& log, std::vector<std::string> more = {}) {
+    folder_.write("log.jsonl", log);
+    more.insert(more.begin(), {"--replay", "log.jsonl", "quadrotor.yaml", "--html", "page.html"});
+    Result result = run(call(std::move(more)));
+    return std::pair(std::move(result), data_of_page(folder_.read("page.html")));
+  };
+  const auto events_of = [](const std::string& log) {
+    json all = json::array();
+    for (const std::string& line : lines_of(log)) {
+      if (json::parse(line).contains("index")) all.push_back(json::parse(line));
+    }
+    return all;
+  };
+  const std::string log = feed(events).out;
+  const auto [result, page] = replay(log, {"--format", "jsonl"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out, log);
+  const json& run_of_page = page["report"]["runs"][0];
+  EXPECT_EQ(run_of_page["script"], "log.jsonl");
+  EXPECT_EQ(run_of_page["events"], events_of(log));
+  EXPECT_FALSE(run_of_page.contains("error"));
+  EXPECT_EQ(page["runs"][0]["state"]["index"], 0);
+  EXPECT_FALSE(page.contains("live"));
+
+  // A log that continues from a state.
+  folder_.write("first", joined(random_lines(4, 40)));
+  EXPECT_EQ(run_in_shell("--state-out state < first > out 2> err"), 2) << "some lines are bad";
+  const std::string second = feed(events, {"--state-in", "state"}).out;
+  const json state = replay(second, {"--state-in", "state"}).second["runs"][0]["state"];
+  EXPECT_EQ(state["index"], json::parse(folder_.read("state"))["events"]);
+  EXPECT_EQ(state["index"], events_of(second)[0]["index"].get<int>() - 1);
+
+  // What was run before the first difference is drawn, too.
+  std::string changed = log;
+  changed.replace(changed.find("\"index\":7,"), 9, "\"index\":8");
+  const auto [different, rest] = replay(changed);
+  EXPECT_EQ(different.status, 1);
+  EXPECT_EQ(rest["report"]["runs"][0]["events"].size(), 7U);
+  EXPECT_TRUE(rest["report"]["runs"][0]["error"].get<std::string>().starts_with(
+      "the replay differs from line "));
 }
 
 TEST_F(StreamTest, ReplayTellsTheFirstDifference) {

@@ -21,22 +21,23 @@ def options_in_help(verb):
     return {re.sub(r", ?", ", ", names): value for names, value in found}
 
 
+def names_and_value(item):
+    """Of an item of the page, without its "Fl": ("-o, --output", "OUT")."""
+    names, _, value = item.partition(" Ar ")
+    may_be_missing = names.endswith(" Op")
+    names = names.removesuffix(" Op").split(" , Fl ")
+    return ", ".join(f"-{name}" for name in names), f"[{value}]" if may_be_missing else value
+
+
 def options_in_page(verb):
-    found = {}
-    for item in re.findall(r"^\.It Fl (.*)$", pages.page_of(verb).read_text(), re.MULTILINE):
-        names, _, value = item.partition(" Ar ")
-        found[", ".join(f"-{name}" for name in names.split(" , Fl "))] = value
-    return found
+    return dict(map(names_and_value, re.findall(r"^\.It Fl (.*)$", pages.page_of(verb).read_text(), re.MULTILINE)))
 
 
 def paragraphs_in_page(verb):
     """By names of the option, all that the page says of it."""
     options = pages.page_of(verb).read_text().partition(".Sh EXIT STATUS")[0]
     parts = re.split(r"^\.It Fl (.*)\n", options, flags=re.MULTILINE)
-    return {
-        ", ".join(f"-{name}" for name in item.partition(" Ar ")[0].split(" , Fl ")): text
-        for item, text in zip(parts[1::2], parts[2::2])
-    }
+    return {names_and_value(item)[0]: text for item, text in zip(parts[1::2], parts[2::2])}
 
 
 def words_of(verb, option):

@@ -13,6 +13,7 @@
 #include "report/answer_bound.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
+#include "report/stream_page.h"
 #include "script/event_lines.h"
 #include "support/json.h"
 
@@ -198,6 +199,33 @@ void write_why(JsonWriter& json, const CompiledCatalog& catalog, const EventReco
   json.close('}');
 }
 
+/// What runs, what was requested, and which reactive tasks are due or wait.
+void write_running(JsonWriter& json, const CompiledCatalog& catalog, const State& state) {
+  const std::vector<std::uint32_t> running = state.running();
+  json.open("running", '{');
+  for (const std::uint32_t index : running) {
+    json.write(catalog.task_names[index],
+               catalog.name_of_behavior(state.behavior(catalog.task_ids[index])));
+  }
+  json.close('}');
+  json.open("requests", '{');
+  for (const std::uint32_t index : running) {
+    const TaskId task = catalog.task_ids[index];
+    if (!state.has_request(task)) continue;
+    json.write(catalog.task_names[index], state.request(task).priority);
+  }
+  json.close('}');
+  json.open("queue", '{');
+  for (const auto& [index, time] : queue_of(catalog, state)) {
+    if (time) {
+      json.write_seconds(catalog.task_names[index], *time);
+    } else {
+      json.write(catalog.task_names[index], nullptr);
+    }
+  }
+  json.close('}');
+}
+
 class EventText {
  public:
   EventText(std::string& text, const CompiledCatalog& catalog, const EventRecord& record,
@@ -210,7 +238,7 @@ class EventText {
     json_.write("outcome", name_of(record_.outcome));
     write_changes();
     write_stopped();
-    write_state();
+    write_running(json_, catalog_, state_);
     write_objective();
     write_search();
     write_conflict(json_, catalog_, record_, record_.conflict);
@@ -280,32 +308,6 @@ class EventText {
       json_.write("cause", name_of(entry.cause));
       json_.close('}');
     });
-  }
-
-  void write_state() {
-    const std::vector<std::uint32_t> running = state_.running();
-    json_.open("running", '{');
-    for (const std::uint32_t index : running) {
-      json_.write(catalog_.task_names[index],
-                  catalog_.name_of_behavior(state_.behavior(catalog_.task_ids[index])));
-    }
-    json_.close('}');
-    json_.open("requests", '{');
-    for (const std::uint32_t index : running) {
-      const TaskId task = catalog_.task_ids[index];
-      if (!state_.has_request(task)) continue;
-      json_.write(catalog_.task_names[index], state_.request(task).priority);
-    }
-    json_.close('}');
-    json_.open("queue", '{');
-    for (const auto& [index, time] : queue_of(catalog_, state_)) {
-      if (time) {
-        json_.write_seconds(catalog_.task_names[index], *time);
-      } else {
-        json_.write(catalog_.task_names[index], nullptr);
-      }
-    }
-    json_.close('}');
   }
 
   void write_objective() {
@@ -403,11 +405,36 @@ std::string stream_totals(const SearchTotals& totals) {
   });
 }
 
+std::string state_of_page(const CompiledCatalog& catalog, std::uint64_t index, Microseconds time,
+                          const State& state) {
+  Situation situation;
+  std::vector<std::string_view> faulty;
+  for (std::uint32_t place = 0; place < catalog.behavior_ids.size(); ++place) {
+    const BehaviorId behavior = catalog.behavior_ids[place];
+    if (state.is_denied(behavior)) situation.availability.push_back({place, false});
+    if (state.is_faulty(behavior)) faulty.push_back(catalog.behavior_names[place]);
+  }
+  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+    situation.variables.push_back({variable, state.value_of(variable)});
+  }
+  std::string text;
+  JsonWriter json(text);
+  json.open('{');
+  json.write("index", index);
+  json.write_seconds("time", time);
+  write_running(json, catalog, state);
+  write_situation(json, catalog, situation);
+  json.write_list("faulty", faulty);
+  json.close('}');
+  json.flush();
+  return text;
+}
+
 void EventStream::on_event(const EventRecord& record, const Step* step, const State& state) {
   line_.clear();
   append_event(line_, catalog_, record, step, state, adds_);
   line_ += '\n';
-  take_line_(line_);
+  take_line_({line_, record, state});
 }
 
 }  // namespace cbc

@@ -5,15 +5,23 @@
 #include <string_view>
 #include <utility>
 
-#include "catalog/situation.h"
-#include "page_files.h"
-#include "report/catalog_report.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
-#include "script/event_lines.h"
 #include "support/json.h"
 
 namespace cbc {
+
+void append_failure(std::string& text, const CompiledCatalog& catalog, const Failure& failure) {
+  JsonWriter json(text);
+  json.open('{');
+  json.write_members(
+      {{"index", failure.index}, {"line", failure.range.begin.line}, {"message", failure.message}});
+  json.write_list("why", failure.surprises, [&](const Surprise& surprise) {
+    write_surprise(json, catalog, surprise, *failure.state);
+  });
+  json.close('}');
+}
+
 JsonReport::JsonReport(std::FILE* out, const EventAdditions& adds, bool is_part)
     : out_(out), adds_(adds) {
   if (!is_part) write(R"({"schema":"cbc.solve/1","runs":[)");
@@ -41,14 +49,7 @@ void JsonReport::on_event(const EventRecord& record, const Step* step, const Sta
 }
 
 void JsonReport::on_failure(const Failure& failure) {
-  JsonWriter json(failures_);
-  json.open('{');
-  json.write_members(
-      {{"index", failure.index}, {"line", failure.range.begin.line}, {"message", failure.message}});
-  json.write_list("why", failure.surprises, [&](const Surprise& surprise) {
-    write_surprise(json, *catalog_, surprise, *failure.state);
-  });
-  json.close('}');
+  append_failure(failures_, *catalog_, failure);
 }
 
 void JsonReport::end_run(const RunResult& result, const std::string& error) {
@@ -181,99 +182,6 @@ void StateRecorder::on_event(const EventRecord& record, const Step* /*step*/, co
 
 void StateRecorder::on_end(const State& state) {
   if (!has_passed_) note_behaviors(state);
-}
-
-namespace {
-
-constexpr double one_percent = one_million / 100.0;
-
-/// What the picture needs of a catalog: tasks, situation variables and behaviors in catalog order,
-/// suitabilities in percent.
-void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
-  const auto write_task = [&](TaskId task) { json.write(catalog.name_of_task(task)); };
-  json.open('{');
-  json.write_list("tasks", catalog.task_names);
-  json.open("variables", '[');
-  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
-    write_variable(json, catalog, variable);
-  }
-  json.close(']');
-  json.write_list("behaviors", catalog.behavior_ids, [&](BehaviorId behavior) {
-    json.open('{');
-    json.write("name", catalog.name_of_behavior(behavior));
-    json.write_list("performs", catalog.performs[behavior], [&](ValueId value) {
-      json.write_object({{"task", catalog.name_of_task(catalog.task_of(value))},
-                         {"suitability", catalog.values.items[value].suitability / one_percent}});
-    });
-    json.write_list("requires", catalog.requirements[behavior],
-                    [&](const CompiledRequirement& required) { write_task(required.task); });
-    write_conditions(json, conditions_of(catalog, behavior));
-    json.close('}');
-  });
-  json.open("exclusive", '[');
-  for (std::size_t clique = 0; clique < catalog.cliques.size(); ++clique) {
-    json.open('[');
-    for (const TaskId task : catalog.cliques[clique]) write_task(task);
-    json.close(']');
-  }
-  json.close(']');
-  json.close('}');
-}
-
-/// Makes JSON safe in a script element, which ends at the first "</script" wherever it is, and is
-/// parsed differently after "<!--". In JSON, "<" occurs in strings only.
-std::string for_script_element(std::string_view json) {
-  std::string text;
-  text.reserve(json.size());
-  for (const char character : json) {
-    if (character == '<') {
-      text += "\\u003c";
-    } else {
-      text += character;
-    }
-  }
-  return text;
-}
-
-}  // namespace
-
-void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
-  auto place = std::find(catalogs_.begin(), catalogs_.end(), &catalog);
-  if (place == catalogs_.end()) {
-    JsonWriter json(catalogs_json_);
-    write_catalog(json, catalog);
-    place = catalogs_.insert(place, &catalog);
-  }
-  JsonWriter json(runs_json_);
-  json.open('{');
-  json.write("catalog", place - catalogs_.begin());
-  write_situation(json, catalog, script.situation);
-  json.close('}');
-  json_.begin_run(catalog, script);
-}
-
-void HtmlReport::on_event(const EventRecord& record, const Step* step, const State& state) {
-  json_.on_event(record, step, state);
-}
-
-void HtmlReport::on_failure(const Failure& failure) { json_.on_failure(failure); }
-
-void HtmlReport::on_end(const State& state) { json_.on_end(state); }
-
-void HtmlReport::end_run(const RunResult& result, const std::string& error) {
-  json_.end_run(result, error);
-}
-
-void HtmlReport::end() { json_.end(); }
-
-std::string HtmlReport::page() {
-  const std::string data = R"({"catalogs":)" + catalogs_json_ + R"(],"runs":)" + runs_json_ +
-                           R"(],"report":)" + std::string(memory_.text()) + "}";
-  std::string page;
-  for (const std::string_view part : page_before_data) page += part;
-  page += for_script_element(data);
-  for (const std::string_view part : page_after_data) page += part;
-  return page;
 }
 
 }  // namespace cbc

@@ -108,6 +108,9 @@ struct EventAdditions {
   bool alternatives = false;
 };
 
+/// Appends an expectation that failed, as an object.
+void append_failure(std::string& text, const CompiledCatalog& catalog, const Failure& failure);
+
 /// Appends one event as JSON on one line, as in cbc.solve/1. `step` is the scripted one, or null.
 /// No tree is built: streams write a hundred thousand events per second.
 void append_event(std::string& text, const CompiledCatalog& catalog, const EventRecord& record,
@@ -133,7 +136,13 @@ void append_event(std::string& text, const CompiledCatalog& catalog, const Event
 /// Passes on each event as a line as soon as it is solved.
 class EventStream final : public RunListener {
  public:
-  using TakeLine = std::function<void(std::string_view)>;
+  /// A line with its end, and what it is about.
+  struct Line {
+    std::string_view text;
+    const EventRecord& record;
+    const State& state;  ///< after the event
+  };
+  using TakeLine = std::function<void(const Line&)>;
   using TakeFailure = std::function<void(const Failure&)>;
 
   /// The catalog must outlive this object.

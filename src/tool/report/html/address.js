@@ -1,7 +1,7 @@
 // The part of the address after "#": which mission and which event are shown, for links and reloads.
 
 class Address {
-  /** `onChange({place, number})`: the address was changed by hand, by a link, or by "back". */
+  /** `onChange({place, index})`: the address was changed by hand, by a link, or by "back". */
   constructor(runs, onChange) {
     this.names = Address.uniqueNames(runs);
     this.timer = null;
@@ -21,22 +21,27 @@ class Address {
     });
   }
 
-  /** {place, number} of the address, or null if it names no mission of this page. */
+  /** {place, index} of the address, or null if it names no mission of this page. */
   read() {
     const wanted = new URLSearchParams(location.hash.slice(1));
     const place = wanted.has('mission') ? this.names.indexOf(wanted.get('mission')) : 0;
     if (place === -1 || (!wanted.has('mission') && !wanted.has('event'))) return null;
-    const number = Number.parseInt(wanted.get('event') ?? '', 10);
-    return { place, number: Number.isNaN(number) ? null : number };
+    const index = Number.parseInt(wanted.get('event') ?? '', 10);
+    return { place, index: Number.isNaN(index) ? null : index };
   }
 
-  text(place, number) {
-    return `#${new URLSearchParams({ mission: this.names[place], event: number })}`;
+  text(place, index) {
+    return `#${new URLSearchParams({ mission: this.names[place], event: index })}`;
+  }
+
+  clear() {
+    clearTimeout(this.timer);
+    if (location.hash !== '') history.replaceState(null, '', location.pathname);
   }
 
   /** Writes it soon: browsers limit how often a page may. */
-  write(place, number) {
-    const text = this.text(place, number);
+  write(place, index) {
+    const text = this.text(place, index);
     clearTimeout(this.timer);
     this.timer = setTimeout(() => {
       if (location.hash !== text) history.replaceState(null, '', text);

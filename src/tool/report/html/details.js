@@ -96,8 +96,9 @@ function explanationElements(run, number, onChoose) {
   for (const failure of run.failures.get(number) ?? []) {
     for (const why of failure.why ?? []) {
       const elements = whyElements(why);
-      if (why.event !== null && why.event !== number) {
-        elements.push(buttonElement(`to event ${why.event}, which decided it`, () => onChoose(why.event)));
+      const decider = why.event === null ? 0 : run.numberOf(why.event);
+      if (decider >= 1 && decider !== number) {
+        elements.push(buttonElement(`to event ${why.event}, which decided it`, () => onChoose(decider)));
       }
       add(`Why not as expected (line ${failure.line})`, elements);
     }
@@ -124,7 +125,7 @@ function choiceElement() {
 /** The details of an event. `elements`: {title, body}. */
 function fillDetail(elements, run, number, onChoose) {
   const event = run.event(number);
-  elements.title.textContent = `Event ${number} at ${formatTime(event.time)} s`;
+  elements.title.textContent = `Event ${run.indexOf(number)} at ${formatTime(event.time)} s`;
   const parts = [html('p', 'headline', breakable(nameEvent(event, run.catalog)), ' ', outcomeElement(event))];
   parts.push(...sentenceElements(run, number));
   const add = (title, element) => parts.push(html('h3', '', title), element);
@@ -182,7 +183,7 @@ function tipContent(run, target) {
   const [number] = target.numbers;
   const event = run.event(number);
   if (target.numbers.length > 1) return foldTip(run, target.numbers);
-  return [html('strong', '', `${number} \u00b7 ${formatTime(event.time)} s \u00b7 ${nameEvent(event, run.catalog)} `),
+  return [html('strong', '', `${run.indexOf(number)} \u00b7 ${formatTime(event.time)} s \u00b7 ${nameEvent(event, run.catalog)} `),
           outcomeElement(event), ...reasonElements(event), ...sentenceElements(run, number)];
 }
 
@@ -190,19 +191,20 @@ function foldTip(run, numbers) {
   const most = 6;
   const lines = numbers.slice(0, most).map((number) => {
     const event = run.event(number);
-    return html('p', '', `${number} \u00b7 ${formatTime(event.time)} s \u00b7 ${describeEvent(event, run.catalog)}`);
+    return html('p', '', `${run.indexOf(number)} \u00b7 ${formatTime(event.time)} s \u00b7 ${describeEvent(event, run.catalog)}`);
   });
   if (numbers.length > most) lines.push(html('p', 'why', `and ${numbers.length - most} more`));
   return [html('strong', '', `${numbers.length} events; a click zooms to them`), ...lines];
 }
 
 function spanTip(run, span) {
-  const event = run.event(span.from);
-  const end = span.to === null ? 'the end of the run' : `${formatTime(run.event(span.to).time)} s (event ${span.to})`;
+  const placeOf = (number) =>
+    number === 0 ? 'an event before these' : `${formatTime(run.timeAt(number))} s (event ${run.indexOf(number)})`;
+  const end = span.to === null ? 'the end of the run' : placeOf(span.to);
   const parts = [
     html('strong', '', span.behavior),
     html('p', '', `performs ${span.task}, ${run.story.whyRuns(span.from, span.task) || span.cause}`),
-    html('p', '', `from ${formatTime(event.time)} s (event ${span.from}) to ${end}`),
+    html('p', '', `from ${placeOf(span.from)} to ${end}`),
   ];
   const nameOf = { replaced: ['replaces', 'replaced by'], way: ['in place of', 'gives way to'] };
   for (const link of run.linksOf[span.from]) {

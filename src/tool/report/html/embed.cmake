@@ -1,4 +1,5 @@
-# Makes a C++ header of the files of the page: two lists of texts, before its data and after it.
+# Makes a C++ header of the files of the page: its beginning, up to what it may connect to, and two lists
+# of texts, before its data and after it.
 #
 #   cmake -D folder=FOLDER -D output=HEADER -P embed.cmake
 #
@@ -11,7 +12,7 @@ set(scripts
     text.js catalog.js run.js story.js # what is known
     ink.js view.js marks.js rows.js painter.js timeline.js gestures.js minimap.js # the timeline
     state_graph.js details.js events_table.js search.js overview.js legend.js # beside it
-    address.js page.js)
+    address.js live.js page.js)
 
 # The base64 form of a SHA-256 hash in hexadecimal.
 function(to_base64 hash result)
@@ -49,7 +50,7 @@ read_parts(script ${scripts})
 file(READ "${folder}/page.html" page)
 string(REPLACE "{{style-hash}}" "${style_hash}" page "${page}")
 string(REPLACE "{{script-hash}}" "${script_hash}" page "${page}")
-foreach(marker style data script)
+foreach(marker sources style data script)
   string(FIND "${page}" "{{${marker}}}" end)
   string(SUBSTRING "${page}" 0 ${end} before_${marker})
   string(LENGTH "{{${marker}}}" length)
@@ -61,6 +62,9 @@ file(WRITE "${output}" "#pragma once
 #include <string_view>
 
 namespace cbc {
+
+inline constexpr std::string_view page_before_sources =
+    R\"page(${before_sources})page\";
 
 inline constexpr std::string_view page_before_data[] = {
     R\"page(${before_style})page\",

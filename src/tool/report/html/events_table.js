@@ -20,24 +20,61 @@ class EventsTable {
   show(run) {
     this.run = run;
     this.chosen = 0;
-    this.rows = run.events.map((event, place) => this.makeRow(event, place + 1));
+    this.rows = [];
     this.observer.disconnect();
     for (const body of [...this.table.tBodies]) body.remove();
     this.unfilled = new Set();
-    for (let begin = 0; begin < this.rows.length; begin += chunkSize) {
-      const body = html('tbody', '', ...this.rows.slice(begin, begin + chunkSize));
-      body.setAttribute('role', 'rowgroup');
-      this.unfilled.add(body);
-      this.table.append(body);
-      this.observer.observe(body);
+    this.grow();
+  }
+
+  /** Adds the rows of further events. */
+  grow() {
+    this.fitColumns();
+    while (this.rows.length < this.run.size) {
+      let body = this.table.tBodies[this.table.tBodies.length - 1];
+      if (body === undefined || body.rows.length >= chunkSize) body = this.makeBody();
+      const row = this.makeRow(this.rows.length + 1);
+      this.rows.push(row);
+      body.append(row);
+      if (!this.unfilled.has(body)) this.fillRow(row);
     }
   }
 
-  makeRow(event, number) {
-    const button = html('button', '', `${number}`);
+  /** An expectation after an event failed. */
+  noteFailure(number) {
+    const old = this.rows[number - 1];
+    const row = this.makeRow(number);
+    this.rows[number - 1] = row;
+    old.replaceWith(row);
+    if (!this.unfilled.has(row.parentElement)) this.fillRow(row);
+    if (this.chosen === number) this.mark(number, true);
+  }
+
+  /** Gives numbers and times the room that the last ones need, which are the longest. */
+  fitColumns() {
+    const { run, table } = this;
+    const time = run.size === 0 ? '' : formatTime(run.timeAt(run.size));
+    const widthOf = (text, least) => `${Math.max(least, 1.4 + 0.65 * text.length)}em`;
+    table.style.setProperty('--number-width', widthOf(`${run.indexOf(run.size)}`, 3.8));
+    table.style.setProperty('--time-width', widthOf(time, 6.6));
+  }
+
+  makeBody() {
+    const body = html('tbody');
+    body.setAttribute('role', 'rowgroup');
+    this.unfilled.add(body);
+    this.table.append(body);
+    this.observer.observe(body);
+    return body;
+  }
+
+  makeRow(number) {
+    const event = this.run.event(number);
+    const index = this.run.indexOf(number);
+    const button = html('button', '', `${index}`);
     button.type = 'button';
     button.tabIndex = -1;
-    button.setAttribute('aria-label', `Event ${number}`);
+    button.setAttribute('aria-label', `Event ${index}`);
     const look = this.run.isFailed(number) ? 'is-failed' : this.run.isRejected(number) ? 'rejected' : '';
     const row = html('tr', look,
       html('td', '', button),
@@ -55,11 +92,13 @@ class EventsTable {
   fill(body) {
     if (!this.unfilled.delete(body)) return;
     this.observer.unobserve(body);
-    for (const row of body.rows) {
-      const number = Number(row.dataset.event);
-      row.cells[2].replaceChildren(breakable(row.cells[2].textContent));
-      row.querySelector('.story').append(...reasonElements(this.run.event(number)), ...sentenceElements(this.run, number));
-    }
+    for (const row of body.rows) this.fillRow(row);
+  }
+
+  fillRow(row) {
+    const number = Number(row.dataset.event);
+    row.cells[2].replaceChildren(breakable(row.cells[2].textContent));
+    row.querySelector('.story').append(...reasonElements(this.run.event(number)), ...sentenceElements(this.run, number));
   }
 
   fillAll() {

@@ -1,6 +1,7 @@
 // Signs and what they mean. Situations and waiting tasks are explained only if a run has them.
 
-function fillLegend(legend, runs) {
+/** `goesOn`: whatever may come is explained. */
+function fillLegend(legend, runs, goesOn = false) {
   const item = (width, draw, text) => {
     const ink = new SvgInk(true);
     ink.begin(width, 18);
@@ -24,7 +25,7 @@ function fillLegend(legend, runs) {
   item(26, (ink) => ink.rect('off', 1, 5, 24, 6), 'cannot be activated');
   const hasVariables = runs.some((run) => run.catalog.variables.size > 0);
   if (hasVariables) item(26, (ink) => ink.rect('value', 1, 2, 24, 12), 'value of a situation variable');
-  if (runs.some((run) => run.waitings.length > 0)) {
+  if (goesOn || runs.some((run) => run.waitings.length > 0)) {
     item(26, (ink) => ink.line('waiting', 1, 8, 25, 8), 'reactive task that waits');
   }
   link('link', 'replaced in the same task');
@@ -35,7 +36,7 @@ function fillLegend(legend, runs) {
   glyph(glyphs.bad, '-bad', 'failed or rejected');
   mark('accepted', '1', 24, 'event, accepted');
   mark('rejected', '\u00d7 1', 24, 'rejected');
-  if (runs.some((run) => run.failures.size > 0)) mark('failed', '! 1', 24, 'an expectation failed after it');
+  if (goesOn || runs.some((run) => run.failures.size > 0)) mark('failed', '! 1', 24, 'an expectation failed after it');
   mark('unchanged', '1', 24, 'changes no behavior');
   mark('fold', '9 events', 58, 'folded: zoom in, or click');
   legend.append(html('span', '', hasVariables

@@ -10,12 +10,24 @@ const foldWidth = 68;
 class Marks {
   constructor(run) {
     this.run = run;
-    const others = [];
+    this.others = [];
     this.problems = [];
-    for (let number = 1; number <= run.size; ++number) {
-      (run.isRejected(number) || run.isFailed(number) ? this.problems : others).push(this.single(number));
+    this.grow();
+  }
+
+  /** Makes the marks of further events. */
+  grow() {
+    const { run, others, problems } = this;
+    for (let number = others.length + problems.length + 1; number <= run.size; ++number) {
+      (run.isRejected(number) || run.isFailed(number) ? problems : others).push(this.single(number));
     }
-    this.others = others;
+    this.lanesKey = null;
+  }
+
+  /** An expectation after the last event failed. */
+  noteFailure(number) {
+    for (const list of [this.others, this.problems]) if (list.at(-1)?.numbers[0] === number) list.pop();
+    this.grow();
   }
 
   single(number) {
@@ -23,7 +35,7 @@ class Marks {
     const suffix = { timeout: ' t', reactive: ' r', situation: ' s', fault: ' f' }[event.origin] ?? '';
     const isFailed = this.run.isFailed(number);
     const sign = isFailed ? '! ' : event.outcome === 'rejected' ? '\u00d7 ' : '';
-    const text = `${sign}${number}${suffix}`;
+    const text = `${sign}${this.run.indexOf(number)}${suffix}`;
     const look = isFailed ? 'failed' : event.outcome;
     return { numbers: [number], text, look, width: Math.max(17, measure(text, looks[`${look}-text`].style) + 9) };
   }

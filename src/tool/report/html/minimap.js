@@ -62,7 +62,7 @@ class Minimap {
 
   /** The events in each column of three pixels; kept until something changes. */
   count(run, view) {
-    const key = `${view.scale} ${view.width}`;
+    const key = `${run.size} ${view.scale} ${view.width}`;
     if (this.counted?.run === run && this.counted.key === key) return this.counted;
     const list = new Map();
     for (let number = 1; number <= run.size; ++number) {

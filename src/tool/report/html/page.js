@@ -16,7 +16,7 @@ class Page {
     this.overview = new Overview(
       { section: byId('overview'), summary: byId('overview-summary'), body: byId('missions').tBodies[0] }, runs,
       (place) => this.show(place));
-    this.address = new Address(runs, ({ place, number }) => this.show(place, number));
+    this.address = new Address(runs, ({ place, index }) => this.show(place, this.numberAt(place, index)));
     fillLegend(byId('legend'), runs);
     byId('legend-fold').open = innerWidth >= 900 && innerHeight >= 1100;
     byId('wants-graph').checked = innerWidth >= 1400;
@@ -30,7 +30,12 @@ class Page {
   showFirst() {
     const wanted = this.address.read();
     const failed = this.runs.findIndex((run) => run.hasFailed);
-    this.show(wanted?.place ?? Math.max(0, failed), wanted?.number);
+    const place = wanted?.place ?? Math.max(0, failed);
+    this.show(place, this.numberAt(place, wanted?.index));
+  }
+
+  numberAt(place, index) {
+    return index === undefined || index === null ? null : this.runs[place].numberOf(index);
   }
 
   setUpControls() {
@@ -132,61 +137,137 @@ class Page {
     this.found = null;
     for (const id of ['search', 'outcome']) byId(id).value = '';
     byId('found').textContent = '';
-    const { script, catalog, expectations, error } = run.data;
-    document.title = `${run.hasFailed ? '\u00d7 ' : ''}${script} \u2013 cbc solve`;
-    byId('title').textContent = script;
-    byId('subtitle').textContent = `catalog ${catalog}`;
-    const count = (outcome) => run.events.filter((event) => isAsked(event) && event.outcome === outcome).length;
-    const [accepted, rejected] = [count('accepted'), count('rejected')];
-    const others = run.size - accepted - rejected;
-    byId('counts').textContent = `${quantity(run.size, 'event')}: ${accepted} accepted, ${rejected} rejected` +
-      (others > 0 ? `, ${others} neither` : '') +
-      ` \u00b7 expectations: ${expectations.passed} passed, ${expectations.failed} failed`;
-    const alarms = [...expectations.failures.map((failure) => this.alarm(failure)),
-                    ...(error === undefined ? [] : [html('p', 'alarm', `the run ended early: ${error}`)])];
-    byId('alarms').replaceChildren(...alarms);
-    byId('alarms').hidden = alarms.length === 0;
-    for (const id of ['problem-back', 'problem-next']) byId(id).disabled = run.problems.length === 0;
-    this.slider.max = Math.max(1, run.size);
+    byId('title').textContent = run.data.script;
+    byId('subtitle').textContent = `catalog ${run.data.catalog}`;
     byId('names').replaceChildren(...[...run.catalog.taskPlace.keys(), ...run.catalog.behaviors.keys()]
       .map((name) => Object.assign(document.createElement('option'), { value: name })));
+    this.fillCounts();
     this.table.show(run);
     this.timeline.show(run, Math.min(1, run.size));
     byId('scale').value = this.timeline.view.scale;
   }
 
+  /** What changes with further events, but for the picture and the table. */
+  fillCounts() {
+    const { run } = this;
+    const { script, expectations, error } = run.data;
+    document.title = `${run.hasFailed ? '\u00d7 ' : ''}${script} \u2013 cbc solve`;
+    const count = (outcome) => run.events.filter((event) => isAsked(event) && event.outcome === outcome).length;
+    const [accepted, rejected] = [count('accepted'), count('rejected')];
+    const others = run.size - accepted - rejected;
+    byId('counts').textContent = `${quantity(run.size, 'event')}: ${accepted} accepted, ${rejected} rejected` +
+      (others > 0 ? `, ${others} neither` : '') +
+      (this.live !== undefined && expectations.passed + expectations.failed === 0 ? ''
+        : ` \u00b7 expectations: ${expectations.passed} passed, ${expectations.failed} failed`);
+    const alarms = [...expectations.failures.map((failure) => this.alarm(failure)),
+                    ...(this.live?.refusalTexts() ?? []).map((text) => html('p', 'alarm', text)),
+                    ...(error === undefined ? [] : [html('p', 'alarm', `the run ended early: ${error}`)])];
+    byId('alarms').replaceChildren(...alarms);
+    byId('alarms').hidden = alarms.length === 0;
+    for (const id of ['problem-back', 'problem-next']) byId(id).disabled = run.problems.length === 0;
+    this.slider.max = Math.max(1, run.size);
+    for (const id of ['first', 'back', 'next', 'last', 'slider']) byId(id).disabled = run.size === 0;
+  }
+
+  /** Shows the run that goes on at the server. */
+  follow(token) {
+    this.live = new Live(this, this.run, token, {
+      bar: byId('live'), state: byId('live-state'), note: byId('live-note'), newest: byId('newest'),
+    }, this.address.read()?.index || null);
+    fillLegend(byId('legend'), this.runs, true);
+    this.fillCounts();
+  }
+
+  /** Adds events to the run that is shown, and what failed after these or after those that are there. */
+  growRun(events, failures) {
+    const { run, table, timeline } = this;
+    for (const failure of failures) {
+      run.noteFailure(failure);
+      run.data.expectations.failures.push(failure);
+      const number = run.numberOf(failure.index);
+      if (number < 1 || number > run.size) continue;
+      table.noteFailure(number);
+      timeline.noteFailure(number);
+      if (number === this.number) this.fillEvent();
+    }
+    if (events.length > 0) {
+      run.append(events);
+      table.grow();
+      timeline.grow();
+      byId('scale').value = timeline.view.scale;
+      if (this.found !== null) this.search();
+      byId('status').setAttribute('aria-live', 'off'); // only the number of events has changed
+      if (this.number > 0) this.tellEvent();
+    }
+    this.fillCounts();
+  }
+
+  /** Shows another run in place of the one that is shown, with what they have in common. */
+  replaceRun(run) {
+    const index = this.run.indexOf(this.number);
+    const [text, outcome] = ['search', 'outcome'].map((id) => byId(id).value);
+    this.runs[this.place] = run;
+    this.run = run;
+    const before = this.timeline.view;
+    this.fillRun(run);
+    this.timeline.keepView(before);
+    [byId('search').value, byId('outcome').value] = [text, outcome];
+    this.search();
+    this.choose(run.numberOf(index), true);
+  }
+
+  chooseNewest() {
+    this.choose(this.run.size, true);
+    this.address.clear();
+  }
+
   alarm(failure) {
     const line = failureElement(this.run, failure);
     const { index } = failure;
-    if (index > 0) line.append(' after ', buttonElement(`event ${index}`, () => this.choose(index)));
+    const number = this.run.numberOf(index);
+    if (number > 0) line.append(' after ', buttonElement(`event ${index}`, () => this.choose(number)));
     return line;
   }
 
-  choose(wanted) {
+  /** `isAutomatic`: nobody asked for it, so the address does not change, and nothing is announced. */
+  choose(wanted, isAutomatic = false) {
     const { run } = this;
-    for (const id of ['first', 'back', 'next', 'last', 'slider']) byId(id).disabled = run.size === 0;
-    this.address.write(this.place, run.size === 0 ? 0 : Math.min(run.size, Math.max(1, wanted)));
+    const number = Math.min(run.size, Math.max(1, wanted));
+    byId('status').setAttribute('aria-live', isAutomatic ? 'off' : 'polite');
+    if (!isAutomatic) {
+      this.address.write(this.place, number === 0 ? 0 : run.indexOf(number));
+      this.live?.onChoice(number);
+    }
     if (run.size === 0) {
       this.tell('No events.');
       for (const id of ['detail-body', 'state-body', 'graph-body']) byId(id).replaceChildren();
       return;
     }
-    const number = Math.min(run.size, Math.max(1, wanted));
     if (number === this.number) return;
     this.number = number;
     this.table.choose(number);
+    this.fillEvent();
+    byId('detail').scrollTop = 0;
+    this.timeline.choose(number);
+  }
+
+  tellEvent() {
+    const { run, number } = this;
     const event = run.event(number);
     const outcome = isAsked(event) ? ` \u00b7 ${event.outcome}` : '';
     const failed = run.isFailed(number) ? ' \u00b7 failed expectation' : '';
-    this.tell(`Event ${number} of ${run.size} \u00b7 ${formatTime(event.time)} s \u00b7 ` +
+    this.tell(`Event ${run.indexOf(number)} of ${run.indexOf(run.size)} \u00b7 ${formatTime(event.time)} s \u00b7 ` +
       `${describeEvent(event, run.catalog)}${outcome}${failed}`);
     this.slider.value = number;
     this.slider.setAttribute('aria-valuetext', byId('status').textContent);
+  }
+
+  fillEvent() {
+    const { run, number } = this;
+    this.tellEvent();
     fillDetail({ title: byId('detail-title'), body: byId('detail-body') }, run, number, (other) => this.choose(other));
-    byId('detail').scrollTop = 0;
     fillState(byId('state-body'), run, number);
     this.fillGraph();
-    this.timeline.choose(number);
   }
 
   tell(text) {
@@ -259,4 +340,6 @@ class Page {
   }
 }
 
-const page = new Page(readRuns(JSON.parse(byId('data').textContent)));
+const pageData = JSON.parse(byId('data').textContent);
+const page = new Page(readRuns(pageData));
+if (pageData.live !== undefined) page.follow(pageData.live);

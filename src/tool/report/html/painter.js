@@ -372,7 +372,7 @@ class Painter {
   /** From long to short. */
   rejectionTexts(event) {
     const messages = event.conflict.map((reason) => reason.message);
-    const outcome = this.run.beginsToWait(event.index) ? 'waits' : 'rejected';
+    const outcome = this.run.beginsToWait(this.run.numberOf(event.index)) ? 'waits' : 'rejected';
     if (messages.length < 2) return [`${outcome}: ${messages[0] ?? 'no solution found'}`];
     const main = event.conflict.find((reason) => reason.kind === 'protected')?.message ?? messages[0];
     return [`${outcome}: ${messages.join('; ')}`, `${outcome}: ${main} (${messages.length} reasons together)`];

@@ -9,6 +9,7 @@ class Rows {
   /** `wantsAll`: those of the whole catalog, not only of what occurs. `wanted`: whether a name is asked
    * for, or null; if any is, tasks without such a name have no rows. */
   constructor(run, wantsAll, wanted) {
+    this.run = run;
     this.list = []; // {variable | task [, behavior], y, height}
     this.places = new Map();
     let y = 0;
@@ -30,8 +31,18 @@ class Rows {
     for (const row of this.list) {
       if (row.behavior !== undefined) this.ofBehavior.set(row.behavior, [...(this.ofBehavior.get(row.behavior) ?? []), row]);
     }
-    this.ofSpan = run.spans.map((span) => this.find(span.task, span.behavior)); // undefined: not shown
-    run.spans.forEach((span, place) => this.ofSpan[place]?.spans.push(span));
+    this.ofSpan = []; // undefined: not shown
+    this.addSpans();
+  }
+
+  /** Finds the rows of further spans. */
+  addSpans() {
+    const { spans } = this.run;
+    for (let place = this.ofSpan.length; place < spans.length; ++place) {
+      const row = this.find(spans[place].task, spans[place].behavior);
+      this.ofSpan.push(row);
+      row?.spans.push(spans[place]);
+    }
   }
 
   chosenTasks(tasks, wanted) {

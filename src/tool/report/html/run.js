@@ -7,22 +7,50 @@ function causeOf(priority) {
   return priority === 0 ? 'reactive' : 'requested';
 }
 
+const newState = { index: 0, time: 0, running: {}, requests: {}, queue: {}, faulty: [] };
+
 class Run {
-  /** `data`: a run of the report; `extra`: the situation before it. */
-  constructor(data, catalog, extra) {
+  /** `data`: a run of the report; `begin`: the situation before it, and the state, if there is one. Events
+   * can be added later. Their numbers count from 1; the index of an event is that of the report, which
+   * may count events that are not here. */
+  constructor(data, catalog, begin) {
     this.data = data;
     this.catalog = catalog;
-    this.events = data.events;
-    this.situation = extra.situation;
-    this.failures = new Map(); // of each index: the messages
-    for (const failure of data.expectations.failures) {
-      this.failures.set(failure.index, [...(this.failures.get(failure.index) ?? []), failure]);
-    }
-    this.readSituations();
-    this.readWaiting();
-    this.readSpans();
-    this.readLinks();
+    this.begin = { ...newState, time: Math.min(0, data.events[0]?.time ?? 0), ...begin };
+    this.events = [];
+    this.failures = new Map(); // of each number: the failed expectations
+    this.problems = []; // numbers of events that were rejected or after which an expectation failed
+    this.mostAtOnce = 1; // events at one moment
     this.story = new Story(this);
+    this.setUpSituations();
+    this.setUpWaiting();
+    this.setUpSpans();
+    this.links = [];
+    this.linksOf = [[]];
+    this.setUpShown();
+    for (const failure of data.expectations.failures) this.noteFailure(failure);
+    this.append(data.events);
+  }
+
+  append(events) {
+    for (const event of events) {
+      this.events.push(event);
+      const number = this.size;
+      this.readSituations(number);
+      this.readWaiting(number);
+      this.readSpans(number);
+      this.readLinks(number);
+      this.readShown(event);
+      this.countSimultaneous(number);
+      if (this.isRejected(number) || this.isFailed(number)) this.problems.push(number);
+    }
+  }
+
+  /** An expectation failed after the last event, or after one that is added later. */
+  noteFailure(failure) {
+    const number = this.numberOf(failure.index);
+    this.failures.set(number, [...(this.failures.get(number) ?? []), failure]);
+    if (number >= 1 && number <= this.size && this.problems.at(-1) !== number) this.problems.push(number);
   }
 
   /** Whether the mission failed: an expectation did, or the run ended early. */
@@ -39,17 +67,9 @@ class Run {
     return this.failures.has(number);
   }
 
-  /** The events that were rejected or after which an expectation failed, in order. */
-  get problems() {
-    this.problemList ??= this.events.map((_, place) => place + 1)
-      .filter((number) => this.isRejected(number) || this.isFailed(number));
-    return this.problemList;
-  }
-
   /** The event to look at first: the first failure, or the first event. */
   get firstOfInterest() {
-    const failed = this.data.expectations.failures.map((failure) => failure.index);
-    if (failed.length > 0) return Math.max(1, Math.min(...failed));
+    if (this.failures.size > 0) return Math.max(1, Math.min(...this.failures.keys()));
     return this.data.error === undefined ? 1 : Math.max(1, this.size);
   }
 
@@ -61,95 +81,127 @@ class Run {
     return this.events[number - 1];
   }
 
-  /** Task -> behavior after an event; number 0 is the state before all. */
+  /** The number of the event with an index. */
+  numberOf(index) {
+    return index - this.begin.index;
+  }
+
+  /** The index of an event, by which people know it. */
+  indexOf(number) {
+    return this.begin.index + number;
+  }
+
+  /** What is known after an event; number 0 is before all. */
+  stateAt(number) {
+    return number === 0 ? this.begin : this.event(number);
+  }
+
+  timeAt(number) {
+    return this.stateAt(number).time;
+  }
+
+  /** Task -> behavior after an event. */
   running(number) {
-    return number === 0 ? {} : this.event(number).running;
+    return this.stateAt(number).running;
   }
 
   requests(number) {
-    return number === 0 ? {} : this.event(number).requests;
+    return this.stateAt(number).requests;
   }
 
   /** The values of the situation variables, and the behaviors that a script made unavailable, that do
    * not fit, and that are faulty, after each event; and when that was so. */
-  readSituations() {
-    this.outages = []; // {behavior, kind, from, to}: numbers of events, `to` null at the end
-    const open = { unavailable: new Map(), 'does not fit': new Map(), faulty: new Map() };
-    const set = (kind, behavior, isOut, number) => {
-      const outage = open[kind].get(behavior);
-      if (isOut && outage === undefined) {
-        const begun = { behavior, kind, from: number, to: null };
-        open[kind].set(behavior, begun);
-        this.outages.push(begun);
-      } else if (!isOut && outage !== undefined) {
-        outage.to = number;
-        open[kind].delete(behavior);
-      }
-    };
+  setUpSituations() {
     const { variables, behaviors } = this.catalog;
-    const conditional = [...behaviors.keys()].filter((name) => Object.keys(behaviors.get(name).situation).length > 0);
-    const values = new Map([...variables].map(([name, known]) => [name, known[0]]));
+    this.outages = []; // {behavior, kind, from, to}: numbers of events, `to` null at the end
+    this.openOutages = { unavailable: new Map(), 'does not fit': new Map(), faulty: new Map() };
+    this.conditional = [...behaviors.keys()].filter((name) => Object.keys(behaviors.get(name).situation).length > 0);
+    this.present = new Map([...variables].map(([name, known]) => [name, known[0]]));
     this.values = []; // of each event: variable -> value
     this.valueSpans = []; // {variable, value, from, to}
-    const last = new Map(); // of each variable: its span
-    const readSituation = (situation, number) => {
-      for (const [name, value] of Object.entries(situation)) {
-        if (variables.has(name)) {
-          values.set(name, value);
-        } else {
-          set('unavailable', name, !value, number);
-        }
-      }
-      for (const [variable, value] of values) {
-        const span = last.get(variable);
-        if (span?.value === value) continue;
-        if (span !== undefined) span.to = number;
-        last.set(variable, { variable, value, from: number, to: null });
-        this.valueSpans.push(last.get(variable));
-      }
-      for (const name of conditional) {
-        set('does not fit', name, this.catalog.findMisfit(name, values) !== undefined, number);
-      }
-      this.values.push(new Map(values));
-    };
-    readSituation(this.situation, 0);
+    this.lastValues = new Map(); // of each variable: its span
     this.unavailable = [];
     this.misfits = [];
     this.faulty = [];
-    for (let number = 0; number <= this.size; ++number) {
-      const event = this.event(number) ?? {};
-      if (event.verb === 'situation') {
-        readSituation(event.situation ?? {}, number);
-      } else if (number > 0) {
-        this.values.push(this.values.at(-1));
-      }
-      if (event.verb === 'fault') set('faulty', event.name, true, number);
-      if (event.verb === 'repair') set('faulty', event.name, false, number);
-      this.unavailable.push(this.catalog.sortBehaviors(open.unavailable.keys()));
-      this.misfits.push(this.catalog.sortBehaviors(open['does not fit'].keys()));
-      this.faulty.push(this.catalog.sortBehaviors(open.faulty.keys()));
+    this.readSituation(this.begin.situation, 0);
+    for (const behavior of this.begin.faulty) this.setOutage('faulty', behavior, true, 0);
+    this.noteOutages();
+  }
+
+  setOutage(kind, behavior, isOut, number) {
+    const open = this.openOutages[kind];
+    const outage = open.get(behavior);
+    if (isOut && outage === undefined) {
+      const begun = { behavior, kind, from: number, to: null };
+      open.set(behavior, begun);
+      this.outages.push(begun);
+    } else if (!isOut && outage !== undefined) {
+      outage.to = number;
+      open.delete(behavior);
     }
   }
 
-  /** Which reactive tasks wait for a change of their group after each event; when, and why. */
-  readWaiting() {
-    this.waitings = []; // {task, from, to}: from the rejected start on
-    this.waiting = [[]];
-    const open = new Map();
-    for (let number = 1; number <= this.size; ++number) {
-      const event = this.event(number);
-      for (const [task, due] of Object.entries(event.queue)) {
-        if (due !== null || open.has(task)) continue;
-        open.set(task, { task, from: number, to: null });
-        this.waitings.push(open.get(task));
+  readSituation(situation, number) {
+    for (const [name, value] of Object.entries(situation)) {
+      if (this.catalog.variables.has(name)) {
+        this.present.set(name, value);
+      } else {
+        this.setOutage('unavailable', name, !value, number);
       }
-      for (const [task, wait] of open) {
-        if (get(event.queue, task) !== undefined) continue;
-        wait.to = number;
-        open.delete(task);
-      }
-      this.waiting.push(this.catalog.sortTasks(open.keys()));
     }
+    for (const [variable, value] of this.present) {
+      const span = this.lastValues.get(variable);
+      if (span?.value === value) continue;
+      if (span !== undefined) span.to = number;
+      this.lastValues.set(variable, { variable, value, from: number, to: null });
+      this.valueSpans.push(this.lastValues.get(variable));
+    }
+    for (const name of this.conditional) {
+      this.setOutage('does not fit', name, this.catalog.findMisfit(name, this.present) !== undefined, number);
+    }
+    this.values.push(new Map(this.present));
+  }
+
+  noteOutages() {
+    const { unavailable, faulty, 'does not fit': misfits } = this.openOutages;
+    this.unavailable.push(this.catalog.sortBehaviors(unavailable.keys()));
+    this.misfits.push(this.catalog.sortBehaviors(misfits.keys()));
+    this.faulty.push(this.catalog.sortBehaviors(faulty.keys()));
+  }
+
+  readSituations(number) {
+    const event = this.event(number);
+    if (event.verb === 'situation') {
+      this.readSituation(event.situation ?? {}, number);
+    } else {
+      this.values.push(this.values.at(-1));
+    }
+    if (event.verb === 'fault') this.setOutage('faulty', event.name, true, number);
+    if (event.verb === 'repair') this.setOutage('faulty', event.name, false, number);
+    this.noteOutages();
+  }
+
+  /** Which reactive tasks wait for a change of their group after each event; when, and why. */
+  setUpWaiting() {
+    this.waitings = []; // {task, from, to}: from the rejected start on
+    this.waiting = []; // of each event: tasks
+    this.openWaitings = new Map();
+    this.readWaiting(0);
+  }
+
+  readWaiting(number) {
+    const { queue } = this.stateAt(number);
+    for (const [task, due] of Object.entries(queue)) {
+      if (due !== null || this.openWaitings.has(task)) continue;
+      this.openWaitings.set(task, { task, from: number, to: null });
+      this.waitings.push(this.openWaitings.get(task));
+    }
+    for (const [task, wait] of this.openWaitings) {
+      if (get(queue, task) !== undefined) continue;
+      wait.to = number;
+      this.openWaitings.delete(task);
+    }
+    this.waiting.push(this.catalog.sortTasks(this.openWaitings.keys()));
   }
 
   /** Whether the reactive start of a task was rejected by an event, so that it waits from then on. */
@@ -159,34 +211,33 @@ class Run {
   }
 
   /** When each task was performed by which behavior, and why: a span for each stretch of both. */
-  readSpans() {
+  setUpSpans() {
     this.spans = [];
-    const open = new Map();
-    const restarted = (event, task) =>
-      event.changes.some((change) => change.cause === 'restarted' && change.op === 'activate' &&
-                                     change.tasks.includes(task));
-    for (let number = 1; number <= this.size; ++number) {
-      const event = this.event(number);
-      for (const [task, span] of open) {
-        const behavior = get(event.running, task);
-        const priority = get(event.requests, task);
-        if (span.behavior === behavior && span.priority === priority && !restarted(event, task)) {
-          this.noteRequirers(span, number);
-          continue;
-        }
-        span.to = number;
-        open.delete(task);
-      }
-      for (const [task, behavior] of Object.entries(event.running)) {
-        if (open.has(task)) continue;
-        const priority = get(event.requests, task);
-        const span = { task, behavior, priority, cause: causeOf(priority), from: number, to: null };
-        span.requirers = []; // {from, names}: each from an event on
+    this.openSpans = new Map();
+    this.readSpans(0);
+  }
+
+  readSpans(number) {
+    const { running, requests, changes = [] } = this.stateAt(number);
+    const restarted = (task) => changes.some((change) =>
+      change.cause === 'restarted' && change.op === 'activate' && change.tasks.includes(task));
+    for (const [task, span] of this.openSpans) {
+      if (span.behavior === get(running, task) && span.priority === get(requests, task) && !restarted(task)) {
         this.noteRequirers(span, number);
-        span.isRestart = restarted(event, task);
-        open.set(task, span);
-        this.spans.push(span);
+        continue;
       }
+      span.to = number;
+      this.openSpans.delete(task);
+    }
+    for (const [task, behavior] of Object.entries(running)) {
+      if (this.openSpans.has(task)) continue;
+      const priority = get(requests, task);
+      const span = { task, behavior, priority, cause: causeOf(priority), from: number, to: null };
+      span.requirers = []; // {from, names}: each from an event on
+      this.noteRequirers(span, number);
+      span.isRestart = restarted(task);
+      this.openSpans.set(task, span);
+      this.spans.push(span);
     }
   }
 
@@ -204,72 +255,73 @@ class Run {
   }
 
   /** Which behavior follows which at an event: in the same task, or in one that excludes it. */
-  readLinks() {
-    this.links = [];
-    this.linksOf = [[]];
-    for (let number = 1; number <= this.size; ++number) {
-      const before = this.running(number - 1);
-      const after = this.running(number);
-      const links = [];
-      const begun = Object.keys(after).filter((task) => get(before, task) === undefined);
-      for (const [task, behavior] of Object.entries(before)) {
-        const next = get(after, task);
-        const from = { task, behavior };
-        if (next !== undefined && next !== behavior) {
-          links.push({ number, kind: 'replaced', from, to: { task, behavior: next } });
-        }
-        if (next !== undefined) continue;
-        for (const other of begun.filter((name) => this.catalog.excludes(task, name))) {
-          links.push({ number, kind: 'way', from, to: { task: other, behavior: after[other] } });
-        }
+  readLinks(number) {
+    const before = this.running(number - 1);
+    const after = this.running(number);
+    const links = [];
+    const begun = Object.keys(after).filter((task) => get(before, task) === undefined);
+    for (const [task, behavior] of Object.entries(before)) {
+      const next = get(after, task);
+      const from = { task, behavior };
+      if (next !== undefined && next !== behavior) {
+        links.push({ number, kind: 'replaced', from, to: { task, behavior: next } });
       }
-      this.linksOf.push(links);
-      this.links.push(...links);
+      if (next !== undefined) continue;
+      for (const other of begun.filter((name) => this.catalog.excludes(task, name))) {
+        links.push({ number, kind: 'way', from, to: { task: other, behavior: after[other] } });
+      }
+    }
+    this.linksOf.push(links);
+    this.links.push(...links);
+  }
+
+  /** The tasks and behaviors that were active or asked for. */
+  setUpShown() {
+    this.shown = new Map(); // task -> behaviors
+    this.shownCount = 0;
+    for (const [task, behavior] of Object.entries(this.begin.running)) this.noteShown(task, behavior);
+    for (const task of Object.keys(this.begin.queue)) if (this.begin.queue[task] === null) this.noteShown(task);
+  }
+
+  noteShown(task, behavior) {
+    if (!this.catalog.taskPlace.has(task)) return;
+    let behaviors = this.shown.get(task);
+    if (behaviors === undefined) {
+      behaviors = new Set();
+      this.shown.set(task, behaviors);
+      ++this.shownCount;
+    }
+    if (behavior === undefined || behaviors.has(behavior)) return;
+    behaviors.add(behavior);
+    ++this.shownCount;
+  }
+
+  readShown(event) {
+    for (const [task, behavior] of Object.entries(event.running)) this.noteShown(task, behavior);
+    for (const [task, due] of Object.entries(event.queue)) if (due === null) this.noteShown(task);
+    if (event.verb === 'start' || event.verb === 'stop') this.noteShown(event.name);
+    for (const change of event.changes) {
+      for (const task of change.tasks) this.noteShown(task, change.behavior);
     }
   }
 
   /** The tasks with their behaviors that have rows: those that were active or asked for, or all. */
   rows(wantsAll) {
-    const tasks = new Map();
-    const add = (task, behavior) => {
-      if (!this.catalog.taskPlace.has(task)) return;
-      if (!tasks.has(task)) tasks.set(task, new Set());
-      if (behavior !== undefined) tasks.get(task).add(behavior);
-    };
-    for (const span of this.spans) add(span.task, span.behavior);
-    for (const wait of this.waitings) add(wait.task);
-    for (const event of this.events) {
-      if (event.verb === 'start' || event.verb === 'stop') add(event.name);
-      for (const change of event.changes) {
-        for (const task of change.tasks) add(task, change.behavior);
-      }
-    }
-    if (wantsAll) {
-      for (const [task, behaviors] of this.catalog.performers) {
-        add(task);
-        for (const behavior of behaviors) add(task, behavior);
-      }
-    }
+    const tasks = wantsAll ? this.catalog.performers : this.shown;
     return this.catalog.sortTasks(tasks.keys())
       .map((task) => ({ task, behaviors: this.catalog.sortBehaviors(tasks.get(task)) }));
   }
 
-  /** How many events happen at one moment, at most. */
-  get mostAtOnce() {
-    if (this.most !== undefined) return this.most;
-    let most = 1;
-    let begin = 1;
-    for (let number = 1; number <= this.size; ++number) {
-      if (this.event(number).time !== this.event(begin).time) begin = number;
-      most = Math.max(most, number - begin + 1);
-    }
-    this.most = most;
-    return most;
+  countSimultaneous(number) {
+    this.atOnce = number > 1 && this.timeAt(number - 1) === this.timeAt(number) ? this.atOnce + 1 : 1;
+    this.mostAtOnce = Math.max(this.mostAtOnce, this.atOnce);
   }
 }
 
 function readRuns(data) {
   const catalogs = data.catalogs.map((catalog) => new Catalog(catalog));
-  return data.report.runs.map(
-    (run, place) => new Run(run, catalogs[data.runs[place].catalog], data.runs[place]));
+  return data.report.runs.map((run, place) => {
+    const { catalog, situation, state } = data.runs[place];
+    return new Run(run, catalogs[catalog], { situation, ...state });
+  });
 }

@@ -163,7 +163,7 @@ function fillGraph(body, run, number) {
   const tasks = [...graph.nodes.values()].filter((node) => node.change !== 'stopped').map((node) => node.task);
   const svg = svgElement('svg', {
     width: width * scale, height: height * scale, viewBox: `0 0 ${width} ${height}`, role: 'img',
-    'aria-label': `Graph of the tasks that run after event ${number}: ${tasks.join(', ') || 'none'}. ` +
+    'aria-label': `Graph of the tasks that run after event ${run.indexOf(number)}: ${tasks.join(', ') || 'none'}. ` +
       'The table of the state has the same content.',
   });
   const head = svgElement('marker', {

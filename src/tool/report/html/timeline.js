@@ -27,19 +27,48 @@ class Timeline {
     this.chosen = chosen;
     this.filter = null;
     this.wanted = null;
-    const span = run.size === 0 ? 0 : run.event(run.size).time - run.event(1).time;
-    this.view = new View(run, span > 0 ? 'time' : 'event', this.plot.clientWidth);
+    this.isScaleWanted = false;
+    this.view = new View(run, View.scaleFor(run), this.plot.clientWidth);
     this.marker = new Marks(run);
     this.picture.scrollTop = 0;
     this.setUpRows();
   }
 
+  /** The run has grown. */
+  grow() {
+    const { run, view } = this;
+    if (!this.isScaleWanted) view.scale = View.scaleFor(run);
+    view.grow();
+    this.marker.grow();
+    if (run.shownCount !== this.shownCount) return this.setUpRows();
+    this.rows.addSpans();
+    if (this.headKey() === this.filledHead) this.drawSoon();
+    else this.layOut();
+  }
+
+  /** Shows the same stretch of time as another view, if that did not show all. */
+  keepView({ scale, zoom, offset, whole, inner, start, duration }) {
+    const { view } = this;
+    if (scale !== 'time' || view.scale !== 'time' || zoom <= 1) return;
+    const shareOf = (pixels) => (start + pixels / whole * duration - view.start) / view.duration;
+    view.showRange(shareOf(offset), shareOf(offset + inner));
+    this.drawSoon();
+  }
+
+  /** An expectation after an event failed. */
+  noteFailure(number) {
+    this.marker.noteFailure(number);
+    this.layOut();
+  }
+
   setUpRows() {
+    this.shownCount = this.run.shownCount;
     this.rows = new Rows(this.run, this.wantsAll, this.wanted);
     this.layOut();
   }
 
   setScale(scale) {
+    this.isScaleWanted = true;
     this.view.setScale(scale);
     this.view.reveal(this.chosen);
     this.layOut();
@@ -69,13 +98,23 @@ class Timeline {
     const nameWidth = this.rows.nameWidth(Math.max(110, width * (width < 700 ? 0.36 : 0.3)));
     this.names.style.width = `${nameWidth}px`;
     this.view.resize(Math.max(80, width - nameWidth));
-    this.head = Painter.headHeight({ lanes: this.marker.lanes(this.view), hasProblems: this.marker.problems.length > 0 });
+    this.head = this.headHeight();
     this.sheet.style.height = `${this.pictureHeight()}px`;
     this.fillNames(nameWidth);
     this.draw();
   }
 
+  headHeight() {
+    return Painter.headHeight({ lanes: this.marker.lanes(this.view), hasProblems: this.marker.problems.length > 0 });
+  }
+
+  /** What the names of the head depend on. */
+  headKey() {
+    return `${this.view.scale} ${this.headHeight()} ${this.problemTitle()}`;
+  }
+
   fillNames(width) {
+    this.filledHead = this.headKey();
     const item = (text, look, height, top = 0) => {
       const element = html('div', look, text);
       element.style.height = element.style.lineHeight = `${height}px`;

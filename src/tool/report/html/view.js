@@ -20,11 +20,16 @@ class View {
     this.setScale(scale);
   }
 
+  /** "time" if there is any between the events. */
+  static scaleFor(run) {
+    return run.size > 0 && run.timeAt(run.size) > run.timeAt(1) ? 'time' : 'event';
+  }
+
   setScale(scale) {
     const { run } = this;
     this.scale = scale;
-    this.start = run.size > 0 ? Math.min(0, run.event(1).time) : 0;
-    this.duration = run.size > 0 ? Math.max(run.event(run.size).time - this.start, 1e-6) : 1;
+    this.start = run.begin.time;
+    this.duration = run.size > 0 ? Math.max(run.timeAt(run.size) - this.start, 1e-6) : 1;
     this.places = new Float64Array(run.size + 1); // shares of the whole
     let least = 1;
     for (let number = 1; number <= run.size; ++number) {
@@ -34,6 +39,17 @@ class View {
       if (distance > 0) least = Math.min(least, distance);
     }
     this.least = least;
+    this.update();
+  }
+
+  /** The run has grown. What is zoomed stays as wide as it is, and where it is. */
+  grow() {
+    const lengthOf = () => (this.scale === 'time' ? this.duration : this.places.length - 1);
+    const unit = this.whole / lengthOf();
+    const isZoomed = this.zoom > 1;
+    this.setScale(this.scale);
+    if (!isZoomed) return;
+    this.zoom = unit * lengthOf() / this.inner;
     this.update();
   }
 
@@ -63,7 +79,7 @@ class View {
     this.zoom = Math.min(this.mostZoom, Math.max(1, this.zoom));
     this.offset = Math.min(this.whole - this.inner, Math.max(0, this.offset));
     const { places, whole } = this;
-    this.xs ??= new Float64Array(places.length);
+    if (this.xs?.length !== places.length) this.xs = new Float64Array(places.length);
     const left = padding - this.offset;
     for (let number = 0; number < places.length; ++number) this.xs[number] = left + places[number] * whole;
     this.endX = left + whole;

@@ -1,0 +1,52 @@
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/text.h"
+#include "cli/input.h"
+#include "cli/output.h"
+#include "cli/solve.h"
+#include "coordinator/state.h"
+#include "script/event_lines.h"
+#include "support/system.h"
+
+namespace cbc::cli {
+
+bool can_save_state(const StreamOptions& options) {
+  if (!options.state_out) return true;
+  const auto obstacle = find_obstacle(*options.state_out);
+  if (obstacle) complain("cannot write {}: {}", quote(*options.state_out), *obstacle);
+  return !obstacle;
+}
+
+bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
+                std::optional<Snapshot>& state) {
+  if (!options.state_in) return true;
+  const std::optional<std::string> text = read_input(*options.state_in);
+  if (!text) return false;
+  StateReading reading = read_state(*text, catalog);
+  if (!reading.snapshot) {
+    complain("cannot use the state {}: {}", quote(display_name(*options.state_in)), reading.error);
+    return false;
+  }
+  state = std::move(reading.snapshot);
+  return true;
+}
+
+bool save_state(const StreamOptions& options, const CompiledCatalog& catalog,
+                const Runner& runner) {
+  if (!options.state_out || runner.result().status != Coordinator::Status::ok) return true;
+  return write_output(*options.state_out, write_state(catalog, runner.snapshot())) == exit_ok;
+}
+
+int report_end(const Runner& runner, const CoordinatorOptions& options) {
+  const RunResult& result = runner.result();
+  const std::string reason = describe_end(result, options);
+  if (!reason.empty()) complain(reason);
+  if (result.status == Coordinator::Status::refused_answer) {
+    complain("this is a fault of cbc, not of the catalog; please report it");
+  }
+  return status_of(result);
+}
+
+}  // namespace cbc::cli
