@@ -46,10 +46,19 @@ class Legend {
   void add_nodes() {
     using Frame = LegendEntry::Frame;
     const bool has_tasks = has(NodeKind::task);
-    explain(has_tasks, NodeKind::task, "task");
-    explain(has(NodeKind::behavior), NodeKind::behavior, "behavior");
+    add_shape(NodeKind::task, "round", "task");
+    add_shape(NodeKind::behavior, "angular", "behavior");
     explain(diagram_.clustering == Clustering::packages, Frame::package,
             has_tasks ? "package, with the tasks that it alone performs" : "package");
+  }
+
+  /// A word stands for the shape where no node has the color of its kind.
+  void add_shape(NodeKind kind, std::string word, std::string meaning) {
+    const bool has_color = has_node([kind](const Node& node) {
+      return node.kind == kind && node.mark == Mark::plain && node.color == none;
+    });
+    explain(has_color, kind, meaning);
+    explain(!has_color && has(kind), std::move(word), std::move(meaning));
   }
 
   void add_lines() {

@@ -78,11 +78,11 @@ class Attributes {
 };
 
 /// A small framed box, as a table of DOT's labels.
-std::string swatch(palette::Color color, std::string_view style, std::string_view text = "  ") {
+std::string swatch(palette::Color color, std::string_view style, std::string_view sign = " ") {
   return fmt::format(
-      R"(<table border="1" cellborder="0" cellpadding="0" style="{}" color="{}" bgcolor="{}">)"
-      "<tr><td>  {}  </td></tr></table>",
-      style, color.line, color.fill, text);
+      R"(<table border="1" cellborder="0" cellpadding="0" cellspacing="0" style="{}" color="{}" )"
+      R"(bgcolor="{}"><tr><td width="22" height="8"><font point-size="6">{}</font></td></tr></table>)",
+      style, color.line, color.fill, sign.empty() ? " " : sign);
 }
 
 std::string colored(std::string_view text, std::string_view color) {
