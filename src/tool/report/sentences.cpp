@@ -309,7 +309,7 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
                          format_decimal(reason.minimum_performance, 4)) +
              place(catalog, reason);
     case Reason::Kind::unavailable:
-      return fmt::format("{} is unavailable in the current situation", behavior);
+      return fmt::format("{} is unavailable", behavior);
     case Reason::Kind::situation:
       return describe_misfit(catalog, reason, behavior);
     case Reason::Kind::faulty:

@@ -57,7 +57,7 @@ std::string describe_reason(const SweepResult& result, const RejectionReason& re
       return fmt::format("{} requires a minimum performance of {}",
                          behavior.empty() ? "the catalog" : behavior, task);
     case Reason::Kind::unavailable:
-      return behavior + " is unavailable in the current situation";
+      return behavior + " is unavailable";
     case Reason::Kind::situation:
       return behavior + " does not fit the situation";
     case Reason::Kind::faulty:
