@@ -328,6 +328,8 @@ class Page(PageCase):
         self.assertEqual(self.number(), 2)
         text = self.text("#detail-body")
         self.assertIn("decided at event 1 at 0.000 s (start DRIVE, priority 1) by the suitability", text)
+        self.assertNotIn("instead of", text)  # the table has it
+        self.assertIn("supporting tasks running0 of 1", text)
         rows = self.browser.ask("[...document.querySelectorAll('.differences tbody tr')]"
                                 ".map((row) => [...row.cells].map((cell) => cell.textContent))")
         self.assertEqual(rows, [["DRIVE", "SLOW, 80 %", f"{fast}, 90 %"],
