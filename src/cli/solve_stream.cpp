@@ -105,7 +105,7 @@ class Stream {
       runner_.begin(situation);
     }
     output_.write(stream_header(catalog_, catalog_.file, of_coordinator_, situation,
-                                runner_.coordinator().state().variables(), has_real_clock()));
+                                runner_.coordinator().state().variables(), options_.stream.clock));
     begin_ = std::chrono::steady_clock::now();
     first_ = runner_.coordinator().now();
   }
@@ -421,9 +421,8 @@ class Replay {
     of_coordinator.timeouts = header->timeouts;
     State first(catalog_);
     first.change_situation(header->situation.availability, header->situation.variables);
-    std::string text =
-        stream_header(catalog_, header->catalog, of_coordinator, header->situation,
-                      state ? state->variables : first.variables(), header->has_real_clock);
+    std::string text = stream_header(catalog_, header->catalog, of_coordinator, header->situation,
+                                     state ? state->variables : first.variables(), header->clock);
     output_.write(text);
     text.pop_back();
     if (text != input_.line()) {
