@@ -287,7 +287,7 @@ TEST_F(StreamTest, PutsLinesAfterWhatTheRealClockHasDone) {
                               "' solve quadrotor.yaml - --format jsonl --clock real >log";
   ASSERT_EQ(std::system(command.c_str()), 0);
   const std::vector<std::string> found = lines_of(test::read_file(folder_ / "log"));
-  ASSERT_EQ(found.size(), 4U);
+  ASSERT_GE(found.size(), 4U);  // WAIT may start again before the end of the input is seen
   EXPECT_EQ(json::parse(found[1])["time"], 0.08);
   EXPECT_EQ(json::parse(found[2])["time"], 0.080001);
   EXPECT_EQ(json::parse(found[3])["time"], 0.080001);
