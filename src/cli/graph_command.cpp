@@ -105,8 +105,9 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
                  "task), or none (default: up to three tasks as pairs, more as hubs; in the views "
                  "tasks and behaviors none)");
   command.option("--cluster", options.cluster, one_of("KIND", {"packages", "groups", "none"}),
-                 "Draw frames around packages (of behaviors), groups (of tasks that constraints "
-                 "connect), or none (default: none; in the view of the constraints groups)");
+                 "Draw frames around packages (behaviors, and tasks that only they perform), "
+                 "groups (of tasks that constraints connect), or none (default: none; in the view "
+                 "of the constraints groups)");
   command
       .flag("--reduce", options.reduce,
             "With --view tasks: leave out requirements that follow from others")
@@ -123,7 +124,7 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
       .only_with({"--task"});
   command.option("--group", options.group, whole_number("N", 0, most),
                  "Draw only this group, as numbered by 'cbc compile --dump'");
-  command.flag("--legend", options.legend, "Add a legend of shapes and lines");
+  command.flag("--legend", options.legend, "Add a legend of what the picture has");
 }
 
 draw::ViewOptions view_options(const DrawingOptions& options) {
