@@ -85,7 +85,7 @@ Sample draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& 
   if (moment) {
     for (const std::string& line : caption_of(*moment)) caption += line;
   }
-  const std::size_t nodes = diagram.nodes.size() + (variant.has_legend ? 1 : 0);
+  const std::size_t nodes = diagram.nodes.size() + (diagram.legend.empty() ? 0 : 1);
   return {name + ", " + variant.name, graph_dot(diagram),
           graph_mermaid(diagram),     nodes,
           diagram.edges.size(),       {},
