@@ -180,7 +180,12 @@ void remove_date(std::string& pdf) {
 
 /// Runs `dot`, a program of Graphviz, on a graph. Empty, after a message, if that fails.
 std::optional<std::string> run_graphviz(const std::string& dot, std::string_view format) {
-  Filtered picture = run_filter({"dot", fmt::format("-T{}", format)}, dot);
+  const std::string format_option = fmt::format("-T{}", format);
+  Filtered picture = run_filter({"dot", format_option}, dot);
+  // It fails ("trouble in init_rank") at frames around some cycles, which catalogs with errors have.
+  if (picture.is_found && !picture.is_done) {
+    picture = run_filter({"dot", "-Gnewrank=true", format_option}, dot);
+  }
   if (!picture.is_found) {
     complain("{} needs Graphviz (Debian: apt install graphviz): cannot run 'dot': {}", format,
              picture.error_output);

@@ -135,8 +135,6 @@ class DotWriter {
     dot_ += " {\n";
     // White, not transparent: black lines would be invisible on a dark page.
     dot_ += "  graph [rankdir=LR, bgcolor=\"#FFFFFF\", pad=0.2, ";
-    // Else each cluster has columns of its own, arrows lead back, and dot fails at some cycles.
-    if (!diagram_.clusters.empty()) dot_ += "newrank=true, ";
     add_distances();
     dot_ +=
         "fontname=\"Helvetica,Arial,sans-serif\", fontsize=12];\n"
