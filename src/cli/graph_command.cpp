@@ -182,7 +182,8 @@ void remove_date(std::string& pdf) {
 std::optional<std::string> run_graphviz(const std::string& dot, std::string_view format) {
   const std::string format_option = fmt::format("-T{}", format);
   Filtered picture = run_filter({"dot", format_option}, dot);
-  // It fails ("trouble in init_rank") at frames around some cycles, which catalogs with errors have.
+  // It fails ("trouble in init_rank") at frames around some cycles, which catalogs with errors
+  // have.
   if (picture.is_found && !picture.is_done) {
     picture = run_filter({"dot", "-Gnewrank=true", format_option}, dot);
   }

@@ -93,7 +93,7 @@ inline constexpr std::uint64_t most_explained = 100;
 /// An `expect` that does not hold. Valid until the listener returns.
 struct Failure {
   std::uint64_t number = 0;  ///< among those of the run, from 1
-  std::uint64_t index = 0;  ///< of the event it follows; 0: none yet
+  std::uint64_t index = 0;   ///< of the event it follows; 0: none yet
   Range range;
   std::string message;
   const Step* step = nullptr;    ///< the entry of the script
