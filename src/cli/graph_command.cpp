@@ -105,8 +105,9 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
                  "task), or none (default: up to three tasks as pairs, more as hubs; in the views "
                  "tasks and behaviors none)");
   command.option("--cluster", options.cluster, one_of("KIND", {"packages", "groups", "none"}),
-                 "Draw frames around packages (of behaviors), groups (of tasks that constraints "
-                 "connect), or none (default: none; in the view of the constraints groups)");
+                 "Draw frames around packages (behaviors, and tasks that only they perform), "
+                 "groups (of tasks that constraints connect), or none (default: none; in the view "
+                 "of the constraints groups)");
   command
       .flag("--reduce", options.reduce,
             "With --view tasks: leave out requirements that follow from others")
@@ -123,7 +124,7 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
       .only_with({"--task"});
   command.option("--group", options.group, whole_number("N", 0, most),
                  "Draw only this group, as numbered by 'cbc compile --dump'");
-  command.flag("--legend", options.legend, "Add a legend of shapes and lines");
+  command.flag("--legend", options.legend, "Add a legend of what the picture has");
 }
 
 draw::ViewOptions view_options(const DrawingOptions& options) {
@@ -179,7 +180,13 @@ void remove_date(std::string& pdf) {
 
 /// Runs `dot`, a program of Graphviz, on a graph. Empty, after a message, if that fails.
 std::optional<std::string> run_graphviz(const std::string& dot, std::string_view format) {
-  Filtered picture = run_filter({"dot", fmt::format("-T{}", format)}, dot);
+  const std::string format_option = fmt::format("-T{}", format);
+  Filtered picture = run_filter({"dot", format_option}, dot);
+  // It fails ("trouble in init_rank") at frames around some cycles, which catalogs with errors
+  // have.
+  if (picture.is_found && !picture.is_done) {
+    picture = run_filter({"dot", "-Gnewrank=true", format_option}, dot);
+  }
   if (!picture.is_found) {
     complain("{} needs Graphviz (Debian: apt install graphviz): cannot run 'dot': {}", format,
              picture.error_output);

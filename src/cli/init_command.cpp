@@ -104,7 +104,7 @@ void print_next_commands(const std::string& folder) {
     fmt::print("  cd {}\n", is_one_word ? printable(folder) : quote(folder));
   }
   fmt::print(
-      "  cbc lint robot.yaml missions/delivery.yaml\n"
+      "  cbc lint .\n"
       "  cbc solve missions/delivery.yaml\n"
       "  cbc solve missions/ --html missions.html\n");
 }

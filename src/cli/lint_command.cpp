@@ -60,7 +60,7 @@ class Linter {
         unlinted_(InputFiles::Findings::dropped, settings),
         settings_(std::move(settings)) {}
 
-  /// A catalog; or an event script or a property file that names its catalog.
+  /// A catalog; or an event script or a property file that names its catalog; or a settings file.
   void lint_catalog(const std::string& path);
   /// Lints a file that was found in a folder if it is a catalog, or keeps it for lint_found if it
   /// is a script or a property file.
@@ -116,6 +116,7 @@ class Linter {
                                                                   const std::string& given);
   void lint_script_text(const std::string& path, std::string text, const std::string& catalog);
   void lint_catalog_text(const std::string& path, std::string text);
+  void lint_settings(const std::string& name, std::string text);
   void take_compiled(const CatalogInput& input);
   void note_tasks(const Catalog& catalog, bool is_known, const SeveritySettings& settings);
   void add(LintedFile file, const SeveritySettings& settings);
@@ -161,6 +162,9 @@ void Linter::lint_catalog(const std::string& path) {
     catalogs_.keep(path, nullptr);
   } else if (input->is_compiled) {
     take_compiled(*input);
+  } else if (const std::string name = name_of(path);
+             std::filesystem::path(name).filename() == settings_file_name) {
+    lint_settings(name, std::move(input->content));
   } else {
     lint_catalog_text(path, std::move(input->content));
   }
@@ -422,6 +426,19 @@ void Linter::note_tasks(const Catalog& catalog, bool is_known, const SeveritySet
   for (const Task& task : catalog.tasks) named.tasks.insert(task.name);
 }
 
+/// Names of tasks in it are checked where catalogs are linted that it applies to.
+void Linter::lint_settings(const std::string& name, std::string text) {
+  LintedFile file;
+  file.kind = LintedFile::Kind::settings;
+  file.file = name;
+  file.text = std::move(text);
+  Diagnostics diagnostics;
+  const auto settings = read_settings(file.text, file.file, diagnostics);
+  diagnostics.sort();
+  file.findings = diagnostics.release();
+  add(std::move(file), settings.value_or(SeveritySettings()));
+}
+
 void Linter::check_settings() {
   for (const auto& [file, named] : named_tasks_) {
     if (!named.has_all) continue;
@@ -429,6 +446,9 @@ void Linter::check_settings() {
     check_never_together_names(named.settings.never_together(),
                                {named.tasks.begin(), named.tasks.end()}, diagnostics);
     if (diagnostics.all().empty()) continue;
+    files_.erase(std::remove_if(files_.begin(), files_.end(),
+                                [&file](const LintedFile& linted) { return linted.file == file; }),
+                 files_.end());
     LintedFile settings;
     settings.kind = LintedFile::Kind::settings;
     settings.file = file;

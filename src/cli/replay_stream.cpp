@@ -139,9 +139,8 @@ class Replay {
     of_coordinator.timeouts = header->timeouts;
     State first(catalog_);
     first.change_situation(header->situation.availability, header->situation.variables);
-    std::string text =
-        stream_header(catalog_, header->catalog, of_coordinator, header->situation,
-                      state ? state->variables : first.variables(), header->has_real_clock);
+    std::string text = stream_header(catalog_, header->catalog, of_coordinator, header->situation,
+                                     state ? state->variables : first.variables(), header->clock);
     output_.write(text);
     text.pop_back();
     if (text != input_.line()) {

@@ -67,7 +67,7 @@ class Stream {
       if (live_ == nullptr) return false;
     }
     output_.write(stream_header(catalog_, catalog_.file, of_coordinator_, situation,
-                                runner_.coordinator().state().variables(), has_real_clock()));
+                                runner_.coordinator().state().variables(), options_.stream.clock));
     begin_ = std::chrono::steady_clock::now();
     first_ = runner_.coordinator().now();
     return true;
@@ -146,10 +146,11 @@ class Stream {
     if (!reading.step) return true;
     // The limit of clock events applies to each line, since a stream has no end.
     runner_.restart_count();
-    if (!has_real_clock() || reading.step->time) return runner_.take(*reading.step);
-    Step now = *reading.step;
-    now.time = std::max({clock_time(), settled_ + 1, runner_.coordinator().now()});
-    const bool goes_on = runner_.take(now);
+    if (!has_real_clock()) return runner_.take(*reading.step);
+    Step step = *reading.step;
+    step.time = std::max(
+        {step.time ? *step.time : clock_time(), settled_ + 1, runner_.coordinator().now()});
+    const bool goes_on = runner_.take(step);
     // Times of lines are relative to the real clock.
     lines.resume(runner_.coordinator().now(), runner_.coordinator().state());
     return goes_on;

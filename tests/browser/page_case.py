@@ -31,17 +31,6 @@ def solve(name, *arguments):
     return page.as_uri(), json.loads(result.stdout)
 
 
-def changed(name, made, change):
-    """A page with changed data."""
-    page = OUT / (name + ".html")
-    before, begin, rest = pathlib.Path(made[0].removeprefix("file://")).read_text().partition('id="data">')
-    text, end, after = rest.partition("</script>")
-    data = json.loads(text)
-    change(data)
-    page.write_text(before + begin + json.dumps(data).replace("<", "\\u003c") + end + after)
-    return page.as_uri(), data["report"]
-
-
 def write(name, data):
     path = OUT / name
     path.write_text(json.dumps(data))  # JSON is YAML, too

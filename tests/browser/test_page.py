@@ -14,7 +14,7 @@ import urllib.parse
 
 from chromium import BrowserError
 from page_case import (
-    AXE, HOSTILE_BEHAVIORS, HOSTILE_TASK, OUT, QUADROTOR, ROOT, PageCase, changed, hostile_files, long_script,
+    AXE, HOSTILE_BEHAVIORS, HOSTILE_TASK, OUT, QUADROTOR, ROOT, PageCase, hostile_files, long_script,
     solve, write)
 
 
@@ -306,39 +306,31 @@ class Page(PageCase):
                                                    if event["outcome"] == "rejected"])
 
     def test_why_of_events_and_of_failed_expectations(self):
-        def explain(data):
-            run = data["report"]["runs"][0]
-            why = {"limit_reached": False, "conflict": [], "alternative": {
-                "running": {"ApproachTarget": "<i>Other</i>"},
-                "objective": {"satisfied": 1, "requests": 1, "suitability": 0.6498, "idle": 0, "changes": 1}}}
-            run["expectations"] = {"passed": 4, "failed": 1, "failures": [{
-                "index": 4, "line": 12, "message": "expected another behavior", "why": [{
-                    **why, "event": 2, "tasks": ["ApproachTarget"], "message": "event 2 at 15.000 s decided it",
-                    "loses": {"objective": "suitability", "chosen": "0.684", "alternative": "0.6498"},
-                    "differences": [{"task": "ApproachTarget", "chosen": {"behavior": "Slow", "suitability": 80},
-                                     "alternative": {"behavior": "<i>Other</i>", "suitability": 95}},
-                                    {"task": "LocalizeTarget", "chosen": None,
-                                     "alternative": {"behavior": "Far", "suitability": 68.4}}]}]}]}
-            run["events"][0]["why"] = [{
-                **why, "task": "LocalizeTarget", "chosen": "Far", "message": "why LocalizeTarget has Far",
-                "loses": {"objective": "idle", "chosen": "3/7", "alternative": "5/7"}, "differences": []}]
-            run["events"][0]["alternatives"] = {"limit_reached": False, "configurations": [why["alternative"]]}
-
-        self.open(changed("why", self.target, explain))
-        self.assertEqual(self.number(), 4)
+        fast = "<i>FAST</i>"
+        catalog = write("why.yaml", {"behaviors": [
+            {"behavior": fast, "task": "DRIVE", "suitability": 90, "requires": [{"task": "LOCALIZE"}]},
+            {"behavior": "SLOW", "task": "DRIVE", "suitability": 80},
+            {"behavior": "SLAM", "task": "LOCALIZE", "suitability": 70},
+            {"behavior": "LAMP", "task": "LIGHT"}],
+            "tasks": [{"task": "DRIVE"}, {"task": "LOCALIZE", "start_on_request": False}]})
+        mission = write("why.mission.yaml", {"events": [
+            {"start": "DRIVE"}, {"start": "LIGHT", "at": 5}, {"expect": {"running": {"DRIVE": fast}}}]})
+        self.open(solve("why", catalog, mission, "--why", "DRIVE", "--alternatives", "2"))
+        self.assertEqual(self.number(), 2)
         text = self.text("#detail-body")
-        self.assertIn("event 2 at 15.000 s decided it", text)
+        self.assertIn("decided at event 1 at 0.000 s (start DRIVE, priority 1) by the suitability", text)
+        self.assertNotIn("instead of", text)  # the table has it
+        self.assertIn("supporting tasks running0 of 1", text)
         rows = self.browser.ask("[...document.querySelectorAll('.differences tbody tr')]"
                                 ".map((row) => [...row.cells].map((cell) => cell.textContent))")
-        self.assertEqual(rows, [["ApproachTarget", "Slow, 80 %", "<i>Other</i>, 95 %"],
-                                ["LocalizeTarget", "does not run", "Far, 68.4 %"],
-                                ["product of all that runs", "0.684", "0.6498"]])
+        self.assertEqual(rows, [["DRIVE", "SLOW, 80 %", f"{fast}, 90 %"],
+                                ["LOCALIZE", "does not run", "SLAM, 70 %"],
+                                ["product of all that runs", "0.8", "0.63"]])
         self.browser.screenshot(OUT / "why.png")
         self.click("#detail-body button")
-        self.assertEqual(self.number(), 2)
-        self.browser.key("Home")
+        self.assertEqual(self.number(), 1)
         text = self.text("#detail-body")
-        for part in ("why LocalizeTarget has Far", "ApproachTarget: <i>Other</i>", "Requests come first"):
+        for part in ("why DRIVE has SLOW", f"DRIVE: {fast}", "Requests come first"):
             self.assertIn(part, text)
 
     def test_policy_allows_nothing_but_the_page(self):

@@ -83,12 +83,12 @@ async function checkMistakes() {
   const script = 'target-following.mission.yaml';
   const priority = '  priority: 1\n  at: 0\n';
   await expectMistake(script, priority, '  prio: 1\n  at: 0\n', 'Property prio is not allowed.');
-  await expectMistake(script, '  at: 0\n', '  at: zero\n', 'Expected one of number, null.');
+  await expectMistake(script, '  at: 0\n', '  at: zero\n', 'Expected "number"');
   const properties = 'target-following.properties.yaml';
   const name = '- name: high accelerations';
   await expectMistake(properties, name, '- nam: high accelerations', 'Property nam is not allowed.');
   const catalogKey = 'catalog: target-following.yaml\n';
-  await expectMistake(properties, catalogKey, 'catalog: [target-following.yaml]\n', 'Expected one of');
+  await expectMistake(properties, catalogKey, 'catalog: [target-following.yaml]\n', 'Expected "string"');
 }
 
 /** Where the text ends before a mark, as the language server counts. */
@@ -118,12 +118,52 @@ async function checkHelp() {
   ]);
   const causes = await offered('quadrotor.mission.yaml', '  cause: process_failure', '  cause: ');
   assert.ok(causes.includes('wrong_progress'), `${causes}`);
+  const land = 'basic_quadrotor_behaviors\n  task: ';
+  const tasks = await offered('quadrotor.yaml', `${land}LAND`, land.replace('basic', 'Basic'));
+  assert.deepStrictEqual(tasks, [], 'of names: no true, no false');
+}
+
+/** Where each key of a file is first, and where its value begins. */
+function keysOf(text) {
+  const keys = new Map();
+  let begin = 0;
+  for (const line of text.split('\n')) {
+    const match = /^([ -]*)([a-z_]+):/.exec(line);
+    if (match && !keys.has(match[2])) {
+      keys.set(match[2], {hover: begin + match[1].length + 1, value: begin + match[0].length});
+    }
+    begin += line.length + 1;
+  }
+  return keys;
+}
+
+/** Each key is explained in a sentence, and no value is offered that says nothing. */
+async function checkKeys() {
+  const known = new Set();
+  for (const file of fs.readdirSync(folder).filter((name) => name.endsWith('.yaml'))) {
+    const text = read(file);
+    const kind = text.slice(0, text.indexOf('\n'));
+    for (const [key, {hover, value}] of keysOf(text)) {
+      if (known.has(kind + key)) continue;
+      known.add(kind + key);
+      const document = edit(file, text);
+      const shown = (await service.doHover(document, document.positionAt(hover))).contents.value;
+      const [title, explanation] = shown.split('\n\n');
+      assert.ok(!title.includes('||') && explanation.split(' ').length > 3, `${file}: ${key}: ${shown}`);
+      const end = text.indexOf('\n', value);
+      const open = edit(file, `${text.slice(0, value)} ${text.slice(end)}`);
+      const {items} = await service.doComplete(open, open.positionAt(value + 1), false);
+      assert.ok(!items.some((item) => item.label === 'null'), `${file}: ${key}: null is offered`);
+    }
+  }
+  assert.ok(known.size > 40, `${known.size} keys`);
 }
 
 async function main() {
   const count = await checkGallery();
   await checkMistakes();
   await checkHelp();
+  await checkKeys();
   console.log(`${count} files are good, and mistakes are marked where they are made`);
 }
 

@@ -43,7 +43,7 @@ class Init : public testing::Test {
 
 TEST_F(Init, WritesWhatPassesAllChecks) {
   init();
-  Result result = cbc({"lint", "--strict", "robot.yaml", "missions/delivery.yaml"});
+  Result result = cbc({"lint", "--strict", "."});
   EXPECT_EQ(result.status, 0) << result.out << result.err;
   result = cbc({"solve", "missions"});
   EXPECT_EQ(result.status, 0) << result.err;

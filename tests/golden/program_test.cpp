@@ -18,6 +18,7 @@
 #include "golden/process.h"
 #include "support/catalog_files.h"
 #include "support/read_file.h"
+#include "support/scratch_folder.h"
 
 namespace cbc::golden {
 namespace {
@@ -328,6 +329,33 @@ INSTANTIATE_TEST_SUITE_P(Pages, ExcerptsOf,
                          testing::Values(std::pair("README.md", 2U),
                                          std::pair("docs/sweeps.md", 1U),
                                          std::pair("docs/verify.md", 1U)));
+
+/// Of a mission in which more expectations fail than anybody reads.
+TEST(FailedExpectations, AreExplainedUpToABound) {
+  const test::ScratchFolder folder;
+  const std::string catalog = "behaviors: [{behavior: GPS, task: LOCALIZE}]\n";
+  std::string script = "- start: LOCALIZE\n";
+  for (int i = 0; i < 5000; ++i) script += "- expect: {stopped: [LOCALIZE]}\n";
+  std::ofstream(folder / "catalog.yaml") << catalog;
+  std::ofstream(folder / "script.yaml") << script;
+  Call call{{"solve", "catalog.yaml", "script.yaml"}, folder.path()};
+  const auto count = [](const std::string& text, const std::string& part) {
+    std::size_t found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+  };
+  const std::string text = run(call).out;
+  EXPECT_EQ(count(text, "\nscript.yaml:"), 5000U);
+  EXPECT_EQ(count(text, "decided at event 1"), 100U);
+  EXPECT_EQ(count(text, "not explained"), 1U);
+  call.arguments.insert(call.arguments.end(), {"--format", "json"});
+  const auto report = nlohmann::json::parse(run(call).out);
+  std::size_t explained = 0;
+  for (const auto& failure : report["runs"][0]["expectations"]["failures"]) {
+    explained += failure["why"].size();
+  }
+  EXPECT_EQ(explained, 100U);
+}
 
 TEST(Version, IsThatOfTheHeaders) {
   const Result result = run({{"--version"}, "/"});

@@ -25,6 +25,7 @@
 
 #include "golden/process.h"
 #include "golden/stream_text.h"
+#include "support/read_file.h"
 #include "support/scratch_folder.h"
 
 namespace cbc::golden {
@@ -260,6 +261,29 @@ TEST_F(StreamTest, FollowsTheRealClockBetweenLines) {
   EXPECT_EQ(found[4]["origin"], "reactive");
   EXPECT_NEAR(found[4]["time"], start + 0.38, 1e-6);
   EXPECT_GT(found[5]["time"], start + 0.38);
+  const Result replayed = run(call({"--replay", "log", "quadrotor.yaml"}));
+  EXPECT_EQ(replayed.status, 0) << replayed.err;
+}
+
+/// In a replay, what is due at the time of a line comes after it.
+TEST_F(StreamTest, PutsLinesAfterWhatTheRealClockHasDone) {
+  folder_.write("quadrotor.yaml",
+                "behaviors:\n- {behavior: SCAN_AREA, task: SCAN}\n"
+                "- {behavior: STAND_BY, task: WAIT}\ntasks:\n- task: SCAN\n"
+                "- {task: WAIT, reactive_start: true, execution_goal: keep_running,"
+                " start_on_request: false}\n"
+                "exclusivity_constraints:\n- mutually_exclusive: [SCAN, WAIT]\n");
+  const std::string lines =
+      "(sleep 0.4; echo '{start: SCAN, at: 0.08}'; echo '{stop: SCAN, wait: 0}')";
+  const std::string command = "cd '" + folder_.path() + "' && " + lines +
+                              " | '" CBC_PROGRAM_PATH
+                              "' solve quadrotor.yaml - --format jsonl --clock real >log";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::vector<std::string> found = lines_of(test::read_file(folder_ / "log"));
+  ASSERT_GE(found.size(), 4U);  // WAIT may start again before the end of the input is seen
+  EXPECT_EQ(json::parse(found[1])["time"], 0.08);
+  EXPECT_EQ(json::parse(found[2])["time"], 0.080001);
+  EXPECT_EQ(json::parse(found[3])["time"], 0.080001);
   const Result replayed = run(call({"--replay", "log", "quadrotor.yaml"}));
   EXPECT_EQ(replayed.status, 0) << replayed.err;
 }

@@ -85,8 +85,10 @@ Sample draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& 
   if (moment) {
     for (const std::string& line : caption_of(*moment)) caption += line;
   }
-  return {name + ", " + variant.name, graph_dot(diagram),   graph_mermaid(diagram),
-          diagram.nodes.size(),       diagram.edges.size(), {},
+  const std::size_t nodes = diagram.nodes.size() + (diagram.legend.empty() ? 0 : 1);
+  return {name + ", " + variant.name, graph_dot(diagram),
+          graph_mermaid(diagram),     nodes,
+          diagram.edges.size(),       {},
           std::move(caption)};
 }
 

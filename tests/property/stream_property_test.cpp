@@ -81,7 +81,7 @@ std::string header_of(const Mission& mission) {
   recording.runner().begin(mission.script.situation);
   return stream_header(mission.catalog, mission.catalog.file, options_of(mission.script),
                        mission.script.situation,
-                       recording.runner().coordinator().state().variables(), false);
+                       recording.runner().coordinator().state().variables(), "events");
 }
 
 Lines run_whole(const Mission& mission) {

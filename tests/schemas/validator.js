@@ -20,19 +20,26 @@ function readSchemas(root) {
   );
 }
 
-/**
- * Validates the schemas, too, and refuses keywords that are unknown or have no effect. Conditions
- * require what others describe.
- */
-function makeValidator(schemas) {
-  const ajv = new Ajv({strict: true, strictRequired: false, allowUnionTypes: true});
+/** Refuses keywords that are unknown or have no effect. Conditions require what others describe. */
+function makeStrict(schemas, options) {
+  const ajv = new Ajv({strict: true, strictRequired: false, allowUnionTypes: true, ...options});
   ajv.addVocabulary(['deprecationMessage', 'patternErrorMessage']); // for editors
-  ajv.addSchema([...schemas]);
+  ajv.addSchema(schemas);
   return ajv;
 }
 
 function idOf(name) {
   return `urn:cbc:schema:${name}:1`;
+}
+
+/** Validates the schemas, too. In those for editors, types are in alternatives beside the keywords for them. */
+function makeValidator(schemas) {
+  const all = [...schemas];
+  const forEditors = new Set([...inputs].map(idOf));
+  const written = all.filter(({$id}) => !forEditors.has($id));
+  const strict = makeStrict(written, {});
+  for (const {$id} of written) strict.getSchema($id);
+  return makeStrict(all, {strictTypes: false});
 }
 
 module.exports = {idOf, inputs, makeValidator, readSchemas};

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "cbc/units.h"
@@ -30,9 +31,9 @@ enum class EdgeKind : std::uint8_t {
 
 struct Node {
   NodeKind kind = NodeKind::task;
-  std::string id;         ///< unique, from the name
-  std::string_view name;  ///< as in the catalog; may be empty
-  std::string_view package;
+  std::string id;            ///< unique, from the name
+  std::string_view name;     ///< as in the catalog; may be empty
+  std::string_view package;  ///< of a task: that of all its behaviors, if they share one
   std::vector<NamedCondition> situation;  ///< of a behavior: in which it fits
   std::uint32_t group = none;
   Millionths minimum_performance = 0;    ///< 0: none
@@ -61,6 +62,20 @@ struct Cluster {
   std::string label;
 };
 
+/// What is framed; a group of one node needs no frame.
+enum class Clustering : std::uint8_t {
+  nothing,
+  packages,  ///< their behaviors, and the tasks that nothing else performs
+  groups
+};
+
+/// A line of a legend: something as it is drawn, or a text beside it, and what it means.
+struct LegendEntry {
+  enum class Frame : std::uint8_t { package };
+  std::variant<NodeKind, EdgeKind, Mark, Frame, std::string> sample;
+  std::string meaning;
+};
+
 /// The moment whose state a picture shows.
 struct Moment {
   std::string script;       ///< its file
@@ -77,6 +92,8 @@ struct Diagram {
   std::vector<Node> nodes;
   std::vector<Edge> edges;
   std::vector<Cluster> clusters;
+  Clustering clustering = Clustering::nothing;
+  std::vector<LegendEntry> legend;  ///< empty: none
 };
 
 /// The tasks and behaviors of a catalog that are drawn.
@@ -114,9 +131,6 @@ enum class ExclusivityStyle : std::uint8_t {
   hidden
 };
 
-/// What is framed; a group of one node needs no frame.
-enum class Clustering : std::uint8_t { nothing, packages, groups };
-
 struct ViewOptions {
   View view = View::full;
   std::optional<ExclusivityStyle> exclusivity;  ///< empty: the one that suits the view
@@ -128,7 +142,7 @@ struct ViewOptions {
 [[nodiscard]] Diagram make_diagram(const CatalogGraph& graph, const Part& part,
                                    const ViewOptions& options);
 
-/// Adds a legend of the kinds of nodes and edges in a picture.
+/// Adds a legend: what the picture has of shapes, lines, colors and signs, and nothing else.
 void add_legend(Diagram& diagram);
 
 /// The id of a node from its name: "task:HOVER". Different names have different ids, which are
@@ -150,8 +164,10 @@ void add_legend(Diagram& diagram);
 /// situation.
 [[nodiscard]] std::vector<std::string> caption_of(const Moment& moment);
 
-/// The label of a line with a sign for its mark: "+ 90 %" if it is added, "− 90 %" if it is
-/// removed, "~ 90 %" if it is changed, "▶ 90 %" if it is started, "■ 90 %" if it is stopped.
+/// "+" for what is added, "−" if it is removed, "~" changed, "▶" started, "■" stopped; else empty.
+[[nodiscard]] std::string_view sign_of(Mark mark);
+
+/// The label of a line with the sign of its mark: "▶ 90 %".
 [[nodiscard]] std::string with_sign(Mark mark, std::string label);
 
 /// The nodes of each cluster, in their order.

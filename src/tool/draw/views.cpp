@@ -68,6 +68,19 @@ std::string cluster_name(const Node& node, Clustering clustering) {
   return node.group == none ? std::string() : "group " + std::to_string(node.group);
 }
 
+/// Empty if the behaviors of a task are of several packages.
+std::string_view package_of(const CatalogGraph& graph, std::uint32_t task) {
+  const auto links = graph.performances_of_task[task];
+  const auto package = [&](std::uint32_t link) {
+    return graph.behaviors[graph.performances[link].behavior].package;
+  };
+  if (links.empty()) return {};
+  const bool is_shared = std::any_of(links.begin(), links.end(), [&](std::uint32_t link) {
+    return package(link) != package(links.front());
+  });
+  return is_shared ? std::string_view() : package(links.front());
+}
+
 Builder::Builder(const CatalogGraph& graph, const Part& part, const ViewOptions& options)
     : graph_(graph),
       part_(part),
@@ -95,6 +108,7 @@ void Builder::add_tasks() {
     node.kind = NodeKind::task;
     node.id = id_of("task", from.name);
     node.name = from.name;
+    node.package = package_of(graph_, task);
     node.group = from.group;
     node.minimum_performance = from.minimum_performance;
     node.priority = from.priority;
@@ -157,6 +171,7 @@ void Builder::add_clusters(Clustering clustering) {
     if (is_new) diagram_.clusters.push_back({id_of("cluster", name), label_of(name)});
     node.cluster = entry->second;
   }
+  if (!places.empty()) diagram_.clustering = clustering;
 }
 
 /// Lists of up to this many tasks are drawn as pairs unless something else is asked for.

@@ -32,6 +32,7 @@ inline constexpr std::string_view ink = "#000000";
 inline constexpr std::string_view paper = "#FFFFFF";
 inline constexpr std::string_view faint = "#767676";
 inline constexpr std::string_view frame = "#999999";
+inline constexpr std::string_view framed = "#F5F5F5";
 
 inline constexpr Color task = {ink, "#E3F2FB"};  // sky blue
 inline constexpr Color behavior = {ink, paper};
@@ -53,6 +54,7 @@ inline constexpr std::array<Color, 5> groups = {{{"#E69F00", "#FAE7BF"},    // o
 struct Look {
   Color color;
   std::string_view text;
+  std::string_view name;  ///< of the color
   bool is_thick = false;
   bool is_dashed = false;  ///< the frame of a node
 };
@@ -63,23 +65,23 @@ struct Look {
     case draw::Mark::plain:
       break;
     case draw::Mark::faint:
-      return Look{{faint, paper}, faint};
+      return Look{{faint, paper}, faint, "gray"};
     case draw::Mark::faulty:
-      return Look{{"#D55E00", "#FBE5D6"}, ink, true};  // vermillion
+      return Look{{"#D55E00", "#FBE5D6"}, ink, "red", true};  // vermillion
     case draw::Mark::added:
-      return Look{{"#007A59", "#BFE7DC"}, ink, true};  // bluish green
+      return Look{{"#007A59", "#BFE7DC"}, ink, "green", true};  // bluish green
     case draw::Mark::removed:
-      return Look{{"#D55E00", "#FBE5D6"}, ink, true, true};
+      return Look{{"#D55E00", "#FBE5D6"}, ink, "red", true, true};
     case draw::Mark::changed:
-      return Look{{"#B37B00", "#FAE7BF"}, ink, true};  // orange
+      return Look{{"#B37B00", "#FAE7BF"}, ink, "orange", true};  // orange
     case draw::Mark::active:
-      return Look{{"#0072B2", "#BFDCEC"}, ink, true};  // blue
+      return Look{{"#0072B2", "#BFDCEC"}, ink, "blue", true};  // blue
     case draw::Mark::started:
       return look_of(draw::Mark::added);
     case draw::Mark::stopped:
       return look_of(draw::Mark::removed);
     case draw::Mark::unavailable:
-      return Look{{faint, "#EEEEEE"}, "#595959", false, true};
+      return Look{{faint, "#EEEEEE"}, "#595959", "gray", false, true};
   }
   return std::nullopt;
 }

@@ -376,15 +376,15 @@ void write_surprise(JsonWriter& json, const CompiledCatalog& catalog, const Surp
 
 std::string stream_header(const CompiledCatalog& catalog, std::string_view catalog_name,
                           const CoordinatorOptions& options, const Situation& situation,
-                          std::span<const std::uint32_t> variables, bool has_real_clock) {
+                          std::span<const std::uint32_t> variables, std::string_view clock) {
   return json_line([&](JsonWriter& json) {
     json.write_members({{"schema", "cbc.events/1"},
                         {"catalog", catalog_name},
                         {"digest", to_hex(identity_of(catalog))}});
     json.write_seconds("reactive_delay", options.reactive_delay);
-    // Only then, so that logs of older versions can be replayed.
+    // Logs of older versions, without these members, can be replayed.
     if (!options.timeouts) json.write("timeouts", false);
-    if (has_real_clock) json.write("clock", "real");
+    if (!clock.empty()) json.write("clock", clock);
     write_situation(json, catalog, situation);
     if (!catalog.variables.empty()) {
       write_variables(json, catalog, "variables", variables);

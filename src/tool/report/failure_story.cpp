@@ -117,6 +117,41 @@ bool needs_request_only(const LookBack& look_back) {
                      [](const Reason& reason) { return reason.kind == Reason::Kind::on_request; });
 }
 
+/// Whether what stood in the way of an event no longer does.
+bool is_over(const Reason& reason, const State& state) {
+  switch (reason.kind) {
+    case Reason::Kind::unavailable:
+      return !state.is_denied(reason.behavior);
+    case Reason::Kind::situation:
+      return state.fits(reason.behavior);
+    case Reason::Kind::faulty:
+      return !state.is_faulty(reason.behavior);
+    default:
+      return false;
+  }
+}
+
+Sentences describe_look_back(const CompiledCatalog& catalog, const Surprise& surprise,
+                             const State& state) {
+  const LookBack& look_back = surprise.look_back;
+  switch (look_back.kind) {
+    case LookBack::Kind::undecided:
+      return {"no event so far has started " + join_names(catalog, surprise.tasks) +
+                  ", or what requires it",
+              {}};
+    case LookBack::Kind::due:
+      return {fmt::format("{} is due to start by itself at {} s",
+                          task_name(catalog, look_back.queued_task), format_time(look_back.due)),
+              {}};
+    case LookBack::Kind::rejected:
+      return {describe_place(catalog, *look_back.event) + " was rejected:",
+              describe_rejection(catalog, *look_back.event)};
+    case LookBack::Kind::decided:
+      return describe_decided(catalog, surprise, state);
+  }
+  return {};
+}
+
 void add_lines(const Sentences& sentences, std::vector<std::string>& lines) {
   lines.push_back(sentences.first);
   for (const std::string& sentence : sentences.more) lines.push_back("  " + sentence);
@@ -144,23 +179,16 @@ std::vector<TaskId> differing_tasks(const CompiledCatalog& catalog, std::uint32_
 
 Sentences describe_surprise(const CompiledCatalog& catalog, const Surprise& surprise,
                             const State& state) {
+  Sentences text = describe_look_back(catalog, surprise, state);
   const LookBack& look_back = surprise.look_back;
-  switch (look_back.kind) {
-    case LookBack::Kind::undecided:
-      return {"no event so far has started " + join_names(catalog, surprise.tasks) +
-                  ", or what requires it",
-              {}};
-    case LookBack::Kind::due:
-      return {fmt::format("{} starts by itself at {} s", task_name(catalog, look_back.queued_task),
-                          format_time(look_back.due)),
-              {}};
-    case LookBack::Kind::rejected:
-      return {describe_place(catalog, *look_back.event) + " was rejected:",
-              describe_rejection(catalog, *look_back.event)};
-    case LookBack::Kind::decided:
-      return describe_decided(catalog, surprise, state);
+  const std::vector<Reason>& reasons = look_back.kind == LookBack::Kind::rejected
+                                           ? look_back.event->conflict
+                                           : look_back.why_not.conflict;
+  if (std::any_of(reasons.begin(), reasons.end(),
+                  [&state](const Reason& reason) { return is_over(reason, state); })) {
+    text.more.emplace_back("this has changed since, but no later event has decided it anew");
   }
-  return {};
+  return text;
 }
 
 void FailureStory::begin_run(const CompiledCatalog& catalog) {
@@ -203,8 +231,8 @@ void FailureStory::note_waits(const EventRecord& record, const State& state) {
   if (!state.is_waiting(record.task)) return;
   waits_[record.task] = {
       record.index,
-      {fmt::format("{} waits since event {} at {} s:", task_name(*catalog_, record.task),
-                   record.index, format_time(record.time)),
+      {fmt::format("{} waits since event {} at {} s, which was rejected:",
+                   task_name(*catalog_, record.task), record.index, format_time(record.time)),
        describe_rejection(*catalog_, record)}};
 }
 
@@ -233,6 +261,12 @@ std::vector<std::string> FailureStory::tell(const Failure& failure) const {
 
 std::vector<Sentences> FailureStory::explain(const Failure& failure) const {
   std::vector<Sentences> lines;
+  if (failure.number == most_explained + 1) {
+    lines.push_back({fmt::format("not explained, as only the first {} of a script are; nor are "
+                                 "the following ones",
+                                 most_explained),
+                     {}});
+  }
   for (const Surprise& surprise : failure.surprises) {
     const LookBack& look_back = surprise.look_back;
     const bool needs_request = needs_request_only(look_back);
@@ -246,6 +280,7 @@ std::vector<Sentences> FailureStory::explain(const Failure& failure) const {
       if (wait != waits_.end() && wait->second.event != rejection_of(look_back)) {
         tell_wait(task, lines);
       }
+      if (look_back.kind == LookBack::Kind::due) continue;
       if (tell_stop(task, told, lines)) stopped.push_back(task);
     }
     const std::vector<Reason>& conflict = look_back.why_not.conflict;

@@ -23,6 +23,9 @@ void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
   const auto write_task = [&](TaskId task) { json.write(catalog.name_of_task(task)); };
   json.open('{');
   json.write_list("tasks", catalog.task_names);
+  json.write("supporting",
+             std::count_if(catalog.tasks.begin(), catalog.tasks.end(),
+                           [](const CompiledTask& task) { return task.start_on_request == 0; }));
   json.open("variables", '[');
   for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
     write_variable(json, catalog, variable);

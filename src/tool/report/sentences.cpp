@@ -300,7 +300,7 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
       return fmt::format("{} excludes {}", task, task_name(catalog, reason.other_task)) +
              place(catalog, reason);
     case Reason::Kind::on_request:
-      return fmt::format("{} is not running, and starts only on request", task);
+      return fmt::format("{} starts only on request, and has none", task);
     case Reason::Kind::requires_task:
       return fmt::format("{} requires {}", behavior, task) + place(catalog, reason);
     case Reason::Kind::performance:
@@ -309,7 +309,7 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
                          format_decimal(reason.minimum_performance, 4)) +
              place(catalog, reason);
     case Reason::Kind::unavailable:
-      return fmt::format("{} is unavailable in the current situation", behavior);
+      return fmt::format("{} is unavailable", behavior);
     case Reason::Kind::situation:
       return describe_misfit(catalog, reason, behavior);
     case Reason::Kind::faulty:

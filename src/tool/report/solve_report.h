@@ -119,14 +119,14 @@ void append_event(std::string& text, const CompiledCatalog& catalog, const Event
 // The lines of an event stream (schema cbc.events/1), each with its line end.
 
 /// `catalog_name`: the path of the catalog as the user gave it. `variables`: the values of the
-/// situation variables. Of the options a replay needs those that a script sets. `has_real_clock`:
-/// lines without a time of their own have that of a real clock.
+/// situation variables. Of the options a replay needs those that a script sets. `clock`: the
+/// word of the option; empty where a log has none.
 [[nodiscard]] std::string stream_header(const CompiledCatalog& catalog,
                                         std::string_view catalog_name,
                                         const CoordinatorOptions& options,
                                         const Situation& situation,
                                         std::span<const std::uint32_t> variables,
-                                        bool has_real_clock);
+                                        std::string_view clock);
 /// The answer to an input line that is not an event.
 [[nodiscard]] std::string stream_error(std::string_view message, std::uint64_t line);
 

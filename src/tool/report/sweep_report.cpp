@@ -50,14 +50,14 @@ std::string describe_reason(const SweepResult& result, const RejectionReason& re
     case Reason::Kind::exclusive:
       return task + " excludes " + name_in(result.task_names, reason.other_task);
     case Reason::Kind::on_request:
-      return task + " is not running, and starts only on request";
+      return task + " starts only on request, and has none";
     case Reason::Kind::requires_task:
       return behavior + " requires " + task;
     case Reason::Kind::performance:
       return fmt::format("{} requires a minimum performance of {}",
                          behavior.empty() ? "the catalog" : behavior, task);
     case Reason::Kind::unavailable:
-      return behavior + " is unavailable in the current situation";
+      return behavior + " is unavailable";
     case Reason::Kind::situation:
       return behavior + " does not fit the situation";
     case Reason::Kind::faulty:

@@ -1,5 +1,6 @@
 #include "script/event_lines.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -104,8 +105,12 @@ std::optional<EventLog::Header> EventLog::read_header(std::string_view line) {
     if (const Node* const timeouts = root->find("timeouts")) {
       header.timeouts = yaml::read_boolean(*timeouts, "timeouts", reporter).value_or(true);
     }
-    header.has_real_clock =
-        root->find("clock") != nullptr && text_of(*root, "clock", reporter) == "real";
+    if (const Node* const clock = root->find("clock")) {
+      constexpr std::array<std::string_view, 2> clocks = {"events", "real"};
+      if (const auto choice = yaml::read_choice(*clock, "clock", clocks, reporter)) {
+        header.clock = clocks[*choice];
+      }
+    }
     if (const Node* const situation = require(*root, "situation", reporter)) {
       header.situation = reader_.read_situation(*situation, reporter);
     }

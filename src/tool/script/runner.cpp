@@ -172,14 +172,16 @@ void Runner::check(const Step& step) {
   } else {
     ++result_.failed;
     result_.failures.push_back({step.range, mismatch});
-    listener_.on_failure(
-        {index_, step.range, std::move(mismatch), &step, &state, find_surprises(*step.expect)});
+    Failure failure{result_.failed, index_, step.range, std::move(mismatch), &step, &state, {}};
+    if (has_hindsight_ && failure.number <= most_explained) {
+      failure.surprises = find_surprises(*step.expect);
+    }
+    listener_.on_failure(failure);
   }
 }
 
 std::vector<Surprise> Runner::find_surprises(const Expectation& expectation) {
   std::vector<Surprise> surprises;
-  if (!has_hindsight_) return surprises;
   for (ExpectedValues& expected :
        find_expected_values(expectation, catalog_, coordinator_.state())) {
     surprises.push_back({expected.group, std::move(expected.tasks),

@@ -86,15 +86,20 @@ struct Surprise {
   LookBack look_back;
 };
 
+/// Of how many failed expectations of a run the reasons are searched: where more fail, they are
+/// alike, or one looks at the first ones anyway.
+inline constexpr std::uint64_t most_explained = 100;
+
 /// An `expect` that does not hold. Valid until the listener returns.
 struct Failure {
-  std::uint64_t index = 0;  ///< of the event it follows; 0: none yet
+  std::uint64_t number = 0;  ///< among those of the run, from 1
+  std::uint64_t index = 0;   ///< of the event it follows; 0: none yet
   Range range;
   std::string message;
   const Step* step = nullptr;    ///< the entry of the script
   const State* state = nullptr;  ///< in which it does not hold
   /// By group, in catalog order; only with CoordinatorOptions::hindsight. Empty where the outcome
-  /// alone is wrong.
+  /// alone is wrong, and after the first `most_explained` failures.
   std::vector<Surprise> surprises;
 };
 

@@ -3,6 +3,7 @@
 /** A catalog with look-ups. */
 class Catalog {
   constructor(data) {
+    this.supporting = data.supporting; // tasks that do not start on request
     this.variables = new Map(data.variables.map(({ variable, values }) => [variable, values]));
     this.taskPlace = new Map(data.tasks.map((name, place) => [name, place]));
     this.behaviorPlace = new Map(data.behaviors.map((behavior, place) => [behavior.name, place]));

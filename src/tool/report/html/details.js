@@ -50,11 +50,11 @@ function changeTable(run, number) {
 
 // Why an answer was chosen ---------------------------------------------------------------------------
 
-function objectivePairs(objective) {
+function objectivePairs(objective, { supporting }) {
   return pairs([
     ['requests satisfied', `${objective.satisfied} of ${objective.requests}`],
     ['suitability, product', formatPercent(objective.suitability)],
-    ['supporting tasks running', formatPercent(1 - objective.idle)],
+    ['supporting tasks running', `${Math.round((1 - objective.idle) * supporting)} of ${supporting}`],
     ['behaviors changed', `${objective.changes}`],
   ]);
 }
@@ -75,10 +75,10 @@ function differenceTable(differences, loses) {
 }
 
 /** The explanation of a choice: its message, which says what decided, and where the alternative differs. */
-function whyElements(why) {
-  const parts = [html('p', 'message', breakable(why.message))];
-  if ((why.differences ?? []).length > 0) parts.push(differenceTable(why.differences, why.loses));
-  return parts;
+function whyElements({ message, differences = [], loses }, catalog) {
+  if (differences.length === 0) return [html('p', 'message', breakable(message))];
+  const [decision] = message.split(` ${catalog.task(differences[0].task)}: `); // the table has the rest
+  return [html('p', 'message', breakable(decision)), differenceTable(differences, loses)];
 }
 
 function alternativeElement({ running, objective }) {
@@ -95,7 +95,7 @@ function explanationElements(run, number, onChoose) {
   };
   for (const failure of run.failures.get(number) ?? []) {
     for (const why of failure.why ?? []) {
-      const elements = whyElements(why);
+      const elements = whyElements(why, run.catalog);
       const decider = why.event === null ? 0 : run.numberOf(why.event);
       if (decider >= 1 && decider !== number) {
         elements.push(buttonElement(`to event ${why.event}, which decided it`, () => onChoose(decider)));
@@ -104,7 +104,7 @@ function explanationElements(run, number, onChoose) {
     }
   }
   const event = run.event(number);
-  add('Why', (event.why ?? []).flatMap(whyElements));
+  add('Why', (event.why ?? []).flatMap((why) => whyElements(why, run.catalog)));
   const configurations = event.alternatives?.configurations ?? [];
   if (configurations.length > 0) {
     add('Alternatives, the best one first', [html('ol', '', ...configurations.map(alternativeElement))]);
@@ -141,7 +141,7 @@ function fillDetail(elements, run, number, onChoose) {
   }
   const numbers = html('div', 'numbers');
   if (event.objective !== null) {
-    numbers.append(html('div', '', html('h3', '', 'The answer'), objectivePairs(event.objective), choiceElement()));
+    numbers.append(html('div', '', html('h3', '', 'The answer'), objectivePairs(event.objective, run.catalog), choiceElement()));
   }
   if (event.search !== null) {
     const search = Object.entries(event.search).map(([name, value]) => [words(name), `${value}`]);

@@ -111,8 +111,8 @@ class Marks {
     const failed = numbers.filter((number) => this.run.isFailed(number)).length;
     const isBad = this.run.isRejected(numbers[0]) || failed > 0;
     const texts = !isBad ? [`${numbers.length} events`, `${numbers.length}`]
-      : failed === 0 ? [`${numbers.length} rejected`, `\u00d7 ${numbers.length}`]
-        : [`${failed} failed, ${numbers.length - failed} rej.`, `! ${numbers.length}`];
+      : failed === 0 ? [`${numbers.length} rejected`, `${numbers.length} rej.`, `${numbers.length}`]
+        : [`${failed} failed, ${numbers.length - failed} rej.`, `${failed} failed`, `! ${failed}`];
     const text = fitting(texts, foldWidth - 6);
     return { numbers, text, lane, look: isBad ? 'fold-bad' : 'fold', x: x - 9, width: foldWidth, from: x, to: last };
   }
