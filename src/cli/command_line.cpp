@@ -387,7 +387,7 @@ std::string find_bad_file(const std::vector<std::string>& inputs,
   for (auto output = outputs.begin(); output != outputs.end(); ++output) {
     const auto is_output = [&](const std::string& file) { return is_same_file(file, *output); };
     if (std::any_of(inputs.begin(), inputs.end(), is_output)) {
-      return fmt::format(overwrites_input, quote(*output));
+      return fmt::format("the output {} is also an input", quote(*output));
     }
     if (std::find(outputs.begin(), output, *output) != output ||
         std::any_of(outputs.begin(), output, is_output)) {

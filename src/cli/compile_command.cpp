@@ -120,9 +120,7 @@ int compile_to_file(const CompileCommand& command) {
   const std::optional<Source> source = read_source(command.catalog);
   if (!source) return exit_unusable;
   const std::string output = output_of(command);
-  if (is_same_file(command.catalog, output)) {
-    return usage_error("compile", overwrites_input, quote(output));
-  }
+  if (!can_write_output(output)) return exit_unusable;
   const std::optional<Compiled> compiled = compile_source(*source);
   return compiled ? write(output, compiled->content) : exit_unusable;
 }

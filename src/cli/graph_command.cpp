@@ -289,7 +289,6 @@ std::unique_ptr<Drawable> read_state(const std::string& catalog, const StateOpti
   state->graph = draw::to_graph(*mission->catalog);
   draw::mark_state(state->graph, recorder.state());
   state->moment = recorder.moment();
-  state->named_catalog = std::move(mission->named_catalog);
   state->compiled = std::move(mission->catalog);
   return state;
 }
@@ -540,9 +539,6 @@ int draw_catalog(const GraphCommand& command) {
   const std::unique_ptr<Drawable> drawable =
       command.state.script ? read_state(catalog, command.state, status) : read_drawable(catalog);
   if (drawable == nullptr) return status;
-  if (drawable->named_catalog && is_same_file(*drawable->named_catalog, output_of(command))) {
-    return usage_error("graph", overwrites_input, quote(*command.output));
-  }
   return draw(drawable->graph, drawable->moment, command);
 }
 

@@ -24,6 +24,7 @@
 #include "catalog/reader.h"
 #include "cbc/event.h"
 #include "cli/output.h"
+#include "cli/read_files.h"
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
 #include "coordinator/record.h"
@@ -230,11 +231,16 @@ std::optional<std::string> read_stream(std::FILE* stream, const std::string& pat
 
 }  // namespace
 
-std::optional<std::string> read_input(const std::string& path) {
+std::optional<std::string> read_replaceable_input(const std::string& path) {
   if (path == "-") return read_stream(stdin, path);
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rbe"));
   if (file == nullptr) return fail(path, std::strerror(errno));
   return read_stream(file.get(), path);
+}
+
+std::optional<std::string> read_input(const std::string& path) {
+  note_read(path);
+  return read_replaceable_input(path);
 }
 
 std::string display_name(const std::string& path) { return path == "-" ? "<stdin>" : path; }
@@ -432,7 +438,10 @@ bool can_be_mapped(const std::string& path) {
 }  // namespace
 
 std::optional<CatalogInput> read_catalog_input(const std::string& path) {
-  if (can_be_mapped(path)) return CatalogInput{path, {}, true};
+  if (can_be_mapped(path)) {
+    note_read(path);
+    return CatalogInput{path, {}, true};
+  }
   std::optional<std::string> content = read_input(path);
   if (!content) return std::nullopt;
   const bool has_catalog = is_compiled(*content);

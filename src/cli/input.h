@@ -50,6 +50,9 @@ enum class FoundFile : std::uint8_t {
 /// standard error.
 [[nodiscard]] std::optional<std::string> read_input(const std::string& path);
 
+/// The same for a file that an output may replace, as a state that a stream continues from.
+[[nodiscard]] std::optional<std::string> read_replaceable_input(const std::string& path);
+
 /// The name of an input in messages and reports.
 [[nodiscard]] std::string display_name(const std::string& path);
 
@@ -197,8 +200,7 @@ struct Drawable {
   std::shared_ptr<const CompiledCatalog> compiled;  ///< if the catalog has no errors
   CatalogReading reading;                           ///< if it has errors
   draw::CatalogGraph graph;
-  std::optional<draw::Moment> moment;        ///< of a state
-  std::optional<std::string> named_catalog;  ///< path of the catalog that the script names
+  std::optional<draw::Moment> moment;  ///< of a state
 };
 
 /// Reads a catalog, compiled or YAML, which may have errors, and prints the findings. Null if

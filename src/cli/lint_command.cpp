@@ -329,7 +329,7 @@ bool Linter::write_fixed(const std::string& path, const std::string& before,
     complain("{} has changed in the meantime; it is not overwritten", quote(path));
     return false;
   }
-  return write_output(path, after) == exit_ok;
+  return replace_input(path, after) == exit_ok;
 }
 
 void Linter::lint_script(const std::string& path, const std::string& catalog) {

@@ -21,6 +21,7 @@
 #include <fmt/core.h>
 
 #include "base/text.h"
+#include "cli/read_files.h"
 #include "support/system.h"
 
 namespace cbc::cli {
@@ -205,10 +206,26 @@ int write_output(const std::string& path, std::string_view content) {
     std::fwrite(content.data(), 1, content.size(), stdout);  // errors show when it is flushed
     return exit_ok;
   }
+  if (const auto refusal = find_read_file(path)) return complain(*refusal);
+  return replace_input(path, content);
+}
+
+int replace_input(const std::string& path, std::string_view content) {
   if (const auto error = write_atomically(path, content)) {
     return complain("cannot write {}: {}", quote(path), *error);
   }
   return exit_ok;
+}
+
+bool can_write_output(const std::string& path) {
+  if (path == "-") return true;
+  if (const auto refusal = find_read_file(path)) {
+    complain(*refusal);
+    return false;
+  }
+  const auto obstacle = find_obstacle(path);
+  if (obstacle) complain("cannot write {}: {}", quote(path), *obstacle);
+  return !obstacle;
 }
 
 bool is_same_file(const std::string& input, const std::string& output) {

@@ -86,7 +86,6 @@ void add_sweep_options(Command& command, SweepOptions& options);
 /// A script and the catalog it runs on.
 struct Mission {
   std::shared_ptr<const CompiledCatalog> catalog;
-  std::optional<std::string> named_catalog;  ///< path of the catalog that the script names
   Script script;
 };
 

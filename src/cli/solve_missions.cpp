@@ -102,7 +102,7 @@ void MissionLoader::add_script(const std::string& path, const yaml::Document& do
   Diagnostics diagnostics;
   std::optional<Script> script = read_script(document, *catalog, Severity::warning, diagnostics);
   if (files_.take_findings(path, document, std::move(diagnostics), script.has_value()) && script) {
-    missions_.push_back({std::move(catalog), path_of_catalog(path, document), std::move(*script)});
+    missions_.push_back({std::move(catalog), std::move(*script)});
   } else {
     has_failed_ = true;
   }
@@ -263,15 +263,6 @@ bool know_names(const std::vector<Mission>& missions, const ExplainOptions& opti
   });
 }
 
-/// Whether a path is an input that the command line does not name itself: a catalog that a script
-/// names, or a script of a folder.
-bool is_read(const std::string& path, const std::vector<Mission>& missions) {
-  return std::any_of(missions.begin(), missions.end(), [&](const Mission& mission) {
-    return is_same_file(mission.script.file, path) ||
-           (mission.named_catalog && is_same_file(*mission.named_catalog, path));
-  });
-}
-
 }  // namespace
 
 int solve_missions(const SolveOptions& options) {
@@ -284,10 +275,7 @@ int solve_missions(const SolveOptions& options) {
     return exit_unusable;
   }
   if (!know_names(*missions, options.explain)) return exit_unusable;
-  if (options.html && is_read(*options.html, *missions)) {
-    return complain("the output {} is a script of a folder, or a catalog that a script names",
-                    quote(*options.html));
-  }
+  if (options.html && !can_write_output(*options.html)) return exit_unusable;
   const std::unique_ptr<SolveReport> report =
       format.make({stdout,
                    style_for(stdout),

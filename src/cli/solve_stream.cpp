@@ -18,6 +18,7 @@
 #include "base/text.h"
 #include "cli/input.h"
 #include "cli/output.h"
+#include "cli/read_files.h"
 #include "cli/solve.h"
 #include "compiled/compiled_catalog.h"
 #include "coordinator/state.h"
@@ -25,7 +26,6 @@
 #include "script/event_lines.h"
 #include "script/reader.h"
 #include "script/runner.h"
-#include "support/system.h"
 #include "yaml/document.h"
 
 namespace cbc::cli {
@@ -33,19 +33,16 @@ namespace {
 
 // The beginning and the end of streams and replays. Problems go to standard error.
 
-/// Whether the file of --state-out, if the option is given, can be written.
+/// Whether the file of --state-out, if the option is given, can be written. All has been read.
 bool can_save_state(const StreamOptions& options) {
-  if (!options.state_out) return true;
-  const auto obstacle = find_obstacle(*options.state_out);
-  if (obstacle) complain("cannot write {}: {}", quote(*options.state_out), *obstacle);
-  return !obstacle;
+  return !options.state_out || can_write_output(*options.state_out);
 }
 
 /// Loads the state of --state-in, if the option is given. False if it cannot be used.
 bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
                 std::optional<Snapshot>& state) {
   if (!options.state_in) return true;
-  const std::optional<std::string> text = read_input(*options.state_in);
+  const std::optional<std::string> text = read_replaceable_input(*options.state_in);
   if (!text) return false;
   StateReading reading = read_state(*text, catalog);
   if (!reading.snapshot) {
@@ -283,6 +280,7 @@ int run_script_of(const Script& script, const CompiledCatalog& catalog, const So
     return complain("script {} has a situation to begin with, but --state-in has one already",
                     quote(script.file));
   }
+  if (!can_save_state(options.stream)) return exit_unusable;
   Stream stream(catalog, options, coordinator, state, script.file);
   stream.run(script);
   return stream.end();
@@ -309,6 +307,7 @@ int run_standard_input(const CompiledCatalog& catalog, const SolveOptions& optio
     coordinator.reactive_delay = state->reactive_delay;
     coordinator.timeouts = state->timeouts;
   }
+  if (!can_save_state(options.stream)) return exit_unusable;
   Stream stream(catalog, options, coordinator, state, display_name("-"));
   stream.run_standard_input();
   return stream.end();
@@ -568,7 +567,6 @@ class Replay {
 
 int solve_stream(const SolveOptions& options) {
   const std::vector<std::string>& paths = options.paths;
-  if (!can_save_state(options.stream)) return exit_unusable;
   if (paths.size() > 2) {
     return complain("--format jsonl runs one script at a time: cbc solve CATALOG SCRIPT");
   }
@@ -592,7 +590,6 @@ int replay_stream(const SolveOptions& options) {
   if (options.paths.size() != 1) {
     return complain("--replay needs a log and its catalog: cbc solve --replay LOG CATALOG");
   }
-  if (!can_save_state(options.stream)) return exit_unusable;
   const std::string& path = *options.stream.replay;
   const auto catalog = load_catalog(options.paths.front());
   std::optional<Snapshot> state;
@@ -604,6 +601,8 @@ int replay_stream(const SolveOptions& options) {
   if (file < 0) {
     return complain("cannot read {}: {}", quote(path), std::strerror(errno));
   }
+  note_read(path);
+  if (!can_save_state(options.stream)) return exit_unusable;
   const int status = Replay(file, display_name(path), *catalog, options).run(state);
   if (file != STDIN_FILENO) ::close(file);
   return status;
