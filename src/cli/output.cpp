@@ -257,6 +257,8 @@ std::string describe_end(const RunResult& result, const CoordinatorOptions& opti
     case Coordinator::Status::too_many_clock_events:
       return fmt::format("the clock made more than {} events (--max-clock-events)",
                          options.max_clock_events);
+    case Coordinator::Status::stopped:
+      return "stopped by a signal, before the event that the clock moved on to";
     case Coordinator::Status::refused_answer:
       return "the checker rejects an answer of the solver: " + result.internal_error;
   }

@@ -53,11 +53,13 @@ bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
   return true;
 }
 
-/// Writes the state of --state-out, if the option is given and the run did not end early. False
-/// after an error.
+/// Writes the state of --state-out, if the option is given, however the run ended: only after a
+/// fault of cbc there is none. False after an error.
 bool save_state(const StreamOptions& options, const CompiledCatalog& catalog,
                 const Runner& runner) {
-  if (!options.state_out || runner.result().status != Coordinator::Status::ok) return true;
+  if (!options.state_out || runner.result().status == Coordinator::Status::refused_answer) {
+    return true;
+  }
   return write_output(*options.state_out, write_state(catalog, runner.snapshot())) == exit_ok;
 }
 
@@ -93,7 +95,7 @@ class Stream {
             [this](const Failure& failure) {
               complain_of_line(failure.range.begin.line, failure.message);
             }),
-        runner_(catalog, of_coordinator, events_) {}
+        runner_(catalog, stopping(of_coordinator), events_) {}
 
   void begin(const Situation& situation) {
     if (state_) {
@@ -110,7 +112,7 @@ class Stream {
   void run(const Script& script) {
     begin(script.situation);
     for (const Step& step : script.steps) {
-      if (signals_.have_come() || output_.has_failed() || !runner_.take(step)) return;
+      if (is_stopped() || !runner_.take(step)) return;
     }
   }
 
@@ -120,7 +122,7 @@ class Stream {
                     [this] { output_.flush(); });
     EventLines lines(catalog_);
     lines.resume(runner_.coordinator().now(), runner_.coordinator().state());
-    while (!signals_.have_come() && !output_.has_failed()) {
+    while (!is_stopped()) {
       switch (input.next(longest_wait())) {
         case LineInput::Status::waiting:
           if (!run_clock()) return;
@@ -153,7 +155,9 @@ class Stream {
       static_cast<void>(runner_.settle());
     }
     output_.flush();
-    status_ = std::max(status_, report_end(runner_, of_coordinator_));
+    if (!output_.has_failed() || runner_.result().status != Coordinator::Status::stopped) {
+      status_ = std::max(status_, report_end(runner_, of_coordinator_));
+    }
     if (const auto& totals = runner_.result().totals) output_.write(stream_totals(*totals));
     output_.flush();
     if (!save_state(options_.stream, catalog_, runner_) || output_.has_failed()) {
@@ -188,6 +192,14 @@ class Stream {
     return goes_on;
   }
 
+  [[nodiscard]] bool is_stopped() const { return signals_.have_come() || output_.has_failed(); }
+
+  /// The same options, for a coordinator that stops with the stream.
+  [[nodiscard]] CoordinatorOptions stopping(CoordinatorOptions options) const {
+    options.is_stopped = [this] { return is_stopped(); };
+    return options;
+  }
+
   [[nodiscard]] bool has_real_clock() const { return options_.stream.clock == "real"; }
 
   /// Time since the beginning, which is that of the saved state if there is one.
@@ -210,6 +222,7 @@ class Stream {
   bool run_clock() {
     runner_.restart_count();
     for (;;) {
+      if (is_stopped()) return false;
       const auto due = runner_.coordinator().next_due();
       if (!due || *due > clock_time()) return true;
       Step nothing;
@@ -389,10 +402,12 @@ class Replay {
     run_steps(runner);
     if (!is_over() && runner.result().status == Coordinator::Status::ok) run_to_end(runner);
     output_.flush();
-    if (!is_over()) status_ = report_end(runner, of_coordinator);
     if (!is_over()) look_for_rest();
     output_.flush();
-    if (!is_over() && !save_state(options_.stream, catalog_, runner)) status_ = exit_unusable;
+    if (!is_over()) {
+      status_ = report_end(runner, of_coordinator);
+      if (!save_state(options_.stream, catalog_, runner)) status_ = exit_unusable;
+    }
     return output_.has_failed() ? std::max<int>(status_, exit_unusable) : status_;
   }
 
@@ -450,6 +465,7 @@ class Replay {
   /// Runs the clock events after the last scripted event: up to the time of an expectation, which
   /// logs do not contain, or to the last instant.
   void run_to_end(Runner& runner) {
+    runner.restart_count();
     const auto last = std::find_if(expected_.rbegin(), expected_.rend(),
                                    [](const Line& line) { return line.entry.is_event; });
     if (last != expected_.rend()) {
