@@ -355,11 +355,12 @@ bool InputFiles::check_settings(const SeveritySettings& settings, const Catalog&
   if (errors.empty()) return true;
   const std::string& file = settings.never_together().front().file;
   if (!texts_.contains(file)) texts_.emplace(file, read_input(file).value_or(""));
-  std::erase_if(errors, [this](const Diagnostic& finding) {
-    return std::any_of(findings_.begin(), findings_.end(), [&finding](const Diagnostic& known) {
-      return known.file == finding.file && known.range == finding.range;
-    });
-  });
+  std::set<Range> known;
+  for (const Diagnostic& finding : findings_) {
+    if (finding.file == file) known.insert(finding.range);
+  }
+  std::erase_if(errors,
+                [&known](const Diagnostic& finding) { return known.contains(finding.range); });
   (void)keep(std::move(errors), settings);
   return false;
 }
