@@ -16,10 +16,12 @@
 #include "cli/input.h"
 #include "cli/ordered_work.h"
 #include "cli/output.h"
+#include "cli/read_files.h"
 #include "cli/solve.h"
 #include "report/solve_report.h"
 #include "script/reader.h"
 #include "script/runner.h"
+#include "support/wording.h"
 
 namespace cbc::cli {
 
@@ -116,7 +118,7 @@ std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_of(const std::stri
     complain("script {} names no catalog, and none is given", quote(display_name(script_path)));
     return nullptr;
   }
-  return catalogs_.load(*named);
+  return catalogs_.load(*named, NamedBy::file);
 }
 
 namespace {
@@ -253,6 +255,11 @@ int draw_missions(const std::vector<Mission>& missions, const SolveOptions& opti
   HtmlReport picture(event_additions(options));
   ReportPair both(report, picture);
   const int status = run_missions(missions, options, both);
+  if (picture.left_out() > 0) {
+    complain("the page {} leaves out the last {}: it holds at most {} MiB of them",
+             quote(*options.html), quantity(picture.left_out(), "event"),
+             HtmlReport::most_data >> 20U);
+  }
   return std::max(status, write_output(*options.html, picture.page()));
 }
 
@@ -275,7 +282,10 @@ int solve_missions(const SolveOptions& options) {
     return exit_unusable;
   }
   if (!know_names(*missions, options.explain)) return exit_unusable;
-  if (options.html && !can_write_output(*options.html)) return exit_unusable;
+  // What else may prevent it is told after the report, which is of use without the page.
+  if (options.html) {
+    if (const auto refusal = find_read_file(*options.html)) return complain(*refusal);
+  }
   const std::unique_ptr<SolveReport> report =
       format.make({stdout,
                    style_for(stdout),

@@ -220,11 +220,12 @@ void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
   json.close('}');
 }
 
-/// Makes JSON safe in a script element, which ends at the first "</script" wherever it is, and is
-/// parsed differently after "<!--". In JSON, "<" occurs in strings only.
-std::string for_script_element(std::string_view json) {
-  std::string text;
-  text.reserve(json.size());
+/// Failed expectations that a full page has of a run: their messages stand without their events.
+constexpr std::uint64_t most_later_failures = 100;
+
+/// Adds JSON to a script element, which ends at the first "</script" wherever it is, and is parsed
+/// differently after "<!--". In JSON, "<" occurs in strings only.
+void add_to_script_element(std::string& text, std::string_view json) {
   for (const char character : json) {
     if (character == '<') {
       text += "\\u003c";
@@ -232,7 +233,6 @@ std::string for_script_element(std::string_view json) {
       text += character;
     }
   }
-  return text;
 }
 
 }  // namespace
@@ -248,30 +248,49 @@ void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   json.open('{');
   json.write("catalog", place - catalogs_.begin());
   write_situation(json, catalog, script.situation);
-  json.close('}');
+  json.flush();
   json_.begin_run(catalog, script);
+  left_out_of_run_ = 0;
+  failures_left_ = most_later_failures;
 }
 
 void HtmlReport::on_event(const EventRecord& record, const Step* step, const State& state) {
-  json_.on_event(record, step, state);
+  if (is_full()) {
+    ++left_out_of_run_;
+  } else {
+    json_.on_event(record, step, state);
+  }
 }
 
-void HtmlReport::on_failure(const Failure& failure) { json_.on_failure(failure); }
+void HtmlReport::on_failure(const Failure& failure) {
+  if (left_out_of_run_ == 0) return json_.on_failure(failure);
+  if (failures_left_ == 0) return;
+  --failures_left_;
+  json_.on_failure(failure);
+}
 
 void HtmlReport::on_end(const State& state) { json_.on_end(state); }
 
 void HtmlReport::end_run(const RunResult& result, const std::string& error) {
   json_.end_run(result, error);
+  JsonWriter json(runs_json_);
+  json.write("left_out", left_out_of_run_);
+  json.close('}');
+  left_out_ += left_out_of_run_;
 }
 
 void HtmlReport::end() { json_.end(); }
 
 std::string HtmlReport::page() {
-  const std::string data = R"({"catalogs":)" + catalogs_json_ + R"(],"runs":)" + runs_json_ +
-                           R"(],"report":)" + std::string(memory_.text()) + "}";
   std::string page;
+  page.reserve(memory_.size() + memory_.size() / 8);
   for (const std::string_view part : page_before_data) page += part;
-  page += for_script_element(data);
+  for (const std::string_view data :
+       {std::string_view(R"({"catalogs":)"), std::string_view(catalogs_json_),
+        std::string_view(R"(],"runs":)"), std::string_view(runs_json_),
+        std::string_view(R"(],"report":)"), memory_.text(), std::string_view("}")}) {
+    add_to_script_element(page, data);
+  }
   for (const std::string_view part : page_after_data) page += part;
   return page;
 }

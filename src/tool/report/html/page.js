@@ -142,7 +142,8 @@ class Page {
     byId('counts').textContent = `${quantity(run.size, 'event')}: ${accepted} accepted, ${rejected} rejected` +
       (others > 0 ? `, ${others} neither` : '') +
       ` \u00b7 expectations: ${expectations.passed} passed, ${expectations.failed} failed`;
-    const alarms = [...expectations.failures.map((failure) => this.alarm(failure)),
+    const alarms = [...(run.leftOut === 0 ? [] : [html('p', 'alarm', this.limit(run))]),
+                    ...expectations.failures.map((failure) => this.alarm(failure)),
                     ...(error === undefined ? [] : [html('p', 'alarm', `the run ended early: ${error}`)])];
     byId('alarms').replaceChildren(...alarms);
     byId('alarms').hidden = alarms.length === 0;
@@ -155,10 +156,15 @@ class Page {
     byId('scale').value = this.timeline.view.scale;
   }
 
+  limit(run) {
+    return `the page shows the first ${quantity(run.size, 'event')} of this run; ` +
+      `${run.leftOut} more are left out, as they would make it too large`;
+  }
+
   alarm(failure) {
     const line = failureElement(this.run, failure);
     const { index } = failure;
-    if (index > 0) line.append(' after ', buttonElement(`event ${index}`, () => this.choose(index)));
+    if (index > 0 && index <= this.run.size) line.append(' after ', buttonElement(`event ${index}`, () => this.choose(index)));
     return line;
   }
 
@@ -259,4 +265,4 @@ class Page {
   }
 }
 
-const page = new Page(readRuns(JSON.parse(byId('data').textContent)));
+const page = new Page(readRuns(JSON.parse(showEscapes(byId('data').textContent))));

@@ -14,6 +14,7 @@ class Run {
     this.catalog = catalog;
     this.events = data.events;
     this.situation = extra.situation;
+    this.leftOut = extra.left_out; // events that the page does not have
     this.failures = new Map(); // of each index: the messages
     for (const failure of data.expectations.failures) {
       this.failures.set(failure.index, [...(this.failures.get(failure.index) ?? []), failure]);
