@@ -10,7 +10,9 @@
 #include <fmt/core.h>
 
 #include "base/text.h"
+#include "cli/input.h"
 #include "cli/output.h"
+#include "cli/read_files.h"
 #include "support/wording.h"
 
 namespace cbc::cli {
@@ -188,6 +190,20 @@ Option& Command::flag(const char* names, bool& target, std::string help) {
   Option& added = flag(names, std::move(help));
   added.store = [&target](const std::string&) { target = true; };
   return added;
+}
+
+void Command::add_confinement() {
+  Values folder;
+  folder.placeholder = "DIR";
+  folder.expected = "a folder";
+  folder.kind = ValueKind::file;
+  folder.check = [](const std::string& value) -> std::string {
+    return is_folder(value) ? "" : fmt::format("there is no folder {}", quote(value));
+  };
+  Option& added = add("--confine", std::move(folder),
+                      "Read no file outside of the folder DIR, whatever files and links name; for "
+                      "files of people you do not trust");
+  added.store = [](const std::string& value) { confine_reading(value); };
 }
 
 Option& Command::add(std::string_view names, Values values, std::string help) {

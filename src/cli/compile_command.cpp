@@ -16,6 +16,7 @@
 #include "cli/command_line.h"
 #include "cli/input.h"
 #include "cli/output.h"
+#include "cli/read_files.h"
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
 #include "report/catalog_report.h"
@@ -138,6 +139,9 @@ int check(const CompileCommand& command) {
   const std::string output = output_of(command);
   std::error_code error;
   if (!fs::exists(output, error) && !error) return say_stale(output, "it does not exist");
+  if (const auto refusal = find_confinement(output)) {
+    return complain("cannot read {}: {}", quote(output), *refusal);
+  }
   const MappedFile memory = map_file(output, largest_compiled_file);
   if (memory.memory == nullptr) {
     return complain("cannot read {}: {}", quote(output), memory.error);
@@ -219,6 +223,7 @@ void add_compile_command(Program& program) {
       .option("--format", options->format, one_of("FORMAT", {"text", "json"}),
               "With --dump: text (the default) or json")
       .only_with({"--dump"});
+  command.add_confinement();
   command.action([options] { return run_compile(*options); });
 }
 

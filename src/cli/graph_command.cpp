@@ -598,6 +598,7 @@ void add_graph_command(Program& program) {
   command.option("--format", options->format, one_of("FORMAT", formats), format_help);
   add_drawing_options(command, options->drawing);
   add_state_options(command, options->state);
+  command.add_confinement();
   command.action([options] { return run_graph(*options); });
 }
 

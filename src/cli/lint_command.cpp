@@ -395,7 +395,8 @@ std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& 
     return nullptr;
   }
   const bool is_linted = catalogs_.knows(catalog);
-  std::shared_ptr<const CompiledCatalog> compiled = catalogs_.load(catalog);
+  std::shared_ptr<const CompiledCatalog> compiled =
+      catalogs_.load(catalog, given.empty() ? NamedBy::file : NamedBy::command_line);
   if (compiled == nullptr) {
     complain(
         "{} {} is not checked, as its catalog {} cannot be used; "
@@ -674,6 +675,7 @@ void add_lint_command(Program& program) {
   command.flag("--list-rules", options->list_rules, "List all rules")
       .not_with({"CATALOG", "--script"}, only_explains)
       .only_with_values("--format", {"text"});
+  command.add_confinement();
   command.action([options] { return lint(*options); });
 }
 

@@ -1,9 +1,12 @@
 #include "cli/read_files.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <string>
 #include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 
@@ -14,6 +17,8 @@
 
 namespace cbc::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// What tells whether two names are those of one file.
 using Identity = std::pair<dev_t, ino_t>;
@@ -28,6 +33,7 @@ std::optional<Identity> identity_of(const std::string& path) {
 struct ReadFiles {
   std::mutex mutex;
   std::map<Identity, std::string> names;  ///< as they were first read
+  fs::path confinement;                   ///< empty: any file may be read
 };
 
 /// Of the process, as files are.
@@ -44,6 +50,23 @@ void note_read(const std::string& path) {
   ReadFiles& files = read_files();
   const std::lock_guard lock(files.mutex);
   files.names.try_emplace(*identity, path);
+}
+
+void confine_reading(const std::string& folder) {
+  read_files().confinement = fs::canonical(folder);
+}
+
+std::optional<std::string> find_confinement(const std::string& path) {
+  const fs::path& folder = read_files().confinement;
+  if (folder.empty() || path == "-") return std::nullopt;
+  // Also of what does not exist, so that nobody learns of that.
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(fs::absolute(path, error), error);
+  const bool is_inside =
+      !error &&
+      std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end();
+  if (is_inside) return std::nullopt;
+  return fmt::format("it is outside of {} (--confine)", quote(folder.string()));
 }
 
 std::optional<std::string> find_read_file(const std::string& output) {

@@ -613,6 +613,9 @@ int replay_stream(const SolveOptions& options) {
       !knows_names(*catalog, options.explain)) {
     return exit_unusable;
   }
+  if (const auto refusal = find_confinement(path)) {
+    return complain("cannot read {}: {}", quote(path), *refusal);
+  }
   const int file = path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {
     return complain("cannot read {}: {}", quote(path), std::strerror(errno));
