@@ -687,6 +687,34 @@ TEST_F(StreamTest, StateOfAnotherCatalogIsRefused) {
   EXPECT_NE(result.err.find("it is the state of another catalog"), std::string::npos) << result.err;
 }
 
+/// What starts reactively starts after the delay, so nothing is due later than that.
+TEST_F(StreamTest, StateWithAnImpossibleTimeInTheQueueIsRefused) {
+  folder_.write("restless.yaml", restless);
+  folder_.write("input", "{\"wait\":0.05}\n");
+  const auto go_on = [this](std::vector<std::string> more) {
+    more.insert(more.begin(), {"restless.yaml", "-", "--format", "jsonl"});
+    Call of_stream = call(std::move(more));
+    of_stream.standard_input = folder_ / "input";
+    return run(of_stream);
+  };
+  ASSERT_EQ(go_on({"--state-out", "state.json"}).status, 0);
+  json state = json::parse(folder_.read("state.json"));
+  ASSERT_EQ(state["time_us"], 50'000);
+  ASSERT_EQ(state["reactive_delay_us"], 80'000);
+  const auto status_with = [&](std::int64_t due) {
+    state["queue"]["H"] = due;
+    folder_.write("changed.json", state.dump());
+    const Result result = go_on({"--state-in", "changed.json"});
+    const bool is_told = result.err.find("for an impossible time") != std::string::npos;
+    EXPECT_EQ(is_told, result.status == 2) << result.err;
+    return result.status;
+  };
+  EXPECT_EQ(status_with(50'000), 0);
+  EXPECT_EQ(status_with(130'000), 0);
+  EXPECT_EQ(status_with(130'001), 2);
+  EXPECT_EQ(status_with(49'999), 2);
+}
+
 TEST_F(StreamTest, ReplayGivesTheLogAgain) {
   const std::string log = feed(many_events(100) + "no event\n{\"start\":\"LAND\"}\n").out;
   folder_.write("log.jsonl", log);

@@ -232,11 +232,11 @@ TEST(LintCascade, LongChainsAboveADeadTaskHaveOneFinding) {
   const std::string shown = findings(
       chain_of(length, "exclusivity_constraints:\n- mutually_exclusive: [T15000, T15002]\n"));
   EXPECT_EQ(shown,
-            "15003:14-20 warning dead-behavior: behavior 'B15000' can never be active: together "
-            "these constraints exclude it\n"
-            "  15003:48-54 behavior 'B15000' requires 'T15001'\n"
-            "  15004:48-54 behavior 'B15001' requires 'T15002'\n"
-            "  60005:3-39 'T15000' excludes 'T15002'\n");
+            "45004:9-15 warning dead-task: task 'T15000' can never run: together these constraints "
+            "exclude all of its behaviors\n"
+            "  15003:54-60 behavior 'B15000' requires 'T15001'\n"
+            "  15004:54-60 behavior 'B15001' requires 'T15002'\n"
+            "  60005:3-21 'T15000' excludes 'T15002'\n");
 }
 
 }  // namespace

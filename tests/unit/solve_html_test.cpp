@@ -112,7 +112,8 @@ TEST(SolveHtml, HasTheCatalogInItsOrder) {
                              "requires": [], "situation": {}}])"));
   EXPECT_EQ(catalog["variables"], json::array());
   EXPECT_EQ(catalog["exclusive"], json::parse(R"([["GO", "STAY"]])"));
-  EXPECT_EQ(made.data["runs"], json::parse(R"([{"catalog": 0, "situation": {"gps": true}}])"));
+  EXPECT_EQ(made.data["runs"],
+            json::parse(R"([{"catalog": 0, "situation": {"gps": true}, "left_out": 0}])"));
 }
 
 TEST(SolveHtml, HasSituationVariablesAndConditions) {
