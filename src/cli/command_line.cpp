@@ -10,7 +10,9 @@
 #include <fmt/core.h>
 
 #include "base/text.h"
+#include "cli/input.h"
 #include "cli/output.h"
+#include "cli/read_files.h"
 #include "support/wording.h"
 
 namespace cbc::cli {
@@ -193,6 +195,20 @@ Option& Command::flag(const char* names, bool& target, std::string help) {
   Option& added = flag(names, std::move(help));
   added.store = [&target](const std::string&) { target = true; };
   return added;
+}
+
+void Command::add_confinement() {
+  Values folder;
+  folder.placeholder = "DIR";
+  folder.expected = "a folder";
+  folder.kind = ValueKind::file;
+  folder.check = [](const std::string& value) -> std::string {
+    return is_folder(value) ? "" : fmt::format("there is no folder {}", quote(value));
+  };
+  Option& added = add("--confine", std::move(folder),
+                      "Read no file outside of the folder DIR, whatever files and links name; for "
+                      "files of people you do not trust");
+  added.store = [](const std::string& value) { confine_reading(value); };
 }
 
 Option& Command::add(std::string_view names, Values values, std::string help) {
@@ -396,7 +412,7 @@ std::string find_bad_file(const std::vector<std::string>& inputs,
   for (auto output = outputs.begin(); output != outputs.end(); ++output) {
     const auto is_output = [&](const std::string& file) { return is_same_file(file, *output); };
     if (std::any_of(inputs.begin(), inputs.end(), is_output)) {
-      return fmt::format(overwrites_input, quote(*output));
+      return fmt::format("the output {} is also an input", quote(*output));
     }
     if (std::find(outputs.begin(), output, *output) != output ||
         std::any_of(outputs.begin(), output, is_output)) {

@@ -177,6 +177,8 @@ class Command {
     added.is_argument = true;
     return added;
   }
+  /// --confine, for commands that read files.
+  void add_confinement();
   /// The heading in --help of the options declared next.
   void group(std::string title) { group_ = std::move(title); }
   /// What the command does. Returns the exit status.

@@ -16,6 +16,7 @@
 #include "cli/command_line.h"
 #include "cli/input.h"
 #include "cli/output.h"
+#include "cli/read_files.h"
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
 #include "report/catalog_report.h"
@@ -120,9 +121,7 @@ int compile_to_file(const CompileCommand& command) {
   const std::optional<Source> source = read_source(command.catalog);
   if (!source) return exit_unusable;
   const std::string output = output_of(command);
-  if (is_same_file(command.catalog, output)) {
-    return usage_error("compile", overwrites_input, quote(output));
-  }
+  if (!can_write_output(output)) return exit_unusable;
   const std::optional<Compiled> compiled = compile_source(*source);
   return compiled ? write(output, compiled->content) : exit_unusable;
 }
@@ -140,6 +139,9 @@ int check(const CompileCommand& command) {
   const std::string output = output_of(command);
   std::error_code error;
   if (!fs::exists(output, error) && !error) return say_stale(output, "it does not exist");
+  if (const auto refusal = find_confinement(output)) {
+    return complain("cannot read {}: {}", quote(output), *refusal);
+  }
   const MappedFile memory = map_file(output, largest_compiled_file);
   if (memory.memory == nullptr) {
     return complain("cannot read {}: {}", quote(output), memory.error);
@@ -221,6 +223,7 @@ void add_compile_command(Program& program) {
       .option("--format", options->format, one_of("FORMAT", {"text", "json"}),
               "With --dump: text (the default) or json")
       .only_with({"--dump"});
+  command.add_confinement();
   command.action([options] { return run_compile(*options); });
 }
 

@@ -296,7 +296,6 @@ std::unique_ptr<Drawable> read_state(const std::string& catalog, const StateOpti
   state->graph = draw::to_graph(*mission->catalog);
   draw::mark_state(state->graph, recorder.state());
   state->moment = recorder.moment();
-  state->named_catalog = std::move(mission->named_catalog);
   state->compiled = std::move(mission->catalog);
   return state;
 }
@@ -547,9 +546,6 @@ int draw_catalog(const GraphCommand& command) {
   const std::unique_ptr<Drawable> drawable =
       command.state.script ? read_state(catalog, command.state, status) : read_drawable(catalog);
   if (drawable == nullptr) return status;
-  if (drawable->named_catalog && is_same_file(*drawable->named_catalog, output_of(command))) {
-    return usage_error("graph", overwrites_input, quote(*command.output));
-  }
   return draw(drawable->graph, drawable->moment, command);
 }
 
@@ -609,6 +605,7 @@ void add_graph_command(Program& program) {
   command.option("--format", options->format, one_of("FORMAT", formats), format_help);
   add_drawing_options(command, options->drawing);
   add_state_options(command, options->state);
+  command.add_confinement();
   command.action([options] { return run_graph(*options); });
 }
 

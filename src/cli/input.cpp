@@ -24,6 +24,7 @@
 #include "catalog/reader.h"
 #include "cbc/event.h"
 #include "cli/output.h"
+#include "cli/read_files.h"
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
 #include "coordinator/record.h"
@@ -230,11 +231,17 @@ std::optional<std::string> read_stream(std::FILE* stream, const std::string& pat
 
 }  // namespace
 
-std::optional<std::string> read_input(const std::string& path) {
+std::optional<std::string> read_replaceable_input(const std::string& path) {
   if (path == "-") return read_stream(stdin, path);
+  if (const auto refusal = find_confinement(path)) return fail(path, *refusal);
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rbe"));
   if (file == nullptr) return fail(path, std::strerror(errno));
   return read_stream(file.get(), path);
+}
+
+std::optional<std::string> read_input(const std::string& path) {
+  note_read(path);
+  return read_replaceable_input(path);
 }
 
 std::string display_name(const std::string& path) { return path == "-" ? "<stdin>" : path; }
@@ -249,6 +256,11 @@ std::vector<std::string> list_folder(const std::string& path,
     folders.pop_back();
     std::error_code error;
     std::error_code ignored;
+    if (const auto refusal = find_confinement(folder.string())) {
+      (void)fail(folder.string(), *refusal);
+      has_failed = true;
+      continue;
+    }
     fs::directory_iterator entry(folder, error);
     for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
       if (entry->path().filename().string().starts_with('.')) continue;
@@ -274,7 +286,17 @@ bool is_folder(const std::string& path) {
   return path != "-" && fs::is_directory(path, ignored);
 }
 
-std::optional<InputFile> InputFiles::read(const std::string& path) {
+namespace {
+
+/// Whether a file is a catalog or another file of cbc, at least by its keys.
+bool is_known_kind(std::string_view text, const yaml::Document* document) {
+  if (document == nullptr) return has_lines_of_catalog(text);
+  return resembles_catalog(document->root()) || is_script(*document) || is_property_file(*document);
+}
+
+}  // namespace
+
+std::optional<InputFile> InputFiles::read(const std::string& path, NamedBy named_by) {
   std::optional<CatalogInput> input = read_catalog_input(path);
   if (!input) return std::nullopt;
   if (input->is_compiled) return InputFile{path, nullptr, std::move(*input)};
@@ -282,6 +304,10 @@ std::optional<InputFile> InputFiles::read(const std::string& path) {
   const auto entry = texts_.insert_or_assign(name, std::move(input->content)).first;
   Diagnostics diagnostics;
   auto document = yaml::parse(entry->second, name, diagnostics);
+  if (named_by == NamedBy::file && !is_known_kind(entry->second, document.get())) {
+    complain("{} is not a catalog", quote(name));
+    return std::nullopt;
+  }
   if (keeps_findings_) {
     for (Diagnostic& finding : diagnostics.release()) findings_.push_back(std::move(finding));
   }
@@ -289,8 +315,8 @@ std::optional<InputFile> InputFiles::read(const std::string& path) {
   return InputFile{path, std::move(document), {}};
 }
 
-std::optional<InputFile> InputFiles::read_catalog(const std::string& path) {
-  std::optional<InputFile> file = read(path);
+std::optional<InputFile> InputFiles::read_catalog(const std::string& path, NamedBy named_by) {
+  std::optional<InputFile> file = read(path, named_by);
   if (!file || file->document == nullptr) return file;
   const bool is_of_properties = is_property_file(*file->document);
   if (!is_of_properties && !is_script(*file->document)) return file;
@@ -349,11 +375,12 @@ bool InputFiles::check_settings(const SeveritySettings& settings, const Catalog&
   if (errors.empty()) return true;
   const std::string& file = settings.never_together().front().file;
   if (!texts_.contains(file)) texts_.emplace(file, read_input(file).value_or(""));
-  std::erase_if(errors, [this](const Diagnostic& finding) {
-    return std::any_of(findings_.begin(), findings_.end(), [&finding](const Diagnostic& known) {
-      return known.file == finding.file && known.range == finding.range;
-    });
-  });
+  std::set<Range> known;
+  for (const Diagnostic& finding : findings_) {
+    if (finding.file == file) known.insert(finding.range);
+  }
+  std::erase_if(errors,
+                [&known](const Diagnostic& finding) { return known.contains(finding.range); });
   (void)keep(std::move(errors), settings);
   return false;
 }
@@ -393,10 +420,11 @@ std::string CatalogLoader::key_of(const std::string& path) {
   return fs::path(path).lexically_normal().string();
 }
 
-std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const std::string& path) {
+std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const std::string& path,
+                                                           NamedBy named_by) {
   const auto [entry, is_new] = known_.try_emplace(key_of(path), nullptr);
   if (is_new) {
-    if (const std::optional<InputFile> file = files_.read_catalog(path))
+    if (const std::optional<InputFile> file = files_.read_catalog(path, named_by))
       entry->second = load(*file);
   }
   return entry->second;
@@ -422,7 +450,8 @@ namespace {
 /// Whether a regular file has a compiled catalog. Other files cannot be read twice.
 bool can_be_mapped(const std::string& path) {
   std::error_code ignored;
-  if (path == "-" || !std::filesystem::is_regular_file(path, ignored)) return false;
+  if (path == "-" || find_confinement(path)) return false;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
   std::array<char, 8> begin{};
   std::ifstream file(path, std::ios::binary);
   file.read(begin.data(), begin.size());
@@ -432,7 +461,10 @@ bool can_be_mapped(const std::string& path) {
 }  // namespace
 
 std::optional<CatalogInput> read_catalog_input(const std::string& path) {
-  if (can_be_mapped(path)) return CatalogInput{path, {}, true};
+  if (can_be_mapped(path)) {
+    note_read(path);
+    return CatalogInput{path, {}, true};
+  }
   std::optional<std::string> content = read_input(path);
   if (!content) return std::nullopt;
   const bool has_catalog = is_compiled(*content);
@@ -456,12 +488,22 @@ std::optional<std::string> path_of_catalog(const std::string& path,
   return (folder / *named).lexically_normal().string();
 }
 
+namespace {
+
+std::string folder_of(const std::string& file) {
+  const fs::path folder = fs::path(file).parent_path();
+  return folder.empty() ? "." : folder.string();
+}
+
+}  // namespace
+
 SettingsFinder::SettingsFinder(SeveritySettings command_line)
     : command_line_(std::move(command_line)) {}
 
 std::optional<SeveritySettings> SettingsFinder::find(const std::string& path) {
   const std::optional<std::string> file = find_settings_file(path);
-  if (!file) return command_line_;
+  // One above the folder of --confine belongs to others.
+  if (!file || find_confinement(folder_of(*file))) return command_line_;
   const auto [entry, is_new] = known_.try_emplace(*file);
   if (!is_new) return entry->second;
   if (const std::optional<std::string> text = read_input(*file)) {

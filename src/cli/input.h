@@ -50,6 +50,9 @@ enum class FoundFile : std::uint8_t {
 /// standard error.
 [[nodiscard]] std::optional<std::string> read_input(const std::string& path);
 
+/// The same for a file that an output may replace, as a state that a stream continues from.
+[[nodiscard]] std::optional<std::string> read_replaceable_input(const std::string& path);
+
 /// The name of an input in messages and reports.
 [[nodiscard]] std::string display_name(const std::string& path);
 
@@ -96,6 +99,10 @@ struct InputFile {
   CatalogInput compiled;
 };
 
+/// Who names a file. Of one that another file names, and that is no catalog, nothing is shown: it
+/// may be a file that whoever wrote the other one must not see.
+enum class NamedBy : std::uint8_t { command_line, file };
+
 /// Reads the files of a command line, and collects the findings about them.
 class InputFiles {
  public:
@@ -107,10 +114,12 @@ class InputFiles {
   InputFiles& operator=(const InputFiles&) = delete;
 
   /// Empty if the file cannot be read, which is reported, or is not valid YAML, which is a finding.
-  [[nodiscard]] std::optional<InputFile> read(const std::string& path);
+  [[nodiscard]] std::optional<InputFile> read(const std::string& path,
+                                              NamedBy named_by = NamedBy::command_line);
 
   /// The same for a file that has to be a catalog: a script or a property file is reported.
-  [[nodiscard]] std::optional<InputFile> read_catalog(const std::string& path);
+  [[nodiscard]] std::optional<InputFile> read_catalog(const std::string& path,
+                                                      NamedBy named_by = NamedBy::command_line);
 
   /// The text of a YAML file.
   [[nodiscard]] const std::string& text_of(const yaml::Document& document) const {
@@ -162,7 +171,8 @@ class CatalogLoader {
   /// Null if the catalog cannot be used: the findings have its errors, or the reason was printed.
   [[nodiscard]] std::shared_ptr<const CompiledCatalog> load(const InputFile& file);
   /// The same for a path, which is read only once.
-  [[nodiscard]] std::shared_ptr<const CompiledCatalog> load(const std::string& path);
+  [[nodiscard]] std::shared_ptr<const CompiledCatalog> load(
+      const std::string& path, NamedBy named_by = NamedBy::command_line);
 
   /// Keeps a catalog that was read in another way, or null for one that cannot be used.
   void keep(const std::string& path, std::shared_ptr<const CompiledCatalog> catalog) {
@@ -197,8 +207,7 @@ struct Drawable {
   std::shared_ptr<const CompiledCatalog> compiled;  ///< if the catalog has no errors
   CatalogReading reading;                           ///< if it has errors
   draw::CatalogGraph graph;
-  std::optional<draw::Moment> moment;        ///< of a state
-  std::optional<std::string> named_catalog;  ///< path of the catalog that the script names
+  std::optional<draw::Moment> moment;  ///< of a state
 };
 
 /// Reads a catalog, compiled or YAML, which may have errors, and prints the findings. Null if

@@ -333,7 +333,7 @@ bool Linter::write_fixed(const std::string& path, const std::string& before,
     complain("{} has changed in the meantime; it is not overwritten", quote(path));
     return false;
   }
-  return write_output(path, after) == exit_ok;
+  return replace_input(path, after) == exit_ok;
 }
 
 void Linter::lint_script(const std::string& path, const std::string& catalog) {
@@ -399,7 +399,8 @@ std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& 
     return nullptr;
   }
   const bool is_linted = catalogs_.knows(catalog);
-  std::shared_ptr<const CompiledCatalog> compiled = catalogs_.load(catalog);
+  std::shared_ptr<const CompiledCatalog> compiled =
+      catalogs_.load(catalog, given.empty() ? NamedBy::file : NamedBy::command_line);
   if (compiled == nullptr) {
     complain(
         "{} {} is not checked, as its catalog {} cannot be used; "
@@ -694,6 +695,7 @@ void add_lint_command(Program& program) {
   command.flag("--list-rules", options->list_rules, "List all rules")
       .not_with({"CATALOG", "--script"}, only_explains)
       .only_with_values("--format", {"text"});
+  command.add_confinement();
   command.action([options] { return lint(*options); });
 }
 

@@ -35,7 +35,7 @@ std::unique_ptr<LivePage> LivePage::open(const CompiledCatalog& catalog, std::st
   const std::string begin = state_of_page(catalog, index, coordinator.now(), coordinator.state());
   live->history_.begin_part(begin);
   const std::string token = make_token();
-  std::string page = stream_page(catalog, {std::move(name), begin, "", "", token});
+  std::string page = stream_page(catalog, {std::move(name), begin, "", 0, "", token});
   auto [server, error] =
       serve::Server::start(*serve::read_address(address), {std::move(page), token}, live->history_);
   if (server == nullptr) {

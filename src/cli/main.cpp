@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
@@ -56,9 +58,11 @@ int run(int argc, char** argv) {
     return exit_ok;
   }
   const int status = program.run(arguments);
+  // After an earlier error, what could not be written is tried again, which gives the reason.
+  errno = 0;
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    std::fprintf(stderr, "cbc: cannot write the output\n");
-    return exit_unusable;
+    const char* const reason = errno != 0 ? std::strerror(errno) : "a part of it is missing";
+    return complain("cannot write the output: {}", reason);
   }
   return status;
 }

@@ -9,8 +9,10 @@
 #include <cstring>
 #include <ctime>
 #include <fcntl.h>
+#include <filesystem>
 #include <initializer_list>
 #include <poll.h>
+#include <set>
 #include <string_view>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
@@ -21,6 +23,7 @@
 #include <fmt/core.h>
 
 #include "base/text.h"
+#include "cli/read_files.h"
 #include "support/system.h"
 
 namespace cbc::cli {
@@ -205,10 +208,37 @@ int write_output(const std::string& path, std::string_view content) {
     std::fwrite(content.data(), 1, content.size(), stdout);  // errors show when it is flushed
     return exit_ok;
   }
+  if (const auto refusal = find_read_file(path)) return complain(*refusal);
+  return replace_input(path, content);
+}
+
+namespace {
+
+/// Once for each folder, as folders may be large, and runs may write many files.
+void tidy_folder_of(const std::string& path) {
+  static std::set<std::filesystem::path> tidy;
+  if (tidy.insert(std::filesystem::path(path).parent_path()).second) remove_leftovers(path);
+}
+
+}  // namespace
+
+int replace_input(const std::string& path, std::string_view content) {
+  tidy_folder_of(path);
   if (const auto error = write_atomically(path, content)) {
     return complain("cannot write {}: {}", quote(path), *error);
   }
   return exit_ok;
+}
+
+bool can_write_output(const std::string& path) {
+  if (path == "-") return true;
+  if (const auto refusal = find_read_file(path)) {
+    complain(*refusal);
+    return false;
+  }
+  const auto obstacle = find_obstacle(path);
+  if (obstacle) complain("cannot write {}: {}", quote(path), *obstacle);
+  return !obstacle;
 }
 
 bool is_same_file(const std::string& input, const std::string& output) {
@@ -227,6 +257,8 @@ std::string describe_end(const RunResult& result, const CoordinatorOptions& opti
     case Coordinator::Status::too_many_clock_events:
       return fmt::format("the clock made more than {} events (--max-clock-events)",
                          options.max_clock_events);
+    case Coordinator::Status::stopped:
+      return "stopped by a signal, before the event that the clock moved on to";
     case Coordinator::Status::refused_answer:
       return "the checker rejects an answer of the solver: " + result.internal_error;
   }

@@ -124,16 +124,20 @@ class LineOutput {
 /// its place. Reading from such a stream or writing to it fails; messages are dropped.
 void hold_standard_descriptors();
 
-/// Writes a file, as a whole or not at all, or to standard output for "-". If that fails, prints
-/// why. Returns the exit status.
+/// Writes a file, as a whole or not at all, or to standard output for "-". If that fails, or the
+/// file is one that was read, prints why. Returns the exit status.
 [[nodiscard]] int write_output(const std::string& path, std::string_view content);
 
-/// Whether writing an output would replace an input ("-": standard input). Standard output ("-")
-/// replaces nothing.
-[[nodiscard]] bool is_same_file(const std::string& input, const std::string& output);
+/// The same for an input, which is meant to be replaced.
+[[nodiscard]] int replace_input(const std::string& path, std::string_view content);
 
-/// The message about such an output.
-inline constexpr const char* overwrites_input = "the output {} is also an input";
+/// Whether write_output could write there now; if not, prints why. For outputs that are written
+/// after long work. Call it when all inputs were read.
+[[nodiscard]] bool can_write_output(const std::string& path);
+
+/// Whether an input ("-": standard input) and another file are the same. Standard output ("-") is
+/// no file.
+[[nodiscard]] bool is_same_file(const std::string& input, const std::string& output);
 
 /// Why a run ended early, or empty.
 [[nodiscard]] std::string describe_end(const RunResult& result, const CoordinatorOptions& options);

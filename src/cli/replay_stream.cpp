@@ -16,6 +16,7 @@
 #include "base/text.h"
 #include "cli/input.h"
 #include "cli/output.h"
+#include "cli/read_files.h"
 #include "cli/solve.h"
 #include "compiled/compiled_catalog.h"
 #include "coordinator/state.h"
@@ -23,7 +24,6 @@
 #include "report/stream_page.h"
 #include "script/event_lines.h"
 #include "script/runner.h"
-#include "support/system.h"
 #include "yaml/document.h"
 
 namespace cbc::cli {
@@ -108,10 +108,12 @@ class Replay {
     run_steps(runner);
     if (!is_over() && runner.result().status == Coordinator::Status::ok) run_to_end(runner);
     output_.flush();
-    if (!is_over()) status_ = report_end(runner, of_coordinator);
     if (!is_over()) look_for_rest();
     output_.flush();
-    if (!is_over() && !save_state(options_.stream, catalog_, runner)) status_ = exit_unusable;
+    if (!is_over()) {
+      status_ = report_end(runner, of_coordinator);
+      if (!save_state(options_.stream, catalog_, runner)) status_ = exit_unusable;
+    }
     if (options_.html) draw(begin);
     return output_.has_failed() ? std::max<int>(status_, exit_unusable) : status_;
   }
@@ -169,6 +171,7 @@ class Replay {
   /// Runs the clock events after the last scripted event: up to the time of an expectation, which
   /// logs do not contain, or to the last instant.
   void run_to_end(Runner& runner) {
+    runner.restart_count();
     const auto last = std::find_if(expected_.rbegin(), expected_.rend(),
                                    [](const Line& line) { return line.entry.is_event; });
     if (last != expected_.rend()) {
@@ -219,7 +222,7 @@ class Replay {
     if (is_over()) return;
     output_.write(line);
     line.remove_suffix(1);
-    if (options_.html) events_.append(events_.empty() ? "" : ",").append(line);
+    if (options_.html) add_to_page(line);
     if (expected_.empty()) {
       tell_difference(input_.number() + 1, "", std::string(line),
                       is_at_end_ ? "the log ends here, before the events due at its last "
@@ -253,10 +256,19 @@ class Replay {
     }
   }
 
+  void add_to_page(std::string_view event) {
+    if (events_.size() >= HtmlReport::most_data) {
+      ++left_out_;
+      return;
+    }
+    events_.append(events_.empty() ? "" : ",").append(event);
+  }
+
   /// The page of what was run, which is the log, or its beginning.
   void draw(const std::string& begin) {
-    const std::string page = stream_page(catalog_, {name_, begin, events_, end_, ""});
+    const std::string page = stream_page(catalog_, {name_, begin, events_, left_out_, end_, ""});
     status_ = std::max(status_, write_output(*options_.html, page));
+    tell_left_out(*options_.html, left_out_);
   }
 
   [[nodiscard]] bool is_over() const { return status_ != exit_ok || output_.has_failed(); }
@@ -286,10 +298,11 @@ class Replay {
   LineInput input_;
   LineOutput output_;
   EventLog log_;
-  std::deque<Line> expected_;  ///< lines of the log that are not compared yet
-  bool is_at_end_ = false;     ///< of the log
-  std::string events_;         ///< for the page of --html
-  std::string end_;            ///< why the replay ended early, or empty
+  std::deque<Line> expected_;   ///< lines of the log that are not compared yet
+  bool is_at_end_ = false;      ///< of the log
+  std::string events_;          ///< for the page of --html
+  std::uint64_t left_out_ = 0;  ///< events that are not on the page
+  std::string end_;             ///< why the replay ended early, or empty
   int status_ = exit_ok;
 };
 
@@ -299,7 +312,6 @@ int replay_stream(const SolveOptions& options) {
   if (options.paths.size() != 1) {
     return complain("--replay needs a log and its catalog: cbc solve --replay LOG CATALOG");
   }
-  if (!can_save_state(options.stream)) return exit_unusable;
   const std::string& path = *options.stream.replay;
   const auto catalog = load_catalog(options.paths.front());
   std::optional<Snapshot> state;
@@ -307,10 +319,15 @@ int replay_stream(const SolveOptions& options) {
       !knows_names(*catalog, options.explain)) {
     return exit_unusable;
   }
+  if (const auto refusal = find_confinement(path)) {
+    return complain("cannot read {}: {}", quote(path), *refusal);
+  }
   const int file = path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {
     return complain("cannot read {}: {}", quote(path), std::strerror(errno));
   }
+  note_read(path);
+  if (!can_save_state(options.stream)) return exit_unusable;
   const int status = Replay(file, display_name(path), *catalog, options).run(state);
   if (file != STDIN_FILENO) ::close(file);
   return status;

@@ -8,21 +8,17 @@
 #include "cli/solve.h"
 #include "coordinator/state.h"
 #include "script/event_lines.h"
-#include "support/system.h"
 
 namespace cbc::cli {
 
 bool can_save_state(const StreamOptions& options) {
-  if (!options.state_out) return true;
-  const auto obstacle = find_obstacle(*options.state_out);
-  if (obstacle) complain("cannot write {}: {}", quote(*options.state_out), *obstacle);
-  return !obstacle;
+  return !options.state_out || can_write_output(*options.state_out);
 }
 
 bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
                 std::optional<Snapshot>& state) {
   if (!options.state_in) return true;
-  const std::optional<std::string> text = read_input(*options.state_in);
+  const std::optional<std::string> text = read_replaceable_input(*options.state_in);
   if (!text) return false;
   StateReading reading = read_state(*text, catalog);
   if (!reading.snapshot) {
@@ -35,7 +31,9 @@ bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
 
 bool save_state(const StreamOptions& options, const CompiledCatalog& catalog,
                 const Runner& runner) {
-  if (!options.state_out || runner.result().status != Coordinator::Status::ok) return true;
+  if (!options.state_out || runner.result().status == Coordinator::Status::refused_answer) {
+    return true;
+  }
   return write_output(*options.state_out, write_state(catalog, runner.snapshot())) == exit_ok;
 }
 

@@ -200,6 +200,7 @@ void add_solve_command(Program& program) {
             "of the process; with a sweep, also report times")
       .not_with({"--replay"}, "times cannot be repeated")
       .not_with({"--format junit", "--format github"}, "it has no place for times");
+  command.add_confinement();
 
   command.group("Reasons");
   for (Option* const option :

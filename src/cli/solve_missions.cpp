@@ -16,10 +16,12 @@
 #include "cli/input.h"
 #include "cli/ordered_work.h"
 #include "cli/output.h"
+#include "cli/read_files.h"
 #include "cli/solve.h"
 #include "report/solve_report.h"
 #include "script/reader.h"
 #include "script/runner.h"
+#include "support/wording.h"
 
 namespace cbc::cli {
 
@@ -102,7 +104,7 @@ void MissionLoader::add_script(const std::string& path, const yaml::Document& do
   Diagnostics diagnostics;
   std::optional<Script> script = read_script(document, *catalog, Severity::warning, diagnostics);
   if (files_.take_findings(path, document, std::move(diagnostics), script.has_value()) && script) {
-    missions_.push_back({std::move(catalog), path_of_catalog(path, document), std::move(*script)});
+    missions_.push_back({std::move(catalog), std::move(*script)});
   } else {
     has_failed_ = true;
   }
@@ -116,7 +118,7 @@ std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_of(const std::stri
     complain("script {} names no catalog, and none is given", quote(display_name(script_path)));
     return nullptr;
   }
-  return catalogs_.load(*named);
+  return catalogs_.load(*named, NamedBy::file);
 }
 
 namespace {
@@ -253,6 +255,7 @@ int draw_missions(const std::vector<Mission>& missions, const SolveOptions& opti
   HtmlReport picture(event_additions(options));
   ReportPair both(report, picture);
   const int status = run_missions(missions, options, both);
+  tell_left_out(*options.html, picture.left_out());
   return std::max(status, write_output(*options.html, picture.page()));
 }
 
@@ -263,16 +266,13 @@ bool know_names(const std::vector<Mission>& missions, const ExplainOptions& opti
   });
 }
 
-/// Whether a path is an input that the command line does not name itself: a catalog that a script
-/// names, or a script of a folder.
-bool is_read(const std::string& path, const std::vector<Mission>& missions) {
-  return std::any_of(missions.begin(), missions.end(), [&](const Mission& mission) {
-    return is_same_file(mission.script.file, path) ||
-           (mission.named_catalog && is_same_file(*mission.named_catalog, path));
-  });
-}
-
 }  // namespace
+
+void tell_left_out(const std::string& page, std::uint64_t events) {
+  if (events == 0) return;
+  complain("the page {} leaves out the last {}: it holds at most {} MiB of them", quote(page),
+           quantity(events, "event"), HtmlReport::most_data >> 20U);
+}
 
 int solve_missions(const SolveOptions& options) {
   const SolveFormat& format = *find_named(solve_formats(), options.format);
@@ -284,9 +284,9 @@ int solve_missions(const SolveOptions& options) {
     return exit_unusable;
   }
   if (!know_names(*missions, options.explain)) return exit_unusable;
-  if (options.html && is_read(*options.html, *missions)) {
-    return complain("the output {} is a script of a folder, or a catalog that a script names",
-                    quote(*options.html));
+  // What else may prevent it is told after the report, which is of use without the page.
+  if (options.html) {
+    if (const auto refusal = find_read_file(*options.html)) return complain(*refusal);
   }
   const std::unique_ptr<SolveReport> report =
       format.make({stdout,

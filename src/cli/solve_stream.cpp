@@ -15,6 +15,7 @@
 #include "cli/input.h"
 #include "cli/live_page.h"
 #include "cli/output.h"
+#include "cli/read_files.h"
 #include "cli/solve.h"
 #include "compiled/compiled_catalog.h"
 #include "coordinator/state.h"
@@ -52,7 +53,7 @@ class Stream {
               complain_of_line(failure.range.begin.line, failure.message);
               if (live_ != nullptr) live_->add(failure);
             }),
-        runner_(catalog, of_coordinator, events_) {}
+        runner_(catalog, stopping(of_coordinator), events_) {}
 
   /// False if --serve is not possible.
   [[nodiscard]] bool begin(const Situation& situation) {
@@ -75,7 +76,7 @@ class Stream {
 
   void run(const Script& script) {
     for (const Step& step : script.steps) {
-      if (signals_.have_come() || output_.has_failed() || !runner_.take(step)) return;
+      if (is_stopped() || !runner_.take(step)) return;
     }
   }
 
@@ -84,7 +85,7 @@ class Stream {
                     [this] { output_.flush(); });
     EventLines lines(catalog_);
     lines.resume(runner_.coordinator().now(), runner_.coordinator().state());
-    while (!signals_.have_come() && !output_.has_failed()) {
+    while (!is_stopped()) {
       switch (input.next(longest_wait())) {
         case LineInput::Status::waiting:
           if (!run_clock()) return;
@@ -117,7 +118,9 @@ class Stream {
       static_cast<void>(runner_.settle());
     }
     output_.flush();
-    status_ = std::max(status_, report_end(runner_, of_coordinator_));
+    if (!output_.has_failed() || runner_.result().status != Coordinator::Status::stopped) {
+      status_ = std::max(status_, report_end(runner_, of_coordinator_));
+    }
     if (const auto& totals = runner_.result().totals) output_.write(stream_totals(*totals));
     output_.flush();
     if (!save_state(options_.stream, catalog_, runner_) || output_.has_failed()) {
@@ -156,6 +159,14 @@ class Stream {
     return goes_on;
   }
 
+  [[nodiscard]] bool is_stopped() const { return signals_.have_come() || output_.has_failed(); }
+
+  /// The same options, for a coordinator that stops with the stream.
+  [[nodiscard]] CoordinatorOptions stopping(CoordinatorOptions options) const {
+    options.is_stopped = [this] { return is_stopped(); };
+    return options;
+  }
+
   [[nodiscard]] bool has_real_clock() const { return options_.stream.clock == "real"; }
 
   /// Time since the beginning, which is that of the saved state if there is one.
@@ -178,6 +189,7 @@ class Stream {
   bool run_clock() {
     runner_.restart_count();
     for (;;) {
+      if (is_stopped()) return false;
       const auto due = runner_.coordinator().next_due();
       if (!due || *due > clock_time()) return true;
       Step nothing;
@@ -251,6 +263,7 @@ int run_script_of(const Script& script, const CompiledCatalog& catalog, const So
     return complain("script {} has a situation to begin with, but --state-in has one already",
                     quote(script.file));
   }
+  if (!can_save_state(options.stream)) return exit_unusable;
   Stream stream(catalog, options, coordinator, state, script.file);
   if (!stream.begin(script.situation)) return exit_unusable;
   stream.run(script);
@@ -280,6 +293,7 @@ int run_standard_input(const CompiledCatalog& catalog, const SolveOptions& optio
     coordinator.reactive_delay = state->reactive_delay;
     coordinator.timeouts = state->timeouts;
   }
+  if (!can_save_state(options.stream)) return exit_unusable;
   Stream stream(catalog, options, coordinator, state, display_name("-"));
   if (!stream.begin({})) return exit_unusable;
   stream.run_standard_input();
@@ -290,7 +304,6 @@ int run_standard_input(const CompiledCatalog& catalog, const SolveOptions& optio
 
 int solve_stream(const SolveOptions& options) {
   const std::vector<std::string>& paths = options.paths;
-  if (!can_save_state(options.stream)) return exit_unusable;
   if (paths.size() > 2) {
     return complain("--format jsonl runs one script at a time: cbc solve CATALOG SCRIPT");
   }

@@ -163,6 +163,11 @@ int write_slowest(const std::optional<std::string>& path,
   return write_output(*path, slowest->script);
 }
 
+bool can_write_slowest(const SweepOptions& options) {
+  return (!options.slowest || can_write_output(*options.slowest)) &&
+         (!options.slowest_by_time || can_write_output(*options.slowest_by_time));
+}
+
 int report(SweepResult result, const SolveOptions& options) {
   const SweepOptions& of_sweep = options.sweep;
   int status = write_slowest(of_sweep.slowest, result.slowest);
@@ -208,6 +213,7 @@ int run_sweep(const SolveOptions& options) {
   if (options.sweep.merge) return merge(options);
   const std::shared_ptr<const CompiledCatalog> catalog = load_swept(options.paths);
   if (catalog == nullptr) return exit_unusable;
+  if (!can_write_slowest(options.sweep)) return exit_unusable;
   const SweepSettings settings = settings_of(options);
   const SequenceRange range = sequences_of(settings);
   Progress progress("sweeping", 1);

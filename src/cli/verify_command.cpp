@@ -140,6 +140,7 @@ void add_verify_command(Program& program) {
               "the shortest script whose last event differs; the assumptions of a property file "
               "count")
       .not_with({"--format junit", "--format github"}, "it has no place for a comparison");
+  command.add_confinement();
 
   command.group("Limits");
   command.option("--max-states", options->max_states, whole_number("N", 1),

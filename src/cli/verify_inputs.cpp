@@ -81,7 +81,7 @@ bool QuestionLoader::find_catalog(const std::string& path, const yaml::Document&
   }
   if (!questions_.named_catalog) {
     questions_.named_catalog = named;
-    questions_.catalog = catalogs_.load(*named);
+    questions_.catalog = catalogs_.load(*named, NamedBy::file);
   } else if (*named != *questions_.named_catalog &&
              !is_same_file(*questions_.named_catalog, *named)) {
     complain("property file {} is about another catalog, {}, than those before it, {}",

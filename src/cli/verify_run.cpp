@@ -185,12 +185,7 @@ class Call {
       if (output) outputs.push_back(*output);
     }
     for (const std::string& output : outputs) {
-      if (questions_.named_catalog && is_same_file(*questions_.named_catalog, output)) {
-        return usage_error("verify", overwrites_input, quote(output));
-      }
-      if (const auto obstacle = find_obstacle(output)) {
-        return complain("cannot write {}: {}", quote(output), *obstacle);
-      }
+      if (!can_write_output(output)) return exit_unusable;
     }
     if (!options_.scripts) return exit_ok;
     std::error_code error;

@@ -24,7 +24,7 @@ done
 lint() {
   status=0
   : >"$GITHUB_OUTPUT"
-  annotations=$(CATALOGS=$1 ARGUMENTS=$2 SARIF=$3 bash "$source/src/package/github/lint.sh" 2>errors) || status=$?
+  annotations=$(CATALOGS=$1 ARGUMENTS=$2 SARIF=$3 CONFINE=. bash "$source/src/package/github/lint.sh" 2>errors) || status=$?
   outputs=$(<"$GITHUB_OUTPUT")
 }
 
@@ -60,6 +60,11 @@ lint catalogs/quadrotor.yaml --strict false
 
 lint catalogs "" false
 [[ $status == 0 && $annotations == *"::warning "*"file=catalogs/typo.yaml,line=4,"* ]] || fail "a warning"
+
+printf 'catalog: /etc/passwd\nevents: [{start: A}]\n' >catalogs/stranger.yaml
+lint catalogs/stranger.yaml "" false
+[[ $status == 2 && $(<errors) == *"outside of"*"(--confine)"* && $annotations$(<errors) != *root:* ]] || fail "a script that names a file outside"
+rm catalogs/stranger.yaml
 
 lint . "" false # the default
 [[ $status == 0 && $annotations == *"::warning "*"file=catalogs/typo.yaml,line=4,"* ]] || fail "the folder itself"

@@ -236,6 +236,17 @@ TEST_F(Compile, LeavesNothingBehindWhereOnlyAPartCanBeWritten) {
   EXPECT_EQ(folder.names(), (std::set<std::string>{"large.yaml", "large.cbc"}));
 }
 
+TEST_F(Compile, RemovesLeftoversOfRunsThatWereKilled) {
+  folder.write("robot.yaml", robot);
+  folder.write(".cbc-0123456789abcdef.tmp", "of an old run");
+  folder.write(".cbc-0123456789abcdee.tmp", "of a run that may go on");
+  fs::last_write_time(folder / ".cbc-0123456789abcdef.tmp",
+                      fs::file_time_type::clock::now() - std::chrono::hours(2));
+  expect_silence(cbc({"compile", "robot.yaml"}));
+  EXPECT_EQ(folder.names(),
+            (std::set<std::string>{".cbc-0123456789abcdee.tmp", "robot.cbc", "robot.yaml"}));
+}
+
 /// Whether a process, which nobody has waited for yet, is at its end.
 bool has_ended(pid_t process) {
   siginfo_t state{};

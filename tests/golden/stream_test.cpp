@@ -400,6 +400,83 @@ TEST_F(StreamTest, SignalsEndItWithTheStateSaved) {
   }
 }
 
+/// Two tasks that take turns for ever, at 1.08 seconds each.
+constexpr std::string_view restless = R"(tasks:
+- {task: H, reactive_start: true, timeout: 1, execution_goal: achieve_goal}
+- {task: G, reactive_start: true, timeout: 1, execution_goal: achieve_goal}
+behaviors:
+- {behavior: h, task: H}
+- {behavior: g, task: G}
+exclusivity_constraints:
+- mutually_exclusive: [G, H]
+)";
+
+TEST_F(StreamTest, SignalsEndALongRunOfTheClockWithTheStateSaved) {
+  folder_.write("restless.yaml", restless);
+  folder_.write("script.yaml", "[{start: H}, {wait: 1000000000}]\n");
+  // A script, and a stream that nobody closes.
+  for (const std::string script : {"script.yaml", "-"}) {
+    fs::remove(folder_ / "in");
+    const int in = open_pipe("in");
+    Call of_stream = call({"restless.yaml", script, "--format", "jsonl", "--max-clock-events",
+                           "1000000000000", "--state-out", "state.json"});
+    of_stream.standard_input = folder_ / "in";
+    of_stream.standard_output = folder_ / "log";
+    folder_.write("log", "");
+    fs::remove(folder_ / "state.json");
+    const Result result = run(of_stream, [this, in](pid_t process) {
+      write_all(in, "{\"start\":\"H\"}\n{\"wait\":1000000000}\n");
+      while (fs::file_size(folder_ / "log") < 100'000) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+      ::kill(process, SIGTERM);
+    });
+    ::close(in);
+    EXPECT_EQ(result.status, 0) << script;
+    EXPECT_NE(result.err.find("cbc: stopped by a signal, before the event that the clock moved "
+                              "on to\n"),
+              std::string::npos)
+        << result.err;
+    const std::vector<std::string> log = lines_of(folder_.read("log"));
+    const json last = json::parse(log.back());
+    const json state = json::parse(folder_.read("state.json"));
+    EXPECT_EQ(state["events"], last["index"]);
+    EXPECT_EQ(state["events"], log.size() - 1);
+
+    const Result replay = run(call({"restless.yaml", "--replay", "log", "--max-clock-events",
+                                    "1000000000000", "--state-out", "again.json"}));
+    EXPECT_EQ(replay.status, 0) << replay.err;
+    EXPECT_EQ(folder_.read("again.json"), folder_.read("state.json"));
+  }
+}
+
+TEST_F(StreamTest, TooManyClockEventsEndItWithTheStateSaved) {
+  folder_.write("restless.yaml", restless);
+  folder_.write("input", "{\"start\":\"H\"}\n{\"wait\":1000}\n");
+  Call of_stream = call({"restless.yaml", "-", "--format", "jsonl", "--max-clock-events", "5",
+                         "--state-out", "state.json"});
+  of_stream.standard_input = folder_ / "input";
+  const Result result = run(of_stream);
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.err, "cbc: the clock made more than 5 events (--max-clock-events)\n");
+  const std::vector<std::string> log = lines_of(result.out);
+  const json state = json::parse(folder_.read("state.json"));
+  EXPECT_EQ(state["events"], log.size() - 1);
+  EXPECT_EQ(state["events"], 6);
+
+  // The stream goes on where it was.
+  folder_.write("input", "{\"wait\":2}\n");
+  Call next = call({"restless.yaml", "-", "--format", "jsonl", "--state-in", "state.json"});
+  next.standard_input = folder_ / "input";
+  const std::vector<std::string> rest = lines_of(run(next).out);
+  EXPECT_EQ(json::parse(rest.at(1))["index"], 7);
+  EXPECT_EQ(json::parse(rest.at(1))["origin"], "reactive");
+
+  folder_.write("log", result.out);
+  const Result replay = run(call({"restless.yaml", "--replay", "log", "--max-clock-events", "5"}));
+  EXPECT_EQ(replay.status, 0) << replay.err;
+}
+
 bool has_ended(pid_t process) { return !fs::exists("/proc/" + std::to_string(process) + "/fd/0"); }
 
 /// Whether a process waits for something.
@@ -625,6 +702,34 @@ TEST_F(StreamTest, StateOfAnotherCatalogIsRefused) {
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.out, "");
   EXPECT_NE(result.err.find("it is the state of another catalog"), std::string::npos) << result.err;
+}
+
+/// What starts reactively starts after the delay, so nothing is due later than that.
+TEST_F(StreamTest, StateWithAnImpossibleTimeInTheQueueIsRefused) {
+  folder_.write("restless.yaml", restless);
+  folder_.write("input", "{\"wait\":0.05}\n");
+  const auto go_on = [this](std::vector<std::string> more) {
+    more.insert(more.begin(), {"restless.yaml", "-", "--format", "jsonl"});
+    Call of_stream = call(std::move(more));
+    of_stream.standard_input = folder_ / "input";
+    return run(of_stream);
+  };
+  ASSERT_EQ(go_on({"--state-out", "state.json"}).status, 0);
+  json state = json::parse(folder_.read("state.json"));
+  ASSERT_EQ(state["time_us"], 50'000);
+  ASSERT_EQ(state["reactive_delay_us"], 80'000);
+  const auto status_with = [&](std::int64_t due) {
+    state["queue"]["H"] = due;
+    folder_.write("changed.json", state.dump());
+    const Result result = go_on({"--state-in", "changed.json"});
+    const bool is_told = result.err.find("for an impossible time") != std::string::npos;
+    EXPECT_EQ(is_told, result.status == 2) << result.err;
+    return result.status;
+  };
+  EXPECT_EQ(status_with(50'000), 0);
+  EXPECT_EQ(status_with(130'000), 0);
+  EXPECT_EQ(status_with(130'001), 2);
+  EXPECT_EQ(status_with(49'999), 2);
 }
 
 TEST_F(StreamTest, ReplayGivesTheLogAgain) {

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
+#include <ctime>
 #include <fcntl.h>
 #include <filesystem>
 #include <set>
@@ -11,6 +13,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "support/scratch_folder.h"
@@ -93,6 +96,38 @@ TEST(AtomicFile, InTheWorkingFolder) {
   EXPECT_EQ(folder.read("a"), "new");
 }
 
+TEST(AtomicFile, RemovesOldLeftoversAndNothingElse) {
+  const test::ScratchFolder folder;
+  const std::string leftover = ".cbc-0123456789abcdef.tmp";
+  const Names others{".cbc-0123456789abcde.tmp",
+                     ".cbc-0123456789abcdef.tm",
+                     ".cbc-0123456789abcdefa.tmp",
+                     ".cbc-0123456789ABCDEF.tmp",
+                     ".cbc-12-0",
+                     "cbc-0123456789abcdef.tmp",
+                     ".cbc.yaml",
+                     "a"};
+  for (const std::string& name : others) folder.write(name, "kept");
+  folder.write(leftover, "unfinished");
+  folder.write(".cbc-00000000000000aa.tmp", "still being written");
+  std::filesystem::create_directory(folder / ".cbc-00000000000000bb.tmp");
+  std::filesystem::create_symlink("a", folder / ".cbc-00000000000000cc.tmp");
+  const auto make_old = [&](const std::string& name) {
+    const timespec old{std::time(nullptr) - 2 * 60 * 60, 0};
+    const std::array<timespec, 2> times{old, old};
+    ASSERT_EQ(utimensat(AT_FDCWD, (folder / name).c_str(), times.data(), AT_SYMLINK_NOFOLLOW), 0);
+  };
+  for (const std::string& name : others) make_old(name);
+  for (const char* const name :
+       {leftover.c_str(), ".cbc-00000000000000bb.tmp", ".cbc-00000000000000cc.tmp"}) {
+    make_old(name);
+  }
+  Names expected = folder.names();
+  expected.erase(leftover);
+  remove_leftovers(folder / "output");
+  EXPECT_EQ(folder.names(), expected);
+}
+
 TEST(AtomicFile, SaysWhyItCannot) {
   const test::ScratchFolder folder;
   std::filesystem::create_directory(folder / "sub");
@@ -152,6 +187,21 @@ TEST(AtomicFile, LeavesReadOnlyFilesAndFoldersAlone) {
   EXPECT_EQ(folder.read("a"), "old");
   EXPECT_EQ(folder.read("b"), "old");
   EXPECT_EQ(folder.names(), (Names{"a", "b"}));
+}
+
+/// In containers every run has the same process number, so leftovers of killed ones could take all
+/// names made of it.
+TEST(AtomicFile, IsNotHinderedByLeftovers) {
+  const test::ScratchFolder folder;
+  folder.write("a", "old");
+  EXPECT_EQ(in_child([&] {
+              for (int number = 0; number < 100; ++number) {
+                folder.write(fmt::format(".cbc-{}-{}", getpid(), number), "");
+              }
+              return find_obstacle(folder / "a") || write_atomically(folder / "a", "new") ? 1 : 0;
+            }),
+            0);
+  EXPECT_EQ(folder.read("a"), "new");
 }
 
 TEST(AtomicFile, LeavesNothingBehindWhenThereIsNoSpace) {

@@ -120,6 +120,20 @@ std::size_t place_of_format(const std::string& bytes, const test::ContentPlace& 
   return 0;
 }
 
+/// Such as zeros that a copy left which did not go to its end.
+TEST(CompiledFile, IsRefusedWithMoreBehindItsEnd) {
+  const std::string file = write_compiled(test::compile_text("behaviors: [{behavior: a, task: A}]"),
+                                          digest_of("source"));
+  ASSERT_TRUE(read_compiled(file).file);
+  for (const std::size_t size : {1U, 8U, 16U, 4096U}) {
+    for (const char byte : {'\0', 'x'}) {
+      const CompiledFileResult result = read_compiled(file + std::string(size, byte));
+      EXPECT_FALSE(result.file) << size;
+      EXPECT_EQ(result.error, "it is damaged: it does not end where its content does");
+    }
+  }
+}
+
 TEST(CompiledFile, OfANewerFormatIsRefusedByItsNumber) {
   std::string bytes = test::compiled_bytes(test::rich_catalog);
   const test::ContentPlace content = test::find_content(bytes);

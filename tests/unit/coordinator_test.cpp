@@ -1125,6 +1125,22 @@ TEST(SearchLimits, ThatLeaveAFinishWithoutSolutionStopWhatNeedsTheBehavior) {
   EXPECT_EQ(stage.active(), "k");
 }
 
+/// A request of a higher priority than the finished one is protected at first, but stops as well if
+/// it needs the behavior.
+TEST(SearchLimits, ThatLeaveAFinishWithoutSolutionEscalateIt) {
+  CoordinatorOptions options;
+  options.search.max_nodes = 1;
+  Stage stage(four_in_three_places(), options);
+  EXPECT_EQ(stage.start("B", 3), "accepted");
+  EXPECT_EQ(stage.start("K", 2), "accepted");
+  EXPECT_EQ(stage.start("M", 1), "accepted");
+  EXPECT_EQ(stage.running(), "B=b K=k M=m1");
+  EXPECT_EQ(stage.finish("m1", FinishCause::wrong_progress), "accepted");
+  EXPECT_EQ(stage.searches().substr(0, 21), "feasible protection 3");
+  EXPECT_EQ(stage.running(), "K=k");
+  EXPECT_EQ(stage.stopped(), "B interrupted, M wrong_progress");
+}
+
 TEST(SearchLimits, OfTimeEndTheSearchForReasons) {
   struct Reasons final : EventListener {
     void on_event(const EventRecord& record) override {

@@ -208,5 +208,36 @@ TEST(LintCascade, GoalsThatAreNotGiven) {
              "tasks: [{task: X}, {task: Y}]\n"));
 }
 
+/// A chain of tasks, each of which requires the next one. `more`: constraints.
+std::string chain_of(int length, const std::string& more) {
+  std::string text =
+      "default_values: {tasks: {start_on_request: false, execution_goal: keep_running}}\n"
+      "behaviors:\n";
+  for (int task = 0; task < length; ++task) {
+    text += "- {behavior: B" + std::to_string(task) + ", task: T" + std::to_string(task);
+    if (task + 1 < length) text += ", requires: [{task: T" + std::to_string(task + 1) + "}]";
+    text += "}\n";
+  }
+  text += "tasks:\n- {task: T0, start_on_request: true}\n";
+  for (int task = 1; task < length; ++task) text += "- task: T" + std::to_string(task) + "\n";
+  return text + more;
+}
+
+// What takes time or memory with the square of the length ends at a limit, with a note.
+
+TEST(LintCascade, LongChainsAreDecided) { EXPECT_EQ(findings(chain_of(30'000, "")), ""); }
+
+TEST(LintCascade, LongChainsAboveADeadTaskHaveOneFinding) {
+  constexpr int length = 30'000;
+  const std::string shown = findings(
+      chain_of(length, "exclusivity_constraints:\n- mutually_exclusive: [T15000, T15002]\n"));
+  EXPECT_EQ(shown,
+            "45004:9-15 warning dead-task: task 'T15000' can never run: together these constraints "
+            "exclude all of its behaviors\n"
+            "  15003:54-60 behavior 'B15000' requires 'T15001'\n"
+            "  15004:54-60 behavior 'B15001' requires 'T15002'\n"
+            "  60005:3-21 'T15000' excludes 'T15002'\n");
+}
+
 }  // namespace
 }  // namespace cbc

@@ -112,7 +112,8 @@ TEST(SolveHtml, HasTheCatalogInItsOrder) {
                              "requires": [], "situation": {}}])"));
   EXPECT_EQ(catalog["variables"], json::array());
   EXPECT_EQ(catalog["exclusive"], json::parse(R"([["GO", "STAY"]])"));
-  EXPECT_EQ(made.data["runs"], json::parse(R"([{"catalog": 0, "situation": {"gps": true}}])"));
+  EXPECT_EQ(made.data["runs"],
+            json::parse(R"([{"catalog": 0, "situation": {"gps": true}, "left_out": 0}])"));
 }
 
 TEST(SolveHtml, HasSituationVariablesAndConditions) {
@@ -188,6 +189,34 @@ TEST(SolveHtml, HasACatalogOfSeveralRunsOnce) {
   EXPECT_EQ(data["runs"][0]["catalog"], 0);
   EXPECT_EQ(data["runs"][1]["catalog"], 1);
   EXPECT_EQ(data["runs"][2]["catalog"], 0);
+}
+
+TEST(SolveHtml, LeavesOutWhatNoLongerFits) {
+  const CompiledCatalog catalog = test::compile_text(plain_catalog);
+  const Script first = read(catalog, plain_script);
+  std::string text = "[";
+  constexpr int events = 300;
+  for (int event = 0; event < events; ++event) text += "{wait: 1}, {expect: {outcome: rejected}}, ";
+  const Script second = read(catalog, text + "]");
+  HtmlReport html({}, 20'000);
+  run(catalog, first, html);
+  run(catalog, second, html);
+  run(catalog, first, html);
+  html.end();
+  const std::string page = html.page();
+  const json data = json::parse(data_text(page));
+  const json& runs = data["report"]["runs"];
+  EXPECT_EQ(data["runs"][0]["left_out"], 0);
+  EXPECT_EQ(runs[0]["events"].size(), 3U);
+  const std::size_t shown = runs[1]["events"].size();
+  EXPECT_GT(shown, 10U);
+  EXPECT_LT(shown, 200U);
+  EXPECT_EQ(data["runs"][1]["left_out"], events - shown);
+  EXPECT_EQ(runs[1]["expectations"]["failed"], events);
+  EXPECT_EQ(runs[1]["expectations"]["failures"].size(), shown + 100);
+  EXPECT_EQ(runs[2]["events"], json::array());
+  EXPECT_EQ(data["runs"][2]["left_out"], 3);
+  EXPECT_EQ(html.left_out(), events - shown + 3);
 }
 
 TEST(SolveHtml, WithoutRunsIsAPageStill) {

@@ -122,6 +122,26 @@ behaviors:
   }
 }
 
+/// The sums of rounded logarithms are in the wrong order, so a bound on costs must leave them room.
+TEST(Solver, DoesNotPruneWhatIsBetterByLessThanTheErrorOfLogarithms) {
+  // 0.935451 * 0.892051 = 0.834470000001, yet the sum of its costs is a little more than that of
+  // 0.83447, which is found first.
+  const CompiledCatalog catalog = compile_text(R"(
+default_values: {tasks: {start_on_request: false}}
+behaviors:
+- {behavior: a1, task: A, requires: [{task: D}]}
+- {behavior: a2, task: A, suitability: 93.5451, requires: [{task: C}]}
+- {behavior: c, task: C, suitability: 89.2051}
+- {behavior: d, task: D, suitability: 83.447}
+)");
+  Problem problem = open_problem(catalog);
+  test::demand(problem, catalog, "A");
+  for (const SearchOptions& options :
+       {restarting_after(never), restarting_after(0), learning_after(0, 0)}) {
+    EXPECT_EQ(text_of(catalog, problem, options), "A=a2 C=c");
+  }
+}
+
 TEST(Solver, KeepsMoreRequestsBeforeBetterBehaviors) {
   const CompiledCatalog catalog = compile_text(R"(
 behaviors:

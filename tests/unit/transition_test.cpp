@@ -38,6 +38,23 @@ TEST(Transition, ActivatesFromTheGroundUpAndDeactivatesFromTheTopDown) {
   EXPECT_EQ(stage.active(), "z");
 }
 
+TEST(Transition, TasksOfALongChainStopWithWhatPerformedThem) {
+  constexpr int length = 2'000;
+  std::string catalog = "default_values: {tasks: {start_on_request: false}}\nbehaviors:\n";
+  std::string changes;
+  for (int task = 0; task < length; ++task) {
+    const std::string number = std::to_string(task);
+    catalog += "- {behavior: b" + number + ", task: T" + number;
+    if (task + 1 < length) catalog += ", requires: [{task: T" + std::to_string(task + 1) + "}]";
+    catalog += "}\n";
+    changes += (task == 0 ? "-b" : ", -b") + number + (task == 0 ? " requested 1" : " released");
+  }
+  Stage stage(catalog);
+  EXPECT_EQ(stage.start("T0"), "accepted");
+  EXPECT_EQ(stage.stop("T0"), "accepted");
+  EXPECT_EQ(stage.changes(), changes);
+}
+
 TEST(Transition, CatalogOrderIsThatOfBehaviorsNotOfTheirTasks) {
   Stage stage(R"(
 tasks: [{task: A}, {task: B}, {task: C}]

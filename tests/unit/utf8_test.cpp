@@ -100,6 +100,18 @@ TEST(Quote, ShowsWhatIsNotPrintable) {
   EXPECT_EQ(quote("\xff"), "'\\xff'");
 }
 
+/// Whatever Unicode says to ignore where it is not supported, beside direction and line marks.
+TEST(Quote, ShowsWhatIsInvisible) {
+  EXPECT_EQ(quote("a\u200bb"), "'a\\u200bb'");
+  EXPECT_EQ(quote("\u200e\u200f\u061c\ufeff\u00ad"), "'\\u200e\\u200f\\u061c\\ufeff\\xad'");
+  EXPECT_EQ(quote("\u202e\u2066\u2060\u3164\ufe0f"), "'\\u202e\\u2066\\u2060\\u3164\\ufe0f'");
+  EXPECT_EQ(quote("\U000e0041\U0001d173"), "'\\U000e0041\\U0001d173'");
+  EXPECT_EQ(printable("\u200b"), "\\u200b");
+  EXPECT_FALSE(is_invisible(U'\u00e9'));
+  EXPECT_FALSE(is_invisible(U'\u200a'));
+  EXPECT_FALSE(is_invisible(U'\U0001F680'));
+}
+
 TEST(Quote, CutsLongTexts) {
   EXPECT_EQ(quote(std::string(80, 'a')), "'" + std::string(80, 'a') + "'");
   EXPECT_EQ(quote(std::string(81, 'a')), "'" + std::string(80, 'a') + "...'");

@@ -325,7 +325,26 @@ TEST(YamlDocument, RefusesBytesThatAreNoText) {
                                   "a\0:\0",
                                   6)),
             syntax_error("1:1-2", "expected UTF-8, found UTF-16"));
-  EXPECT_EQ(tree(std::string_view("a\0:\0", 4)), syntax_error("1:2-3", "a NUL byte"));
+  EXPECT_EQ(tree(std::string_view("ab\0:\0", 5)), syntax_error("1:3-4", "a NUL byte"));
+}
+
+TEST(YamlDocument, NamesOtherEncodings) {
+  const auto found = [](std::string_view text) {
+    const std::string shown = tree(text);
+    const std::size_t place = shown.find("found ");
+    return place == std::string::npos ? shown : shown.substr(place + 6, 6);
+  };
+  EXPECT_EQ(found(std::string_view("\xff\xfe"
+                                   "a\0",
+                                   4)),
+            "UTF-16");
+  EXPECT_EQ(found(std::string_view("\xfe\xff\0a", 4)), "UTF-16");
+  EXPECT_EQ(found(std::string_view("a\0:\0", 4)), "UTF-16");
+  EXPECT_EQ(found(std::string_view("\0a\0:", 4)), "UTF-16");
+  EXPECT_EQ(found(std::string_view("\xff\xfe\0\0a\0\0\0", 8)), "UTF-32");
+  EXPECT_EQ(found(std::string_view("\0\0\xfe\xff\0\0\0a", 8)), "UTF-32");
+  EXPECT_EQ(found(std::string_view("a\0\0\0:\0\0\0", 8)), "UTF-32");
+  EXPECT_EQ(found(std::string_view("\0\0\0a\0\0\0:", 8)), "UTF-32");
 }
 
 // Bombs ---------------------------------------------------------------------------------------

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Lints for GitHub. Annotations go to standard output. With SARIF=true, it also writes a file, whose path
 # becomes the output `sarif` of the step. CATALOGS and ARGUMENTS are lists separated by white space.
+# No file outside of the folder CONFINE is read.
 set -euo pipefail
 
 # Each word is an argument; none is a file name pattern.
 set -f
 # shellcheck disable=SC2206
-arguments=($ARGUMENTS -- $CATALOGS)
+arguments=(--confine "$CONFINE" $ARGUMENTS -- $CATALOGS)
 
 if [[ $SARIF == true ]]; then
   status=0

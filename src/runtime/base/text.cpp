@@ -21,6 +21,15 @@ constexpr std::array zero_width = {
     Interval{0x0300, 0x036F}, Interval{0x200B, 0x200F}, Interval{0x20D0, 0x20FF},
     Interval{0xFE00, 0xFE0F}, Interval{0xFE20, 0xFE2F}, Interval{0xFEFF, 0xFEFF},
 };
+/// Default_Ignorable_Code_Point of Unicode 15, and the marks of annotations (U+FFF9 to U+FFFB).
+constexpr std::array invisible = {
+    Interval{0x00AD, 0x00AD},   Interval{0x034F, 0x034F},   Interval{0x061C, 0x061C},
+    Interval{0x115F, 0x1160},   Interval{0x17B4, 0x17B5},   Interval{0x180B, 0x180F},
+    Interval{0x200B, 0x200F},   Interval{0x202A, 0x202E},   Interval{0x2060, 0x206F},
+    Interval{0x3164, 0x3164},   Interval{0xFE00, 0xFE0F},   Interval{0xFEFF, 0xFEFF},
+    Interval{0xFFA0, 0xFFA0},   Interval{0xFFF0, 0xFFFB},   Interval{0x1BCA0, 0x1BCA3},
+    Interval{0x1D173, 0x1D17A}, Interval{0xE0000, 0xE0FFF},
+};
 constexpr std::array double_width = {
     Interval{0x1100, 0x115F},   Interval{0x2E80, 0x303E},   Interval{0x3041, 0xA4CF},
     Interval{0xAC00, 0xD7A3},   Interval{0xF900, 0xFAFF},   Interval{0xFE30, 0xFE6F},
@@ -118,6 +127,11 @@ std::size_t display_width(char32_t character) {
 }  // namespace cbc::utf8
 
 namespace cbc {
+
+bool is_invisible(char32_t character) {
+  return character >= utf8::invisible.front().first && utf8::contains(utf8::invisible, character);
+}
+
 namespace {
 
 constexpr std::size_t longest = 80;
@@ -134,8 +148,8 @@ std::string escape(char32_t character) {
     default:
       break;
   }
-  std::string result = character < 0x100 ? "\\x" : "\\u";
-  for (unsigned shift = character < 0x100 ? 8 : 16; shift > 0;) {
+  std::string result = character < 0x100 ? "\\x" : character < 0x10000 ? "\\u" : "\\U";
+  for (unsigned shift = character < 0x100 ? 8 : character < 0x10000 ? 16 : 32; shift > 0;) {
     shift -= 4;
     result += digits[(character >> shift) & 0xFU];
   }
@@ -171,9 +185,8 @@ std::string escape_some(std::string_view text, std::size_t limit) {
 }  // namespace
 
 bool is_control(char32_t character) {
-  return character < 0x20 || (character >= 0x7F && character < 0xA0) ||
-         (character >= 0x2028 && character <= 0x202E) ||
-         (character >= 0x2066 && character <= 0x2069);
+  return character < 0x20 || (character >= 0x7F && character < 0xA0) || character == 0x2028 ||
+         character == 0x2029 || is_invisible(character);
 }
 
 std::string quote(std::string_view text) { return concat("'", escape_some(text, longest), "'"); }

@@ -57,8 +57,12 @@ template <typename... Parts>
   return text;
 }
 
-/// Whether a terminal would not just print a character: control characters, and those that break
-/// lines or change the direction of the text.
+/// Whether nothing is seen of a character, so that names that differ in it look alike: it has
+/// Unicode's property Default_Ignorable_Code_Point, or marks annotations.
+[[nodiscard]] bool is_invisible(char32_t character);
+
+/// Whether a terminal would not just print a character: control characters, those that break lines
+/// or change the direction of the text, and invisible ones.
 [[nodiscard]] bool is_control(char32_t character);
 
 /// A piece of input as it is shown in a message: in single quotes, on one line, without control

@@ -77,6 +77,8 @@ Digest from_flat(const flat::Digest& digest) {
   return result;
 }
 
+constexpr std::size_t content_alignment = 16;
+
 // Writing.
 
 class Encoder {
@@ -89,7 +91,7 @@ class Encoder {
     const std::string_view content(reinterpret_cast<const char*>(builder_.GetBufferPointer()),
                                    builder_.GetSize());
     flatbuffers::FlatBufferBuilder file(content.size() + margin);
-    file.ForceVectorAlignment(content.size(), 1, alignment);
+    file.ForceVectorAlignment(content.size(), 1, content_alignment);
     const auto stored = file.CreateVector(builder_.GetBufferPointer(), content.size());
     const flat::Digest digest = to_flat(digest_of(content));
     flat::FinishFileBuffer(file, flat::CreateFile(file, newest_format, &digest, stored));
@@ -97,7 +99,6 @@ class Encoder {
   }
 
  private:
-  static constexpr std::size_t alignment = 16;
   static constexpr std::size_t margin = 4096;  ///< for what is around the arrays
 
   template <typename T>
@@ -170,6 +171,7 @@ class Decoder {
       return "it is damaged: its content does not match its digest";
     }
     if (!is_aligned(content.data(), alignof(std::max_align_t))) return damaged;
+    if (!ends_with(content)) return "it is damaged: it does not end where its content does";
     flatbuffers::Verifier verifier(data_of(content), content.size());
     if (!verifier.VerifyBuffer<flat::Catalog>(nullptr)) return damaged;
     const flat::Catalog& catalog = *flatbuffers::GetRoot<flat::Catalog>(content.data());
@@ -178,6 +180,15 @@ class Decoder {
     const auto arrays = arrays_of(file.catalog);
     constexpr std::size_t count = std::tuple_size_v<decltype(arrays)>;
     return take_all(catalog, arrays, std::make_index_sequence<count>()) ? nullptr : damaged;
+  }
+
+  /// Whether nothing but the padding up to the alignment follows the content, with which files end:
+  /// the verifier of FlatBuffers ignores what follows, such as zeros that a failed copy left.
+  [[nodiscard]] bool ends_with(std::string_view content) const {
+    const auto end = static_cast<std::size_t>(content.data() - bytes_.data()) + content.size();
+    const std::string_view rest = bytes_.substr(end);
+    return (content.size() + rest.size()) % content_alignment == 0 &&
+           rest.size() < content_alignment && rest.find_first_not_of('\0') == rest.npos;
   }
 
   /// The fields of the table are `written_by`, `source_digest`, and the arrays.

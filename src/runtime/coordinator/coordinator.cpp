@@ -76,6 +76,8 @@ Snapshot Coordinator::snapshot() const {
 Coordinator::Status Coordinator::advance_to(Microseconds time) {
   if (const Status status = finish_pending(); status != Status::ok) return status;
   for (auto due = next_due(); due && *due < time; due = next_due()) {
+    // Only between instants, so that the events of one are in a log together.
+    if (*due > now_ && options_.is_stopped && options_.is_stopped()) return Status::stopped;
     if (const Status status = process_next_due(); status != Status::ok) return status;
   }
   now_ = time;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,6 +33,8 @@ struct CoordinatorOptions {
   bool measure_time = false;                   ///< records the time of searches
   /// Orders behaviors of equal suitability at random instead of in catalog order.
   std::optional<std::uint64_t> tie_seed;
+  /// Asked before the clock moves on; true ends a call with Coordinator::Status::stopped.
+  std::function<bool()> is_stopped;
 };
 
 /// Receives the record of every event, in order.
@@ -44,7 +47,8 @@ class EventListener {
 /// Finds and applies the best consistent set of active behaviors on every event.
 ///
 /// Time never goes back. After too_many_clock_events some events are still due; after
-/// restart_count() the next call goes on with them. After refused_answer the coordinator must not
+/// restart_count() the next call goes on with them. After stopped, all that is due at the present
+/// instant is done, and the next call goes on. After refused_answer the coordinator must not
 /// be used any more.
 ///
 /// Once the buffers have grown to what the events need, an event allocates nothing, except for
@@ -52,7 +56,7 @@ class EventListener {
 class Coordinator {
  public:
   enum class [[nodiscard]] Status : std::uint8_t{
-      ok, too_many_clock_events,
+      ok, too_many_clock_events, stopped,
       refused_answer  ///< the checker refused an answer of the solver; see internal_error()
   };
 
@@ -70,8 +74,8 @@ class Coordinator {
   /// accepts. The reactive delay, and whether there are timeouts, are those of the options; they
   /// should be those of the snapshot.
   void resume(const Snapshot& snapshot);
-  /// All that another coordinator needs to continue, without the outcome. Only after a call that
-  /// returned ok.
+  /// All that another coordinator needs to continue, without the outcome. Not after
+  /// refused_answer.
   [[nodiscard]] Snapshot snapshot() const;
 
   /// Moves the clock to `time` (not before now) after processing everything that falls due earlier.

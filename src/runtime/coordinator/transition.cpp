@@ -13,6 +13,7 @@ void Transition::load(const Trigger& trigger, const std::vector<BehaviorId>& act
   first_behavior_ = catalog_.group_behaviors[trigger.group];
   end_behavior_ = catalog_.group_behaviors[trigger.group + 1];
   was_active_.assign(end_behavior_ - first_behavior_, 0);
+  activations_.assign(end_behavior_ - first_behavior_, none);
   for (const BehaviorId behavior : active_before) was_active_[behavior - first_behavior_] = 1;
 }
 
@@ -118,7 +119,11 @@ bool Transition::activate(BehaviorId behavior, const Assignment* solution, bool 
     }
   }
   change.success = !state_.is_faulty(behavior);
-  if (change.success) state_.set_active(behavior, now);
+  if (change.success) {
+    state_.set_active(behavior, now);
+    activations_[behavior - first_behavior_] =
+        static_cast<std::uint32_t>(record_.changes.size() - 1);
+  }
   return change.success;
 }
 
@@ -153,12 +158,11 @@ void Transition::find_tasks_of_activation(Change& change, const Assignment* solu
 
 /// Finds the tasks of its last activation within the event, or else those that it performed before.
 void Transition::find_tasks_of_deactivation(Change& change) {
-  for (auto earlier = record_.changes.rbegin() + 1; earlier != record_.changes.rend(); ++earlier) {
-    if (earlier->is_activation && earlier->success && earlier->behavior == change.behavior) {
-      change.first_task = earlier->first_task;
-      change.task_count = earlier->task_count;
-      return;
-    }
+  if (const std::uint32_t place = activations_[change.behavior - first_behavior_]; place != none) {
+    const Change& activation = record_.changes[place];
+    change.first_task = activation.first_task;
+    change.task_count = activation.task_count;
+    return;
   }
   for (const ValueId value : catalog_.performs[change.behavior]) {
     const TaskId task = catalog_.task_of(value);

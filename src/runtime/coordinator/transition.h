@@ -67,6 +67,9 @@ class Transition {
   BehaviorId end_behavior_ = 0;
   std::vector<std::uint8_t> was_active_;  ///< by behavior of the group
   std::vector<std::uint8_t> wanted_;      ///< by behavior of the group
+  /// By behavior of the group: the place in the record of its last activation that succeeded, or
+  /// none.
+  std::vector<std::uint32_t> activations_;
   std::vector<BehaviorId> to_deactivate_;
   std::vector<BehaviorId> to_activate_;
   std::vector<BehaviorId> lost_;

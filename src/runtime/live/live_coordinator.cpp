@@ -340,6 +340,7 @@ class LiveCoordinator::Impl {
     switch (status) {
       case Coordinator::Status::ok:
         return LiveStatus::ok;
+      case Coordinator::Status::stopped:  // nothing asks for it
       case Coordinator::Status::too_many_clock_events:
         return LiveStatus::too_many_events;
       case Coordinator::Status::refused_answer:

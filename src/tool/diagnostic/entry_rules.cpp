@@ -253,12 +253,13 @@ tasks:
 const Rule confusable_name = {
     .name = "confusable-name",
     .severity = Severity::warning,
-    .summary = "A name is easily taken for another one.",
+    .summary = "A name is easily taken for another one, or has what cannot be seen.",
     .explanation =
         "Two names differ only in upper and lower case, in what separates the words ('_', '-', "
         "'.', '/' or blanks), in characters that look alike (0 and O; 1, l and I; some Cyrillic or "
         "Greek letters and Latin ones), or in characters that cannot be seen. To the coordinator "
-        "they are different names, so it goes unnoticed where one stands in place of the other.\n\n"
+        "they are different names, so it goes unnoticed where one stands in place of the other. A "
+        "name with a character that cannot be seen is reported also if there is no other one.\n\n"
         "Tasks are compared with tasks, the parameters of one task and the values of one situation "
         "variable with one another, and behaviors also with situation variables. A task and a "
         "behavior are not compared; they may even have the same name.",
@@ -269,7 +270,9 @@ tasks:
 - task: FOLLOW_PATH
 - task: Follow_Path
 )",
-    .mending = "If both names mean the same, use one of them; otherwise rename one.",
+    .mending =
+        "If both names mean the same, use one of them; otherwise rename one. "
+        "Leave out what cannot be seen.",
     .mended = R"(behaviors:
 - {behavior: FOLLOW_PATH_WITH_PID, task: FOLLOW_PATH}
 - {behavior: FOLLOW_PATH_WITH_MPC, task: FOLLOW_PATH}

@@ -336,11 +336,11 @@ void check_never_together_names(const std::vector<NeverTogether>& lists,
   for (const NeverTogether& list : lists) {
     Reporter reporter(list.file, diagnostics);
     const bool has_known = std::any_of(list.tasks.begin(), list.tasks.end(), is_known);
+    const std::unordered_set<std::string_view> listed(list.tasks.begin(), list.tasks.end());
     for (std::size_t i = 0; i < list.tasks.size(); ++i) {
       if (is_known(list.tasks[i])) continue;
-      const auto meant = suggestions.nearest(list.tasks[i], [&list](std::string_view other) {
-        return std::find(list.tasks.begin(), list.tasks.end(), other) != list.tasks.end();
-      });
+      const auto meant = suggestions.nearest(
+          list.tasks[i], [&listed](std::string_view other) { return listed.contains(other); });
       if (!meant && !has_known) continue;
       reporter.report_as({meant ? Severity::error : Severity::warning}, rule::undefined_task,
                          list.ranges[i],

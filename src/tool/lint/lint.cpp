@@ -91,7 +91,13 @@ class NameCheck {
     if (name.empty()) return;
     const auto found = look_alikes_.add(name);
     names_.push_back({kind + " " + quote(name), name, range});
-    if (!found) return;
+    if (!found) {
+      if (const auto part = invisible_part_of(name)) {
+        reporter_.report(rule::confusable_name, range,
+                         names_.back().shown + " has a character that cannot be seen: " + *part);
+      }
+      return;
+    }
     const Name& first = names_[*found];
     std::vector<Note> notes;
     if (first.range != range)

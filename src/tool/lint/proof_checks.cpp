@@ -48,6 +48,10 @@ class DeadCheck {
  private:
   void check_task(TaskId task) {
     if (proof_.is_explained_task(task)) return;
+    for (ValueId value = catalog_.values.begin[task]; value < catalog_.values.begin[task + 1];
+         ++value) {
+      if (requires_only_dead_tasks(value)) return;
+    }
     const ProofContext::Goal goal{task, none};
     const std::vector<Reason> constraints = unexplained_constraints({&goal, 1}, none);
     if (is_reachable({&goal, 1}, constraints)) return;
@@ -78,6 +82,10 @@ class DeadCheck {
       proof_.explain_behavior(id);
       return;
     }
+    if (catalog_.performs[id].size() == 1 && requires_only_dead_tasks(catalog_.performs[id][0])) {
+      is_explained_below_[catalog_.performs[id][0]] = true;
+      return;
+    }
     std::vector<ProofContext::Goal> goals;
     for (const ValueId value : catalog_.performs[id]) {
       const TaskId task = catalog_.task_of(value);
@@ -104,6 +112,31 @@ class DeadCheck {
       is_explained |= is_explained_value(value);
     }
     return is_explained;
+  }
+
+  /// Whether nothing but that tasks it requires are dead, which has findings of its own, keeps a
+  /// value from being reached. This is what is_reachable() would find, without a look at all that
+  /// these tasks require in turn: in a long chain above a dead task there are many such values.
+  [[nodiscard]] bool requires_only_dead_tasks(ValueId value) {
+    const auto has_minimum = [this](TaskId task) {
+      return catalog_.tasks[task].minimum_performance > 0;
+    };
+    const TaskId task = catalog_.task_of(value);
+    const auto requirements = catalog_.requirements[catalog_.values.items[value].behavior];
+    if (requirements.empty() || has_minimum(task)) return false;
+    const auto cliques_of = [this](TaskId one) { return catalog_.task_cliques[one]; };
+    used_cliques_.assign(cliques_of(task).begin(), cliques_of(task).end());
+    for (const CompiledRequirement& requirement : requirements) {
+      const TaskId required = requirement.task;
+      if (requirement.minimum_performance > 0 || has_minimum(required) || !is_dead_[required] ||
+          catalog_.values[required].empty()) {
+        return false;
+      }
+      const auto cliques = cliques_of(required);
+      used_cliques_.insert(used_cliques_.end(), cliques.begin(), cliques.end());
+    }
+    std::sort(used_cliques_.begin(), used_cliques_.end());
+    return std::adjacent_find(used_cliques_.begin(), used_cliques_.end()) == used_cliques_.end();
   }
 
   bool is_reachable(std::span<const ProofContext::Goal> goals,
@@ -189,6 +222,7 @@ class DeadCheck {
   const CompiledCatalog& catalog_;
   std::vector<bool> is_dead_;             ///< by task
   std::vector<bool> is_explained_below_;  ///< by value: what it needs is dead, which is explained
+  std::vector<std::uint32_t> used_cliques_;
 };
 
 /// A product of degrees, rounded down to four places.

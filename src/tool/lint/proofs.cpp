@@ -181,7 +181,9 @@ constexpr std::uint64_t most_effort_of_direct = 200'000'000;
 }  // namespace
 
 /// Finds assignments without search, which is enough for most values of most catalogs: each task
-/// that a value requires, directly or indirectly, runs with the first behavior that will do.
+/// that a value requires, directly or indirectly, runs with the first behavior that will do. An
+/// assignment is extended as long as that is possible, so that a long chain of requirements is
+/// walked once, and not once for each of its values.
 class DirectAssignment {
  public:
   explicit DirectAssignment(const CompiledCatalog& catalog);
@@ -191,7 +193,12 @@ class DirectAssignment {
   [[nodiscard]] const std::vector<ValueId>& find(ValueId value, const std::vector<bool>& is_dead,
                                                  const std::vector<bool>& is_live);
 
+  /// Whether the assignment of the last call, if there is one, satisfies all constraints also with
+  /// a value in addition, or in place of the one that its task has. If so, it is added.
+  [[nodiscard]] bool extend(ValueId value);
+
  private:
+  [[nodiscard]] bool is_running(TaskId task) const { return running_[task] == number_; }
   [[nodiscard]] bool take(ValueId value);
   [[nodiscard]] ValueId choose(TaskId task, const std::vector<bool>& is_dead,
                                const std::vector<bool>& is_live) const;
@@ -220,7 +227,7 @@ const std::vector<ValueId>& DirectAssignment::find(ValueId value, const std::vec
     for (const CompiledRequirement& requirement : catalog_.requirements[behavior]) {
       // Minimums are left to the search.
       is_good = requirement.minimum_performance == 0;
-      if (is_good && running_[requirement.task] != number_) {
+      if (is_good && !is_running(requirement.task)) {
         const ValueId chosen = choose(requirement.task, is_dead, is_live);
         is_good = chosen != none && take(chosen);
       }
@@ -229,6 +236,20 @@ const std::vector<ValueId>& DirectAssignment::find(ValueId value, const std::vec
   }
   if (!is_good) values_.clear();
   return values_;
+}
+
+bool DirectAssignment::extend(ValueId value) {
+  const TaskId task = catalog_.task_of(value);
+  if (values_.empty() || catalog_.tasks[task].minimum_performance > 0) return false;
+  for (const CompiledRequirement& requirement :
+       catalog_.requirements[catalog_.values.items[value].behavior]) {
+    if (requirement.minimum_performance > 0 || !is_running(requirement.task)) return false;
+  }
+  if (is_running(task)) return true;
+  for (const std::uint32_t clique : catalog_.task_cliques[task]) {
+    if (used_[clique] == number_) return false;
+  }
+  return take(value);
 }
 
 bool DirectAssignment::take(ValueId value) {
@@ -299,8 +320,27 @@ Liveness::Liveness(AssignmentSearch& search)
   }
 }
 
+/// Whether a value requires a task of which all values are known to be dead.
+bool Liveness::requires_dead_task(ValueId value) const {
+  const BehaviorId behavior = catalog_.values.items[value].behavior;
+  const auto& requirements = catalog_.requirements[behavior];
+  return std::any_of(requirements.begin(), requirements.end(),
+                     [this](const CompiledRequirement& requirement) {
+                       return of_task(requirement.task) == State::dead;
+                     });
+}
+
 /// All other values of the assignment that is found are live, too.
 void Liveness::decide(ValueId value, DirectAssignment& direct, AssignmentSearch& search) {
+  if (direct.extend(value)) {
+    is_live_[value] = true;
+    return;
+  }
+  if (requires_dead_task(value)) {
+    is_dead_[value] = true;
+    search.rule_out(value);
+    return;
+  }
   const std::vector<ValueId>& values = direct.find(value, is_dead_, is_live_);
   for (const ValueId other : values) is_live_[other] = true;
   if (!values.empty()) return;

@@ -139,6 +139,7 @@ class Liveness {
   [[nodiscard]] State of_task(TaskId task) const;
 
  private:
+  [[nodiscard]] bool requires_dead_task(ValueId value) const;
   void decide(ValueId value, DirectAssignment& direct, AssignmentSearch& search);
 
   const CompiledCatalog& catalog_;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -53,11 +54,12 @@ void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
   json.close('}');
 }
 
-/// Makes JSON safe in a script element, which ends at the first "</script" wherever it is, and is
-/// parsed differently after "<!--". In JSON, "<" occurs in strings only.
-std::string for_script_element(std::string_view json) {
-  std::string text;
-  text.reserve(json.size());
+/// Failed expectations that a full page has of a run: their messages stand without their events.
+constexpr std::uint64_t most_later_failures = 100;
+
+/// Adds JSON to a script element, which ends at the first "</script" wherever it is, and is parsed
+/// differently after "<!--". In JSON, "<" occurs in strings only.
+void add_to_script_element(std::string& text, std::string_view json) {
   for (const char character : json) {
     if (character == '<') {
       text += "\\u003c";
@@ -65,15 +67,14 @@ std::string for_script_element(std::string_view json) {
       text += character;
     }
   }
-  return text;
 }
 
-/// `sources`: what the page may connect to, for its security policy.
-std::string make_page(std::string_view data, std::string_view sources) {
+/// `data`: in parts. `sources`: what the page may connect to, for its security policy.
+std::string make_page(std::initializer_list<std::string_view> data, std::string_view sources) {
   std::string page(page_before_sources);
   page += sources;
   for (const std::string_view part : page_before_data) page += part;
-  page += for_script_element(data);
+  for (const std::string_view part : data) add_to_script_element(page, part);
   for (const std::string_view part : page_after_data) page += part;
   return page;
 }
@@ -91,27 +92,42 @@ void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   json.open('{');
   json.write("catalog", place - catalogs_.begin());
   write_situation(json, catalog, script.situation);
-  json.close('}');
+  json.flush();
   json_.begin_run(catalog, script);
+  left_out_of_run_ = 0;
+  failures_left_ = most_later_failures;
 }
 
 void HtmlReport::on_event(const EventRecord& record, const Step* step, const State& state) {
-  json_.on_event(record, step, state);
+  if (is_full()) {
+    ++left_out_of_run_;
+  } else {
+    json_.on_event(record, step, state);
+  }
 }
 
-void HtmlReport::on_failure(const Failure& failure) { json_.on_failure(failure); }
+void HtmlReport::on_failure(const Failure& failure) {
+  if (left_out_of_run_ == 0) return json_.on_failure(failure);
+  if (failures_left_ == 0) return;
+  --failures_left_;
+  json_.on_failure(failure);
+}
 
 void HtmlReport::on_end(const State& state) { json_.on_end(state); }
 
 void HtmlReport::end_run(const RunResult& result, const std::string& error) {
   json_.end_run(result, error);
+  JsonWriter json(runs_json_);
+  json.write("left_out", left_out_of_run_);
+  json.close('}');
+  left_out_ += left_out_of_run_;
 }
 
 void HtmlReport::end() { json_.end(); }
 
 std::string HtmlReport::page() {
-  return make_page(R"({"catalogs":)" + catalogs_json_ + R"(],"runs":)" + runs_json_ +
-                       R"(],"report":)" + std::string(memory_.text()) + "}",
+  return make_page({R"({"catalogs":)", catalogs_json_, R"(],"runs":)", runs_json_, R"(],"report":)",
+                    memory_.text(), "}"},
                    "'none'");
 }
 
@@ -126,6 +142,7 @@ std::string stream_page(const CompiledCatalog& catalog, const StreamOfPage& stre
   json.open('{');
   json.write("catalog", 0);
   json.write_json("state", stream.begin);
+  json.write("left_out", stream.left_out);
   json.close('}');
   json.close(']');
   json.open("report", '{');
@@ -144,7 +161,7 @@ std::string stream_page(const CompiledCatalog& catalog, const StreamOfPage& stre
   if (!stream.token.empty()) json.write("live", stream.token);
   json.close('}');
   json.flush();
-  return make_page(data, stream.token.empty() ? "'none'" : "'self'");
+  return make_page({data}, stream.token.empty() ? "'none'" : "'self'");
 }
 
 }  // namespace cbc

@@ -53,6 +53,8 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
 
   [[nodiscard]] std::FILE* stream() { return file_; }
+  /// How much was written so far.
+  [[nodiscard]] std::size_t size() { return static_cast<std::size_t>(std::ftell(file_)); }
   /// What was written so far; valid until the next write.
   [[nodiscard]] std::string_view text() {
     if (std::fflush(file_) != 0 || std::ferror(file_) != 0) throw std::bad_alloc();
@@ -342,10 +344,15 @@ class JsonReport final : public SolveReport {
 };
 
 /// Makes a self-contained HTML page of all runs: a timeline to step through or to print. Its data
-/// are the JSON report and what the picture needs of each catalog beyond that.
+/// are the JSON report and what the picture needs of each catalog beyond that. Events that no
+/// longer fit are left out, which the page says: no browser shows it otherwise, and memory stays
+/// bounded.
 class HtmlReport final : public SolveReport {
  public:
-  explicit HtmlReport(const EventAdditions& adds = {}) : json_(memory_.stream(), adds) {}
+  static constexpr std::size_t most_data = std::size_t{32} << 20;  ///< in bytes of the report
+
+  explicit HtmlReport(const EventAdditions& adds = {}, std::size_t limit = most_data)
+      : json_(memory_.stream(), adds), limit_(limit) {}
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
@@ -357,9 +364,18 @@ class HtmlReport final : public SolveReport {
   /// The page; call it after end().
   [[nodiscard]] std::string page();
 
+  /// How many events of all runs are not on the page.
+  [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
+
  private:
+  [[nodiscard]] bool is_full() { return memory_.size() >= limit_; }
+
   MemoryFile memory_;
   JsonReport json_;
+  const std::size_t limit_;
+  std::uint64_t left_out_ = 0;
+  std::uint64_t left_out_of_run_ = 0;
+  std::uint64_t failures_left_ = 0;  ///< of the run, that are taken although the page is full
   std::vector<const CompiledCatalog*> catalogs_;
   std::string catalogs_json_ = "[";
   std::string runs_json_ = "[";

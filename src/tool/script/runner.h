@@ -153,7 +153,7 @@ class Runner final : private EventListener {
     coordinator_.begin(situation.availability, situation.variables);
   }
   void resume(const Snapshot& snapshot);
-  /// The state to continue from. The last call must have returned true.
+  /// The state to continue from, if no answer was refused.
   [[nodiscard]] Snapshot snapshot() const;
 
   /// Handles what is due before a step, then the step. False if the run ends early: see result().

@@ -15,11 +15,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
+
 namespace cbc {
 namespace {
 
 /// Copies a few characters of a text. Returns 0 if all of them stand for themselves in JSON: they
-/// are ASCII, not below the space, and neither a quote nor a backslash. Each of the others sets the
+/// are printable ASCII, and neither a quote nor a backslash. Each of the others sets the
 /// highest bit of its byte.
 template <std::unsigned_integral Word>
 Word copy_word(char* to, const char* from) {
@@ -28,9 +30,9 @@ Word copy_word(char* to, const char* from) {
   Word word = 0;
   std::memcpy(&word, from, sizeof word);
   std::memcpy(to, &word, sizeof word);
-  return static_cast<Word>(
-      (word | (word - all(' ')) | ((word ^ all('"')) - ones) | ((word ^ all('\\')) - ones)) &
-      all(0x80));
+  return static_cast<Word>((word | (word - all(' ')) | ((word ^ all('"')) - ones) |
+                            ((word ^ all('\\')) - ones) | ((word ^ all(0x7F)) - ones)) &
+                           all(0x80));
 }
 
 /// Copies a text that is no shorter than a word. Returns whether all of it stands for itself.
@@ -67,8 +69,38 @@ bool is_number(std::string_view text) {
   return point == std::string_view::npos || (point + 1 < text.size() && is_digit(text[point + 1]));
 }
 
+void append_escape(std::string& json, char32_t unit) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  json += "\\u";
+  for (unsigned shift = 16; shift > 0;) {
+    shift -= 4;
+    json += digits[(unit >> shift) & 0xFU];
+  }
+}
+
 std::string dump(const nlohmann::json& value) {
   return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// A text as JSON. Characters that do not show, or would turn the direction of a line that people
+/// read, are escaped.
+std::string dump_text(std::string_view text) {
+  const std::string json = dump(text);
+  std::string escaped;
+  for (std::size_t offset = 0; offset < json.size();) {
+    const utf8::Decoded decoded = utf8::decode(json, offset);
+    const char32_t character = decoded.character;
+    if (!is_control(character)) {
+      escaped += json.substr(offset, decoded.bytes);
+    } else if (character < 0x10000) {
+      append_escape(escaped, character);
+    } else {
+      append_escape(escaped, 0xD7C0 + (character >> 10U));
+      append_escape(escaped, 0xDC00 + (character & 0x3FFU));
+    }
+    offset += decoded.bytes;
+  }
+  return escaped;
 }
 
 }  // namespace
@@ -87,7 +119,7 @@ void JsonBuffer::put_text(std::string_view text) {
   make_room(text.size() + 2);
   char* const begin = block_.data() + used_;
   if (text.size() + 2 > block_.size() || !copy_plain(begin + 1, text)) {
-    put(dump(text));
+    put(dump_text(text));
     return;
   }
   begin[0] = '"';
@@ -101,7 +133,7 @@ void JsonBuffer::put_name(std::string_view name, bool has_comma) {
   if (has_comma) *end++ = ',';
   if (name.size() + 4 > block_.size() || !copy_plain(end + 1, name)) {
     if (has_comma) put(',');
-    put(dump(name));
+    put(dump_text(name));
     put(':');
     return;
   }
@@ -154,7 +186,7 @@ void append_as_written(std::string& json, std::string_view text) {
 
 void append_shortest(std::string& json, std::string_view text) {
   const auto number = nlohmann::json::parse(text, nullptr, false);
-  json += dump(number.is_number() ? number : nlohmann::json(text));
+  json += number.is_number() ? dump(number) : dump_text(text);
 }
 
 void JsonWriter::write_percent(std::string_view name, std::optional<Millionths> degree) {

@@ -4,18 +4,24 @@
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <fcntl.h>
 #include <filesystem>
 #include <iterator>
 #include <poll.h>
+#include <random>
 #include <spawn.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
+
+#include <fmt/core.h>
 
 #include "base/mapped_file.h"
 
@@ -46,14 +52,32 @@ class SignalsHeld {
   sigset_t before_{};
 };
 
+/// Names of temporary files: a random number, as the numbers of processes repeat in containers.
+/// mkostemp would ignore the umask.
+constexpr std::string_view temporary_prefix = ".cbc-";
+constexpr std::string_view temporary_suffix = ".tmp";
+constexpr std::size_t random_digits = 16;
+
+std::string draw_temporary_name() {
+  std::uint64_t number = 0;
+  if (getrandom(&number, sizeof number, 0) != sizeof number) number = std::random_device()();
+  return fmt::format("{}{:0{}x}{}", temporary_prefix, number, random_digits, temporary_suffix);
+}
+
+bool is_temporary_name(std::string_view name) {
+  if (!name.starts_with(temporary_prefix) || !name.ends_with(temporary_suffix)) return false;
+  name.remove_prefix(temporary_prefix.size());
+  return name.size() == random_digits + temporary_suffix.size() &&
+         name.find_first_not_of("0123456789abcdef") == random_digits;
+}
+
 /// A new file in a folder, removed again unless it was given its name.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& folder) {
-    constexpr int attempts = 100;
+    constexpr int attempts = 10;  // the first one can fail only if somebody knows the number
     for (int attempt = 0; attempt < attempts; ++attempt) {
-      path_ =
-          (folder / (".cbc-" + std::to_string(getpid()) + "-" + std::to_string(attempt))).string();
+      path_ = (folder / draw_temporary_name()).string();
       descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (descriptor_ >= 0 || errno != EEXIST) return;
     }
@@ -163,6 +187,23 @@ std::optional<std::string> write_atomically(const std::string& path, std::string
   if (!file.rename_to(target.path)) return reason();
   sync_folder(target.folder);
   return std::nullopt;
+}
+
+void remove_leftovers(const std::string& path) {
+  constexpr std::time_t oldest = 60 * 60;  // in seconds; a younger one may still be written to
+  Target target;
+  if (find_target(path, target)) return;
+  const std::time_t now = std::time(nullptr);
+  std::error_code error;
+  fs::directory_iterator entry(target.folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (!is_temporary_name(entry->path().filename().native())) continue;
+    struct stat status {};
+    if (lstat(entry->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
+    if (status.st_uid == geteuid() && now - status.st_mtime > oldest) {
+      unlink(entry->path().c_str());
+    }
+  }
 }
 
 std::optional<std::string> find_obstacle(const std::string& path) {

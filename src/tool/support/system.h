@@ -21,6 +21,10 @@ namespace cbc {
 /// work. Nothing changes.
 [[nodiscard]] std::optional<std::string> find_obstacle(const std::string& path);
 
+/// Removes what killed runs of write_atomically left behind in the folder of an output: files of
+/// this user with the names that it gives to unfinished ones, older than an hour. Reads the folder.
+void remove_leftovers(const std::string& path);
+
 /// What a program made of a text.
 struct Filtered {
   bool is_found = false;     ///< the program could be started

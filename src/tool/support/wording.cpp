@@ -261,11 +261,6 @@ char32_t to_plain(char32_t c) {
   return c;
 }
 
-bool is_invisible(char32_t c) {
-  return c == 0x00AD || c == 0x180E || (c >= 0x200B && c <= 0x200F) ||
-         (c >= 0x202A && c <= 0x202E) || (c >= 0x2060 && c <= 0x2064) || c == 0xFEFF;
-}
-
 bool is_separator(char32_t c) { return c < 0x80 && joins_words(static_cast<char>(c)); }
 
 /// The letter that a letter and a combining accent stand for, or 0.
@@ -370,6 +365,18 @@ std::optional<std::size_t> LookAlikes::add(std::string_view name) {
   const First& same_shape = by_shape_.try_emplace(seen(name, to_shape, true), added).first->second;
   if (same_case.name != name) return same_case.place;
   if (same_shape.name != name) return same_shape.place;
+  return std::nullopt;
+}
+
+std::optional<std::string> invisible_part_of(std::string_view name) {
+  std::size_t number = 1;
+  for (std::size_t offset = 0; offset < name.size(); ++number) {
+    const utf8::Decoded decoded = utf8::decode(name, offset);
+    if (decoded.valid && is_invisible(decoded.character)) {
+      return "character " + std::to_string(number) + " is " + code_point(decoded.character);
+    }
+    offset += decoded.bytes;
+  }
   return std::nullopt;
 }
 

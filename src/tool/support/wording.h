@@ -52,6 +52,9 @@ class Suggestions {
 /// How a message about an unknown name ends: "; did you mean 'HOVER'?", or nothing.
 [[nodiscard]] std::string did_you_mean(std::optional<std::string_view> suggestion);
 
+/// The first character of a name that cannot be seen, "character 5 is U+200B", or nothing.
+[[nodiscard]] std::optional<std::string> invisible_part_of(std::string_view name);
+
 /// Finds names that people take for one another. They differ only in upper and lower case, in what
 /// separates their words, in characters that look alike in many fonts ('0' and 'O'; '1', 'l' and
 /// 'I'; some Cyrillic or Greek letters and Latin ones; two ways to write an accent), or in

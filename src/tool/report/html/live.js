@@ -53,12 +53,12 @@ class Live {
       const id = Number(message.lastEventId);
       if (id <= this.lastId) return; // it came before the connection was lost
       this.lastId = id;
-      action(JSON.parse(message.data));
+      action(JSON.parse(showEscapes(message.data)));
       this.updateSoon();
     });
     on('open', () => this.tell('live'));
     on('alive', () => {});
-    on('state', (message) => this.takeState(JSON.parse(message.data)));
+    on('state', (message) => this.takeState(JSON.parse(showEscapes(message.data))));
     onNew('message', (event) => this.takeEvent(event));
     onNew('failure', (failure) => this.takeFailure(failure));
     onNew('refusal', (refusal) => this.takeRefusal(refusal));

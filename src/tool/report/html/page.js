@@ -159,7 +159,8 @@ class Page {
       (others > 0 ? `, ${others} neither` : '') +
       (this.live !== undefined && expectations.passed + expectations.failed === 0 ? ''
         : ` \u00b7 expectations: ${expectations.passed} passed, ${expectations.failed} failed`);
-    const alarms = [...expectations.failures.map((failure) => this.alarm(failure)),
+    const alarms = [...(run.leftOut === 0 ? [] : [html('p', 'alarm', this.limit(run))]),
+                    ...expectations.failures.map((failure) => this.alarm(failure)),
                     ...(this.live?.refusalTexts() ?? []).map((text) => html('p', 'alarm', text)),
                     ...(error === undefined ? [] : [html('p', 'alarm', `the run ended early: ${error}`)])];
     byId('alarms').replaceChildren(...alarms);
@@ -221,11 +222,16 @@ class Page {
     this.address.clear();
   }
 
+  limit(run) {
+    return `the page shows the first ${quantity(run.size, 'event')} of this run; ` +
+      `${run.leftOut} more are left out, as they would make it too large`;
+  }
+
   alarm(failure) {
     const line = failureElement(this.run, failure);
     const { index } = failure;
     const number = this.run.numberOf(index);
-    if (number > 0) line.append(' after ', buttonElement(`event ${index}`, () => this.choose(number)));
+    if (number > 0 && number <= this.run.size) line.append(' after ', buttonElement(`event ${index}`, () => this.choose(number)));
     return line;
   }
 
@@ -340,6 +346,6 @@ class Page {
   }
 }
 
-const pageData = JSON.parse(byId('data').textContent);
+const pageData = JSON.parse(showEscapes(byId('data').textContent));
 const page = new Page(readRuns(pageData));
 if (pageData.live !== undefined) page.follow(pageData.live);

@@ -11,10 +11,11 @@ const newState = { index: 0, time: 0, running: {}, requests: {}, queue: {}, faul
 
 class Run {
   /** `data`: a run of the report; `begin`: the situation before it, and the state, if there is one. Events
-   * can be added later. Their numbers count from 1; the index of an event is that of the report, which
+   * can be added later; `leftOut`: how many the page does not have. Their numbers count from 1; the index of an event is that of the report, which
    * may count events that are not here. */
-  constructor(data, catalog, begin) {
+  constructor(data, catalog, begin, leftOut = 0) {
     this.data = data;
+    this.leftOut = leftOut;
     this.catalog = catalog;
     this.begin = { ...newState, time: Math.min(0, data.events[0]?.time ?? 0), ...begin };
     this.events = [];
@@ -321,7 +322,7 @@ class Run {
 function readRuns(data) {
   const catalogs = data.catalogs.map((catalog) => new Catalog(catalog));
   return data.report.runs.map((run, place) => {
-    const { catalog, situation, state } = data.runs[place];
-    return new Run(run, catalogs[catalog], { situation, ...state });
+    const { catalog, situation, state, left_out: leftOut } = data.runs[place];
+    return new Run(run, catalogs[catalog], { situation, ...state }, leftOut);
   });
 }

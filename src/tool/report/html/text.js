@@ -3,6 +3,10 @@
 // Names of a catalog may be anything, even "__proto__": look-ups are maps, or ask for own members.
 const get = (object, name) => (Object.hasOwn(object, name) ? object[name] : undefined);
 
+/** JSON whose escapes of characters that cannot be seen stand for themselves, so that names show them. */
+const showEscapes = (json) =>
+  json.replaceAll(/\\(?:u([\da-f]{4})|.)/g, (escape, code) => (code !== undefined && parseInt(code, 16) > 0x7e ? `\\${escape}` : escape));
+
 const words = (name) => name.replaceAll('_', ' ');
 
 /** Seconds to the millisecond, or to the microsecond where it takes that. */

@@ -1,0 +1,86 @@
+#include "cli/read_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "base/text.h"
+#include "cli/input.h"
+
+namespace cbc::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What tells whether two names are those of one file.
+using Identity = std::pair<dev_t, ino_t>;
+
+std::optional<Identity> identity_of(const std::string& path) {
+  struct stat status {};
+  const int result = path == "-" ? ::fstat(STDIN_FILENO, &status) : ::stat(path.c_str(), &status);
+  if (result != 0) return std::nullopt;
+  return Identity{status.st_dev, status.st_ino};
+}
+
+struct ReadFiles {
+  std::mutex mutex;
+  std::map<Identity, std::string> names;  ///< as they were first read
+  fs::path confinement;                   ///< empty: any file may be read
+};
+
+/// Of the process, as files are.
+ReadFiles& read_files() {
+  static ReadFiles files;
+  return files;
+}
+
+}  // namespace
+
+void note_read(const std::string& path) {
+  const std::optional<Identity> identity = identity_of(path);
+  if (!identity) return;
+  ReadFiles& files = read_files();
+  const std::lock_guard lock(files.mutex);
+  files.names.try_emplace(*identity, path);
+}
+
+void confine_reading(const std::string& folder) {
+  read_files().confinement = fs::canonical(folder);
+}
+
+std::optional<std::string> find_confinement(const std::string& path) {
+  const fs::path& folder = read_files().confinement;
+  if (folder.empty() || path == "-") return std::nullopt;
+  // Also of what does not exist, so that nobody learns of that.
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(fs::absolute(path, error), error);
+  const bool is_inside =
+      !error &&
+      std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end();
+  if (is_inside) return std::nullopt;
+  return fmt::format("it is outside of {} (--confine)", quote(folder.string()));
+}
+
+std::optional<std::string> find_read_file(const std::string& output) {
+  if (output == "-") return std::nullopt;
+  const std::optional<Identity> identity = identity_of(output);
+  if (!identity) return std::nullopt;
+  ReadFiles& files = read_files();
+  const std::lock_guard lock(files.mutex);
+  const auto found = files.names.find(*identity);
+  if (found == files.names.end()) return std::nullopt;
+  const std::string message = fmt::format("the output {} is also an input", quote(output));
+  if (found->second == output || found->second == "-") return message;
+  return fmt::format("{}: it is the same file as {}, which was read", message,
+                     quote(found->second));
+}
+
+}  // namespace cbc::cli
