@@ -335,8 +335,9 @@ class JsonReport final : public SolveReport {
 };
 
 /// Makes a self-contained HTML page of all runs: a timeline to step through or to print. Its data
-/// are the JSON report and what the picture needs of each catalog beyond that. Events that no longer
-/// fit are left out, which the page says: no browser shows it otherwise, and memory stays bounded.
+/// are the JSON report and what the picture needs of each catalog beyond that. Events that no
+/// longer fit are left out, which the page says: no browser shows it otherwise, and memory stays
+/// bounded.
 class HtmlReport final : public SolveReport {
  public:
   static constexpr std::size_t most_data = std::size_t{32} << 20;  ///< in bytes of the report
