@@ -245,9 +245,11 @@ void declare(CLI::App& app, const Command& command,
   app.set_help_flag();  // it has one like all others
   app.allow_extras();
   for (const Option& option : command.options()) {
-    const std::string names = join(option.names, ",");
-    CLI::Option* const added = option.is_flag ? app.add_flag(names) : app.add_option(names);
-    if (!option.is_flag) {
+    std::string names = join(option.names, ",");
+    if (!option.values.if_bare.empty()) names += "{" + option.values.if_bare + "}";
+    CLI::Option* const added =
+        option.takes_next_word() ? app.add_option(names) : app.add_flag(names);
+    if (option.takes_next_word()) {
       added->expected(option.is_argument && option.is_repeatable ? any_number : 1);
       added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     }
@@ -321,7 +323,7 @@ std::string find_bad_equals(const Command& command, const std::vector<std::strin
     const Option* const option = name.starts_with('-') ? command.find(name) : nullptr;
     if (option == nullptr) continue;
     if (name == argument) {
-      if (!option->is_flag) ++i;  // its value, which may be anything
+      if (option->takes_next_word()) ++i;  // its value, which may be anything
     } else if (option->is_flag) {
       return fmt::format("{} takes no value", option->name());
     } else if (name.size() + 1 == argument.size()) {

@@ -45,6 +45,9 @@ struct Values {
   bool is_output = false;            ///< names a file to write, "-" being standard output
   bool is_replaceable = false;       ///< an input that an output may replace, as it is read before
   std::vector<std::string> choices;  ///< if not empty, no other value is accepted
+  /// If not empty: the value of an option that is given without one. Its values follow an equals
+  /// sign only, as a file behind it would be an argument.
+  std::string if_bare;
   /// Names that completion offers; may be null.
   std::function<std::vector<NameWithHelp>()> names;
   /// Says what is wrong with a value, empty if nothing is. Null: all are right.
@@ -101,6 +104,8 @@ struct Option {
   char separator = '\0';  ///< between the values of a list
   std::function<void(const std::string& value)> store;
 
+  /// Whether the next word on the line is its value.
+  [[nodiscard]] bool takes_next_word() const { return !is_flag && values.if_bare.empty(); }
   /// The longest one, which messages use.
   [[nodiscard]] const std::string& name() const { return names.back(); }
 

@@ -48,7 +48,7 @@ void add_option(const std::string& word, TypedLine& line) {
   if (option->is_flag) {
     if (option->values.kind != ValueKind::text) line.argument = option->values.kind;
   } else if (equals == std::string::npos) {
-    line.pending = option;
+    if (option->takes_next_word()) line.pending = option;
   } else {
     add_value(*option, word.substr(equals + 1), line);
   }

@@ -39,10 +39,14 @@ std::string entry(const std::string& name, const std::string& text) {
 }
 
 std::string entry(const Option& option) {
+  std::string name = join(option.names, ",");
   const std::string& placeholder = option.values.placeholder;
-  return entry(
-      fmt::format("{}{}{}", join(option.names, ","), placeholder.empty() ? "" : " ", placeholder),
-      option.help);
+  if (!option.values.if_bare.empty()) {
+    name += fmt::format("[={}]", placeholder);
+  } else if (!placeholder.empty()) {
+    name += " " + placeholder;
+  }
+  return entry(name, option.help);
 }
 
 /// The command as it is called: "cbc lint", or "cbc".

@@ -42,8 +42,8 @@ GoalWatch::GoalWatch(const CompiledCatalog& catalog, std::span<const Goal> goals
       has_given_way_(catalog.tasks.size(), 0),
       was_active_(catalog.behaviors.size(), 0) {
   const std::size_t subjects =
-      std::max({catalog.tasks.size() + catalog.behaviors.size(),
-                catalog.requirements.items.size(), catalog.variable_values.size()});
+      std::max({catalog.tasks.size() + catalog.behaviors.size(), catalog.requirements.items.size(),
+                catalog.variable_values.size()});
   for (std::uint32_t number = 0; number < goals.size(); ++number) {
     const Goal& goal = goals[number];
     if (is_about_deciding(goal.kind)) {
@@ -148,8 +148,7 @@ void GoalWatch::note_start(const EventRecord& record, const Circumstances& circu
 void GoalWatch::note_finish(const EventRecord& record, const State& before) {
   const BehaviorId behavior = record.behavior;
   if (record.cause == FinishCause::goal_achieved) meet(Kind::behavior_succeeded, behavior);
-  if (record.cause != FinishCause::goal_achieved &&
-      record.cause != FinishCause::situation_change) {
+  if (record.cause != FinishCause::goal_achieved && record.cause != FinishCause::situation_change) {
     meet(Kind::behavior_failed, behavior);
   }
   if (record.origin != Origin::timeout) return;

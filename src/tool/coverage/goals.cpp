@@ -313,8 +313,7 @@ class LineFinder {
     std::vector<std::uint32_t> lines;
     for (const TaskIndex task : {a, b}) {
       const auto found = std::find(list.tasks.begin(), list.tasks.end(), task);
-      lines.push_back(
-          list.ranges[static_cast<std::size_t>(found - list.tasks.begin())].begin.line);
+      lines.push_back(list.ranges[static_cast<std::size_t>(found - list.tasks.begin())].begin.line);
     }
     std::sort(lines.begin(), lines.end());
     lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
@@ -368,12 +367,12 @@ std::string describe(const CompiledCatalog& catalog, const Goal& goal) {
     case Goal::Kind::requirement_used:
       return fmt::format("{} was active with {}, which it requires", behavior, task);
     case Goal::Kind::requirement_decided:
-      return fmt::format("that {} requires {} decided an event", behavior, task);
+      return fmt::format("it matters that {} requires {}", behavior, task);
     case Goal::Kind::minimum_decided:
-      if (behavior.empty()) return fmt::format("the minimum of {} decided an event", task);
-      return fmt::format("the minimum that {} requires of {} decided an event", behavior, task);
+      if (behavior.empty()) return fmt::format("the minimum of {} matters", task);
+      return fmt::format("the minimum that {} requires of {} matters", behavior, task);
     case Goal::Kind::exclusion_decided:
-      return fmt::format("that {} excludes {} decided an event", task, task_name(goal.other_task));
+      return fmt::format("it matters that {} excludes {}", task, task_name(goal.other_task));
     case Goal::Kind::timeout_fired:
       return fmt::format("the timeout of {} ended it", behavior.empty() ? task : behavior);
     case Goal::Kind::reactive_started:

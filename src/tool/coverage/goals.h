@@ -16,20 +16,20 @@ namespace cbc {
 /// depends on the kind; everything else is `none`.
 struct Goal {
   enum class Kind : std::uint8_t {
-    task_ran,              ///< task
-    behavior_active,       ///< behavior
-    behavior_succeeded,    ///< behavior
-    behavior_failed,       ///< behavior
-    behavior_replaced,     ///< behavior
-    requirement_used,      ///< behavior and the task that it requires
-    requirement_decided,   ///< the same
-    minimum_decided,       ///< task; of a requirement, also the behavior
-    exclusion_decided,     ///< task and other_task, of which it is the first in the catalog
-    timeout_fired,         ///< task, or behavior with a timeout of its own
-    reactive_started,      ///< task
-    reactive_gave_way,     ///< task
-    reactive_returned,     ///< task
-    variable_value,        ///< variable and value
+    task_ran,                ///< task
+    behavior_active,         ///< behavior
+    behavior_succeeded,      ///< behavior
+    behavior_failed,         ///< behavior
+    behavior_replaced,       ///< behavior
+    requirement_used,        ///< behavior and the task that it requires
+    requirement_decided,     ///< the same
+    minimum_decided,         ///< task; of a requirement, also the behavior
+    exclusion_decided,       ///< task and other_task, of which it is the first in the catalog
+    timeout_fired,           ///< task, or behavior with a timeout of its own
+    reactive_started,        ///< task
+    reactive_gave_way,       ///< task
+    reactive_returned,       ///< task
+    variable_value,          ///< variable and value
     behavior_began_to_fit,   ///< behavior
     behavior_ceased_to_fit,  ///< behavior
     higher_displaced,        ///< task, which was started

@@ -68,8 +68,7 @@ void remove_minimum(GrowingCatalog& catalog, const Goal& goal) {
     catalog.tasks[goal.task].minimum_cost = 0;
     return;
   }
-  CompiledRequirement& requirement =
-      catalog.requirements.items[find_requirement(catalog, goal)];
+  CompiledRequirement& requirement = catalog.requirements.items[find_requirement(catalog, goal)];
   requirement.minimum_performance = 0;
   requirement.minimum_cost = 0;
 }

@@ -36,9 +36,10 @@ table { border-collapse: collapse; }
 .part { background: var(--part); }
 .missed { background: var(--missed); }
 summary { cursor: pointer; }
+.source summary { list-style: none; }
+.source summary::-webkit-details-marker { display: none; }
 details ul { margin: 0.2rem 0 0.5rem; padding-left: 1.2rem; }
 .by { color: var(--faint); }
-@media print { details > ul { display: block; } }
 )css";
 
 std::string counts_row(std::string_view what, const GoalCount& count) {
@@ -103,8 +104,8 @@ class CatalogPage {
                                   : count.met == count.goals ? "met"
                                   : count.met == 0           ? "missed"
                                                              : "part";
-    html_ += fmt::format("<tr id=\"L{0}\" class=\"{1}\"><td class=\"number\">{0}</td><td>", line,
-                         kind);
+    html_ +=
+        fmt::format("<tr id=\"L{0}\" class=\"{1}\"><td class=\"number\">{0}</td><td>", line, kind);
     const std::string source = "<code>" + xml_text(text) + "</code>";
     if (goals.empty()) {
       html_ += source + "</td><td class=\"count\"></td></tr>\n";

@@ -53,9 +53,8 @@ void write_catalog(JsonWriter& json, const CatalogCoverage& coverage) {
     json.on_new_line().open('{');
     write_identity(json, coverage.catalog(), coverage.goals()[goal]);
     json.write_list("lines", coverage.goals()[goal].lines);
-    json.write_list("met_by", coverage.missions_of(goal), [&](std::uint32_t mission) {
-      json.write(coverage.missions()[mission]);
-    });
+    json.write_list("met_by", coverage.missions_of(goal),
+                    [&](std::uint32_t mission) { json.write(coverage.missions()[mission]); });
     json.close('}');
   }
   json.close(']');
@@ -81,8 +80,8 @@ class CoverageReader {
     for (const JsonValue& catalog : root["catalogs"].items()) {
       if (catalog["catalog"].text() != coverage_.catalog().file) continue;
       if (catalog["digest"].text() != coverage_.digest()) {
-        throw JsonFault(fmt::format("it is about another version of {}",
-                                    quote(coverage_.catalog().file)));
+        throw JsonFault(
+            fmt::format("it is about another version of {}", quote(coverage_.catalog().file)));
       }
       read_catalog(catalog);
       return;
@@ -93,8 +92,7 @@ class CoverageReader {
  private:
   /// The same text for goals that are the same.
   [[nodiscard]] std::string identity_of(const Goal& goal) const {
-    return json_line(
-        [&](JsonWriter& json) { write_identity(json, coverage_.catalog(), goal); });
+    return json_line([&](JsonWriter& json) { write_identity(json, coverage_.catalog(), goal); });
   }
 
   static std::string identity_of(const JsonValue& goal) {

@@ -29,10 +29,10 @@ std::string place_of(const CatalogCoverage& coverage, const Goal& goal) {
 }
 
 std::string catalog_to_text(const CatalogCoverage& coverage, const Style& style) {
-  std::string text =
-      fmt::format("{}{}{}, {}\n\n", style.strong, printable(coverage.catalog().file), style.reset,
-                  quantity(coverage.missions().size(), "mission"));
-  text += fmt::format("  {:<14} {:>7} {:>7} {:>7} {:>9}\n", "", "goals", "met", "missed", "covered");
+  std::string text = fmt::format("{}{}{}, {}\n\n", style.strong, printable(coverage.catalog().file),
+                                 style.reset, quantity(coverage.missions().size(), "mission"));
+  text +=
+      fmt::format("  {:<14} {:>7} {:>7} {:>7} {:>9}\n", "", "goals", "met", "missed", "covered");
   const auto sections = coverage.by_section();
   for (std::size_t section = 0; section < goal_sections; ++section) {
     if (sections.at(section).goals == 0) continue;
@@ -76,8 +76,8 @@ std::string catalog_to_lcov(const CatalogCoverage& coverage) {
     for (std::size_t branch = 0; branch < goals.size(); ++branch) {
       const std::size_t taken = coverage.missions_of(goals[branch]).size();
       // A dash says that the line was never reached.
-      branches += fmt::format("BRDA:{},0,{},{}\n", line, branch,
-                              hits == 0 ? "-" : std::to_string(taken));
+      branches +=
+          fmt::format("BRDA:{},0,{},{}\n", line, branch, hits == 0 ? "-" : std::to_string(taken));
       of_branches.add(taken > 0);
     }
   }
@@ -121,8 +121,7 @@ std::string coverage_to_github(const Coverage& coverage) {
       }
       if (missed.empty()) continue;
       const Position begin{line, 1};
-      text += github_command("notice",
-                             {std::string(catalog.catalog().file), Range{begin, begin}},
+      text += github_command("notice", {std::string(catalog.catalog().file), Range{begin, begin}},
                              "No mission shows that", missed);
     }
   }
@@ -153,9 +152,8 @@ const CoverageFormat& coverage_format_of(std::string_view path) {
                                    [&](const Suffix& one) { return path.ends_with(one.end); });
   const auto formats = coverage_formats();
   if (suffix == suffixes.end()) return formats.front();
-  return *std::find_if(formats.begin(), formats.end(), [&](const CoverageFormat& format) {
-    return format.name == suffix->format;
-  });
+  return *std::find_if(formats.begin(), formats.end(),
+                       [&](const CoverageFormat& format) { return format.name == suffix->format; });
 }
 
 }  // namespace cbc
