@@ -37,7 +37,9 @@ void write_catalog(JsonWriter& json, const CatalogCoverage& coverage) {
   json.on_new_line().open('{');
   json.write_members({{"catalog", coverage.catalog().file}, {"digest", coverage.digest()}});
   json.on_new_line().write_list("missions", coverage.missions());
-  write_count(json.on_new_line(), coverage.total());
+  json.on_new_line().open("total", '{');
+  write_count(json, coverage.total());
+  json.close('}');
   json.on_new_line().open("sections", '[');
   const auto sections = coverage.by_section();
   for (std::size_t section = 0; section < goal_sections; ++section) {
