@@ -36,14 +36,17 @@ void CatalogCoverage::add(const std::string& mission, const std::vector<std::uin
 std::array<GoalCount, goal_sections> CatalogCoverage::by_section() const {
   std::array<GoalCount, goal_sections> counts;
   for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
-    counts.at(static_cast<std::size_t>(section_of(goals_[goal].kind))).add(is_met(goal));
+    counts.at(static_cast<std::size_t>(section_of(goals_[goal].kind)))
+        .add(is_met(goal), is_unreachable(goal));
   }
   return counts;
 }
 
 GoalCount CatalogCoverage::total() const {
   GoalCount count;
-  for (std::size_t goal = 0; goal < goals_.size(); ++goal) count.add(is_met(goal));
+  for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
+    count.add(is_met(goal), is_unreachable(goal));
+  }
   return count;
 }
 

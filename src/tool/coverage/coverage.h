@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
@@ -14,18 +15,25 @@
 
 namespace cbc {
 
-/// How many goals there are, and how many of them are met.
+/// How many goals there are, and how many of them are met. Those that are proven unreachable do not
+/// count as goals.
 struct GoalCount {
   std::uint64_t goals = 0;
   std::uint64_t met = 0;
+  std::uint64_t unreachable = 0;
 
-  void add(bool is_met) {
+  void add(bool is_met, bool is_unreachable = false) {
+    if (is_unreachable) {
+      ++unreachable;
+      return;
+    }
     ++goals;
     if (is_met) ++met;
   }
   void add(const GoalCount& other) {
     goals += other.goals;
     met += other.met;
+    unreachable += other.unreachable;
   }
   /// Tenths of a percent, rounded down, so that 1000 means all; of no goals 1000.
   [[nodiscard]] std::uint64_t tenths() const { return goals == 0 ? 1000 : met * 1000 / goals; }
@@ -43,6 +51,18 @@ class CatalogCoverage {
 
   /// Adds a mission, or what is new of one that was added before. `met`: by goal.
   void add(const std::string& mission, const std::vector<std::uint8_t>& met);
+
+  /// Sets goals apart that are proven unreachable: by goal. Those that a mission meets all the same
+  /// stay, as missions need not keep to assumptions.
+  void set_unreachable(std::vector<std::uint8_t> unreachable) {
+    unreachable_ = std::move(unreachable);
+  }
+  [[nodiscard]] bool is_unreachable(std::size_t goal) const {
+    return !unreachable_.empty() && unreachable_[goal] != 0 && !is_met(goal);
+  }
+  [[nodiscard]] bool is_missed(std::size_t goal) const {
+    return !is_met(goal) && !is_unreachable(goal);
+  }
 
   [[nodiscard]] const CompiledCatalog& catalog() const { return *catalog_; }
   [[nodiscard]] const std::string& text() const { return text_; }
@@ -69,6 +89,7 @@ class CatalogCoverage {
   std::vector<Goal> goals_;
   std::vector<std::string> missions_;
   std::vector<std::vector<std::uint32_t>> met_by_;  ///< by goal
+  std::vector<std::uint8_t> unreachable_;           ///< by goal; empty: nothing is proven
 };
 
 /// The coverage of several catalogs, each by the missions that run on it.

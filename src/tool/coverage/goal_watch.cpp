@@ -146,18 +146,22 @@ void GoalWatch::note_start(const EventRecord& record, const Circumstances& circu
 }
 
 void GoalWatch::note_finish(const EventRecord& record, const State& before) {
-  const BehaviorId behavior = record.behavior;
-  if (record.cause == FinishCause::goal_achieved) meet(Kind::behavior_succeeded, behavior);
-  if (record.cause != FinishCause::goal_achieved && record.cause != FinishCause::situation_change) {
-    meet(Kind::behavior_failed, behavior);
+  if (record.cause == FinishCause::situation_change) return;
+  const bool is_failure = record.cause != FinishCause::goal_achieved;
+  meet(is_failure ? Kind::behavior_failed : Kind::behavior_succeeded, record.behavior);
+  if (record.origin == Origin::timeout || (is_failure && takes_failures_for_timeouts_)) {
+    note_timeout(record, before);
   }
-  if (record.origin != Origin::timeout) return;
+}
+
+void GoalWatch::note_timeout(const EventRecord& record, const State& before) {
+  const BehaviorId behavior = record.behavior;
   for (const ValueId value : catalog_.performs[behavior]) {
     const TaskId task = catalog_.task_of(value);
-    if (before.behavior(task) != behavior) continue;
     const Microseconds timeout = timeout_of(catalog_, task, behavior);
+    if (before.behavior(task) != behavior || timeout == 0) continue;
     const Microseconds since = std::max(before.activated_at(behavior), before.taken_at(task));
-    if (timeout == 0 || since + timeout != record.time) continue;
+    if (!takes_failures_for_timeouts_ && since + timeout != record.time) continue;
     const bool is_own = catalog_.behaviors[behavior].timeout > 0;
     meet(Kind::timeout_fired,
          is_own ? static_cast<std::uint32_t>(catalog_.tasks.size()) + behavior : task);
@@ -168,8 +172,10 @@ void GoalWatch::note_finish(const EventRecord& record, const State& before) {
 void GoalWatch::ask_for_deciding(const EventRecord& record, const Circumstances& circumstances,
                                  const Assignment* solution) {
   if (!relaxation_.load(record, circumstances, solution)) return;
-  for (const std::uint32_t number : deciding_[circumstances.trigger.group]) {
-    if (met_[number] == 0 && relaxation_.decided(goals_[number], number)) met_[number] = 1;
+  if (!relaxation_.is_repetition()) {
+    for (const std::uint32_t number : deciding_[circumstances.trigger.group]) {
+      if (met_[number] == 0 && relaxation_.decided(goals_[number], number)) met_[number] = 1;
+    }
   }
   if (solution != nullptr || record.origin != Origin::script) return;
   const auto& places = places_.at(static_cast<std::size_t>(Kind::lower_rejected));

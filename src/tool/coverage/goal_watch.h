@@ -32,6 +32,13 @@ class GoalWatch {
                    const Assignment* solution);
   void on_event(const EventRecord& record, const State& state);
 
+  /// Where there are no times: any failure may be a timeout.
+  void take_failures_for_timeouts() { takes_failures_for_timeouts_ = true; }
+  /// Notes that the reactive task started by itself after it had given way.
+  void note_return(TaskId task) { meet(Kind::reactive_returned, task); }
+  /// Whether the reactive task has given way since begin().
+  [[nodiscard]] bool has_given_way(TaskId task) const { return has_given_way_[task] != 0; }
+
   /// By goal: whether an event has met it.
   [[nodiscard]] const std::vector<std::uint8_t>& met() const { return met_; }
   /// The problems that were solved beside those of the events.
@@ -46,6 +53,7 @@ class GoalWatch {
   void note_start(const EventRecord& record, const Circumstances& circumstances,
                   const Assignment& solution);
   void note_finish(const EventRecord& record, const State& before);
+  void note_timeout(const EventRecord& record, const State& before);
   void ask_for_deciding(const EventRecord& record, const Circumstances& circumstances,
                         const Assignment* solution);
   void note_situation(const State& state);
@@ -60,7 +68,8 @@ class GoalWatch {
   std::vector<std::uint8_t> has_given_way_;  ///< by task, in this mission
   std::vector<BehaviorId> conditional_;      ///< behaviors that name variables
   std::vector<std::uint8_t> fits_;           ///< by place in conditional_
-  std::vector<std::uint8_t> was_active_;     ///< by behavior; kept for its memory
+  bool takes_failures_for_timeouts_ = false;
+  std::vector<std::uint8_t> was_active_;  ///< by behavior; kept for its memory
 };
 
 }  // namespace cbc

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "compiled/compiled_file.h"
 #include "compiled/derive.h"
 
 namespace cbc {
@@ -99,7 +100,15 @@ void remove_exclusion(GrowingCatalog& catalog, const Goal& goal) {
   }
 }
 
-/// The constraint may be gone from a hundred catalogs of this size at a time, at most.
+template <typename Items>
+void append(std::string& bytes, const Items& items) {
+  using Item = typename Items::value_type;
+  const std::size_t count = items.size();
+  bytes.append(reinterpret_cast<const char*>(&count), sizeof(count));
+  bytes.append(reinterpret_cast<const char*>(items.data()), count * sizeof(Item));
+}
+
+/// So many catalogs of this size are kept at a time, at most.
 std::size_t most_variants_of(const CompiledCatalog& catalog) {
   constexpr std::size_t most_values = 2'000'000;
   const std::size_t size = 1 + catalog.values.items.size() + catalog.requirements.items.size() +
@@ -156,6 +165,21 @@ bool Relaxation::load(const EventRecord& record, const Circumstances& circumstan
     unprotected_ = builder.build(std::numeric_limits<std::int32_t>::max());
   }
   return true;
+}
+
+bool Relaxation::is_repetition() {
+  constexpr std::size_t most_known = 1'000'000;
+  std::string bytes;
+  for (const Problem& problem : problems_) {
+    bytes.append(reinterpret_cast<const char*>(&problem.group), sizeof(problem.group));
+    append(bytes, problem.domains);
+    append(bytes, problem.may_stop);
+    append(bytes, problem.present);
+    append(bytes, problem.requests);
+    append(bytes, problem.active);
+  }
+  if (known_.size() == most_known) known_.clear();
+  return !known_.insert(to_hex(digest_of(bytes))).second;
 }
 
 bool Relaxation::was_protection_alone() {

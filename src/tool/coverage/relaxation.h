@@ -3,8 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <unordered_map>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
@@ -33,6 +37,9 @@ class Relaxation {
   /// proven, so that nothing can be asked.
   [[nodiscard]] bool load(const EventRecord& record, const Circumstances& circumstances,
                           const Assignment* solution);
+
+  /// Whether an event with the same problems was loaded before: then all answers are as they were.
+  [[nodiscard]] bool is_repetition();
 
   /// Whether the constraint of the goal, which is about the group of the event, decided it: without
   /// it the answer is another one. `number` tells goals apart.
@@ -64,6 +71,9 @@ class Relaxation {
   std::size_t most_variants_;
   std::unordered_map<std::size_t, std::unique_ptr<Variant>> variants_;
   Solver solver_;  ///< with all constraints
+
+  /// Digests of the problems so far, which stand for them.
+  std::unordered_set<std::string> known_;
 
   // The event.
   std::vector<Problem> problems_;  ///< by protection level, up to that of the answer

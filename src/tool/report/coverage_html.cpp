@@ -69,7 +69,7 @@ class CatalogPage {
         "<th scope=\"col\">covered</th></tr>\n";
     const auto sections = coverage_.by_section();
     for (std::size_t section = 0; section < goal_sections; ++section) {
-      if (sections.at(section).goals == 0) continue;
+      if (sections.at(section).goals + sections.at(section).unreachable == 0) continue;
       html_ += counts_row(name_of(static_cast<GoalSection>(section)), sections.at(section));
     }
     html_ += counts_row("total", coverage_.total()) + "</table>\n";
@@ -99,7 +99,9 @@ class CatalogPage {
   void write_line(std::size_t line, std::string_view text) {
     const std::vector<std::uint32_t>& goals = of_lines_.at(line);
     GoalCount count;
-    for (const std::uint32_t goal : goals) count.add(coverage_.is_met(goal));
+    for (const std::uint32_t goal : goals) {
+      count.add(coverage_.is_met(goal), coverage_.is_unreachable(goal));
+    }
     const std::string_view kind = count.goals == 0           ? ""
                                   : count.met == count.goals ? "met"
                                   : count.met == 0           ? "missed"
@@ -119,6 +121,10 @@ class CatalogPage {
 
   void write_goal(std::uint32_t goal) {
     const std::string what = xml_text(describe(coverage_.catalog(), coverage_.goals()[goal]));
+    if (coverage_.is_unreachable(goal)) {
+      html_ += fmt::format("<li class=\"by\">impossible: {}</li>\n", what);
+      return;
+    }
     if (!coverage_.is_met(goal)) {
       html_ += fmt::format("<li class=\"missed\">missed: {}</li>\n", what);
       return;

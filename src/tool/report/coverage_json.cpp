@@ -30,6 +30,7 @@ void write_identity(JsonWriter& json, const CompiledCatalog& catalog, const Goal
 void write_count(JsonWriter& json, const GoalCount& count) {
   json.write_members({{"goals", count.goals},
                       {"met", count.met},
+                      {"unreachable", count.unreachable},
                       {"percent", static_cast<double>(count.tenths()) / 10}});
 }
 
@@ -43,7 +44,7 @@ void write_catalog(JsonWriter& json, const CatalogCoverage& coverage) {
   json.on_new_line().open("sections", '[');
   const auto sections = coverage.by_section();
   for (std::size_t section = 0; section < goal_sections; ++section) {
-    if (sections.at(section).goals == 0) continue;
+    if (sections.at(section).goals + sections.at(section).unreachable == 0) continue;
     json.on_new_line().open('{');
     json.write("section", name_of(static_cast<GoalSection>(section)));
     write_count(json, sections.at(section));
@@ -55,6 +56,7 @@ void write_catalog(JsonWriter& json, const CatalogCoverage& coverage) {
     json.on_new_line().open('{');
     write_identity(json, coverage.catalog(), coverage.goals()[goal]);
     json.write_list("lines", coverage.goals()[goal].lines);
+    if (coverage.is_unreachable(goal)) json.write("unreachable", true);
     json.write_list("met_by", coverage.missions_of(goal),
                     [&](std::uint32_t mission) { json.write(coverage.missions()[mission]); });
     json.close('}');

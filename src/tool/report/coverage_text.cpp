@@ -28,6 +28,18 @@ std::string place_of(const CatalogCoverage& coverage, const Goal& goal) {
   return goal.lines.empty() ? file : fmt::format("{}:{}", file, goal.lines.front());
 }
 
+void add_list(const CatalogCoverage& coverage, std::string_view heading,
+              bool (CatalogCoverage::*is_listed)(std::size_t) const, std::string& text) {
+  bool is_empty = true;
+  for (std::size_t goal = 0; goal < coverage.goals().size(); ++goal) {
+    if (!(coverage.*is_listed)(goal)) continue;
+    if (is_empty) text += fmt::format("\n{}\n", heading);
+    is_empty = false;
+    text += fmt::format("  {}: {}\n", place_of(coverage, coverage.goals()[goal]),
+                        describe(coverage.catalog(), coverage.goals()[goal]));
+  }
+}
+
 std::string catalog_to_text(const CatalogCoverage& coverage, const Style& style) {
   std::string text = fmt::format("{}{}{}, {}\n\n", style.strong, printable(coverage.catalog().file),
                                  style.reset, quantity(coverage.missions().size(), "mission"));
@@ -35,18 +47,14 @@ std::string catalog_to_text(const CatalogCoverage& coverage, const Style& style)
       fmt::format("  {:<14} {:>7} {:>7} {:>7} {:>9}\n", "", "goals", "met", "missed", "covered");
   const auto sections = coverage.by_section();
   for (std::size_t section = 0; section < goal_sections; ++section) {
-    if (sections.at(section).goals == 0) continue;
+    if (sections.at(section).goals + sections.at(section).unreachable == 0) continue;
     text += table_row(name_of(static_cast<GoalSection>(section)), sections.at(section));
   }
   const GoalCount total = coverage.total();
   text += table_row("total", total);
-  if (total.met == total.goals) return text;
-  text += "\nno mission shows that\n";
-  for (std::size_t goal = 0; goal < coverage.goals().size(); ++goal) {
-    if (coverage.is_met(goal)) continue;
-    text += fmt::format("  {}: {}\n", place_of(coverage, coverage.goals()[goal]),
-                        describe(coverage.catalog(), coverage.goals()[goal]));
-  }
+  add_list(coverage, "no mission shows that", &CatalogCoverage::is_missed, text);
+  add_list(coverage, "no mission can show, and so it does not count, that",
+           &CatalogCoverage::is_unreachable, text);
   return text;
 }
 
@@ -67,7 +75,8 @@ std::string catalog_to_lcov(const CatalogCoverage& coverage) {
   GoalCount of_branches;
   GoalCount found;
   for (std::size_t line = 1; line < of_lines.size(); ++line) {
-    const std::vector<std::uint32_t>& goals = of_lines[line];
+    std::vector<std::uint32_t> goals = of_lines[line];
+    std::erase_if(goals, [&](std::uint32_t goal) { return coverage.is_unreachable(goal); });
     if (goals.empty()) continue;
     const std::size_t hits = count_missions(coverage, goals);
     lines += fmt::format("DA:{},{}\n", line, hits);
@@ -115,7 +124,7 @@ std::string coverage_to_github(const Coverage& coverage) {
     for (std::uint32_t line = 1; line < of_lines.size(); ++line) {
       std::string missed;
       for (const std::uint32_t goal : of_lines[line]) {
-        if (catalog.is_met(goal)) continue;
+        if (!catalog.is_missed(goal)) continue;
         if (!missed.empty()) missed += '\n';
         missed += describe(catalog.catalog(), catalog.goals()[goal]);
       }
