@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/command_line.h"
@@ -17,6 +18,7 @@
 #include "script/runner.h"
 #include "script/script.h"
 #include "sweep/sequence.h"
+#include "verify/properties.h"
 #include "yaml/document.h"
 
 namespace cbc::cli {
@@ -56,8 +58,10 @@ struct StreamOptions {
 
 /// The options of `cbc solve` that are about coverage.
 struct CoverageOptions {
-  std::optional<std::string> file;  ///< set: coverage is wanted; "-": in place of the runs
-  std::string fail_under;           ///< percent; empty: whatever it is
+  std::optional<std::string> file;    ///< set: coverage is wanted; "-": in place of the runs
+  std::string fail_under;             ///< percent; empty: whatever it is
+  bool prove = false;                 ///< set goals apart that are proven unreachable
+  std::optional<std::string> assume;  ///< the property file with the assumptions of the proof
 
   [[nodiscard]] bool replaces_runs() const { return file == "-"; }
 };
@@ -150,6 +154,7 @@ class CoverageCollector {
   void take(const Mission& mission);
 
   [[nodiscard]] const Coverage& coverage() const { return coverage_; }
+  [[nodiscard]] Coverage take_coverage() { return std::move(coverage_); }
 
  private:
   explicit CoverageCollector(const std::vector<Mission>& missions)
@@ -161,8 +166,15 @@ class CoverageCollector {
   std::vector<std::vector<std::uint8_t>> met_;  ///< by mission: by goal
 };
 
-/// Writes the coverage as the options say. Returns the exit status.
-[[nodiscard]] int report_coverage(const Coverage& coverage, const SolveOptions& options);
+/// The assumptions under which goals are proven unreachable, by catalog. Empty if the property file
+/// cannot be used; the reason is printed.
+[[nodiscard]] std::optional<std::vector<Assumptions>> find_assumptions(
+    const Coverage& coverage, const CoverageOptions& options);
+
+/// Proves, if that is asked for, which goals are unreachable, and writes the coverage as the
+/// options say. Returns the exit status.
+[[nodiscard]] int report_coverage(Coverage coverage, const std::vector<Assumptions>& assumptions,
+                                  const SolveOptions& options);
 
 /// Merges JSON results. The paths are those of the catalog and of the results. Returns the exit
 /// status.

@@ -15,9 +15,11 @@
 #include "cli/output.h"
 #include "cli/solve.h"
 #include "coverage/coverage.h"
+#include "coverage/goal_proof.h"
 #include "coverage/goal_watch.h"
 #include "coverage/goals.h"
 #include "report/coverage_report.h"
+#include "verify/property_reader.h"
 
 namespace cbc::cli {
 namespace {
@@ -88,6 +90,17 @@ void add_coverage_options(Command& command, CoverageOptions& options) {
       .option("--fail-under", options.fail_under, percent(),
               "Exit with status 1 if fewer goals than this are reached")
       .only_with({"--coverage"});
+  command
+      .flag(
+          "--prove", options.prove,
+          "Visit all reachable states as cbc verify does, and set apart what no mission can reach")
+      .only_with({"--coverage"});
+  command
+      .option(
+          "--assume", options.assume, input("FILE", ValueKind::file),
+          "Which events may happen in the proof: the assumptions of this property file (default: "
+          "those of cbc verify, with the priorities 1 and 2)")
+      .only_with({"--prove"});
 }
 
 std::unique_ptr<CoverageCollector> CoverageCollector::make(const std::vector<Mission>& missions) {
@@ -128,7 +141,84 @@ void CoverageCollector::take(const Mission& mission) {
   find(*mission.catalog)->add(mission.script.file, std::exchange(met, {}));
 }
 
-int report_coverage(const Coverage& coverage, const SolveOptions& options) {
+namespace {
+
+std::optional<Assumptions> read_assumptions(const std::string& path,
+                                            const CompiledCatalog& catalog) {
+  InputFiles files;
+  const std::optional<InputFile> file = files.read(path);
+  std::optional<PropertyFile> properties;
+  if (file && (file->document == nullptr || !is_property_file(*file->document))) {
+    complain("--assume: {} is not a property file", quote(display_name(path)));
+  } else if (file) {
+    Diagnostics diagnostics;
+    properties = read_properties(*file->document, catalog, diagnostics);
+    const bool is_complete = properties.has_value();
+    if (!files.take_findings(path, *file->document, std::move(diagnostics), is_complete)) {
+      properties.reset();
+    }
+  }
+  files.print_findings();
+  if (!properties) return std::nullopt;
+  return std::move(properties->assumptions);
+}
+
+/// False if nothing can be proven; the reason is printed.
+bool prove(CatalogCoverage& coverage, const Assumptions& assumptions, const StopSignals& signals) {
+  const CompiledCatalog& catalog = coverage.catalog();
+  Progress progress("proving", catalog.group_count());
+  std::optional<std::uint32_t> begun;
+  GoalProofOptions options;
+  options.on_progress = [&](std::uint32_t group, std::uint64_t states) {
+    if (begun != group) progress.begin(fmt::format("group {}", group));
+    begun = group;
+    progress.show(fmt::format(" ({} states)", states));
+    return !signals.have_come();
+  };
+  GoalProof proof = prove_unreachable(catalog, coverage.goals(), assumptions, options);
+  progress.clear();
+  if (proof.error) {
+    complain("--prove: {}", *proof.error);
+    return false;
+  }
+  for (std::size_t group = 0; group < proof.groups.size(); ++group) {
+    if (proof.groups[group].is_complete) continue;
+    complain("--prove: not all states of group {} of {} were visited; nothing is proven about it",
+             group, quote(catalog.file));
+  }
+  coverage.set_unreachable(std::move(proof.unreachable));
+  return true;
+}
+
+}  // namespace
+
+std::optional<std::vector<Assumptions>> find_assumptions(const Coverage& coverage,
+                                                         const CoverageOptions& options) {
+  std::vector<Assumptions> assumptions;
+  if (!options.prove) return assumptions;
+  if (options.assume && coverage.catalogs.size() > 1) {
+    complain("--assume: a property file is about one catalog, and these scripts have {}",
+             coverage.catalogs.size());
+    return std::nullopt;
+  }
+  for (const CatalogCoverage& one : coverage.catalogs) {
+    std::optional<Assumptions> found = options.assume
+                                           ? read_assumptions(*options.assume, one.catalog())
+                                           : assumptions_of_goals(one.catalog());
+    if (!found) return std::nullopt;
+    assumptions.push_back(std::move(*found));
+  }
+  return assumptions;
+}
+
+int report_coverage(Coverage coverage, const std::vector<Assumptions>& assumptions,
+                    const SolveOptions& options) {
+  if (!assumptions.empty()) {
+    const StopSignals signals;
+    for (std::size_t place = 0; place < assumptions.size(); ++place) {
+      if (!prove(coverage.catalogs[place], assumptions[place], signals)) return exit_unusable;
+    }
+  }
   int status = exit_ok;
   if (options.coverage.replaces_runs()) {
     const CoverageFormat& format = *find_named(coverage_formats(), options.format);
@@ -160,6 +250,8 @@ int merge_coverage(const SolveOptions& options) {
   if (source == nullptr) return complain_of_compiled(*catalog);
   Coverage coverage;
   coverage.catalogs.push_back(coverage_of(catalog, *source));
+  const auto assumptions = find_assumptions(coverage, options.coverage);
+  if (!assumptions) return exit_unusable;
   for (std::size_t place = 1; place < options.paths.size(); ++place) {
     const std::string& path = options.paths[place];
     const std::optional<std::string> text = read_result(path);
@@ -167,7 +259,7 @@ int merge_coverage(const SolveOptions& options) {
     const std::string fault = add_coverage_json(*text, coverage.catalogs.front());
     if (!fault.empty()) return complain("cannot merge {}: {}", quote(display_name(path)), fault);
   }
-  return report_coverage(coverage, options);
+  return report_coverage(std::move(coverage), *assumptions, options);
 }
 
 }  // namespace cbc::cli

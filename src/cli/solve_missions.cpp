@@ -321,9 +321,12 @@ int solve_missions(const SolveOptions& options) {
                     quote(*output));
   }
   std::unique_ptr<CoverageCollector> collector;
+  std::optional<std::vector<Assumptions>> assumptions;
   if (of_coverage.file) {
     collector = CoverageCollector::make(*missions);
     if (collector == nullptr) return exit_unusable;
+    assumptions = find_assumptions(collector->coverage(), of_coverage);
+    if (!assumptions) return exit_unusable;
   }
   std::unique_ptr<SolveReport> report = std::make_unique<SilentReport>();
   if (!of_coverage.replaces_runs()) {
@@ -333,11 +336,10 @@ int solve_missions(const SolveOptions& options) {
                            // Lines in files and pipes stay whole, for programs such as grep.
                            {is_terminal(stdout) ? columns_of(stdout) : 0, options.brief}});
   }
-  int status = options.html ? draw_missions(*missions, options, *report, collector.get())
-                            : run_missions(*missions, options, *report, collector.get());
-  if (collector != nullptr)
-    status = std::max(status, report_coverage(collector->coverage(), options));
-  return status;
+  const int status = options.html ? draw_missions(*missions, options, *report, collector.get())
+                                  : run_missions(*missions, options, *report, collector.get());
+  if (collector == nullptr) return status;
+  return std::max(status, report_coverage(collector->take_coverage(), *assumptions, options));
 }
 
 }  // namespace cbc::cli
