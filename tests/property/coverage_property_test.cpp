@@ -33,7 +33,7 @@
 namespace cbc::oracle {
 namespace {
 
-constexpr std::uint64_t default_cases = 300;
+constexpr std::uint64_t default_cases = 150;
 
 using Keys = std::set<std::string>;
 
@@ -55,10 +55,10 @@ class PlainGoals {
   [[nodiscard]] const std::vector<std::string>& decided() const { return decided_; }
 
   [[nodiscard]] std::string of_task(const char* kind, std::size_t task) const {
-    return std::string(kind) + " " + catalog_.tasks[task].name;
+    return std::string(kind) + " task " + catalog_.tasks[task].name;
   }
   [[nodiscard]] std::string of_behavior(const char* kind, std::size_t behavior) const {
-    return std::string(kind) + " " + catalog_.behaviors[behavior].name;
+    return std::string(kind) + " behavior " + catalog_.behaviors[behavior].name;
   }
   [[nodiscard]] std::string of_value(std::size_t variable, std::size_t value) const {
     const Variable& declared = catalog_.variables[variable];
@@ -67,7 +67,7 @@ class PlainGoals {
   }
   [[nodiscard]] std::string of_requirement(const char* kind, std::size_t behavior,
                                            std::size_t task) const {
-    return of_behavior(kind, behavior) + " " + catalog_.tasks[task].name;
+    return of_behavior(kind, behavior) + " task " + catalog_.tasks[task].name;
   }
 
  private:
@@ -145,7 +145,7 @@ class PlainGoals {
       for (const std::size_t b : facts_.excludes[a]) {
         if (b <= a) continue;
         CatalogFacts& without =
-            add_variant(of_task("exclusion_decided", a) + " " + catalog_.tasks[b].name);
+            add_variant(of_task("exclusion_decided", a) + " task " + catalog_.tasks[b].name);
         without.excludes[a].erase(b);
         without.excludes[b].erase(a);
       }
@@ -272,7 +272,7 @@ class PlainWatch {
     }
     if (event["outcome"] == "rejected" && event["verb"] == "start" && event["origin"] == "script" &&
         is_protection_alone(index)) {
-      meet("lower_rejected " + event["name"].get<std::string>());
+      meet("lower_rejected task " + event["name"].get<std::string>());
     }
   }
 
@@ -406,9 +406,9 @@ class Watched final : public RunListener {
 std::string key_of(const CompiledCatalog& catalog, const Goal& goal) {
   std::string key(name_of(goal.kind));
   const auto add = [&](std::string_view name) { key += " " + std::string(name); };
-  if (goal.behavior != cbc::none) add(catalog.name_of_behavior(goal.behavior));
-  if (goal.task != cbc::none) add(catalog.name_of_task(goal.task));
-  if (goal.other_task != cbc::none) add(catalog.name_of_task(goal.other_task));
+  if (goal.behavior != cbc::none) add("behavior"), add(catalog.name_of_behavior(goal.behavior));
+  if (goal.task != cbc::none) add("task"), add(catalog.name_of_task(goal.task));
+  if (goal.other_task != cbc::none) add("task"), add(catalog.name_of_task(goal.other_task));
   if (goal.variable != cbc::none) {
     add(catalog.name_of_variable(goal.variable));
     add(catalog.name_of_value({goal.variable, goal.value}));
@@ -477,7 +477,7 @@ void run_case(std::uint64_t seed, Results& results) {
 constexpr LowerBound lower_bounds[] = {
     {"task_ran", 1000},
     {"behavior_active", 1000},
-    {"behavior_succeeded", 500},
+    {"behavior_succeeded", 100},
     {"behavior_failed", 500},
     {"behavior_replaced", 200},
     {"requirement_used", 500},
