@@ -406,9 +406,17 @@ class Watched final : public RunListener {
 std::string key_of(const CompiledCatalog& catalog, const Goal& goal) {
   std::string key(name_of(goal.kind));
   const auto add = [&](std::string_view name) { key += " " + std::string(name); };
-  if (goal.behavior != cbc::none) add("behavior"), add(catalog.name_of_behavior(goal.behavior));
-  if (goal.task != cbc::none) add("task"), add(catalog.name_of_task(goal.task));
-  if (goal.other_task != cbc::none) add("task"), add(catalog.name_of_task(goal.other_task));
+  const auto add_task = [&](TaskId task) {
+    if (task == cbc::none) return;
+    add("task");
+    add(catalog.name_of_task(task));
+  };
+  if (goal.behavior != cbc::none) {
+    add("behavior");
+    add(catalog.name_of_behavior(goal.behavior));
+  }
+  add_task(goal.task);
+  add_task(goal.other_task);
   if (goal.variable != cbc::none) {
     add(catalog.name_of_variable(goal.variable));
     add(catalog.name_of_value({goal.variable, goal.value}));
