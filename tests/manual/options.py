@@ -17,13 +17,15 @@ def help_of(verb):
 
 def options_in_help(verb):
     """By name, what each takes: {"-o, --output": "OUT", "--check": ""}."""
-    found = re.findall(r"^ +((?:-\w, ?)?--[\w-]+)(?: (\S+))?(?:  |$)", help_of(verb), re.MULTILINE)
+    text = re.sub(r"\[=(\w+)\]", r" \1", help_of(verb))  # a value that may be missing
+    found = re.findall(r"^ +((?:-\w, ?)?--[\w-]+)(?: (\S+))?(?:  |$)", text, re.MULTILINE)
     return {re.sub(r", ?", ", ", names): value for names, value in found}
 
 
 def options_in_page(verb):
     found = {}
-    for item in re.findall(r"^\.It Fl (.*)$", pages.page_of(verb).read_text(), re.MULTILINE):
+    page = pages.page_of(verb).read_text().replace(" Ns Op = Ns Ar ", " Ar ")
+    for item in re.findall(r"^\.It Fl (.*)$", page, re.MULTILINE):
         names, _, value = item.partition(" Ar ")
         found[", ".join(f"-{name}" for name in names.split(" , Fl "))] = value
     return found

@@ -151,7 +151,15 @@ bool may_have(const Assumptions& assumptions, const Goal& goal) {
 
 Assumptions assumptions_of_goals(const CompiledCatalog& catalog) {
   Assumptions assumptions = default_assumptions(catalog);
-  for (Assumptions::Start& start : assumptions.start) start.priorities = {1, 2};
+  assumptions.start.clear();
+  assumptions.stop.clear();
+  for (const TaskId task : catalog.task_ids) {
+    const CompiledTask& compiled = catalog.tasks[task];
+    const bool starts_otherwise = compiled.reactive_start != 0 || !catalog.incoming[task].empty();
+    if (compiled.start_on_request == 0 && starts_otherwise) continue;
+    assumptions.start.push_back({task, {1, 2}});
+    assumptions.stop.push_back(task);
+  }
   return assumptions;
 }
 

@@ -34,7 +34,7 @@ struct GoalProofOptions {
 };
 
 /// What holds without a property file: that of `cbc verify`, but requests have the priorities 1 and
-/// 2, as some goals are about these.
+/// 2, as some goals are about these, and also start tasks that nothing else could start.
 [[nodiscard]] Assumptions assumptions_of_goals(const CompiledCatalog& catalog);
 
 /// Visits all states of each group that are reachable (docs/verify.md, "States"), and makes each
