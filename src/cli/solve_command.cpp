@@ -154,7 +154,10 @@ std::string find_bad_format(const SolveOptions& options) {
   const char* const what = options.coverage.replaces_runs() ? "--coverage"
                            : options.sweep.merge            ? "--merge"
                            : is_of_sweep                    ? "--sweep"
-                                                            : "a report of runs";
+                                                            : nullptr;
+  if (what == nullptr) {
+    return fmt::format("--format {} can only be used with --coverage", options.format);
+  }
   return fmt::format("{} can only be used with --format {}, not {}", what, join_with_or(formats),
                      options.format);
 }

@@ -81,16 +81,19 @@ class CoverageReader {
     if (root["schema"].text() != "cbc.coverage/1") {
       throw JsonFault("its schema is not 'cbc.coverage/1'");
     }
-    for (const JsonValue& catalog : root["catalogs"].items()) {
-      if (catalog["catalog"].text() != coverage_.catalog().file) continue;
-      if (catalog["digest"].text() != coverage_.digest()) {
-        throw JsonFault(
-            fmt::format("it is about another version of {}", quote(coverage_.catalog().file)));
-      }
-      read_catalog(catalog);
-      return;
+    const std::vector<JsonValue> catalogs = root["catalogs"].items();
+    const auto find = [&](const char* member, std::string_view text) {
+      return std::find_if(catalogs.begin(), catalogs.end(),
+                          [&](const JsonValue& catalog) { return catalog[member].text() == text; });
+    };
+    // Another machine may have it elsewhere.
+    if (const auto found = find("digest", coverage_.digest()); found != catalogs.end()) {
+      return read_catalog(*found);
     }
-    throw JsonFault(fmt::format("it has nothing about {}", quote(coverage_.catalog().file)));
+    const std::string_view file = coverage_.catalog().file;
+    throw JsonFault(find("catalog", file) == catalogs.end()
+                        ? fmt::format("it has nothing about {}", quote(file))
+                        : fmt::format("it is about another version of {}", quote(file)));
   }
 
  private:
