@@ -132,7 +132,7 @@ void run_case(std::uint64_t seed, oracle::Results& results) {
 }
 
 constexpr oracle::LowerBound lower_bounds[] = {
-    {"met", 3000}, {"unreachable", 1000}, {"decides", 300}, {"never decides", 100}};
+    {"met", 3000}, {"unreachable", 1000}, {"decides", 150}, {"never decides", 100}};
 
 TEST(GoalProof, IsWhatAllPathsShow) {
   oracle::run_random_cases(default_cases, run_case, lower_bounds);
