@@ -410,10 +410,14 @@ std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const InputFile& file
     if (!compiled) return nullptr;
     return std::make_shared<const CompiledCatalog>(std::move(compiled->catalog));
   }
-  const std::optional<Catalog> catalog =
-      understand(file.path, *file.document, InputFiles::Purpose::use);
+  std::optional<Catalog> catalog = understand(file.path, *file.document, InputFiles::Purpose::use);
   if (!catalog) return nullptr;
-  return std::make_shared<const CompiledCatalog>(compile(*catalog));
+  auto compiled = std::make_shared<const CompiledCatalog>(compile(*catalog));
+  if (keeps_sources_) {
+    sources_.emplace(compiled.get(), std::make_shared<const CatalogSource>(CatalogSource{
+                                         std::move(*catalog), files_.text_of(*file.document)}));
+  }
+  return compiled;
 }
 
 std::string CatalogLoader::key_of(const std::string& path) {

@@ -162,11 +162,26 @@ class InputFiles {
   SettingsFinder settings_;
 };
 
+/// What was compiled.
+struct CatalogSource {
+  Catalog catalog;
+  std::string text;
+};
+
 /// Loads catalogs, compiled ones or YAML, and keeps them.
 class CatalogLoader {
  public:
   /// `files` must outlive this object.
   explicit CatalogLoader(InputFiles& files) : files_(files) {}
+
+  /// From now on, also keeps what it compiles.
+  void keep_sources() { keeps_sources_ = true; }
+  /// Null if the catalog was compiled before.
+  [[nodiscard]] std::shared_ptr<const CatalogSource> source_of(
+      const CompiledCatalog& catalog) const {
+    const auto found = sources_.find(&catalog);
+    return found == sources_.end() ? nullptr : found->second;
+  }
 
   /// Null if the catalog cannot be used: the findings have its errors, or the reason was printed.
   [[nodiscard]] std::shared_ptr<const CompiledCatalog> load(const InputFile& file);
@@ -191,7 +206,9 @@ class CatalogLoader {
   [[nodiscard]] static std::string key_of(const std::string& path);
 
   InputFiles& files_;
+  bool keeps_sources_ = false;
   std::map<std::string, std::shared_ptr<const CompiledCatalog>> known_;
+  std::map<const CompiledCatalog*, std::shared_ptr<const CatalogSource>> sources_;
 };
 
 /// Loads the only catalog of a command line. Null if it cannot be used; the reason is printed.

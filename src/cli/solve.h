@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/command_line.h"
@@ -13,10 +14,12 @@
 #include "coordinator/coordinator.h"
 #include "coordinator/record.h"
 #include "coordinator/state.h"
+#include "coverage/coverage.h"
 #include "report/solve_report.h"
 #include "script/runner.h"
 #include "script/script.h"
 #include "sweep/sequence.h"
+#include "verify/properties.h"
 #include "yaml/document.h"
 
 namespace cbc::cli {
@@ -55,6 +58,16 @@ struct StreamOptions {
   std::optional<std::string> serve;  ///< where a page shows the stream
 };
 
+/// The options of `cbc solve` that are about coverage.
+struct CoverageOptions {
+  std::optional<std::string> file;    ///< set: coverage is wanted; "-": in place of the runs
+  std::string fail_under;             ///< percent; empty: whatever it is
+  bool prove = false;                 ///< set goals apart that are proven unreachable
+  std::optional<std::string> assume;  ///< the property file with the assumptions of the proof
+
+  [[nodiscard]] bool replaces_runs() const { return file == "-"; }
+};
+
 /// The options of `cbc solve`.
 struct SolveOptions {
   std::vector<std::string> paths;
@@ -71,6 +84,7 @@ struct SolveOptions {
   std::uint64_t max_clock_events = CoordinatorOptions{}.max_clock_events;
   StreamOptions stream;
   SweepOptions sweep;
+  CoverageOptions coverage;
 };
 
 /// The options of the coordinator for a run on this catalog, which must know all names.
@@ -81,6 +95,10 @@ struct SolveOptions {
 [[nodiscard]] EventAdditions event_additions(const SolveOptions& options);
 
 void add_sweep_options(Command& command, SweepOptions& options);
+void add_coverage_options(Command& command, CoverageOptions& options);
+
+/// Reads a JSON result to be merged. If that is impossible, prints why to standard error.
+[[nodiscard]] std::optional<std::string> read_result(const std::string& path);
 
 /// Runs a sweep on the catalog of the path, or merges the shards there. Returns the exit status.
 [[nodiscard]] int run_sweep(const SolveOptions& options);
@@ -89,12 +107,16 @@ void add_sweep_options(Command& command, SweepOptions& options);
 struct Mission {
   std::shared_ptr<const CompiledCatalog> catalog;
   Script script;
+  std::shared_ptr<const CatalogSource> source{};  ///< if the loader was to keep it
 };
 
 /// Reads the files of a command line, and checks every script against its catalog before anything
 /// runs. Findings and other problems go to standard error.
 class MissionLoader {
  public:
+  /// From now on, also keeps what catalogs were compiled from.
+  void keep_sources() { catalogs_.keep_sources(); }
+
   /// `paths`: a catalog (which may be missing if the scripts name theirs), then scripts; "-" is a
   /// script from standard input, a folder stands for the scripts in it. Empty if anything is wrong.
   [[nodiscard]] std::optional<std::vector<Mission>> load(const std::vector<std::string>& paths);
@@ -117,6 +139,47 @@ class MissionLoader {
   std::vector<Mission> missions_;
   bool has_failed_ = false;
 };
+
+/// Collects which goals of their catalogs missions meet (docs/coverage.md).
+class CoverageCollector {
+ public:
+  /// Null if a catalog was compiled before, and so has no lines; the reason is printed. The
+  /// missions must outlive it.
+  [[nodiscard]] static std::unique_ptr<CoverageCollector> make(
+      const std::vector<Mission>& missions);
+
+  /// Runs a mission. May be called on several threads at once, with different missions.
+  [[nodiscard]] RunResult run(const Mission& mission, const CoordinatorOptions& options,
+                              RunListener& listener);
+  /// Adds what the mission has met.
+  void take(const Mission& mission);
+
+  [[nodiscard]] const Coverage& coverage() const { return coverage_; }
+  [[nodiscard]] Coverage take_coverage() { return std::move(coverage_); }
+
+ private:
+  explicit CoverageCollector(const std::vector<Mission>& missions)
+      : missions_(missions), met_(missions.size()) {}
+  [[nodiscard]] CatalogCoverage* find(const CompiledCatalog& catalog);
+
+  const std::vector<Mission>& missions_;
+  Coverage coverage_;
+  std::vector<std::vector<std::uint8_t>> met_;  ///< by mission: by goal
+};
+
+/// The assumptions under which goals are proven unreachable, by catalog. Empty if the property file
+/// cannot be used; the reason is printed.
+[[nodiscard]] std::optional<std::vector<Assumptions>> find_assumptions(
+    const Coverage& coverage, const CoverageOptions& options);
+
+/// Proves, if that is asked for, which goals are unreachable, and writes the coverage as the
+/// options say. Returns the exit status.
+[[nodiscard]] int report_coverage(Coverage coverage, const std::vector<Assumptions>& assumptions,
+                                  const SolveOptions& options);
+
+/// Merges JSON results. The paths are those of the catalog and of the results. Returns the exit
+/// status.
+[[nodiscard]] int merge_coverage(const SolveOptions& options);
 
 /// Runs scripts, and reports them in one of the formats for whole runs. Returns the exit status.
 [[nodiscard]] int solve_missions(const SolveOptions& options);

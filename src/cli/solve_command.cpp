@@ -13,6 +13,7 @@
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/solve.h"
+#include "report/coverage_report.h"
 #include "serve/address.h"
 #include "support/wording.h"
 
@@ -99,6 +100,8 @@ constexpr const char* solve_footer =
     "  cbc solve robot.yaml mission.yaml --max-solutions 5\n"
     "                                            best of the first 5 solutions\n"
     "  cbc solve robot.yaml --sweep 1000         random events and faults\n"
+    "  cbc solve robot.yaml missions/ --coverage\n"
+    "                                            what the scripts test, and miss\n"
     "\n"
     "How an answer is chosen: of all consistent sets of behaviors, the best one serves the most "
     "requests (if equally many, the more important ones); then it has the highest product of the "
@@ -134,24 +137,68 @@ Values page_address() {
   return values;
 }
 
+/// Those of --format where runs are reported.
+std::vector<std::string> formats_of_runs() {
+  std::vector<std::string> formats = names_in(solve_formats());
+  formats.emplace_back("jsonl");
+  return formats;
+}
+
+/// Those of --format in all.
+std::vector<std::string> all_formats() {
+  std::vector<std::string> formats = formats_of_runs();
+  for (const std::string& format : names_in(coverage_formats())) {
+    if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
+      formats.push_back(format);
+    }
+  }
+  return formats;
+}
+
 /// Says what is missing on the command line; empty if nothing is.
 std::string find_missing(const SolveOptions& options) {
   if (!options.paths.empty()) return {};
-  if (options.sweep.merge) return "expected the JSON results of the shards to merge";
+  if (options.sweep.merge) {
+    return options.coverage.file ? "expected the catalog, and JSON results of --coverage to merge"
+                                 : "expected the JSON results of the shards to merge";
+  }
   if (options.sweep.is_wanted()) return "expected the catalog of the sweep";
   if (options.stream.replay) return "expected the catalog of the log";
   return "expected a catalog and a script";
+}
+
+/// About a format that what is reported does not have; empty if it has it.
+std::string find_bad_format(const SolveOptions& options) {
+  const bool is_of_sweep = options.sweep.is_wanted() && !options.coverage.file;
+  const std::vector<std::string> formats = options.coverage.replaces_runs()
+                                               ? names_in(coverage_formats())
+                                           : is_of_sweep ? names_in(sweep_formats())
+                                                         : formats_of_runs();
+  if (std::find(formats.begin(), formats.end(), options.format) != formats.end()) return {};
+  const char* const what = options.coverage.replaces_runs() ? "--coverage"
+                           : options.sweep.merge            ? "--merge"
+                           : is_of_sweep                    ? "--sweep"
+                                                            : nullptr;
+  if (what == nullptr) {
+    return fmt::format("--format {} can only be used with --coverage", options.format);
+  }
+  return fmt::format("{} can only be used with --format {}, not {}", what, join_with_or(formats),
+                     options.format);
 }
 
 int solve(const SolveOptions& options) {
   if (const std::string missing = find_missing(options); !missing.empty()) {
     return usage_error("solve", missing);
   }
+  if (const std::string fault = find_bad_format(options); !fault.empty()) {
+    return usage_error("solve", fault);
+  }
   if (options.html && options.format == "jsonl" && !options.stream.replay) {
     return usage_error("solve",
                        "--html cannot be used with '--format jsonl': it draws whole runs; --serve "
                        "shows a stream, and --replay LOG --html FILE draws a recorded one");
   }
+  if (options.sweep.merge && options.coverage.file) return merge_coverage(options);
   if (options.sweep.is_wanted()) return run_sweep(options);
   if (options.stream.replay) return replay_stream(options);
   if (options.format == "jsonl") return solve_stream(options);
@@ -161,15 +208,15 @@ int solve(const SolveOptions& options) {
 }  // namespace
 
 void add_solve_command(Program& program) {
+  constexpr const char* reports_no_runs = "that reports no runs";
   constexpr std::uint32_t most_alternatives = 1000;
   const auto options = std::make_shared<SolveOptions>();
-  std::vector<std::string> formats = names_in(solve_formats());
-  formats.emplace_back("jsonl");
+  const std::vector<std::string> formats = all_formats();
   Command& command = program.add_command(
       "solve", "Runs event scripts on a catalog and computes proven best answers.",
       {{"[OPTION...] [CATALOG] SCRIPT...", "--format jsonl [OPTION...] CATALOG SCRIPT|-",
         "--replay LOG [OPTION...] CATALOG", "--sweep N [OPTION...] CATALOG",
-        "--merge [OPTION...] SHARD..."},
+        "--merge [OPTION...] SHARD...", "--coverage --merge [OPTION...] CATALOG RESULT..."},
        solve_examples,
        solve_footer});
   command.argument("CATALOG SCRIPT", options->paths, input("...", ValueKind::catalog_or_script),
@@ -178,7 +225,7 @@ void add_solve_command(Program& program) {
   command.option("--format", options->format, one_of("FORMAT", formats),
                  fmt::format("{} (default: {}); jsonl writes each event as a line, as soon as it "
                              "is solved, and takes - for a stream of events, one per line (JSON, "
-                             "or a mapping in braces)",
+                             "or a mapping in braces); html and lcov are of --coverage",
                              join_with_or(formats), formats.front()));
   command
       .option(
@@ -193,12 +240,14 @@ void add_solve_command(Program& program) {
       .flag("--brief", options->brief,
             "Write one line for each event, with its changes, instead of a table of them")
       .not_with({"--sweep", "--merge", "--replay", "--why", "--alternatives"})
+      .not_with({"--coverage -"}, reports_no_runs)
       .only_with_values("--format", {"text"});
   command
       .flag("--stats", options->stats,
             "Show the cost of each search, the mean, minimum and maximum, and the memory and time "
             "of the process; with a sweep, also report times")
       .not_with({"--replay"}, "times cannot be repeated")
+      .not_with({"--coverage -"}, reports_no_runs)
       .not_with({"--format junit", "--format github"}, "it has no place for times");
   command.add_confinement();
 
@@ -213,6 +262,7 @@ void add_solve_command(Program& program) {
             fmt::format("List the K best configurations of each accepted event (at most {})",
                         most_alternatives))}) {
     option->not_with({"--sweep", "--merge"}, "a sweep does not report single events")
+        .not_with({"--coverage -"}, reports_no_runs)
         .not_with({"--format junit", "--format github"}, "it has no place for reasons");
   }
 
@@ -277,6 +327,9 @@ void add_solve_command(Program& program) {
               "compare byte for byte")
       .not_with({"--sweep", "--merge"})
       .only_with_values("--format", {"jsonl", "text"});
+
+  command.group("Coverage");
+  add_coverage_options(command, options->coverage);
 
   command.group("Sweeps");
   add_sweep_options(command, options->sweep);

@@ -104,7 +104,8 @@ void MissionLoader::add_script(const std::string& path, const yaml::Document& do
   Diagnostics diagnostics;
   std::optional<Script> script = read_script(document, *catalog, Severity::warning, diagnostics);
   if (files_.take_findings(path, document, std::move(diagnostics), script.has_value()) && script) {
-    missions_.push_back({std::move(catalog), std::move(*script)});
+    std::shared_ptr<const CatalogSource> source = catalogs_.source_of(*catalog);
+    missions_.push_back({std::move(catalog), std::move(*script), std::move(source)});
   } else {
     has_failed_ = true;
   }
@@ -218,6 +219,18 @@ void run_all(const std::vector<Mission>& missions, std::size_t jobs, SolveReport
   report.end();
 }
 
+/// Where something else is reported than the runs.
+class SilentReport final : public SolveReport {
+ public:
+  void begin_run(const CompiledCatalog& /*catalog*/, const Script& /*script*/) override {}
+  void on_event(const EventRecord& /*record*/, const Step* /*step*/,
+                const State& /*state*/) override {}
+  void end_run(const RunResult& /*result*/, const std::string& /*error*/) override {}
+  [[nodiscard]] std::unique_ptr<SolveReport> make_part(std::FILE* /*out*/) const override {
+    return std::make_unique<SilentReport>();
+  }
+};
+
 /// Reports on standard error why a run ended early.
 void complain_of_run(const Mission& mission, const RunResult& result, const std::string& reason) {
   fmt::print(stderr, "cbc: {}: {}\n", quote(mission.script.file), reason);
@@ -229,13 +242,24 @@ void complain_of_run(const Mission& mission, const RunResult& result, const std:
   }
 }
 
+/// Coverage alone is reported, but failures should not go unnoticed.
+void complain_of_failures(const Mission& mission, const RunResult& result) {
+  for (const FailedExpectation& failure : result.failures) {
+    fmt::print(stderr, "{}:{}:{}: {}\n", printable(mission.script.file), failure.range.begin.line,
+               failure.range.begin.column, failure.message);
+  }
+}
+
+/// `collector`: null if coverage is not asked for.
 int run_missions(const std::vector<Mission>& missions, const SolveOptions& options,
-                 SolveReport& report) {
+                 SolveReport& report, CoverageCollector* collector) {
   const auto run = [&](const Mission& mission, SolveReport& report_of_run) {
     CoordinatorOptions coordination = coordinator_options(options, *mission.catalog);
-    coordination.hindsight = true;  // to explain failed expectations
+    coordination.hindsight = !options.coverage.replaces_runs();  // to explain failed expectations
     report_of_run.begin_run(*mission.catalog, mission.script);
-    RunResult result = run_script(*mission.catalog, mission.script, coordination, report_of_run);
+    RunResult result = collector != nullptr ? collector->run(mission, coordination, report_of_run)
+                                            : run_script(*mission.catalog, mission.script,
+                                                         coordination, report_of_run);
     report_of_run.end_run(result, describe_end(result, coordination));
     return result;
   };
@@ -243,6 +267,8 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
   const auto after_run = [&](const Mission& mission, const RunResult& result) {
     const std::string reason = describe_end(result, coordinator_options(options, *mission.catalog));
     if (!reason.empty()) complain_of_run(mission, result, reason);
+    if (options.coverage.replaces_runs()) complain_of_failures(mission, result);
+    if (collector != nullptr) collector->take(mission);
     status = std::max(status, status_of(result));
   };
   run_all(missions, thread_count(options.jobs), report, run, after_run);
@@ -251,10 +277,10 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
 
 /// Runs missions with an HTML page in addition to the report.
 int draw_missions(const std::vector<Mission>& missions, const SolveOptions& options,
-                  SolveReport& report) {
+                  SolveReport& report, CoverageCollector* collector) {
   HtmlReport picture(event_additions(options));
   ReportPair both(report, picture);
-  const int status = run_missions(missions, options, both);
+  const int status = run_missions(missions, options, both, collector);
   tell_left_out(*options.html, picture.left_out());
   return std::max(status, write_output(*options.html, picture.page()));
 }
@@ -275,27 +301,44 @@ void tell_left_out(const std::string& page, std::uint64_t events) {
 }
 
 int solve_missions(const SolveOptions& options) {
-  const SolveFormat& format = *find_named(solve_formats(), options.format);
+  const SolveFormat* const format = find_named(solve_formats(), options.format);
+  const CoverageOptions& of_coverage = options.coverage;
   MissionLoader loader;
+  if (of_coverage.file) loader.keep_sources();
   const std::optional<std::vector<Mission>> missions = loader.load(options.paths);
   if (!missions) {
     // CI systems could take a missing report for one without failures.
-    if (format.report_unreadable) format.report_unreadable(stdout, loader.findings());
+    if (format != nullptr && format->report_unreadable) {
+      format->report_unreadable(stdout, loader.findings());
+    }
     return exit_unusable;
   }
   if (!know_names(*missions, options.explain)) return exit_unusable;
-  // What else may prevent it is told after the report, which is of use without the page.
-  if (options.html) {
-    if (const auto refusal = find_read_file(*options.html)) return complain(*refusal);
+  // What else may prevent them is told after the report, which is of use without them.
+  for (const std::optional<std::string>& output : {options.html, of_coverage.file}) {
+    if (!output) continue;
+    if (const auto refusal = find_read_file(*output)) return complain(*refusal);
   }
-  const std::unique_ptr<SolveReport> report =
-      format.make({stdout,
-                   style_for(stdout),
-                   event_additions(options),
-                   // Lines in files and pipes stay whole, for programs such as grep.
-                   {is_terminal(stdout) ? columns_of(stdout) : 0, options.brief}});
-  return options.html ? draw_missions(*missions, options, *report)
-                      : run_missions(*missions, options, *report);
+  std::unique_ptr<CoverageCollector> collector;
+  std::optional<std::vector<Assumptions>> assumptions;
+  if (of_coverage.file) {
+    collector = CoverageCollector::make(*missions);
+    if (collector == nullptr) return exit_unusable;
+    assumptions = find_assumptions(collector->coverage(), of_coverage);
+    if (!assumptions) return exit_unusable;
+  }
+  std::unique_ptr<SolveReport> report = std::make_unique<SilentReport>();
+  if (!of_coverage.replaces_runs()) {
+    report = format->make({stdout,
+                           style_for(stdout),
+                           event_additions(options),
+                           // Lines in files and pipes stay whole, for programs such as grep.
+                           {is_terminal(stdout) ? columns_of(stdout) : 0, options.brief}});
+  }
+  const int status = options.html ? draw_missions(*missions, options, *report, collector.get())
+                                  : run_missions(*missions, options, *report, collector.get());
+  if (collector == nullptr) return status;
+  return std::max(status, report_coverage(collector->take_coverage(), *assumptions, options));
 }
 
 }  // namespace cbc::cli

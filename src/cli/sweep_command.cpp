@@ -90,9 +90,9 @@ void add_sweep_options(Command& command, SweepOptions& options) {
   add("--shard", options.shard, shard_of_sweep(), "Run only shard I of N of the sweep");
   command
       .flag("--merge", options.merge,
-            "Merge the JSON results of all shards into the result of one run")
-      .makes_arguments(ValueKind::shard)
-      .only_with_values("--format", formats);
+            "Merge the JSON results of all shards into the result of one run; with --coverage, "
+            "those of several runs on CATALOG, which comes first")
+      .makes_arguments(ValueKind::shard);
   command
       .option("--slowest", options.slowest, further_output("FILE"),
               "Write the event with the most nodes to FILE, as a script that ends with it")
@@ -186,13 +186,9 @@ int report(SweepResult result, const SolveOptions& options) {
 int merge(const SolveOptions& options) {
   SweepMerger merger;
   for (const std::string& path : options.paths) {
-    const std::optional<std::string> text = read_input(path);
+    const std::optional<std::string> text = read_result(path);
     if (!text) return exit_unusable;
     const std::string name = display_name(path);
-    if (text->size() > largest_shard) {
-      return complain("cannot merge {}: it is larger than {} MiB", quote(name),
-                      largest_shard >> 20U);
-    }
     auto shard = sweep_from_json(*text);
     if (const auto* const fault = std::get_if<std::string>(&shard)) {
       return complain("cannot merge {}: {}", quote(name), *fault);
@@ -208,6 +204,16 @@ int merge(const SolveOptions& options) {
 }
 
 }  // namespace
+
+std::optional<std::string> read_result(const std::string& path) {
+  std::optional<std::string> text = read_input(path);
+  if (text && text->size() > largest_shard) {
+    complain("cannot merge {}: it is larger than {} MiB", quote(display_name(path)),
+             largest_shard >> 20U);
+    return std::nullopt;
+  }
+  return text;
+}
 
 int run_sweep(const SolveOptions& options) {
   if (options.sweep.merge) return merge(options);

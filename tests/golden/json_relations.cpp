@@ -34,6 +34,8 @@ class Relations {
       check_situation(report);
     } else if (schema == "cbc.verify/1") {
       check_verify(report);
+    } else if (schema == "cbc.coverage/1") {
+      check_coverage(report);
     } else {
       faults_.push_back("the schema is '" + schema + "'");
     }
@@ -238,6 +240,47 @@ class Relations {
     const Json& expectations = run.at("expectations");
     expect(expectations.at("failed") == expectations.at("failures").size(),
            "the number of failures is not that of failed expectations");
+  }
+
+  void check_coverage(const Json& report) {
+    Counts all;
+    for (const Json& catalog : report.at("catalogs")) {
+      const std::set<std::string> missions(catalog.at("missions").begin(),
+                                           catalog.at("missions").end());
+      Counts of_catalog;
+      for (const Json& goal : catalog.at("goals")) {
+        const Json& met_by = goal.at("met_by");
+        const bool is_unreachable = goal.contains("unreachable");
+        expect(met_by.empty() || !is_unreachable, "what is unreachable is not met");
+        for (const Json& mission : met_by) {
+          expect(missions.contains(mission), "a goal is met by one of the missions");
+        }
+        ++of_catalog[is_unreachable ? "unreachable" : "goals"];
+        if (!met_by.empty()) ++of_catalog["met"];
+      }
+      check_counts(catalog.at("total"), of_catalog);
+      Counts of_sections;
+      for (const Json& section : catalog.at("sections")) {
+        for (const char* const name : {"goals", "met", "unreachable"}) {
+          of_sections[name] += section.at(name).get<std::size_t>();
+        }
+      }
+      check_counts(catalog.at("total"), of_sections);
+      for (const auto& [name, count] : of_catalog) all[name] += count;
+    }
+    check_counts(report, all);
+  }
+
+  using Counts = std::map<std::string, std::size_t>;
+
+  void check_counts(const Json& report, Counts& counts) {
+    for (const char* const name : {"goals", "met", "unreachable"}) {
+      expect(report.at(name) == counts[name], std::string("the sum of ") + name);
+    }
+    const double tenths = report.at("percent").get<double>() * 10;
+    const std::size_t goals = counts["goals"];
+    const std::size_t expected = goals == 0 ? 1000 : counts["met"] * 1000 / goals;
+    expect(static_cast<std::size_t>(tenths + 0.5) == expected, "the percentage");
   }
 
   void check_sweep(const Json& sweep) {

@@ -176,6 +176,42 @@ TEST_F(SolveRuns, AreTheSameWithStatisticsBesideThem) {
             json::parse(solve({"--format", "json"}).out));
 }
 
+TEST_F(SolveRuns, HaveTheSameCoverageWhateverTheNumberOfJobs) {
+  const Result alone = solve({"--coverage", "--format", "json", "-j", "1"});
+  EXPECT_EQ(alone.status, 2) << "the highest of all";
+  EXPECT_EQ(json::parse(alone.out)["catalogs"][0]["missions"].size(), scripts);
+  for (const char* const jobs : {"2", "7"}) {
+    EXPECT_EQ(solve({"--coverage", "--format", "json", "-j", jobs}).out, alone.out);
+  }
+}
+
+TEST_F(SolveRuns, HaveTheirCoverageBesideThem) {
+  const Result alone = solve({"--format", "junit"});
+  for (const char* const name : {"c.json", "c.html", "c.info", "c.txt"}) {
+    const Result beside = solve({"--format", "junit", "--coverage=" + std::string(name)});
+    EXPECT_EQ(beside.status, alone.status);
+    EXPECT_EQ(beside.out, alone.out);
+    EXPECT_EQ(beside.err, alone.err);
+  }
+  EXPECT_EQ(folder.read("c.json"), solve({"--coverage", "--format", "json"}).out);
+  EXPECT_EQ(folder.read("c.html"), solve({"--coverage", "--format", "html"}).out);
+  EXPECT_EQ(folder.read("c.info"), solve({"--coverage", "--format", "lcov"}).out);
+  EXPECT_EQ(folder.read("c.txt"), solve({"--coverage"}).out);
+}
+
+TEST_F(SolveRuns, AreCoveredInPartsAsInOne) {
+  fs::create_directory(folder / "others");
+  fs::rename(folder / "missions/m103.yaml", folder / "others/m103.yaml");
+  static_cast<void>(solve({"others", "--coverage=all.json"}));
+  static_cast<void>(solve({"--coverage=some.json"}));
+  static_cast<void>(run({{"solve", "catalog.yaml", "others", "--coverage=rest.json"}, folder.path()}));
+  const Result merged = run({{"solve", "--coverage", "--merge", "--format", "json", "catalog.yaml",
+                              "some.json", "rest.json", "some.json"},
+                             folder.path()});
+  EXPECT_EQ(merged.status, 0);
+  EXPECT_EQ(merged.out, folder.read("all.json"));
+}
+
 TEST_F(SolveRuns, HaveStatisticsInTheText) {
   const std::string text = solve({"--stats"}).out;
   const std::size_t table = text.find("\nsearches\n");

@@ -17,7 +17,8 @@ def help_of(verb):
 
 def options_in_help(verb):
     """By name, what each takes: {"-o, --output": "OUT", "--check": ""}."""
-    found = re.findall(r"^ +((?:-\w, ?)?--[\w-]+)(?: (\S+))?(?:  |$)", help_of(verb), re.MULTILINE)
+    text = re.sub(r"\[=(\w+)\]", r" \1", help_of(verb))  # a value that may be missing
+    found = re.findall(r"^ +((?:-\w, ?)?--[\w-]+)(?: (\S+))?(?:  |$)", text, re.MULTILINE)
     return {re.sub(r", ?", ", ", names): value for names, value in found}
 
 

@@ -81,6 +81,13 @@ class Oracle {
   void keep_answers() { keeps_answers_ = true; }
   const std::map<std::int64_t, Answer>& answers() const { return answers_; }
 
+  // `variants` are the facts with fewer constraints, and the same groups. From here on differing()
+  // has, by the index of an event, the places of those with which the last attempt at its answer
+  // would have another one; and `none` if a start was rejected that would be accepted if no task
+  // were protected.
+  void compare_with(std::vector<CatalogFacts> variants);
+  const std::map<std::int64_t, std::set<std::size_t>>& differing() const { return differing_; }
+
   // What the event would do, as events(). Statistics may be null.
   nlohmann::ordered_json preview(const Event& event, Statistics* statistics) const;
 
@@ -140,6 +147,8 @@ class Oracle {
   // Solves and applies; adds the results to the record, completes it, and lets the behaviors that
   // were lost finish.
   void coordinate(nlohmann::ordered_json record, const Trigger& trigger);
+  std::set<std::size_t> find_differing(const Transition& transition,
+                                       const std::optional<Solution>& solution) const;
   Transition begin(const Trigger& trigger) const;
   std::optional<Solution> solve_at_some_level(Transition& transition) const;
   Problem problem(const Transition& transition) const;
@@ -199,6 +208,8 @@ class Oracle {
   std::int64_t event_number_ = 0;
   bool keeps_answers_ = false;
   std::map<std::int64_t, Answer> answers_;
+  std::vector<std::shared_ptr<const CatalogFacts>> variants_;
+  std::map<std::int64_t, std::set<std::size_t>> differing_;
   nlohmann::ordered_json events_ = nlohmann::ordered_json::array();
 };
 

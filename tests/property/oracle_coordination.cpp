@@ -1,6 +1,7 @@
 // How the oracle solves an event and applies the solution; the queue of reactive tasks.
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -48,6 +49,7 @@ void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
     transition.excluded.insert(*failed);
     solution = solve_at_some_level(transition);
   }
+  std::set<std::size_t> differing = find_differing(transition, solution);
   const std::string outcome = solution ? "accepted" : "rejected";
   if (trigger.verb == Verb::finish) {
     const int depth = transition.level - transition.first_level;
@@ -93,6 +95,7 @@ void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
     }
   }
 
+  if (!differing.empty()) differing_[record["index"]] = std::move(differing);
   record["outcome"] = outcome;
   record["changes"] = transition.changes;
   record["stopped_tasks"] = std::move(stopped);
@@ -106,6 +109,34 @@ void Oracle::coordinate(ordered_json record, const Trigger& trigger) {
   for (const std::size_t behavior : transition.lost) {
     run_finish("fault", behavior, Cause::process_failure);
   }
+}
+
+void Oracle::compare_with(std::vector<CatalogFacts> variants) {
+  for (CatalogFacts& facts : variants) {
+    variants_.push_back(std::make_shared<const CatalogFacts>(std::move(facts)));
+  }
+}
+
+std::set<std::size_t> Oracle::find_differing(const Transition& transition,
+                                             const std::optional<Solution>& solution) const {
+  std::set<std::size_t> found;
+  if (variants_.empty()) return found;
+  Oracle other(*this);
+  other.statistics_ = nullptr;
+  for (std::size_t place = 0; place < variants_.size(); ++place) {
+    other.facts_ = variants_[place];
+    Transition again = transition;
+    const std::optional<Solution> answer = other.solve_at_some_level(again);
+    const bool is_same = answer.has_value() == solution.has_value() &&
+                         (!answer || answer->values == solution->values);
+    if (!is_same) found.insert(place);
+  }
+  if (!solution && transition.trigger.verb == Verb::start) {
+    Transition unprotected = transition;
+    unprotected.level = std::numeric_limits<int>::max();
+    if (solve(*facts_, problem(unprotected), nullptr)) found.insert(none);
+  }
+  return found;
 }
 
 Oracle::Transition Oracle::begin(const Trigger& trigger) const {

@@ -40,6 +40,8 @@ const loss = (word) =>
 const whole = (document) => document;
 const failure = (report) => report.runs[0].expectations.failures[0];
 const kindOfTotals = of(lineWith('totals'), (line) => line.totals.kinds[0]);
+const goal = (kind) => (report) =>
+  report.catalogs[0].goals.find((item) => item.kind === kind);
 const exclusion = (sweep) => sweep.reasons.find((item) => item.kind === 'exclusive');
 const histogram = (sweep) => sweep.nodes.histogram;
 const request = (state) => state.running[0]?.request;
@@ -172,6 +174,15 @@ const lies = {
     ['a suitability that is rounded', loss('suitability'), {chosen: 0.9}],
     ['an exact suitability over 1', loss('suitability'), {chosen: '1.5'}],
     ['an idle share that is rounded', loss('idle'), {chosen: '0.5'}],
+  ],
+
+  coverage: [
+    ['no catalog', whole, {catalogs: []}],
+    ['more than all', whole, {percent: 101}],
+    ['a goal in line 0', goal('task_ran'), {lines: [0]}],
+    ['a task of a behavior', goal('behavior_active'), {task: 'A'}],
+    ['a timeout of both', goal('timeout_fired'), {task: 'A', behavior: 'B'}],
+    ['an unreachable goal that is reachable', goal('task_ran'), {unreachable: false}],
   ],
 
   solve: [

@@ -11,6 +11,7 @@
 #include "catalog/draft.h"
 #include "cbc/event.h"
 #include "coordinator/record.h"
+#include "coverage/goals.h"
 #include "diagnostic/diagnostic.h"
 #include "diagnostic/rules.h"
 #include "diff/catalog_diff.h"
@@ -131,6 +132,14 @@ TEST(SchemaWords, OfSweeps) {
             names_up_to(SweepKind::lost));
   // That a behavior finished is a reason of no rejection.
   EXPECT_EQ(words_in_list(sweep, "/$defs/reason/oneOf", "kind"), names_up_to(Reason::Kind::faulty));
+}
+
+TEST(SchemaWords, OfCoverage) {
+  const Json coverage = schema("coverage");
+  EXPECT_EQ(words_in_list(coverage, "/$defs/goal/oneOf", "kind"),
+            names_up_to(Goal::Kind::equal_displaced));
+  EXPECT_EQ(words_at(coverage, "/$defs/catalog/properties/sections/items/properties/section"),
+            names_up_to(GoalSection::priorities));
 }
 
 TEST(SchemaWords, OfVerifications) {

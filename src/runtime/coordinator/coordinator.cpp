@@ -337,6 +337,7 @@ Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
       if (hindsight_) {
         hindsight_->note_answer(record_, circumstances_of(trigger), solution_);
       }
+      listener_.on_decision(record_, circumstances_of(trigger), &solution_);
       accept(trigger, *problem);
       if (!record_.explanation.why.empty()) {
         explainer_->explain_queued(state_, record_.explanation);
@@ -510,6 +511,7 @@ Coordinator::Status Coordinator::reject(const Trigger& trigger) {
     record_.conflict = find_conflict(catalog_, circumstances_of(trigger));
   }
   const bool is_silent = note_waiting(trigger);
+  if (!is_silent) listener_.on_decision(record_, circumstances_of(trigger), nullptr);
   if (hindsight_ && !is_silent && trigger.kind != Trigger::Kind::finish) {
     hindsight_->note_rejection(record_, trigger);
   }

@@ -42,6 +42,10 @@ class EventListener {
  public:
   virtual ~EventListener() = default;
   virtual void on_event(const EventRecord& record) = 0;
+  /// An answer was found, or that there is none (null), of which on_event will tell. The state is
+  /// still the one before the answer, but for what is active.
+  virtual void on_decision(const EventRecord& /*record*/, const Circumstances& /*circumstances*/,
+                           const Assignment* /*solution*/) {}
 };
 
 /// Finds and applies the best consistent set of active behaviors on every event.

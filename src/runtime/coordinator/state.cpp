@@ -61,17 +61,12 @@ void Timers::sift_down(std::uint32_t position) {
   put(position, entry);
 }
 
-namespace {
-
-/// How long the task may run with the behavior; 0: without limit.
 Microseconds timeout_of(const CompiledCatalog& catalog, TaskId task, BehaviorId behavior) {
   const CompiledTask& compiled = catalog.tasks[task];
   if (compiled.keep_running) return 0;
   const Microseconds own = catalog.behaviors[behavior].timeout;
   return own > 0 ? own : compiled.timeout;
 }
-
-}  // namespace
 
 State::State(const CompiledCatalog& catalog)
     : catalog_(catalog),

@@ -54,6 +54,10 @@ struct Request {
 
 struct Snapshot;
 
+/// How long the task may run with the behavior; 0: without limit.
+[[nodiscard]] Microseconds timeout_of(const CompiledCatalog& catalog, TaskId task,
+                                      BehaviorId behavior);
+
 /// State of a coordinator (docs/semantics.md, "State"): what runs, what was requested, what can be
 /// activated, and what falls due.
 class State {

@@ -109,6 +109,9 @@ class RunListener {
   virtual ~RunListener() = default;
   /// `step` is the scripted one, or null. The record and the state are those after the event.
   virtual void on_event(const EventRecord& record, const Step* step, const State& state) = 0;
+  /// Before the record of an event that took a search: see EventListener.
+  virtual void on_decision(const EventRecord& /*record*/, const Circumstances& /*circumstances*/,
+                           const Assignment* /*solution*/) {}
   virtual void on_failure(const Failure& /*failure*/) {}
   /// After the last event, also of a run that ended early.
   virtual void on_end(const State& /*state*/) {}
@@ -168,6 +171,10 @@ class Runner final : private EventListener {
 
  private:
   void on_event(const EventRecord& record) override;
+  void on_decision(const EventRecord& record, const Circumstances& circumstances,
+                   const Assignment* solution) override {
+    listener_.on_decision(record, circumstances, solution);
+  }
   [[nodiscard]] bool note(Coordinator::Status status);
   void check(const Step& step);
   [[nodiscard]] std::vector<Surprise> find_surprises(const Expectation& expectation);

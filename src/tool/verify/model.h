@@ -155,6 +155,8 @@ class Model {
   /// The lowest rank whose priority is at least this one; the number of ranks if there is none.
   [[nodiscard]] Rank rank_of(std::int32_t priority) const;
 
+  [[nodiscard]] std::int32_t priority_of(Rank rank) const { return priorities_[rank]; }
+
   /// Own(b) at first.
   [[nodiscard]] const std::vector<Word>& denied() const { return denied_; }
 

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "coordinator/coordinator.h"
+#include "coordinator/state.h"
+#include "coverage/goal_watch.h"
+#include "verify/model.h"
+#include "verify/stepper.h"
+
+namespace cbc {
+
+/// Makes moves of an exploration once more, on a coordinator that is watched for goals.
+class StateReplay {
+ public:
+  /// Model and watch must outlive this object.
+  StateReplay(const Model& model, GoalWatch& watch) : model_(model), watch_(watch) {}
+
+  /// Takes up the state of the stepper.
+  void load(const Stepper& stepper);
+  /// Makes a move from the state, which must have it.
+  void take(const Move& move);
+
+  /// The reactive tasks that started by themselves, that gave way in the last move.
+  [[nodiscard]] const std::vector<TaskId>& started() const { return started_; }
+  [[nodiscard]] const std::vector<TaskId>& gave_way() const { return gave_way_; }
+
+ private:
+  const Model& model_;
+  GoalWatch& watch_;
+  Snapshot state_;
+  std::vector<TaskId> started_;
+  std::vector<TaskId> gave_way_;
+};
+
+}  // namespace cbc

@@ -1,0 +1,174 @@
+// Random small catalogs and assumptions: the goals that are proven unreachable must be those that
+// no move meets, where all paths of a plain search are run from their beginning, each by one
+// coordinator. CBC_SEED and CBC_PROPERTY_CASES are as in property_test.cpp.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "compiled_text.h"
+#include "coverage/goal_proof.h"
+#include "coverage/goal_watch.h"
+#include "coverage/goals.h"
+#include "demand.h"
+#include "move_replay.h"
+#include "plain_model.h"
+#include "random_cases.h"
+#include "verify_case.h"
+
+namespace cbc::plain {
+namespace {
+
+using oracle::demand;
+
+constexpr std::uint64_t default_cases = 100;
+constexpr std::size_t most_states = 40;
+
+class Watched final : public EventListener {
+ public:
+  explicit Watched(GoalWatch& watch) : watch_(watch) {}
+  void on_decision(const EventRecord& record, const Circumstances& circumstances,
+                   const Assignment* solution) override {
+    watch_.on_decision(record, circumstances, solution);
+  }
+  void on_event(const EventRecord& record) override {
+    watch_.on_event(record, coordinator->state());
+  }
+
+  const Coordinator* coordinator = nullptr;
+
+ private:
+  GoalWatch& watch_;
+};
+
+void run_path(const PlainModel& model, const std::vector<Move>& path, GoalWatch& watch) {
+  const CompiledCatalog& catalog = model.catalog();
+  const std::vector<Microseconds> times = times_of(model, path);
+  std::vector<Availability> own;
+  for (const SituationPart::Own& entry : model.assumptions().initially.behaviors) {
+    own.push_back({catalog.behaviors[entry.behavior].catalog_index, entry.available});
+  }
+  CoordinatorOptions options;
+  options.reactive_delay = reactive_delay;
+  Watched watched(watch);
+  Coordinator coordinator(catalog, options, watched);
+  watched.coordinator = &coordinator;
+  coordinator.begin(own, model.assumptions().initially.variables);
+  watch.begin(coordinator.state());
+  for (std::size_t place = 0; place < path.size(); ++place) {
+    demand(coordinator.advance_to(times[place]) == Coordinator::Status::ok, "it goes on");
+    handle_move(catalog, path[place], coordinator);
+  }
+}
+
+/// Runs the path of each move from each state of a group. False: these are too many.
+bool run_group(const PlainModel& model, GoalWatch& watch) {
+  std::map<std::string, std::vector<Move>> paths;
+  std::vector<std::pair<Snapshot, std::vector<Move>>> states;
+  const auto add = [&](const Snapshot& state, const std::vector<Move>& path) {
+    if (paths.emplace(model.key(state), path).second) states.emplace_back(state, path);
+  };
+  add(model.first_state(), {});
+  for (std::size_t next = 0; next < states.size(); ++next) {
+    if (states.size() > most_states) return false;
+    const auto [state, path] = states[next];
+    for (const Move& move : model.moves(state)) {
+      std::vector<Move> longer = path;
+      longer.push_back(move);
+      run_path(model, longer, watch);
+      add(model.step(state, move).next, longer);
+    }
+  }
+  return true;
+}
+
+/// The paths are the shortest ones: they need not have what came before another path to the same
+/// state. And they have no times.
+bool is_judged(const Goal& goal) {
+  return goal.kind != Goal::Kind::reactive_returned && goal.kind != Goal::Kind::timeout_fired;
+}
+
+void compare(const VerifyCase& sample, oracle::Statistics& statistics) {
+  const CompiledCatalog& catalog = sample.catalog;
+  const Assumptions& assumptions = sample.question.assumptions;
+  const std::vector<Goal> goals = find_goals(catalog);
+  GoalWatch watch(catalog, goals, {});
+  for (std::uint32_t group = 0; group < catalog.group_count(); ++group) {
+    const PlainModel model(catalog, {group}, assumptions);
+    if (model.is_excluded(model.first_state())) return statistics.count("excluded");
+    if (!run_group(model, watch)) return statistics.count("too many states");
+  }
+  const GoalProof proof = prove_unreachable(catalog, goals, assumptions, {});
+  demand(!proof.error, "an error");
+  for (std::size_t number = 0; number < goals.size(); ++number) {
+    const Goal& goal = goals[number];
+    const bool is_met = watch.met()[number] != 0;
+    const bool is_unreachable = proof.unreachable[number] != 0;
+    const std::string text = describe(catalog, goal);
+    demand(!is_met || !is_unreachable, "it is met: " + text);
+    if (!is_judged(goal)) continue;
+    const bool is_of_free_variable =
+        goal.variable != none &&
+        std::none_of(catalog.fitting_values.begin(), catalog.fitting_values.end(),
+                     [&](const FittingValue& one) { return one.variable == goal.variable; });
+    demand(is_met || is_unreachable || is_of_free_variable, "nothing meets it: " + text);
+    statistics.count(is_met ? "met" : "unreachable");
+    if (is_about_deciding(goal.kind)) statistics.count(is_met ? "decides" : "never decides");
+  }
+}
+
+void run_case(std::uint64_t seed, oracle::Results& results) {
+  try {
+    compare(generate_verify_case(seed), results.statistics);
+  } catch (const std::exception& fault) {
+    results.faults.push_back({seed, fault.what()});
+  }
+}
+
+constexpr oracle::LowerBound lower_bounds[] = {
+    {"met", 3000}, {"unreachable", 1000}, {"decides", 150}, {"never decides", 100}};
+
+TEST(GoalProof, IsWhatAllPathsShow) {
+  oracle::run_random_cases(default_cases, run_case, lower_bounds);
+}
+
+TEST(GoalProof, KnowsWhatReturns) {
+  const auto unreachable = [](const std::string& yaml) {
+    const CompiledCatalog catalog = oracle::compile_yaml(yaml).value();
+    const std::vector<Goal> goals = find_goals(catalog);
+    const GoalProof proof =
+        prove_unreachable(catalog, goals, assumptions_of_goals(catalog), GoalProofOptions());
+    std::vector<std::string> texts;
+    for (std::size_t goal = 0; goal < goals.size(); ++goal) {
+      const bool is_about_blinking = goals[goal].kind >= Goal::Kind::timeout_fired &&
+                                     goals[goal].kind <= Goal::Kind::reactive_returned;
+      if (is_about_blinking && proof.unreachable[goal] != 0) {
+        texts.push_back(describe(catalog, goals[goal]));
+      }
+    }
+    return texts;
+  };
+  EXPECT_EQ(unreachable(R"(
+behaviors: [{behavior: BLINK_ON, task: BLINK}, {behavior: DOCK_NOW, task: DOCK}]
+tasks: [{task: BLINK, reactive_start: true, execution_goal: keep_running}, {task: DOCK, timeout: 5}]
+exclusivity_constraints: [{mutually_exclusive: [BLINK, DOCK]}]
+)"),
+            std::vector<std::string>());
+  EXPECT_EQ(unreachable(R"(
+behaviors: [{behavior: BLINK_ON, task: BLINK}, {behavior: DOCK_NOW, task: DOCK}]
+tasks:
+- {task: BLINK, reactive_start: true, start_on_request: false, execution_goal: keep_running}
+- {task: DOCK}
+)"),
+            (std::vector<std::string>{"task BLINK gave way",
+                                      "task BLINK returned by itself after it gave way"}));
+}
+
+}  // namespace
+}  // namespace cbc::plain
