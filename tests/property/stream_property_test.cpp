@@ -64,7 +64,7 @@ class Recording {
  public:
   Recording(const CompiledCatalog& catalog, const CoordinatorOptions& options, Lines& lines)
       : events_(
-            catalog, {}, [&lines](std::string_view line) { lines.emplace_back(line); },
+            catalog, {}, [&lines](const EventStream::Line& line) { lines.emplace_back(line.text); },
             [](const Failure&) {}),
         runner_(catalog, options, events_) {}
 
