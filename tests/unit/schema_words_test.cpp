@@ -38,10 +38,13 @@ Json schema(const std::string& name) {
   return Json::parse(test::read_file(CBC_SOURCE_DIR "/schemas/" + name + ".json"));
 }
 
+/// Null stands for the empty word.
 void add_words(const Json& part, Words& words) {
   if (part.contains("const")) words.insert(part["const"].get<std::string>());
   if (!part.contains("enum")) return;
-  for (const Json& word : part["enum"]) words.insert(word.get<std::string>());
+  for (const Json& word : part["enum"]) {
+    words.insert(word.is_null() ? std::string() : word.get<std::string>());
+  }
 }
 
 /// Of the part that a JSON pointer leads to.

@@ -734,7 +734,7 @@ TEST(ScriptParameters, JsonHasNumbersAsTheyWereWritten) {
 
 TEST(ScriptParameters, JsonIsValidForAnyText) {
   const std::string json = parameters(R"({"a\"\\\n\0": "é\t\x01\u2028/"})").json;
-  EXPECT_EQ(json, "{\"a\\\"\\\\\\n\\u0000\":\"é\\t\\u0001\xE2\x80\xA8/\"}");
+  EXPECT_EQ(json, "{\"a\\\"\\\\\\n\\u0000\":\"é\\t\\u0001\\u2028/\"}");
   EXPECT_TRUE(nlohmann::json::accept(json));
 }
 
