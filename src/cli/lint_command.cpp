@@ -447,12 +447,11 @@ void Linter::check_settings() {
     check_never_together_names(named.settings.never_together(),
                                {named.tasks.begin(), named.tasks.end()}, diagnostics);
     if (diagnostics.all().empty()) continue;
-    files_.erase(std::remove_if(files_.begin(), files_.end(),
-                                [&file](const LintedFile& linted) { return linted.file == file; }),
-                 files_.end());
     LintedFile settings;
     settings.kind = LintedFile::Kind::settings;
     settings.file = file;
+    std::erase_if(files_,
+                  [&settings](const LintedFile& linted) { return linted.file == settings.file; });
     settings.text = read_input(file).value_or("");
     diagnostics.sort();
     settings.findings = diagnostics.release();

@@ -204,7 +204,8 @@ TEST_F(SolveRuns, AreCoveredInPartsAsInOne) {
   fs::rename(folder / "missions/m103.yaml", folder / "others/m103.yaml");
   static_cast<void>(solve({"others", "--coverage=all.json"}));
   static_cast<void>(solve({"--coverage=some.json"}));
-  static_cast<void>(run({{"solve", "catalog.yaml", "others", "--coverage=rest.json"}, folder.path()}));
+  static_cast<void>(
+      run({{"solve", "catalog.yaml", "others", "--coverage=rest.json"}, folder.path()}));
   const Result merged = run({{"solve", "--coverage", "--merge", "--format", "json", "catalog.yaml",
                               "some.json", "rest.json", "some.json"},
                              folder.path()});
