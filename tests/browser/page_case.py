@@ -72,6 +72,11 @@ def long_script(count):
     return write("long.mission.yaml", {"events": events})
 
 
+def shown(name):
+    """Line separators cannot be seen, so names show their escapes."""
+    return re.sub("[\u2028\u2029]", lambda found: f"\\u{ord(found[0]):04x}", name)
+
+
 class PageCase(unittest.TestCase):
     """Opens the page of a short mission before each test; nothing on it may go wrong, or leave it."""
 
@@ -180,7 +185,7 @@ class PageCase(unittest.TestCase):
         self.assertEqual(self.number(), number)
         self.assertEqual(self.browser.ask("document.querySelector('#slider').value"), str(number))
         self.assertIn(event["verb"], self.text("#detail-body .headline"))
-        self.assertEqual(self.shown_state(), event["running"])
+        self.assertEqual(self.shown_state(), {shown(task): shown(one) for task, one in event["running"].items()})
         chosen = self.browser.ask("[...document.querySelectorAll('#events [aria-current]')]"
                                   ".map((row) => row.dataset.event)")
         self.assertEqual(chosen, [str(number)])
