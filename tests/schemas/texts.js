@@ -15,6 +15,7 @@ const schemaOf = {
   'cbc.situation/1': 'situation',
   'cbc.solve/1': 'solve',
   'cbc.state/1': 'state',
+  'cbc.coverage/1': 'coverage',
   'cbc.sweep/1': 'sweep',
   'cbc.together/1': 'together',
   'cbc.verify/1': 'verify',
