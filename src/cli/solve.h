@@ -120,9 +120,11 @@ class MissionLoader {
   /// `paths`: a catalog (which may be missing if the scripts name theirs), then scripts; "-" is a
   /// script from standard input, a folder stands for the scripts in it. Empty if anything is wrong.
   [[nodiscard]] std::optional<std::vector<Mission>> load(const std::vector<std::string>& paths);
-  /// The same for scripts alone, which run on this catalog. There may be none.
+  /// The same for scripts alone, which run on this catalog. There may be none. Those in the folder
+  /// `left_out`, if there is one, do not count.
   [[nodiscard]] std::optional<std::vector<Mission>> load_for(
-      std::shared_ptr<const CompiledCatalog> catalog, const std::vector<std::string>& paths);
+      std::shared_ptr<const CompiledCatalog> catalog, const std::vector<std::string>& paths,
+      const std::optional<std::string>& left_out);
 
   /// The findings about the files.
   [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }
@@ -133,6 +135,7 @@ class MissionLoader {
   void add_script(const std::string& path, const yaml::Document& document);
   void add_folder(const std::string& path);
   void add_path(const std::string& path);
+  [[nodiscard]] bool is_left_out(const std::string& path) const;
   void complain_of_catalog(const std::string& path);
 
   InputFiles files_;
@@ -140,6 +143,7 @@ class MissionLoader {
   std::shared_ptr<const CompiledCatalog> given_catalog_;
   bool is_given_catalog_bad_ = false;
   std::vector<Mission> missions_;
+  std::optional<std::string> left_out_;
   bool has_failed_ = false;
 };
 

@@ -18,8 +18,8 @@
 #include "cli/solve.h"
 #include "coverage/coverage.h"
 #include "coverage/goal_proof.h"
-#include "coverage/goal_watch.h"
 #include "coverage/goals.h"
+#include "coverage/watched_run.h"
 #include "report/coverage_report.h"
 #include "verify/property_reader.h"
 
@@ -43,27 +43,6 @@ Values percent() {
   };
   return values;
 }
-
-/// Forwards everything, and watches.
-class WatchedRun final : public RunListener {
- public:
-  WatchedRun(RunListener& listener, GoalWatch& watch) : listener_(listener), watch_(watch) {}
-
-  void on_decision(const EventRecord& record, const Circumstances& circumstances,
-                   const Assignment* solution) override {
-    watch_.on_decision(record, circumstances, solution);
-  }
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
-    watch_.on_event(record, state);
-    listener_.on_event(record, step, state);
-  }
-  void on_failure(const Failure& failure) override { listener_.on_failure(failure); }
-  void on_end(const State& state) override { listener_.on_end(state); }
-
- private:
-  RunListener& listener_;
-  GoalWatch& watch_;
-};
 
 CatalogCoverage coverage_of(std::shared_ptr<const CompiledCatalog> catalog,
                             const CatalogSource& source) {
@@ -144,14 +123,10 @@ CatalogCoverage* CoverageCollector::find(const CompiledCatalog& catalog) {
 RunResult CoverageCollector::run(const Mission& mission, const CoordinatorOptions& options,
                                  RunListener& listener) {
   const CompiledCatalog& catalog = *mission.catalog;
-  GoalWatch watch(catalog, find(catalog)->goals(), options);
-  State first(catalog);
-  first.change_situation(mission.script.situation.availability, mission.script.situation.variables);
-  watch.begin(first);
-  WatchedRun watched(listener, watch);
-  RunResult result = run_script(catalog, mission.script, options, watched);
-  met_[static_cast<std::size_t>(&mission - missions_.data())] = watch.met();
-  return result;
+  WatchedResult watched =
+      run_watched(catalog, find(catalog)->goals(), mission.script, options, listener);
+  met_[static_cast<std::size_t>(&mission - missions_.data())] = std::move(watched.met);
+  return std::move(watched.result);
 }
 
 void CoverageCollector::take(const Mission& mission) {

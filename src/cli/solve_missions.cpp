@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -53,7 +54,9 @@ std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::s
 }
 
 std::optional<std::vector<Mission>> MissionLoader::load_for(
-    std::shared_ptr<const CompiledCatalog> catalog, const std::vector<std::string>& paths) {
+    std::shared_ptr<const CompiledCatalog> catalog, const std::vector<std::string>& paths,
+    const std::optional<std::string>& left_out) {
+  left_out_ = left_out;
   given_catalog_ = std::move(catalog);
   for (const std::string& path : paths) add_path(path);
   files_.print_findings();
@@ -66,6 +69,7 @@ void MissionLoader::add_path(const std::string& path) {
     add_folder(path);
     return;
   }
+  if (is_left_out(path)) return;
   const std::optional<InputFile> file = files_.read(path);
   if (!file) {
     has_failed_ = true;
@@ -80,6 +84,7 @@ void MissionLoader::add_path(const std::string& path) {
 /// a mistake in it.
 void MissionLoader::add_folder(const std::string& path) {
   for (const std::string& name : list_folder(path, {".yaml", ".yml", ".json"}, has_failed_)) {
+    if (is_left_out(name)) continue;
     const std::optional<InputFile> file = files_.read(name);
     if (!file) {
       has_failed_ = true;
@@ -87,6 +92,12 @@ void MissionLoader::add_folder(const std::string& path) {
       add_script(name, *file->document);
     }
   }
+}
+
+bool MissionLoader::is_left_out(const std::string& path) const {
+  if (!left_out_) return false;
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  return is_same_file(folder.empty() ? "." : folder.string(), *left_out_);
 }
 
 void MissionLoader::complain_of_catalog(const std::string& path) {

@@ -9,6 +9,7 @@
 #include "cli/input.h"
 #include "cli/solve.h"
 #include "compiled/compiled_catalog.h"
+#include "verify/explore.h"
 #include "verify/properties.h"
 
 namespace cbc::cli {
@@ -20,6 +21,7 @@ struct VerifyOptions {
   std::string output = "-";
   std::optional<std::string> scripts;
   std::optional<std::string> html;
+  std::optional<std::string> write_tests;
   std::vector<std::string> beside;  ///< missions that exist: scripts, or folders of them
   std::optional<std::uint64_t> jobs;
   bool reduce = false;
@@ -50,10 +52,11 @@ class QuestionLoader {
  public:
   /// `paths`: a catalog, which may be missing if the property files name theirs, then property
   /// files; "-" is standard input. `old_catalog`: to compare with. `beside`: scripts, or folders of
-  /// them. Empty if anything is wrong.
+  /// them; those in the folder `left_out` do not count. Empty if anything is wrong.
   [[nodiscard]] std::optional<VerifyQuestions> load(const std::vector<std::string>& paths,
                                                     const std::optional<std::string>& old_catalog,
-                                                    const std::vector<std::string>& beside);
+                                                    const std::vector<std::string>& beside,
+                                                    const std::optional<std::string>& left_out);
 
   /// The findings about the files.
   [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }
@@ -71,6 +74,13 @@ class QuestionLoader {
   bool is_given_ = false;  ///< the catalog, on the command line
   bool has_failed_ = false;
 };
+
+/// Writes the scripts that are missing beside the missions that exist, and reports them. Returns
+/// the exit status.
+[[nodiscard]] int write_tests(const VerifyOptions& options, const VerifyQuestions& questions);
+
+/// Where explorations end, as the options say.
+[[nodiscard]] ExplorationLimits limits_of(const VerifyOptions& options);
 
 /// Answers what the command line asks, and writes the report. Returns the exit status.
 [[nodiscard]] int verify(const VerifyOptions& options);

@@ -79,6 +79,8 @@ constexpr const char* verify_footer =
     "  cbc verify robot.properties.yaml --format junit > results.xml\n"
     "                                            for CI, a test suite per file\n"
     "  cbc verify new.yaml --same-as old.yaml    whether both decide alike, always\n"
+    "  cbc verify robot.yaml --write-tests tests --beside missions\n"
+    "                                            the missions that are missing\n"
     "  cbc verify robot.yaml --cut-sets LAND --open-psa land.xml\n"
     "                                            a fault tree for other programs\n"
     "\n"
@@ -88,7 +90,8 @@ constexpr const char* verify_footer =
     "situation variables may change.\n"
     "\n"
     "Exit status: 0 all properties are proved, 1 one is violated or undecided, or a limit ended "
-    "an exploration, 2 the input or the usage is wrong, 3 an internal error (please report it).\n"
+    "an exploration, or no script was found for a goal, 2 the input or the usage is wrong, 3 an "
+    "internal error (please report it).\n"
     "\n"
     "Read more: man cbc-verify, man cbc-events (scripts)";
 
@@ -140,8 +143,20 @@ void add_verify_command(Program& program) {
               "the shortest script whose last event differs; the assumptions of a property file "
               "count")
       .not_with({"--format junit", "--format github"}, "it has no place for a comparison");
-  command.option("--beside", options->beside, input("MISSION", ValueKind::script),
-                 "A script that exists, or a folder of them. May be repeated");
+  const std::string not_proof = "it writes scripts that meet goals of coverage";
+  command
+      .option(
+          "--write-tests", options->write_tests, folder(),
+          "Write scripts to the folder DIR, as few as possible, that meet all goals of "
+          "coverage that can be met, with expectations; scripts of an earlier call are replaced")
+      .not_with({"--scripts", "--html", "--same-as", "--cut-sets", "--reduce", "--format json",
+                 "--format junit", "--format github"},
+                not_proof);
+  command
+      .option("--beside", options->beside, input("MISSION", ValueKind::script),
+              "Leave out the goals that this script meets, or those in this folder. May be "
+              "repeated")
+      .only_with({"--write-tests"});
   command.add_confinement();
 
   command.group("Limits");

@@ -38,6 +38,8 @@ std::uint64_t default_memory() {
   return static_cast<std::uint64_t>(pages) / 4 * 3 * static_cast<std::uint64_t>(size);
 }
 
+}  // namespace
+
 ExplorationLimits limits_of(const VerifyOptions& options) {
   ExplorationLimits limits;
   limits.max_states = options.max_states;
@@ -48,6 +50,8 @@ ExplorationLimits limits_of(const VerifyOptions& options) {
   }
   return limits;
 }
+
+namespace {
 
 /// The tasks that are named in --cut-sets. Empty if the catalog lacks one, which is reported.
 std::optional<std::vector<TaskId>> find_tasks(const CompiledCatalog& catalog,
@@ -434,7 +438,7 @@ class Call {
 int verify(const VerifyOptions& options) {
   QuestionLoader loader;
   std::optional<VerifyQuestions> questions =
-      loader.load(options.paths, options.same_as, options.beside);
+      loader.load(options.paths, options.same_as, options.beside, options.write_tests);
   if (!questions) {
     // CI systems could take a missing report for one without failures.
     const VerifyFormat& format = *find_named(verify_formats(), options.format);
@@ -443,6 +447,7 @@ int verify(const VerifyOptions& options) {
     }
     return exit_unusable;
   }
+  if (options.write_tests) return write_tests(options, *questions);
   return Call(options, std::move(*questions)).run();
 }
 
