@@ -55,12 +55,9 @@ class MissionFinder {
     for (std::uint32_t part = 0; part < graph_.parts.size(); ++part) {
       result_.most_events = std::max(result_.most_events, planner.most_events(part));
     }
+    perform(planner, missing_);
     wait_for_timeouts(planner);
-    const std::vector<MissionPlanner::Path> paths = planner.plan(without_timeouts());
-    for (const MissionPlanner::Path& path : paths) {
-      if (!goes_on()) break;
-      add(rehearsal_.run(graph_.parts[path.part].group, moves_of(path)));
-    }
+    perform(planner, without_timeouts());
     show_first_values();
     list_unmet();
     return std::move(result_);
@@ -93,6 +90,24 @@ class MissionFinder {
     std::vector<Move> moves;
     for (const std::uint32_t edge : path.edges) moves.push_back(graph_.edges[edge].move);
     return moves;
+  }
+
+  /// Adds scripts that meet these goals. Where other timeouts come first, those do not fire.
+  void perform(MissionPlanner& planner, const Goals& wanted) {
+    for (const MissionPlanner::Path& path : planner.plan(wanted)) {
+      if (!goes_on()) break;
+      std::vector<std::uint8_t> is_timeout;
+      for (const std::uint32_t edge : path.edges) {
+        const auto items = graph_.items_of(graph_.edges[edge]);
+        is_timeout.push_back(std::any_of(items.begin(), items.end(), [&](std::uint32_t item) {
+          return item < goals_.size() && wanted[item] != 0 && missing_[item] != 0 &&
+                 goals_[item].kind == Goal::Kind::timeout_fired;
+        }));
+      }
+      const std::uint32_t group = graph_.parts[path.part].group;
+      add(is_any(is_timeout) ? rehearsal_.run_by_clock(group, moves_of(path), is_timeout)
+                             : rehearsal_.run(group, moves_of(path)));
+    }
   }
 
   [[nodiscard]] Goals timeouts() const {

@@ -67,8 +67,9 @@ MissionPlanner::MissionPlanner(const GoalGraph& graph, std::uint32_t events)
 }
 
 std::uint32_t MissionPlanner::end_of(std::uint32_t part) const {
-  return part + 1 < graph_.parts.size() ? graph_.parts[part + 1].first_state
-                                        : static_cast<std::uint32_t>(graph_.state_count());
+  return std::size_t{part} + 1 < graph_.parts.size()
+             ? graph_.parts[part + 1].first_state
+             : static_cast<std::uint32_t>(graph_.state_count());
 }
 
 /// States are numbered breadth first, so the first edge to a state is of a shortest path.
@@ -168,22 +169,29 @@ MissionPlanner::Path MissionPlanner::path_that_returns(std::uint32_t part,
   return {};
 }
 
-void MissionPlanner::weigh(const std::vector<Weight>& weights) {
-  edge_weights_.assign(graph_.edges.size(), 0);
-  for (std::size_t edge = 0; edge < graph_.edges.size(); ++edge) {
+/// Of one part, or of all (none).
+void MissionPlanner::weigh(const std::vector<Weight>& weights, std::uint32_t part) {
+  const std::uint32_t first = part == none ? 0 : graph_.parts[part].first_state;
+  const std::uint32_t end = end_of(part == none ? none - 1 : part);
+  edge_weights_.resize(graph_.edges.size());
+  for (std::uint32_t edge = graph_.begin[first]; edge < graph_.begin[end]; ++edge) {
+    edge_weights_[edge] = 0;
     for (const std::uint32_t item : graph_.items_of(graph_.edges[edge])) {
       if (item < graph_.goal_count) edge_weights_[edge] += weights[item];
     }
   }
+  const std::uint32_t longest = part == none ? longest_ : limits_[part];
   collected_.resize(longest_ + 1);
-  collected_[0].assign(graph_.state_count(), 0);
-  for (std::uint32_t left = 1; left <= longest_; ++left) {
+  for (std::vector<Weight>& layer : collected_) layer.resize(graph_.state_count());
+  std::fill(collected_[0].begin() + first, collected_[0].begin() + end, 0);
+  for (std::uint32_t left = 1; left <= longest; ++left) {
     const std::vector<Weight>& next = collected_[left - 1];
-    std::vector<Weight>& now = collected_[left];
-    now.assign(graph_.state_count(), 0);
-    for (std::size_t edge = 0; edge < graph_.edges.size(); ++edge) {
-      Weight& most = now[source_[edge]];
-      most = std::max(most, edge_weights_[edge] + next[graph_.edges[edge].to]);
+    for (std::uint32_t state = first; state < end; ++state) {
+      Weight most = 0;
+      for (std::uint32_t edge = graph_.begin[state]; edge < graph_.begin[state + 1]; ++edge) {
+        most = std::max(most, edge_weights_[edge] + next[graph_.edges[edge].to]);
+      }
+      collected_[left][state] = most;
     }
   }
 }
@@ -217,40 +225,78 @@ MissionPlanner::Path MissionPlanner::heaviest_path(std::uint32_t part) const {
   return path;
 }
 
+/// By goal: the only part with moves that meet it; none if there are several.
+std::vector<std::uint32_t> MissionPlanner::find_homes() const {
+  constexpr std::uint32_t unknown = none - 1;
+  std::vector<std::uint32_t> homes(graph_.goal_count, unknown);
+  for (std::uint32_t part = 0; part < graph_.parts.size(); ++part) {
+    const std::uint32_t end = graph_.begin[end_of(part)];
+    for (std::uint32_t edge = graph_.begin[graph_.parts[part].first_state]; edge < end; ++edge) {
+      for (const std::uint32_t item : graph_.items_of(graph_.edges[edge])) {
+        if (item >= graph_.goal_count) continue;
+        homes[item] = homes[item] == unknown || homes[item] == part ? part : none;
+      }
+    }
+  }
+  return homes;
+}
+
 std::uint64_t MissionPlanner::lower_bound(const Goals& wanted) {
+  const auto weight_of = [&](std::size_t goal) {
+    return wanted[goal] != 0 && reachable_[goal] != 0 ? first_weight : 0;
+  };
+  const std::vector<std::uint32_t> homes = find_homes();
+  std::uint64_t bound = 0;
+  bool is_any_shared = false;
+  std::vector<Weight> weights(graph_.goal_count);
+  for (std::uint32_t part = 0; part < graph_.parts.size(); ++part) {
+    for (std::size_t goal = 0; goal < weights.size(); ++goal) {
+      weights[goal] = homes[goal] == part ? weight_of(goal) : 0;
+    }
+    bound += improve(weights, part);
+    for (std::size_t goal = 0; goal < weights.size(); ++goal) {
+      if (homes[goal] == part) weights_[goal] = weights[goal];
+    }
+  }
+  for (std::size_t goal = 0; goal < weights.size(); ++goal) {
+    weights[goal] = weight_of(goal);
+    is_any_shared = is_any_shared || (weights[goal] != 0 && homes[goal] == none);
+  }
+  return is_any_shared ? std::max(bound, improve(weights, none)) : bound;
+}
+
+/// Improves weights, and returns the best bound that they were.
+std::uint64_t MissionPlanner::improve(std::vector<Weight>& weights, std::uint32_t part) {
   constexpr std::uint64_t most_work = 400'000'000;
   const std::uint64_t work = (graph_.edges.size() + 1) * (longest_ + 1);
   const std::uint64_t rounds = std::clamp<std::uint64_t>(most_work / work, 16, 600);
-  for (std::size_t goal = 0; goal < graph_.goal_count; ++goal) {
-    weights_[goal] = wanted[goal] != 0 && reachable_[goal] != 0 ? first_weight : 0;
-  }
   std::uint64_t bound = 0;
-  std::vector<Weight> best;
+  std::vector<Weight> best = weights;
   for (std::uint64_t round = 0; round < rounds; ++round) {
-    weigh(weights_);
     Weight sum = 0;
-    for (const Weight weight : weights_) sum += weight;
+    for (const Weight weight : weights) sum += weight;
     if (sum == 0) return 0;
-    const std::uint32_t part = best_part();
-    const Weight most = collected_[limits_[part]][graph_.parts[part].first_state];
+    weigh(weights, part);
+    const std::uint32_t at = part == none ? best_part() : part;
+    const Weight most = collected_[limits_[at]][graph_.parts[at].first_state];
     // Rounded up, as paths are whole.
     const std::uint64_t found = (sum + most - 1) / most;
     if (found > bound) {
       bound = found;
-      best = weights_;
+      best = weights;
     }
     // Goals that are easy to meet lose weight, first faster, then slower.
     const unsigned shift = round < rounds / 4 ? 2 : round < rounds / 2 ? 3 : 4;
-    for (const std::uint32_t edge : heaviest_path(part).edges) {
+    for (const std::uint32_t edge : heaviest_path(at).edges) {
       for (const std::uint32_t item : graph_.items_of(graph_.edges[edge])) {
-        if (item < graph_.goal_count) weights_[item] -= weights_[item] >> shift;
+        if (item < graph_.goal_count) weights[item] -= weights[item] >> shift;
       }
     }
-    const Weight heaviest = *std::max_element(weights_.begin(), weights_.end());
+    const Weight heaviest = *std::max_element(weights.begin(), weights.end());
     if (heaviest >= first_weight / 2) continue;
-    for (Weight& weight : weights_) weight *= 2;
+    for (Weight& weight : weights) weight *= 2;
   }
-  weights_ = std::move(best);
+  weights = std::move(best);
   return bound;
 }
 
@@ -329,7 +375,7 @@ std::vector<MissionPlanner::Path> MissionPlanner::cover(const Goals& wanted,
     if (std::all_of(left.begin(), left.end(), [](Weight weight) { return weight == 0; })) {
       return paths;
     }
-    weigh(left);
+    weigh(left, none);
     if (take(search(best_part(), left))) continue;
     // Returns collect weight on paths that do not meet them.
     bool is_new = false;

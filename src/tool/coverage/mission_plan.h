@@ -34,7 +34,8 @@ class MissionPlanner {
   /// No fewer paths meet all of these reachable goals, if all parts of the graph are complete. Two
   /// paths cannot do more than paths that count what they meet several times. So any weights of
   /// goals are a bound: the sum of all, divided by that of the path that collects most (duality of
-  /// linear programs). Some rounds improve the weights.
+  /// linear programs). Some rounds improve the weights. Goals of one group need paths of that
+  /// group, so the bounds of groups add up.
   [[nodiscard]] std::uint64_t lower_bound(const Goals& wanted);
 
   /// Paths that together meet the reachable ones of these goals. Each ends with a move that meets a
@@ -58,7 +59,9 @@ class MissionPlanner {
   [[nodiscard]] std::vector<std::uint32_t> shortest_to(std::uint32_t state) const;
   [[nodiscard]] Path path_that_returns(std::uint32_t part, std::uint32_t goal) const;
   [[nodiscard]] std::uint32_t end_of(std::uint32_t part) const;
-  void weigh(const std::vector<Weight>& weights);
+  [[nodiscard]] std::vector<std::uint32_t> find_homes() const;
+  [[nodiscard]] std::uint64_t improve(std::vector<Weight>& weights, std::uint32_t part);
+  void weigh(const std::vector<Weight>& weights, std::uint32_t part);
   [[nodiscard]] std::uint32_t best_part() const;
   [[nodiscard]] Path heaviest_path(std::uint32_t part) const;
   [[nodiscard]] Path search(std::uint32_t part, const std::vector<Weight>& weights) const;

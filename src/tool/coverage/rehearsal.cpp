@@ -35,8 +35,38 @@ class MissionRehearsal::Stage final : public RunListener {
     }
   }
 
-  /// Waits until something has come due. False if nothing ever will.
+  /// Waits until an event of the clock has happened in the group. False if none does.
   bool wait() {
+    constexpr int most_tries = 100;
+    const std::uint64_t before = result_.clock_events;
+    for (int tried = 0; tried < most_tries && result_.clock_events == before; ++tried) {
+      if (!wait_once()) return false;
+    }
+    return result_.clock_events > before;
+  }
+
+  /// Takes a step soon after the one before it, and before anything comes due.
+  void take_soon(Step step) {
+    constexpr Microseconds soon = second / 200;
+    const auto& steps = result_.script.steps;
+    step.time = steps.empty() ? 0 : *steps.back().time + soon;
+    const std::optional<Microseconds> next = runner_.coordinator().next_due();
+    if (next && *step.time > *next) step.time = *next;
+    result_.script.steps.push_back(std::move(step));
+    take();
+  }
+
+  [[nodiscard]] const Rehearsal& result() const { return result_; }
+  [[nodiscard]] Rehearsal take_result() { return std::move(result_); }
+  [[nodiscard]] const std::vector<std::uint8_t>& met() const { return watch_.met(); }
+  void cut(std::size_t steps) {
+    result_.script.steps.resize(steps);
+    result_.moments.resize(steps);
+  }
+
+ private:
+  /// Waits until something has come due. False if nothing ever will.
+  bool wait_once() {
     const std::optional<Microseconds> due = runner_.coordinator().next_due();
     if (!due) return false;
     Step& step = result_.script.steps.emplace_back();
@@ -54,15 +84,6 @@ class MissionRehearsal::Stage final : public RunListener {
     return true;
   }
 
-  [[nodiscard]] const Rehearsal& result() const { return result_; }
-  [[nodiscard]] Rehearsal take_result() { return std::move(result_); }
-  [[nodiscard]] const std::vector<std::uint8_t>& met() const { return watch_.met(); }
-  void cut(std::size_t steps) {
-    result_.script.steps.resize(steps);
-    result_.moments.resize(steps);
-  }
-
- private:
   static CoordinatorOptions options_of(const Script& script) {
     CoordinatorOptions options;
     options.reactive_delay = script.reactive_delay;
@@ -80,11 +101,13 @@ class MissionRehearsal::Stage final : public RunListener {
     if (record.origin == Origin::script && form_of(record.verb).is_decided) {
       outcome_ = record.outcome;
     }
-    const bool is_of_clock = record.origin == Origin::timeout || record.origin == Origin::reactive;
-    if (is_of_clock && (record.origin == Origin::timeout || record.time != last_reactive_)) {
+    if (record.origin == Origin::timeout && catalog_.group_of(record.behavior) == result_.group) {
       ++result_.clock_events;
     }
-    if (record.origin == Origin::reactive) last_reactive_ = record.time;
+    if (record.origin == Origin::reactive && catalog_.tasks[record.task].group == result_.group &&
+        std::exchange(last_reactive_, record.time) != record.time) {
+      ++result_.clock_events;
+    }
   }
 
   void note_moment() {
@@ -114,6 +137,31 @@ class MissionRehearsal::Stage final : public RunListener {
 Rehearsal MissionRehearsal::run(std::uint32_t group, const std::vector<Move>& moves) const {
   Stage stage(*this, group, make_script(catalog_, {group}, assumptions_, moves, second));
   stage.take();
+  return stage.take_result();
+}
+
+Rehearsal MissionRehearsal::run_by_clock(std::uint32_t group, const std::vector<Move>& moves,
+                                         const std::vector<std::uint8_t>& is_timeout) const {
+  Script script = make_script(catalog_, {group}, assumptions_, moves, second);
+  const std::vector<Step> steps = std::exchange(script.steps, {});
+  script.timeouts = true;
+  script.reactive_delay = Script{}.reactive_delay;
+  Stage stage(*this, group, std::move(script));
+  std::uint64_t made = 0;
+  for (std::size_t place = 0; place < moves.size(); ++place) {
+    const std::size_t taken = stage.result().moments.size();
+    if (moves[place].kind != Move::Kind::due && is_timeout[place] == 0) {
+      stage.take_soon(steps[place]);
+      ++made;
+    } else if (!stage.wait()) {
+      break;
+    }
+    // Where several timeouts come at once, the mission would be longer than it may be.
+    if (made + stage.result().clock_events > moves.size()) {
+      stage.cut(taken);
+      break;
+    }
+  }
   return stage.take_result();
 }
 

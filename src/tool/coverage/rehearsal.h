@@ -25,10 +25,11 @@ struct Rehearsal {
   };
 
   std::uint32_t group = 0;
-  Script script;                   ///< its expectations are empty
-  std::vector<Moment> moments;     ///< by step
-  std::uint64_t clock_events = 0;  ///< times at which timeouts or reactive starts came due
-  std::string fault;               ///< of cbc, if an answer was refused
+  Script script;                ///< its expectations are empty
+  std::vector<Moment> moments;  ///< by step
+  std::uint64_t clock_events =
+      0;              ///< timeouts and reactive starts of the group; those of an instant are one
+  std::string fault;  ///< of cbc, if an answer was refused
 };
 
 /// Runs missions of one group, watched for goals, before they are written down.
@@ -41,6 +42,10 @@ class MissionRehearsal {
 
   /// A mission of these moves, without timeouts.
   [[nodiscard]] Rehearsal run(std::uint32_t group, const std::vector<Move>& moves) const;
+  /// The same with timeouts: in place of some failures it waits. What comes of it may be another
+  /// mission.
+  [[nodiscard]] Rehearsal run_by_clock(std::uint32_t group, const std::vector<Move>& moves,
+                                       const std::vector<std::uint8_t>& is_timeout) const;
   /// Makes the moves, one soon after the other, and then only waits: as long as timeouts meet some
   /// of the wanted goals, and for at most so many events of the clock.
   [[nodiscard]] Rehearsal wait_after(std::uint32_t group, const std::vector<Move>& moves,
