@@ -208,11 +208,11 @@ std::string describe_goals(const CompiledCatalog& catalog, std::span<const Goal>
   return text;
 }
 
-/// What an event has decided: its outcome, and what has changed since the last expectation. Where
-/// it matters that nothing else was chosen, also what goes on.
+/// What an event has decided: its outcome, and what has changed by it, or since the last
+/// expectation. Where it matters that nothing else was chosen, also what goes on.
 Expectation expect(const CompiledCatalog& catalog, std::uint32_t group,
                    const Rehearsal::Moment& moment, const std::vector<BehaviorId>& before,
-                   bool tells_all) {
+                   const std::vector<BehaviorId>& expected, bool tells_all) {
   Expectation expectation;
   if (moment.outcome == Outcome::accepted || moment.outcome == Outcome::rejected) {
     expectation.outcome = moment.outcome;
@@ -220,7 +220,7 @@ Expectation expect(const CompiledCatalog& catalog, std::uint32_t group,
   const TaskId first = catalog.group_tasks[group];
   for (std::uint32_t place = 0; place < moment.behaviors.size(); ++place) {
     const BehaviorId behavior = moment.behaviors[place];
-    const bool is_changed = before[place] != behavior;
+    const bool is_changed = before[place] != behavior || expected[place] != behavior;
     const std::uint32_t task = catalog.tasks[first + place].catalog_index;
     if (behavior != none && (is_changed || tells_all)) {
       expectation.running.push_back({task, catalog.behaviors[behavior].catalog_index});
@@ -248,7 +248,8 @@ WrittenScript write_down(const CompiledCatalog& catalog, std::span<const Goal> g
   script = rehearsal.script;
   script.steps.clear();
   std::vector<std::string> comments;
-  std::vector<BehaviorId> expected(rehearsal.moments.front().behaviors.size(), none);
+  std::vector<BehaviorId> before(rehearsal.moments.front().behaviors.size(), none);
+  std::vector<BehaviorId> expected = before;
   const auto counts_here = [&](const Rehearsal::Moment& moment) {
     return std::any_of(moment.goals.begin(), moment.goals.end(),
                        [&](std::uint32_t goal) { return counts[goal] != 0; });
@@ -271,7 +272,9 @@ WrittenScript write_down(const CompiledCatalog& catalog, std::span<const Goal> g
     const bool is_rejected = moment.outcome == Outcome::rejected;
     Step checked;
     checked.time = step.time;
-    checked.expect = expect(catalog, rehearsal.group, moment, expected, is_deciding || is_rejected);
+    checked.expect =
+        expect(catalog, rehearsal.group, moment, std::exchange(before, moment.behaviors), expected,
+               is_deciding || is_rejected);
     if (shown.empty()) continue;
     if (is_empty(*checked.expect)) {
       if (!step.expect) continue;
