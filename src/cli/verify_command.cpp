@@ -143,15 +143,14 @@ void add_verify_command(Program& program) {
               "the shortest script whose last event differs; the assumptions of a property file "
               "count")
       .not_with({"--format junit", "--format github"}, "it has no place for a comparison");
-  const std::string not_proof = "it writes scripts that meet goals of coverage";
   command
       .option(
           "--write-tests", options->write_tests, folder(),
           "Write scripts to the folder DIR, as few as possible, that meet all goals of "
           "coverage that can be met, with expectations; scripts of an earlier call are replaced")
-      .not_with({"--scripts", "--html", "--same-as", "--cut-sets", "--reduce", "--format json",
-                 "--format junit", "--format github"},
-                not_proof);
+      .not_with({"--scripts", "--html", "--same-as", "--cut-sets", "--reduce", "--jobs",
+                 "--max-memory", "--format json", "--format junit", "--format github"},
+                "it makes an exploration of its own");
   command
       .option("--beside", options->beside, input("MISSION", ValueKind::script),
               "Leave out the goals that this script meets, or those in this folder. May be "

@@ -22,12 +22,6 @@
 namespace cbc::cli {
 namespace {
 
-class Silent final : public RunListener {
- public:
-  void on_event(const EventRecord& /*record*/, const Step* /*step*/,
-                const State& /*state*/) override {}
-};
-
 /// By goal: whether the missions meet it. Empty if one of them ends early; the reason is printed.
 std::optional<std::vector<std::uint8_t>> goals_met_by(const std::vector<Mission>& missions,
                                                       const std::vector<Goal>& goals) {
@@ -36,7 +30,7 @@ std::optional<std::vector<std::uint8_t>> goals_met_by(const std::vector<Mission>
   for (const Mission& mission : missions) {
     progress.begin(mission.script.file);
     progress.show();
-    Silent silent;
+    SilentRun silent;
     const CoordinatorOptions options;
     const WatchedResult watched =
         run_watched(*mission.catalog, goals, mission.script, options, silent);

@@ -77,6 +77,13 @@ TEST_F(WriteTests, MeetsWhatTheMissionOfTheQuadrotorDoesNot) {
   const Result result = write_tests(catalog, {"--beside", mission});
   EXPECT_EQ(result.status, 0) << result.out << result.err;
   expect_complete(catalog, {mission, folder});
+  // What docs/coverage.md shows, and how good it is.
+  const std::string shown = result.out.substr(0, result.out.find(" each\n") + 6);
+  const std::string page = test::read_file(CBC_SOURCE_DIR "/docs/coverage.md");
+  EXPECT_NE(page.find("```text\n" + shown + "```\n"), std::string::npos) << shown;
+  const std::string bound = "no fewer than ";
+  const int least = std::stoi(shown.substr(shown.find(bound) + bound.size()));
+  EXPECT_LE(2 * files().size(), 3 * static_cast<std::size_t>(least));
 }
 
 TEST_F(WriteTests, WritesTheSameAgain) {

@@ -30,12 +30,6 @@ using oracle::demand;
 constexpr std::uint64_t default_cases = 100;
 constexpr std::uint64_t most_states = 400;
 
-class Silent final : public RunListener {
- public:
-  void on_event(const EventRecord& /*record*/, const cbc::Step* /*step*/,
-                const State& /*state*/) override {}
-};
-
 /// By goal: whether the script of the text meets it.
 std::vector<std::uint8_t> run_text(const CompiledCatalog& catalog, const std::vector<Goal>& goals,
                                    const std::string& text) {
@@ -44,7 +38,7 @@ std::vector<std::uint8_t> run_text(const CompiledCatalog& catalog, const std::ve
   demand(document != nullptr, "it is no YAML: " + text);
   const auto script = read_script(*document, catalog, Severity::warning, diagnostics);
   demand(script.has_value(), "the script is refused: " + text);
-  Silent silent;
+  SilentRun silent;
   WatchedResult watched = run_watched(catalog, goals, *script, {}, silent);
   demand(watched.result.status == Coordinator::Status::ok, "it ends: " + text);
   demand(watched.result.failed == 0, "an expectation fails: " + text);

@@ -8,6 +8,7 @@
 
 #include "coverage/mission_plan.h"
 #include "coverage/rehearsal.h"
+#include "coverage/watched_run.h"
 #include "script/runner.h"
 
 namespace cbc {
@@ -18,12 +19,6 @@ using Goals = MissionPlanner::Goals;
 bool is_any(const Goals& goals) {
   return std::any_of(goals.begin(), goals.end(), [](std::uint8_t goal) { return goal != 0; });
 }
-
-class Silent final : public RunListener {
- public:
-  void on_event(const EventRecord& /*record*/, const Step* /*step*/,
-                const State& /*state*/) override {}
-};
 
 class MissionFinder {
  public:
@@ -214,7 +209,7 @@ class MissionFinder {
   }
 
   void check(const MissingMissions::Mission& mission) {
-    Silent silent;
+    SilentRun silent;
     const RunResult result = run_script(catalog_, mission.script, {}, silent);
     if (result.status == Coordinator::Status::ok && result.failed == 0) return;
     result_.fault = fmt::format("a script does not do what was proven:\n{}", mission.text);
