@@ -46,7 +46,7 @@ class MissionFinder {
     }
     MissionPlanner planner(graph_, options_.events);
     set_apart(planner);
-    if (result_.partial.empty()) result_.lower_bound = planner.lower_bound(missing_);
+    if (result_.partial.empty()) result_.lower_bound = planner.lower_bound(bounded());
     for (std::uint32_t part = 0; part < graph_.parts.size(); ++part) {
       result_.most_events = std::max(result_.most_events, planner.most_events(part));
     }
@@ -85,6 +85,29 @@ class MissionFinder {
     std::vector<Move> moves;
     for (const std::uint32_t edge : path.edges) moves.push_back(graph_.edges[edge].move);
     return moves;
+  }
+
+  /// What no script about another group meets by the way. Reactive tasks of all groups start by
+  /// themselves in every script, and what comes of it depends on times.
+  [[nodiscard]] Goals bounded() const {
+    Goals bounded = missing_;
+    if (graph_.parts.size() < 2) return bounded;
+    std::set<std::uint32_t> lively;
+    for (const CompiledTask& task : catalog_.tasks) {
+      if (task.reactive_start != 0) lively.insert(task.group);
+    }
+    for (std::size_t number = 0; number < goals_.size(); ++number) {
+      const Goal& goal = goals_[number];
+      const bool needs_request = goal.kind == Goal::Kind::behavior_succeeded ||
+                                 goal.kind == Goal::Kind::higher_displaced ||
+                                 goal.kind == Goal::Kind::lower_rejected ||
+                                 goal.kind == Goal::Kind::equal_displaced;
+      if (needs_request || goal.variable != none) continue;
+      const std::uint32_t group =
+          goal.task != none ? catalog_.tasks[goal.task].group : catalog_.group_of(goal.behavior);
+      if (lively.contains(group)) bounded[number] = 0;
+    }
+    return bounded;
   }
 
   /// Adds scripts that meet these goals. Where other timeouts come first, those do not fire.

@@ -27,8 +27,8 @@ struct Rehearsal {
   std::uint32_t group = 0;
   Script script;                ///< its expectations are empty
   std::vector<Moment> moments;  ///< by step
-  std::uint64_t clock_events =
-      0;              ///< timeouts and reactive starts of the group; those of an instant are one
+  /// Timeouts of the group, and instants at which its reactive tasks tried to start.
+  std::uint64_t clock_events = 0;
   std::string fault;  ///< of cbc, if an answer was refused
 };
 
@@ -60,12 +60,13 @@ class MissionRehearsal {
   const Assumptions& assumptions_;
 };
 
-/// A script that goes like the rehearsal, with comments that name the goals of each event that
-/// count, and expectations of what it decides. `counts`: by goal. `title`: the first lines.
 struct WrittenScript {
   Script script;
   std::string text;
 };
+
+/// A script that goes like the rehearsal, with comments that name the goals of each event that
+/// count, and expectations of what it decides. `counts`: by goal. `title`: the first lines.
 [[nodiscard]] WrittenScript write_down(const CompiledCatalog& catalog, std::span<const Goal> goals,
                                        const Rehearsal& rehearsal,
                                        const std::vector<std::uint8_t>& counts,
