@@ -45,10 +45,12 @@ std::optional<std::vector<std::uint8_t>> goals_met_by(const std::vector<Mission>
   return met;
 }
 
-/// Finds the scripts, and shows the progress.
-MissingMissions find_tests(const VerifyOptions& options, const CompiledCatalog& catalog,
-                           const std::vector<Goal>& goals, const std::vector<std::uint8_t>& met,
-                           const Assumptions& assumptions) {
+/// Finds the scripts, and shows the progress. Empty if a signal ends it.
+std::optional<MissingMissions> find_tests(const VerifyOptions& options,
+                                          const CompiledCatalog& catalog,
+                                          const std::vector<Goal>& goals,
+                                          const std::vector<std::uint8_t>& met,
+                                          const Assumptions& assumptions) {
   const StopSignals signals;
   const ExplorationLimits limits = limits_of(options);
   Progress progress("exploring", catalog.group_count());
@@ -71,7 +73,9 @@ MissingMissions find_tests(const VerifyOptions& options, const CompiledCatalog& 
     progress.show(fmt::format(" ({} tests)", number));
     return !signals.have_come();
   };
-  return find_missing_missions(catalog, goals, met, assumptions, of_search);
+  MissingMissions missing = find_missing_missions(catalog, goals, met, assumptions, of_search);
+  if (signals.have_come()) return std::nullopt;
+  return missing;
 }
 
 }  // namespace
@@ -90,7 +94,13 @@ int write_tests(const VerifyOptions& options, const VerifyQuestions& questions) 
   if (!met) return exit_unusable;
   const Assumptions assumptions = questions.files.empty() ? assumptions_of_goals(catalog)
                                                           : questions.files.front()->assumptions;
-  const MissingMissions missing = find_tests(options, catalog, goals, *met, assumptions);
+  const std::optional<MissingMissions> found =
+      find_tests(options, catalog, goals, *met, assumptions);
+  if (!found) {
+    complain("interrupted; the folder {} is as it was", quote(*options.write_tests));
+    return exit_no;
+  }
+  const MissingMissions& missing = *found;
   if (missing.error) return complain("--write-tests: {}", *missing.error);
   if (!missing.fault.empty()) {
     complain("--write-tests: {}", missing.fault);
