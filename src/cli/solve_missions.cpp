@@ -116,8 +116,10 @@ std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_of(const std::stri
   if (given_catalog_ != nullptr || is_given_catalog_bad_) return given_catalog_;
   const std::optional<std::string> named = path_of_catalog(script_path, script);
   if (!named) {
-    complain("script {} names no catalog, and none is given; give one on the command line, or write 'catalog: FILE' into it",
-             quote(display_name(script_path)));
+    complain(
+        "script {} names no catalog, and none is given; give one on the command line, or write "
+        "'catalog: FILE' into it",
+        quote(display_name(script_path)));
     return nullptr;
   }
   return catalogs_.load(*named, NamedBy::file);

@@ -165,8 +165,8 @@ void add_verify_command(Program& program) {
   command
       .option("--situation", options->situation, situation_entry(),
               "Behaviors that do not fit this situation cannot be active: the value of a "
-              "situation variable, or of a behavior true or false. Without it, 'initially' of a property "
-              "file counts. May be repeated")
+              "situation variable, or of a behavior true or false. Without it, 'initially' of a "
+              "property file counts. May be repeated")
       .only_with({"--cut-sets"});
   command
       .option("--open-psa", options->open_psa, further_output("FILE"),
