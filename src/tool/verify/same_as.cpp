@@ -395,7 +395,8 @@ class PairStepper {
 
 class PairExpander final : public Expander {
  public:
-  explicit PairExpander(const ModelPair& models) : models_(models), stepper_(models) {
+  PairExpander(const ModelPair& models, ComparisonScope::Differences differences)
+      : models_(models), differences_(differences), stepper_(models) {
     stepper_.set_traces(new_trace_, old_trace_);
   }
 
@@ -421,12 +422,28 @@ class PairExpander final : public Expander {
 
  private:
   [[nodiscard]] bool differ(const std::uint32_t* new_packed, const std::uint32_t* old_packed) {
+    if (differences_ == ComparisonScope::Differences::expectable) {
+      const Shown ours =
+          describe(models_.new_model, models_.new_tasks, models_.new_behaviors, new_packed);
+      const Shown theirs =
+          describe(models_.old_model, models_.old_tasks, models_.old_behaviors, old_packed);
+      return ours.running != theirs.running || ours.queue != theirs.queue ||
+             outcome_of(new_trace_) != outcome_of(old_trace_);
+    }
     if (new_trace_.events.size() != old_trace_.events.size()) return true;
     for (std::size_t place = 0; place < new_trace_.events.size(); ++place) {
       if (differ(new_trace_.events[place], old_trace_.events[place])) return true;
     }
     return describe(models_.new_model, models_.new_tasks, models_.new_behaviors, new_packed) !=
            describe(models_.old_model, models_.old_tasks, models_.old_behaviors, old_packed);
+  }
+
+  /// That of the event of the script, if it is one that an expectation knows.
+  [[nodiscard]] static std::optional<Outcome> outcome_of(const MoveTrace& trace) {
+    if (trace.events.empty()) return std::nullopt;
+    const MoveTrace::Happening& first = trace.events.front();
+    if (first.origin != Origin::script || !form_of(first.verb).is_decided) return std::nullopt;
+    return first.outcome;
   }
 
   [[nodiscard]] bool differ(const MoveTrace::Happening& ours,
@@ -493,6 +510,7 @@ class PairExpander final : public Expander {
   }
 
   const ModelPair& models_;
+  const ComparisonScope::Differences differences_;
   PairStepper stepper_;
   MoveTrace old_trace_;
   MoveTrace new_trace_;
@@ -555,7 +573,8 @@ Assumptions common_assumptions(const CompiledCatalog& old_catalog,
 CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
                                    const CompiledCatalog& new_catalog,
                                    const Assumptions& assumptions,
-                                   const VerificationOptions& options) {
+                                   const VerificationOptions& options,
+                                   const ComparisonScope& scope) {
   CatalogComparison result;
   const Translation to_old(new_catalog, old_catalog);
   const Translation to_new(old_catalog, new_catalog);
@@ -566,6 +585,10 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
   const Assumptions new_assumptions = translate(old_assumptions, to_new);
   bool is_complete = true;
   for (const GroupPair& groups : join_groups(old_catalog, new_catalog, to_old)) {
+    if (scope.group && std::find(groups.new_groups.begin(), groups.new_groups.end(),
+                                 *scope.group) == groups.new_groups.end()) {
+      continue;
+    }
     const ModelPair models(old_catalog, new_catalog, groups, old_assumptions, new_assumptions,
                            to_old, to_new);
     const std::vector<std::uint16_t> new_first = models.new_model.first_state();
@@ -592,7 +615,7 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
       return !options.on_progress || options.on_progress(groups.new_groups, progress);
     };
     for (unsigned job = 0; job < std::max(1U, options.jobs); ++job) {
-      auto expander = std::make_unique<PairExpander>(models);
+      auto expander = std::make_unique<PairExpander>(models, scope.differences);
       of_pairs.push_back(expander.get());
       expanders.push_back(std::move(expander));
     }
