@@ -120,6 +120,9 @@ class MissionLoader {
   /// `paths`: a catalog (which may be missing if the scripts name theirs), then scripts; "-" is a
   /// script from standard input, a folder stands for the scripts in it. Empty if anything is wrong.
   [[nodiscard]] std::optional<std::vector<Mission>> load(const std::vector<std::string>& paths);
+  /// The same for scripts alone, which run on this catalog. There may be none.
+  [[nodiscard]] std::optional<std::vector<Mission>> load_for(
+      std::shared_ptr<const CompiledCatalog> catalog, const std::vector<std::string>& paths);
 
   /// The findings about the files.
   [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }

@@ -52,6 +52,15 @@ std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::s
   return std::move(missions_);
 }
 
+std::optional<std::vector<Mission>> MissionLoader::load_for(
+    std::shared_ptr<const CompiledCatalog> catalog, const std::vector<std::string>& paths) {
+  given_catalog_ = std::move(catalog);
+  for (const std::string& path : paths) add_path(path);
+  files_.print_findings();
+  if (has_failed_) return std::nullopt;
+  return std::move(missions_);
+}
+
 void MissionLoader::add_path(const std::string& path) {
   if (is_folder(path)) {
     add_folder(path);

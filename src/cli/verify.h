@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/input.h"
+#include "cli/solve.h"
 #include "compiled/compiled_catalog.h"
 #include "verify/properties.h"
 
@@ -19,6 +20,7 @@ struct VerifyOptions {
   std::string output = "-";
   std::optional<std::string> scripts;
   std::optional<std::string> html;
+  std::vector<std::string> beside;  ///< missions that exist: scripts, or folders of them
   std::optional<std::uint64_t> jobs;
   bool reduce = false;
   std::optional<std::string> same_as;
@@ -40,15 +42,18 @@ struct VerifyQuestions {
   std::optional<std::string> named_catalog;  ///< path of the catalog that the property files name
   std::vector<std::unique_ptr<const PropertyFile>> files;
   std::shared_ptr<const CompiledCatalog> old_catalog;  ///< to compare with, or null
+  std::vector<Mission> beside;                         ///< the missions that exist
 };
 
 /// Reads the files of a command line. Findings and other problems go to standard error.
 class QuestionLoader {
  public:
   /// `paths`: a catalog, which may be missing if the property files name theirs, then property
-  /// files; "-" is standard input. `old_catalog`: to compare with. Empty if anything is wrong.
+  /// files; "-" is standard input. `old_catalog`: to compare with. `beside`: scripts, or folders of
+  /// them. Empty if anything is wrong.
   [[nodiscard]] std::optional<VerifyQuestions> load(const std::vector<std::string>& paths,
-                                                    const std::optional<std::string>& old_catalog);
+                                                    const std::optional<std::string>& old_catalog,
+                                                    const std::vector<std::string>& beside);
 
   /// The findings about the files.
   [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }

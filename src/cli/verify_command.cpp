@@ -140,6 +140,8 @@ void add_verify_command(Program& program) {
               "the shortest script whose last event differs; the assumptions of a property file "
               "count")
       .not_with({"--format junit", "--format github"}, "it has no place for a comparison");
+  command.option("--beside", options->beside, input("MISSION", ValueKind::script),
+                 "A script that exists, or a folder of them. May be repeated");
   command.add_confinement();
 
   command.group("Limits");

@@ -14,7 +14,8 @@
 namespace cbc::cli {
 
 std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::string>& paths,
-                                                    const std::optional<std::string>& old_catalog) {
+                                                    const std::optional<std::string>& old_catalog,
+                                                    const std::vector<std::string>& beside) {
   add_first(paths.front());
   for (std::size_t place = 1; place < paths.size(); ++place) add_path(paths[place]);
   if (old_catalog) {
@@ -23,6 +24,10 @@ std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::strin
   }
   files_.print_findings();
   if (has_failed_) return std::nullopt;
+  MissionLoader missions;
+  std::optional<std::vector<Mission>> loaded = missions.load_for(questions_.catalog, beside);
+  if (!loaded) return std::nullopt;
+  questions_.beside = std::move(*loaded);
   return std::move(questions_);
 }
 

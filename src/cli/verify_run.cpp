@@ -433,7 +433,8 @@ class Call {
 
 int verify(const VerifyOptions& options) {
   QuestionLoader loader;
-  std::optional<VerifyQuestions> questions = loader.load(options.paths, options.same_as);
+  std::optional<VerifyQuestions> questions =
+      loader.load(options.paths, options.same_as, options.beside);
   if (!questions) {
     // CI systems could take a missing report for one without failures.
     const VerifyFormat& format = *find_named(verify_formats(), options.format);
