@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "catalog/catalog.h"
+#include "diagnostic/diagnostic.h"
+#include "mutate/judge.h"
+#include "mutate/mutants.h"
+
+// The reports of `cbc verify --mutants`.
+
+namespace cbc {
+
+/// How many mutants there are of each result.
+struct MutantCount {
+  std::uint64_t noticed = 0;
+  std::uint64_t survived = 0;
+  std::uint64_t equivalent = 0;
+  std::uint64_t undecided = 0;
+  std::uint64_t unjudged = 0;
+
+  /// Of those that a mission could notice, tenths of a percent that one does, rounded down, so that
+  /// 1000 means all; of none 1000.
+  [[nodiscard]] std::uint64_t tenths() const {
+    const std::uint64_t counted = noticed + survived;
+    return counted == 0 ? 1000 : noticed * 1000 / counted;
+  }
+  /// Whether it is known of all whether they count.
+  [[nodiscard]] bool is_complete() const { return undecided + unjudged == 0; }
+};
+
+/// "92.5 %"
+[[nodiscard]] std::string describe_score(const MutantCount& count);
+
+/// The mutants of a catalog, and what its missions make of them.
+struct MutantsResult {
+  const Catalog* catalog = nullptr;
+  std::vector<std::string> missions;    ///< their files
+  std::vector<Mutant> mutants;          ///< by line
+  std::vector<MutantVerdict> verdicts;  ///< by mutant
+
+  [[nodiscard]] MutantCount count() const;
+};
+
+/// A table by line, then the survivors with a mission that would notice each.
+[[nodiscard]] std::string mutants_to_text(const MutantsResult& result, const Style& style);
+
+/// Schema cbc.mutants/1.
+[[nodiscard]] std::string mutants_to_json(const MutantsResult& result);
+
+/// Workflow commands of GitHub Actions: one for each line with survivors.
+[[nodiscard]] std::string mutants_to_github(const MutantsResult& result);
+
+/// A format of `cbc verify --mutants`.
+struct MutantsFormat {
+  std::string_view name;
+  std::string (*write)(const MutantsResult& result, const Style& style);
+};
+
+/// The first one is the default.
+[[nodiscard]] std::span<const MutantsFormat> mutants_formats();
+
+}  // namespace cbc
