@@ -276,6 +276,7 @@ class PairSearch {
         lines.emplace_back(name_of(happenings.front().outcome));
       }
       VisibleState visible = model.visible(end);
+      visible.queue.clear();
       visible.waiting.clear();
       lines.push_back(named(model.catalog(), visible));
       return lines;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -13,7 +14,6 @@
 #include "mutate/telling_script.h"
 #include "script/reader.h"
 #include "script/runner.h"
-#include "verify/model.h"
 #include "verify/same_as.h"
 #include "verify/witness.h"
 
@@ -55,6 +55,25 @@ std::vector<TimeDifference> find_time_differences(const Catalog& original, const
     }
   }
   return differences;
+}
+
+/// Other tasks of the same group that may time out no later, so that it is not the only one.
+std::vector<TaskIndex> find_sooner(const Catalog& catalog, const CompiledCatalog& compiled,
+                                   const TimeDifference& difference) {
+  std::set<TaskIndex> found;
+  const auto group_of = [&](TaskIndex task) {
+    return compiled.tasks[compiled.task_ids[task]].group;
+  };
+  for (const Behavior& behavior : catalog.behaviors) {
+    for (const Performance& performance : behavior.performs) {
+      const Microseconds timeout = timeout_of(catalog, behavior, performance.task);
+      if (timeout == 0 || timeout > difference.first || performance.task == difference.task) {
+        continue;
+      }
+      if (group_of(performance.task) == group_of(difference.task)) found.insert(performance.task);
+    }
+  }
+  return {found.begin(), found.end()};
 }
 
 /// The events of a script up to its end, and the time of that.
@@ -170,6 +189,7 @@ void MutantJudge::compare(const Mutant& mutant, const CompiledCatalog& changed,
                           MutantVerdict& verdict) const {
   VerificationOptions options;
   options.limits = options_.limits;
+  options.reduce = true;
   options.on_progress = [this](const std::vector<std::uint32_t>& /*groups*/,
                                const ExplorationProgress& /*progress*/) { return !is_stopped(); };
   const CatalogComparison found =
@@ -184,7 +204,7 @@ void MutantJudge::compare(const Mutant& mutant, const CompiledCatalog& changed,
   Script script = found.witness->script;
   const Microseconds end = take_expectation(script);
   const std::array times = {end, settled(script, end)};
-  verdict.script = find_telling_script(catalog_, changed, script, times, {});
+  verdict.script = find_telling_script(catalog_, changed, script, times);
 }
 
 /// States have no times, so a difference between timeouts is none between states. It shows in every
@@ -192,45 +212,44 @@ void MutantJudge::compare(const Mutant& mutant, const CompiledCatalog& changed,
 void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_source,
                                 const CompiledCatalog& changed, MutantVerdict& verdict) const {
   const std::vector<TimeDifference> differences = find_time_differences(source_, changed_source);
-  std::vector<Property> properties(differences.size());
-  std::vector<const Property*> asked;
-  for (std::size_t place = 0; place < differences.size(); ++place) {
-    properties[place].kind = Property::Kind::reachable;
-    properties[place].condition.running = {{catalog_.task_ids[differences[place].task],
-                                            catalog_.behavior_ids[differences[place].behavior]}};
-    asked.push_back(&properties[place]);
+  std::vector<Property> properties;
+  for (const TimeDifference& difference : differences) {
+    Property property;
+    property.kind = Property::Kind::reachable;
+    property.condition.running = {
+        {catalog_.task_ids[difference.task], catalog_.behavior_ids[difference.behavior]}};
+    // Alone it is not hidden by others that time out before.
+    Property& alone = properties.emplace_back(property);
+    for (const TaskIndex task : find_sooner(source_, catalog_, difference)) {
+      alone.condition.stopped.push_back(catalog_.task_ids[task]);
+    }
+    properties.push_back(std::move(property));
   }
+  std::vector<const Property*> asked;
+  for (const Property& property : properties) asked.push_back(&property);
   verdict.result = MutantVerdict::Result::equivalent;
   // Nothing fails, and so nothing times out.
   if (differences.empty() || !assumptions_.failures) return;
   const std::vector<std::uint32_t> groups = {group_of(mutant)};
   ExplorationOptions options;
   options.limits = options_.limits;
+  options.reduce = true;
   options.on_progress = [this](const ExplorationProgress& /*progress*/) { return !is_stopped(); };
   const Exploration found = explore(catalog_, groups, assumptions_, asked, options);
-  for (std::size_t place = 0; place < differences.size(); ++place) {
+  for (std::size_t place = 0; place < properties.size(); ++place) {
     if (!found.verdicts[place].has_script) continue;
     verdict.result = MutantVerdict::Result::survived;
     Script script =
         make_witness(catalog_, groups, assumptions_, found.verdicts[place].script, asked[place], {})
             .script;
-    const Microseconds end = take_expectation(script) + differences[place].first;
-    script.timeouts = true;
+    const Microseconds end = take_expectation(script) + differences[place / 2].first;
     const std::array times = {end, settled(script, end)};
-    verdict.script = find_telling_script(catalog_, changed, script, times, {});
+    verdict.script = find_telling_script(catalog_, changed, script, times);
     if (verdict.script) return;
   }
   if (verdict.result == MutantVerdict::Result::equivalent && !found.complete) {
     verdict.result = MutantVerdict::Result::undecided;
   }
-}
-
-bool begins_excluded(const CompiledCatalog& catalog, const Assumptions& assumptions) {
-  for (std::uint32_t group = 0; group < catalog.group_count(); ++group) {
-    const Model model(catalog, {group}, assumptions);
-    if (model.is_excluded(model.first_state().data())) return true;
-  }
-  return false;
 }
 
 }  // namespace cbc

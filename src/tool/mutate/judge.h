@@ -72,7 +72,8 @@ struct JudgeOptions {
 class MutantJudge {
  public:
   /// `source` is what the catalog was compiled from; both, and the missions, must outlive the
-  /// judge. All missions pass on the catalog. `assumptions`: which events a mission may have.
+  /// judge. All missions pass on the catalog. `assumptions`: which events a mission may have; the
+  /// first state does not contradict them.
   MutantJudge(const Catalog& source, const CompiledCatalog& catalog,
               const MissionDocuments& missions, Assumptions assumptions, JudgeOptions options);
 
@@ -91,8 +92,5 @@ class MutantJudge {
   const Assumptions assumptions_;
   const JudgeOptions options_;
 };
-
-/// Whether the first state contradicts the assumptions, so that nothing can be compared.
-[[nodiscard]] bool begins_excluded(const CompiledCatalog& catalog, const Assumptions& assumptions);
 
 }  // namespace cbc

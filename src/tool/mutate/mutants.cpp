@@ -138,8 +138,10 @@ class MutantFinder {
     if (!task.start_on_request) {
       add_for_task(Mutant::Kind::reactive_start_turned, index, task.range);
     }
-    // The goal decides nothing but whether timeouts count.
-    if (uses_timeout || std::any_of(behaviors.begin(), behaviors.end(), has_own_timeout)) {
+    // The goal decides nothing but whether timeouts count. The other way is their removal.
+    const bool has_timeout =
+        uses_timeout || std::any_of(behaviors.begin(), behaviors.end(), has_own_timeout);
+    if (task.execution_goal == ExecutionGoal::keep_running && has_timeout) {
       add_for_task(Mutant::Kind::execution_goal_turned, index, task.range);
     }
   }
@@ -200,11 +202,6 @@ void remove_pair(std::vector<ExclusivityList>& lists, TaskIndex a, TaskIndex b) 
     result.push_back(std::move(list));
   }
   lists = std::move(result);
-}
-
-ExecutionGoal other_goal(ExecutionGoal goal) {
-  return goal == ExecutionGoal::achieve_goal ? ExecutionGoal::keep_running
-                                             : ExecutionGoal::achieve_goal;
 }
 
 std::string percent(Millionths suitability) { return format_decimal(suitability, 4) + " %"; }
@@ -273,7 +270,7 @@ Catalog mutate(const Catalog& catalog, const Mutant& mutant) {
       task->reactive_start = !task->reactive_start;
       break;
     case Mutant::Kind::execution_goal_turned:
-      task->execution_goal = other_goal(task->execution_goal);
+      task->execution_goal = ExecutionGoal::achieve_goal;
       break;
   }
   return changed;
@@ -315,9 +312,7 @@ std::string describe(const Catalog& catalog, const Mutant& mutant) {
     case Mutant::Kind::reactive_start_turned:
       return describe_flag("reactive_start", task, catalog.tasks[mutant.task].reactive_start);
     case Mutant::Kind::execution_goal_turned:
-      return catalog.tasks[mutant.task].execution_goal == ExecutionGoal::achieve_goal
-                 ? fmt::format("execution_goal of {}: keep_running instead of achieve_goal", task)
-                 : fmt::format("execution_goal of {}: achieve_goal instead of keep_running", task);
+      return fmt::format("execution_goal of {}: achieve_goal instead of keep_running", task);
   }
   return {};
 }

@@ -25,7 +25,7 @@ struct Mutant {
     timeout_removed,          ///< task, or behavior with a timeout of its own
     start_on_request_turned,  ///< task
     reactive_start_turned,    ///< task
-    execution_goal_turned     ///< task
+    execution_goal_turned     ///< task, to achieve_goal, so that it may time out
   };
   static constexpr std::size_t kinds = 11;
   static constexpr std::uint32_t none = UINT32_MAX;

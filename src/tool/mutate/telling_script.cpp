@@ -76,22 +76,24 @@ Expectation find_difference(const CompiledCatalog& original, const Sight& of_ori
 
 std::optional<std::string> find_telling_script(const CompiledCatalog& original,
                                                const CompiledCatalog& mutant, const Script& script,
-                                               std::span<const Microseconds> times,
-                                               const std::string& comment) {
-  for (const Microseconds time : times) {
-    Script told = script;
-    Step& end = told.steps.emplace_back();
-    end.time = time;
-    const std::string text = write_script(original, told, comment);
-    const std::optional<Sight> of_original = see_end(original, text);
-    const std::optional<Sight> of_mutant = see_end(mutant, text);
-    if (!of_original || !of_mutant) continue;
-    Expectation expectation = find_difference(original, *of_original, *of_mutant);
-    if (!expectation.outcome && expectation.running.empty() && expectation.stopped.empty()) {
-      continue;
+                                               std::span<const Microseconds> times) {
+  for (const bool timeouts : {true, false}) {
+    for (const Microseconds time : times) {
+      Script told = script;
+      told.timeouts = timeouts;
+      Step& end = told.steps.emplace_back();
+      end.time = time;
+      const std::string text = write_script(original, told, {});
+      const std::optional<Sight> of_original = see_end(original, text);
+      const std::optional<Sight> of_mutant = see_end(mutant, text);
+      if (!of_original || !of_mutant) continue;
+      Expectation expectation = find_difference(original, *of_original, *of_mutant);
+      if (!expectation.outcome && expectation.running.empty() && expectation.stopped.empty()) {
+        continue;
+      }
+      told.steps.back().expect = std::move(expectation);
+      return write_script(original, told, {});
     }
-    told.steps.back().expect = std::move(expectation);
-    return write_script(original, told, comment);
   }
   return std::nullopt;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "catalog/catalog.h"
+#include "coverage/coverage.h"
 #include "diagnostic/diagnostic.h"
 #include "mutate/judge.h"
 #include "mutate/mutants.h"
@@ -24,18 +25,11 @@ struct MutantCount {
   std::uint64_t undecided = 0;
   std::uint64_t unjudged = 0;
 
-  /// Of those that a mission could notice, tenths of a percent that one does, rounded down, so that
-  /// 1000 means all; of none 1000.
-  [[nodiscard]] std::uint64_t tenths() const {
-    const std::uint64_t counted = noticed + survived;
-    return counted == 0 ? 1000 : noticed * 1000 / counted;
-  }
+  /// Of those that a mission could notice, how many one does.
+  [[nodiscard]] GoalCount score() const { return {noticed + survived, noticed, 0}; }
   /// Whether it is known of all whether they count.
   [[nodiscard]] bool is_complete() const { return undecided + unjudged == 0; }
 };
-
-/// "92.5 %"
-[[nodiscard]] std::string describe_score(const MutantCount& count);
 
 /// The mutants of a catalog, and what its missions make of them.
 struct MutantsResult {

@@ -81,7 +81,7 @@ std::string summary_to_text(const MutantCount& count) {
                                  count.survived, count.equivalent);
   if (count.undecided > 0) text += fmt::format(", {} undecided", count.undecided);
   if (count.unjudged > 0) text += fmt::format(", {} not judged", count.unjudged);
-  text += fmt::format("\nscore: {}\n", describe_score(count));
+  text += fmt::format("\nscore: {}\n", describe_percent(count.score()));
   if (count.undecided > 0) {
     text +=
         "undecided: no mission notices them, but a limit came before it was known whether one "
@@ -91,10 +91,6 @@ std::string summary_to_text(const MutantCount& count) {
 }
 
 }  // namespace
-
-std::string describe_score(const MutantCount& count) {
-  return fmt::format("{}.{} %", count.tenths() / 10, count.tenths() % 10);
-}
 
 MutantCount MutantsResult::count() const {
   MutantCount count;

@@ -42,7 +42,7 @@ struct ComparisonScope {
   enum class Differences : std::uint8_t {
     all,  ///< see CatalogComparison
     /// What an expectation can see: the outcome of a start, stop or finish of a script, and the
-    /// tasks that run with their behaviors; also the queue, which decides what comes next.
+    /// tasks that run with their behaviors.
     expectable
   };
   Differences differences = Differences::all;
