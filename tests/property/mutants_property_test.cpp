@@ -246,6 +246,8 @@ std::string make_mission(const CompiledCatalog& catalog, Random& random) {
               ", priority: " + std::to_string(1 + random.below(2)) + "}\n";
     }
     if (random.percent(60)) continue;
+    // At an instant at which nothing is due: an expectation comes before that, the end after it.
+    text += "- {wait: 0.0137}\n";
     std::string active;
     demand(passes(catalog, "events:\n" + text, &active), "a mission without a meaning");
     text += "- expect: {active: [" + active + "]}\n";
