@@ -26,24 +26,6 @@
 namespace cbc::cli {
 namespace {
 
-constexpr std::uint32_t percent_decimals = 1;
-
-Decimal parse_percent(const std::string& text) {
-  return parse_decimal(text, percent_decimals, 0, 1000);
-}
-
-Values percent() {
-  Values values;
-  values.placeholder = "PERCENT";
-  values.expected = "a number from 0 to 100";
-  values.check = [](const std::string& text) -> std::string {
-    if (parse_percent(text).error == DecimalError::no_error) return {};
-    return fmt::format("expected a number from 0 to 100, with at most one decimal, found {}",
-                       quote(text));
-  };
-  return values;
-}
-
 CatalogCoverage coverage_of(std::shared_ptr<const CompiledCatalog> catalog,
                             const CatalogSource& source) {
   std::vector<Goal> goals = find_goals(*catalog);
@@ -221,7 +203,7 @@ int report_coverage(Coverage coverage, const std::vector<Assumptions>& assumptio
     status = write_output(file, coverage_format_of(file).write(coverage, plain_style()));
   }
   if (options.coverage.fail_under.empty()) return status;
-  const auto least = static_cast<std::uint64_t>(parse_percent(options.coverage.fail_under).value);
+  const std::uint64_t least = tenths_in(options.coverage.fail_under);
   const GoalCount total = coverage.total();
   if (total.met * 1000 >= least * total.goals) return status;
   complain("the coverage is {}, less than {} % (--fail-under)", describe_percent(total),

@@ -23,6 +23,8 @@ struct VerifyOptions {
   std::optional<std::string> html;
   std::optional<std::string> write_tests;
   std::vector<std::string> beside;  ///< missions that exist: scripts, or folders of them
+  bool mutants = false;             ///< judge mutants by these missions, and nothing else
+  std::string fail_under;           ///< percent of the mutants; empty: whatever it is
   std::optional<std::uint64_t> jobs;
   bool reduce = false;
   std::optional<std::string> same_as;
@@ -38,13 +40,22 @@ struct VerifyOptions {
 /// A size of memory, as "512M", in bytes; empty if the text is none.
 [[nodiscard]] std::optional<std::uint64_t> parse_memory(const std::string& text);
 
+/// The limits of one exploration.
+[[nodiscard]] ExplorationLimits limits_of(const VerifyOptions& options);
+
+/// Makes the folder of --scripts, and looks whether the other outputs can be written. All has been
+/// read. Returns the exit status, and prints what is wrong.
+[[nodiscard]] int prepare_outputs(const VerifyOptions& options);
+
 /// What a command line asks about, checked before anything is explored.
 struct VerifyQuestions {
   std::shared_ptr<const CompiledCatalog> catalog;
   std::optional<std::string> named_catalog;  ///< path of the catalog that the property files name
   std::vector<std::unique_ptr<const PropertyFile>> files;
   std::shared_ptr<const CompiledCatalog> old_catalog;  ///< to compare with, or null
-  std::vector<Mission> beside;                         ///< the missions that exist
+  std::vector<Mission> beside;  ///< the missions that exist, with their documents
+  /// What the catalog was compiled from; null if it was compiled before.
+  std::shared_ptr<const CatalogSource> source;
 };
 
 /// Reads the files of a command line. Findings and other problems go to standard error.
@@ -79,8 +90,8 @@ class QuestionLoader {
 /// the exit status.
 [[nodiscard]] int write_tests(const VerifyOptions& options, const VerifyQuestions& questions);
 
-/// Where explorations end, as the options say.
-[[nodiscard]] ExplorationLimits limits_of(const VerifyOptions& options);
+/// Judges mutants of the catalog, and writes the report. Returns the exit status.
+[[nodiscard]] int verify_mutants(const VerifyOptions& options, const VerifyQuestions& questions);
 
 /// Answers what the command line asks, and writes the report. Returns the exit status.
 [[nodiscard]] int verify(const VerifyOptions& options);
