@@ -1,8 +1,10 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -45,16 +47,27 @@ std::optional<std::vector<std::uint8_t>> goals_met_by(const std::vector<Mission>
   return met;
 }
 
+/// The path by which a script in the folder names the catalog. Empty if it has none.
+std::string path_from(const std::string& folder, const std::string& catalog) {
+  if (catalog == "-") return {};
+  std::error_code error;
+  const std::filesystem::path path = std::filesystem::proximate(catalog, folder, error);
+  return error ? std::string{} : path.generic_string();
+}
+
 /// Finds the scripts, and shows the progress. Empty if a signal ends it.
 std::optional<MissingMissions> find_tests(const VerifyOptions& options,
-                                          const CompiledCatalog& catalog,
+                                          const VerifyQuestions& questions,
                                           const std::vector<Goal>& goals,
                                           const std::vector<std::uint8_t>& met,
                                           const Assumptions& assumptions) {
+  const CompiledCatalog& catalog = *questions.catalog;
   const StopSignals signals;
   const ExplorationLimits limits = limits_of(options);
   Progress progress("exploring", catalog.group_count());
   MissingMissionOptions of_search;
+  of_search.catalog =
+      path_from(*options.write_tests, questions.named_catalog.value_or(options.paths.front()));
   if (limits.max_states > 0) of_search.exploration.max_states = limits.max_states;
   std::optional<std::uint32_t> begun;
   std::chrono::steady_clock::time_point begin;
@@ -95,7 +108,7 @@ int write_tests(const VerifyOptions& options, const VerifyQuestions& questions) 
   const Assumptions assumptions = questions.files.empty() ? assumptions_of_goals(catalog)
                                                           : questions.files.front()->assumptions;
   const std::optional<MissingMissions> found =
-      find_tests(options, catalog, goals, *met, assumptions);
+      find_tests(options, questions, goals, *met, assumptions);
   if (!found) {
     complain("interrupted; the folder {} is as it was", quote(*options.write_tests));
     return exit_no;

@@ -188,7 +188,8 @@ class MissionFinder {
   }
 
   /// Writes the script, if it meets anything that is missing.
-  void add(const Rehearsal& rehearsal) {
+  void add(Rehearsal rehearsal) {
+    rehearsal.script.catalog = options_.catalog;
     MissingMissions::Mission mission;
     Goals counts(goals_.size(), 0);
     for (const Rehearsal::Moment& moment : rehearsal.moments) {

@@ -49,6 +49,7 @@ struct MissingMissions {
 
 struct MissingMissionOptions {
   GoalGraphOptions exploration;
+  std::string catalog;       ///< see Script
   std::uint32_t events = 8;  ///< of a script, if no goal takes more
   /// Called before each script, with the number of those before it; false ends the search. May be
   /// empty.

@@ -334,8 +334,9 @@ void read_steps(const Node& list, StepReader& reader, Script& script, Reporter& 
 void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter& reporter) {
   Fields fields(root, shape::script, reporter);
   if (const Node* catalog = fields.find("catalog")) {
-    // The name is used before the script is read; here it is only checked.
-    static_cast<void>(yaml::read_name(*catalog, "catalog", "the path of a catalog", reporter));
+    // The catalog was loaded before the script is read.
+    script.catalog =
+        yaml::read_name(*catalog, "catalog", "the path of a catalog", reporter).value_or("");
   }
   if (const Node* delay = fields.find("reactive_delay")) {
     if (const auto value = yaml::read_seconds(*delay, "reactive_delay", true, reporter)) {

@@ -65,6 +65,7 @@ struct Step {
 /// A scripted mission, checked against its catalog. Tasks and behaviors are in catalog order.
 struct Script {
   std::string file;
+  std::string catalog;  ///< path of the catalog, as the script names it; empty: it names none
   Microseconds reactive_delay = 80'000;
   bool timeouts = true;  ///< see CoordinatorOptions
   Situation situation;   ///< before the first event

@@ -104,6 +104,7 @@ std::string as_comment(const std::string& text) {
 std::string write_script(const CompiledCatalog& catalog, const Script& script,
                          const std::string& comment, std::span<const std::string> comments) {
   std::string text = as_comment(comment);
+  if (!script.catalog.empty()) text += fmt::format("catalog: {}\n", in_quotes(script.catalog));
   if (script.reactive_delay != Script{}.reactive_delay) {
     text += fmt::format("reactive_delay: {}\n", format_decimal(script.reactive_delay, 6));
   }
