@@ -24,6 +24,7 @@ class Timers {
 
   void set(Item item, Microseconds due);
   void remove(Item item);
+  void clear();
 
   [[nodiscard]] bool empty() const { return heap_.empty(); }
   [[nodiscard]] bool has(Item item) const { return position_[item] != absent; }
@@ -64,7 +65,7 @@ class State {
  public:
   explicit State(const CompiledCatalog& catalog);
 
-  /// Takes over a state that find_inconsistency accepts. Only for a new State.
+  /// Takes over a state that find_inconsistency accepts.
   void restore(const Snapshot& snapshot);
 
   // Values of the tasks.
@@ -163,6 +164,7 @@ class State {
   [[nodiscard]] bool excludes_running_task(TaskId task) const;
 
  private:
+  void clear();
   void update_available(BehaviorId behavior);
 
   const CompiledCatalog& catalog_;
