@@ -15,7 +15,7 @@ fail() {
 
 # expect PROGRAM WHAT PATTERN OPTIONS…: what readelf prints has a line with a pattern
 expect() {
-  LC_ALL=C readelf -W "${@:4}" "$1" | grep -qE "$3" || fail "$1: $2"
+  LC_ALL=C readelf -W "${@:4}" "$1" | grep -E "$3" >/dev/null || fail "$1: $2"
 }
 
 for program in "$1" "$work/usr/bin/cbc"; do
