@@ -83,15 +83,19 @@ class FailingThreads(FaultCase):
     """With fewer threads than wanted, the answer is the same; without a single one, a message says so."""
 
     COMMANDS = [
-        Command("solve", "solve robot.yaml missions -j 4 --html page.html", ("page.html",)),
+        Command("solve", "solve robot.yaml missions -j 4", ()),
         Command("sweep", "solve robot.yaml --sweep 50 -j 4 --slowest slow.yaml", ("slow.yaml",)),
-        # It begins with threads once there are hundreds of states.
-        Command("verify", f"verify {ROOT}/catalogs/quadrotor.yaml -j 4 --format json -o result.json", ("result.json",)),
+        # With enough states for several threads, which it starts several times.
+        Command("verify", f"verify {ROOT}/catalogs/px4.yaml -j 4 --format json -o result.json", ("result.json",)),
     ]
+    STARTED = {"solve": 2, "sweep": 3, "verify": 5}  # threads, at the least
 
     def check(self, job, folder):
         command, number = job
-        run = Run(command, folder, True, system_calls.with_fault(system_calls.Call("clone3", number, ""), "error=EAGAIN"))
+        trace = folder.with_suffix(".trace")
+        call = system_calls.Call("clone3", number, "")
+        run = Run(command, folder, True, system_calls.with_fault(call, "error=EAGAIN", trace))
+        self.assertIn("(INJECTED)", trace.read_text())
         self.assert_whole(run)
         if run.status == UNUSABLE:
             self.assert_refused(run, (f"cannot start a thread: {os.strerror(errno.EAGAIN)}",))
@@ -100,7 +104,8 @@ class FailingThreads(FaultCase):
             self.assert_complete(run)
 
     def test_all(self):
-        self.each(self.check, ((command, number) for command in self.COMMANDS for number in (1, 2, 3)))
+        self.each(self.check, ((command, number) for command in self.COMMANDS
+                               for number in range(1, self.STARTED[command.name] + 1)))
 
 
 if __name__ == "__main__":
