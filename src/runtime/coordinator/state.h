@@ -78,7 +78,7 @@ class State {
   }
   /// Running tasks as catalog indices, ascending. Takes time proportional to the catalog.
   [[nodiscard]] std::vector<std::uint32_t> running() const;
-  /// Idle tasks are those that do not start on request only; f3 counts them.
+  /// Idle tasks are those that can start without a request; f3 counts them.
   [[nodiscard]] std::uint32_t idle_running() const { return idle_running_; }
   [[nodiscard]] std::uint32_t idle_total() const { return idle_total_; }
 
