@@ -165,7 +165,7 @@ std::optional<draw::Part> find_part(const draw::CatalogGraph& graph,
 
 std::string first_line(const std::string& text) {
   const std::string line = text.substr(0, text.find('\n'));
-  return line.empty() ? "it does not say why" : line;
+  return line.empty() ? "it wrote nothing" : line;
 }
 
 /// Replaces the creation date of a PDF file, so that the same catalog gives the same bytes. The

@@ -1,13 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstddef>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -15,6 +11,7 @@
 
 #include <fmt/core.h>
 
+#include "base/mapped_file.h"
 #include "base/text.h"
 #include "cli/command_line.h"
 #include "cli/embedded_file.h"
@@ -66,26 +63,26 @@ constexpr const char* init_footer =
     "It writes a small catalog, a mission with expectations, settings of lint, a script for "
     "continuous integration, and the schemas that their first lines name, by which an editor with "
     "the YAML language server completes and explains keys. Comments in the files explain them. If "
-    "one of the files exists, nothing is written.\n"
+    "one of the files exists, nothing is written, unless it is what an interrupted run has left.\n"
     "\n"
     "Exit status: 0 the files are written, 2 a file exists or cannot be written, or the usage is "
     "wrong.\n"
     "\n"
     "Read more: man cbc-init, man cbc-catalog, man cbc-events";
 
-/// Writes a file that does not exist. Says what went wrong, or nothing.
-std::optional<std::string> write_new_file(const fs::path& path, std::string_view text) {
+/// Writes a file that does not exist. Returns the exit status.
+int write_new_file(const std::string& path, std::string_view text) {
   std::error_code error;
-  if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
-  if (error) return error.message();
-  std::FILE* const file = std::fopen(path.c_str(), "wbx");
-  if (file == nullptr) return std::strerror(errno);
-  const bool is_written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  int cause = errno;
-  if (std::fclose(file) == 0 && is_written) return std::nullopt;
-  if (is_written) cause = errno;
-  fs::remove(path, error);  // a part of a file would be in the way of the next attempt
-  return std::strerror(cause);
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty()) fs::create_directories(folder, error);
+  if (error) return complain("cannot write {}: {}", quote(path), error.message());
+  return create_output(path, text);
+}
+
+/// Whether a file has this content. One that cannot be read has another.
+bool has_content(const std::string& path, std::string_view text) {
+  const MappedFile file = map_file(path, text.size());
+  return file.memory != nullptr && file.content == text;
 }
 
 /// Where the files of a folder go, in their order.
@@ -112,19 +109,25 @@ void print_next_commands(const std::string& folder) {
 int init(const std::string& folder) {
   const std::vector<std::string> paths = paths_in(folder);
   std::vector<std::string> existing;
+  std::vector<bool> is_written(paths.size(), false);
   std::size_t width = 0;
-  for (const std::string& path : paths) {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
     std::error_code error;
-    if (fs::exists(fs::symlink_status(path, error))) existing.push_back(quote(path));
-    width = std::max(width, path.size());
+    if (fs::exists(fs::symlink_status(paths[i], error))) existing.push_back(quote(paths[i]));
+    is_written[i] = has_content(paths[i], new_files[i].text);
+    width = std::max(width, paths[i].size());
   }
-  if (!existing.empty()) {
+  // What a run that ended early has left is completed.
+  const auto written = std::count(is_written.begin(), is_written.end(), true);
+  const bool is_rest = existing.size() < paths.size() && written == std::ssize(existing);
+  if (!existing.empty() && !is_rest) {
     return complain("{} {}; nothing is written", join(existing, ", "),
                     existing.size() == 1 ? "exists" : "exist");
   }
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (const auto error = write_new_file(paths[i], new_files[i].text)) {
-      return complain("cannot write {}: {}", quote(paths[i]), *error);
+    if (is_written[i]) continue;
+    if (const int status = write_new_file(paths[i], new_files[i].text); status != exit_ok) {
+      return status;
     }
     fmt::print("wrote {:<{}}  {}\n", printable(paths[i]), width, new_files[i].purpose);
   }

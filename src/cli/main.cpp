@@ -1,9 +1,13 @@
 #include <algorithm>
 #include <cerrno>
+#include <cinttypes>
 #include <csignal>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <fstream>
 #include <new>
 #include <string>
 #include <string_view>
@@ -11,6 +15,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include "base/text.h"
 #include "cbc/version.h"
 #include "cli/command_line.h"
 #include "cli/output.h"
@@ -67,14 +72,45 @@ int run(int argc, char** argv) {
   return status;
 }
 
-/// Handles SIGBUS. Compiled catalogs are mapped into memory, and the system sends this signal if
-/// the file is truncated meanwhile.
-void end_without_file(int /*signal*/) {
-  constexpr std::string_view message =
-      "cbc: a compiled catalog was truncated while it was in use\n";
-  const auto ignored = write(STDERR_FILENO, message.data(), message.size());
-  static_cast<void>(ignored);
+/// The name of the file that is mapped into memory at an address; empty if it is not known.
+std::string file_mapped_at(const void* address) {
+  const auto place = reinterpret_cast<std::uintptr_t>(address);
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    // "7f0a4c000000-7f0a4c021000 r--p 00000000 08:01 1234   /home/robot/robot.cbc"
+    std::uintptr_t begin = 0;
+    std::uintptr_t end = 0;
+    int name = 0;
+    if (std::sscanf(line.c_str(), "%" SCNxPTR "-%" SCNxPTR " %*s %*s %*s %*s %n", &begin, &end,
+                    &name) < 2) {
+      continue;
+    }
+    if (begin <= place && place < end) return line.substr(static_cast<std::size_t>(name));
+  }
+  return {};
+}
+
+/// Handles SIGBUS. Compiled catalogs are mapped into memory, and the system sends this signal to
+/// who reads one that is truncated meanwhile, or that the disk does not deliver. That never happens
+/// within the memory management or the output, so it may use both.
+void end_without_file(int signal, siginfo_t* info, void* /*context*/) {
+  if (info->si_code <= 0) {  // another process sent it
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+    return;
+  }
+  const std::string file = file_mapped_at(info->si_addr);
+  cbc::cli::complain("cannot read {}: it was truncated or became unreadable while it was in use",
+                     file.empty() ? "a compiled catalog" : cbc::quote(file));
   _exit(cbc::cli::exit_unusable);
+}
+
+void handle_lost_files() {
+  struct sigaction action = {};
+  action.sa_sigaction = end_without_file;
+  action.sa_flags = SA_SIGINFO;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGBUS, &action, nullptr);
 }
 
 }  // namespace
@@ -82,7 +118,7 @@ void end_without_file(int /*signal*/) {
 int main(int argc, char** argv) {
   // Reaching a limit of the file size is an error of writing; it does not end the program.
   std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGBUS, end_without_file);
+  handle_lost_files();
   cbc::cli::hold_standard_descriptors();
   try {
     return run(argc, argv);
@@ -90,6 +126,8 @@ int main(int argc, char** argv) {
     // Only printing throws it.
     std::fprintf(stderr, "cbc: cannot write the output: %s\n", error.code().message().c_str());
     return cbc::cli::exit_unusable;
+  } catch (const cbc::cli::SystemRefusal& refusal) {
+    return cbc::cli::complain(refusal.what());
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "cbc: out of memory\n");
     return cbc::cli::exit_unusable;

@@ -8,11 +8,14 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "cli/output.h"
 
 namespace cbc::cli {
 
@@ -35,7 +38,9 @@ class OrderedWork {
     threads_.reserve(threads);
     try {
       while (threads_.size() < threads) threads_.emplace_back([this] { make_items(); });
-    } catch (const std::system_error&) {
+    } catch (const std::system_error& error) {
+      if (threads_.empty()) throw SystemRefusal("cannot start a thread", error.code().value());
+    } catch (const std::bad_alloc&) {
       if (threads_.empty()) throw;
     }
   }

@@ -16,7 +16,6 @@
 #include <string_view>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
-#include <system_error>
 #include <unistd.h>
 #include <utility>
 
@@ -134,7 +133,7 @@ extern "C" void ask_to_stop(int signal) {
 
 StopSignals::StopSignals() {
   if (::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) != 0) {
-    throw std::system_error(errno, std::generic_category());
+    throw SystemRefusal("cannot open a pipe", errno);
   }
   stop = 0;
   struct sigaction action = {};
@@ -225,6 +224,14 @@ void tidy_folder_of(const std::string& path) {
 int replace_input(const std::string& path, std::string_view content) {
   tidy_folder_of(path);
   if (const auto error = write_atomically(path, content)) {
+    return complain("cannot write {}: {}", quote(path), *error);
+  }
+  return exit_ok;
+}
+
+int create_output(const std::string& path, std::string_view content) {
+  tidy_folder_of(path);
+  if (const auto error = create_atomically(path, content)) {
     return complain("cannot write {}: {}", quote(path), *error);
   }
   return exit_ok;

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
+#include <cstring>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,6 +23,14 @@ enum ExitStatus : int {
   exit_no = 1,        ///< the answer is "no": a failed expectation, a stale file
   exit_unusable = 2,  ///< wrong usage, unusable input, or output that could not be written
   exit_internal = 3   ///< a fault of cbc
+};
+
+/// The system refuses what a run cannot do without, such as a thread. main() prints it.
+class SystemRefusal : public std::runtime_error {
+ public:
+  /// `error` is a value of errno.
+  SystemRefusal(const std::string& what, int error)
+      : std::runtime_error(what + ": " + std::strerror(error)) {}
 };
 
 /// Prints a message to standard error. Returns exit_unusable, which most messages lead to.
@@ -130,6 +140,9 @@ void hold_standard_descriptors();
 
 /// The same for an input, which is meant to be replaced.
 [[nodiscard]] int replace_input(const std::string& path, std::string_view content);
+
+/// The same for a file that must not exist.
+[[nodiscard]] int create_output(const std::string& path, std::string_view content);
 
 /// Whether write_output could write there now; if not, prints why. For outputs that are written
 /// after long work. Call it when all inputs were read.

@@ -208,9 +208,14 @@ TEST(Graph, WhatGraphvizSaysIsPassedOn) {
 }
 
 TEST(Graph, GraphvizMayFailWithoutAWord) {
-  const Result result = draw_with("exit 1\n");
-  EXPECT_EQ(result.status, 2);
-  EXPECT_EQ(result.err, "cbc: Graphviz cannot draw it as svg: it does not say why\n");
+  for (const auto& [script, reason] :
+       std::vector<std::pair<std::string, std::string>>{{"exit 1\n", "exit status 1"},
+                                                        {"kill -9 $$\n", "ended by signal 9"},
+                                                        {"exit 0\n", "it wrote nothing"}}) {
+    const Result result = draw_with(script);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.err, "cbc: Graphviz cannot draw it as svg: " + reason + "\n");
+  }
 }
 
 TEST(Graph, BinaryPicturesAreNotWrittenToATerminal) {

@@ -103,6 +103,23 @@ TEST_F(Init, NeverOverwritesAFile) {
   EXPECT_EQ(cbc({"init", "sub/.."}).err, result.err);
 }
 
+TEST_F(Init, CompletesWhatAnInterruptedRunHasLeft) {
+  init();
+  const std::set<std::string> names = folder.names();
+  fs::remove(folder / "ci.sh");
+  fs::remove_all(folder / "missions");
+  const Result result = cbc({"init"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out.rfind("wrote missions/delivery.yaml  ", 0), 0U) << result.out;
+  EXPECT_EQ(folder.names(), names);
+  EXPECT_EQ(shell("sh ci.sh"), 0) << folder.read("log");
+
+  fs::remove(folder / "ci.sh");
+  folder.write("robot.yaml", folder.read("robot.yaml") + "# mine\n");
+  EXPECT_EQ(cbc({"init"}).status, 2);
+  EXPECT_FALSE(fs::exists(folder / "ci.sh"));
+}
+
 TEST_F(Init, LeavesNoPartOfAFile) {
   EXPECT_EQ(shell("ulimit -f 1; cbc init"), 2);  // of 512 bytes
   EXPECT_EQ(folder.read("log"), "cbc: cannot write 'robot.yaml': File too large\n");

@@ -40,6 +40,17 @@ TEST(AtomicFile, MakesANewFile) {
   EXPECT_EQ(folder.names(), Names{"a"});
 }
 
+TEST(AtomicFile, MakesAFileThatMustNotExist) {
+  const test::ScratchFolder folder;
+  EXPECT_EQ(create_atomically(folder / "a", "first"), std::nullopt);
+  EXPECT_EQ(create_atomically(folder / "a", "second"), "File exists");
+  std::filesystem::create_symlink("nowhere", folder / "link");
+  EXPECT_EQ(create_atomically(folder / "link", "third"), "File exists");
+  EXPECT_EQ(create_atomically(folder / "missing/a", "fourth"), "No such file or directory");
+  EXPECT_EQ(folder.read("a"), "first");
+  EXPECT_EQ(folder.names(), (Names{"a", "link"}));
+}
+
 TEST(AtomicFile, ReplacesAFileAndKeepsItsMode) {
   const test::ScratchFolder folder;
   folder.write("a", "a longer old content");

@@ -31,6 +31,8 @@ TEST(Filter, TellsFailures) {
   const Filtered killed = run_filter({"sh", "-c", "kill -9 $$"}, "");
   EXPECT_TRUE(killed.is_found);
   EXPECT_FALSE(killed.is_done);
+  EXPECT_EQ(killed.error_output, "ended by signal 9");
+  EXPECT_EQ(run_filter({"false"}, "").error_output, "exit status 1");
 }
 
 TEST(Filter, TellsThatThereIsNoProgram) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "page_files.h"
 #include "report/coverage_report.h"
 #include "report/solve_report.h"
 #include "support/wording.h"
@@ -14,33 +15,6 @@
 
 namespace cbc {
 namespace {
-
-constexpr std::string_view style_sheet = R"css(
-:root { color-scheme: light dark; --met: #d7f0dc; --part: #fdf0c3; --missed: #fbdcdc; --faint: #666; }
-@media (prefers-color-scheme: dark) {
-  :root { --met: #16381f; --part: #433709; --missed: #4c1c1c; --faint: #aaa; }
-}
-body { font: 15px/1.5 system-ui, sans-serif; margin: 1.5rem auto; max-width: 75rem; padding: 0 1rem; }
-h1 { font-size: 1.4rem; }
-h2 { font-size: 1.1rem; }
-table { border-collapse: collapse; }
-.counts th, .counts td { padding: 0.1rem 0.8rem; text-align: right; }
-.counts th:first-child { padding-left: 0; text-align: left; }
-.counts tr:last-child { font-weight: bold; }
-.source { table-layout: fixed; width: 100%; }
-.source td { padding: 0 0.5rem; vertical-align: top; }
-.source .number { color: var(--faint); text-align: right; user-select: none; width: 3rem; }
-.source .count { text-align: right; white-space: nowrap; width: 5rem; }
-.source code { white-space: pre-wrap; }
-.met { background: var(--met); }
-.part { background: var(--part); }
-.missed { background: var(--missed); }
-summary { cursor: pointer; }
-.source summary { list-style: none; }
-.source summary::-webkit-details-marker { display: none; }
-details ul { margin: 0.2rem 0 0.5rem; padding-left: 1.2rem; }
-.by { color: var(--faint); }
-)css";
 
 std::string counts_row(std::string_view what, const GoalCount& count) {
   return fmt::format(
@@ -149,13 +123,16 @@ std::string coverage_to_html(const Coverage& coverage) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src {}; "
+      "base-uri 'none'; form-action 'none'\">\n"
       "<title>Coverage {}</title>\n<style>{}</style>\n</head>\n<body>\n"
       "<h1>Coverage: {} of {} goals, {}</h1>\n"
       "<p>A line is <span class=\"met\">covered</span> if missions meet all of its goals, "
       "<span class=\"part\">partly covered</span> if they meet some, and "
       "<span class=\"missed\">not covered</span> if they meet none. Open a line for its "
       "goals.</p>\n",
-      describe_percent(total), style_sheet, total.met, total.goals, describe_percent(total));
+      coverage_style_hash, describe_percent(total), coverage_style, total.met, total.goals,
+      describe_percent(total));
   for (const CatalogCoverage& catalog : coverage.catalogs) html += CatalogPage(catalog).write();
   return html + "</body>\n</html>\n";
 }

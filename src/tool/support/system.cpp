@@ -114,6 +114,14 @@ class TemporaryFile {
     return is_named_;
   }
 
+  /// Fails if there is a file of that name. Not every file system knows how to rename so, nor
+  /// every one how to link.
+  [[nodiscard]] bool become_new(const fs::path& path) {
+    is_named_ = renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0;
+    if (is_named_ || (errno != EINVAL && errno != ENOSYS)) return is_named_;
+    return link(path_.c_str(), path.c_str()) == 0;  // the destructor removes the other name
+  }
+
  private:
   std::string path_;
   int descriptor_ = -1;
@@ -150,6 +158,10 @@ void sync_folder(const fs::path& folder) {
   ::close(descriptor);
 }
 
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
 /// Where a content is to be put.
 struct Target {
   fs::path path;
@@ -163,7 +175,7 @@ std::optional<std::string> find_target(const std::string& path, Target& target) 
   target.path = path;
   if (auto obstacle = follow_links(target.path)) return obstacle;
   if (!target.path.has_filename()) return reason(EISDIR);
-  target.folder = target.path.has_parent_path() ? target.path.parent_path() : fs::path(".");
+  target.folder = folder_of(target.path);
 
   target.exists = stat(target.path.c_str(), &target.existing) == 0;
   if (!target.exists) return errno == ENOENT ? std::nullopt : std::optional(reason());
@@ -186,6 +198,17 @@ std::optional<std::string> write_atomically(const std::string& path, std::string
   if (!file.write(content)) return reason();
   if (!file.rename_to(target.path)) return reason();
   sync_folder(target.folder);
+  return std::nullopt;
+}
+
+std::optional<std::string> create_atomically(const std::string& path, std::string_view content) {
+  const fs::path folder = folder_of(path);
+  const SignalsHeld signals_held;
+  TemporaryFile file(folder);
+  if (!file.exists()) return reason();
+  if (!file.write(content)) return reason();
+  if (!file.become_new(path)) return reason();
+  sync_folder(folder);
   return std::nullopt;
 }
 
@@ -260,11 +283,18 @@ class Filter {
     int status = 0;
     while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
     }
-    result_.is_done = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    result_.is_done = error_ == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (error_ != 0) result_.error_output = std::strerror(error_);
+    if (!result_.is_done && result_.error_output.empty()) result_.error_output = end_of(status);
     return std::move(result_);
   }
 
  private:
+  static std::string end_of(int status) {
+    if (WIFEXITED(status)) return fmt::format("exit status {}", WEXITSTATUS(status));
+    return fmt::format("ended by signal {}", WTERMSIG(status));
+  }
+
   Filtered fail(int error) {
     result_.error_output = std::strerror(error);
     return std::move(result_);
@@ -305,11 +335,12 @@ class Filter {
                                   {errors_.read_end.number(), POLLIN, 0}}};
       if (poll(ends.data(), ends.size(), -1) < 0) {
         if (errno == EINTR) continue;
+        give_up(errno);
         return;
       }
       if (ends[0].revents != 0) write_some();
-      if (ends[1].revents != 0) read_some(output_.read_end, result_.output);
-      if (ends[2].revents != 0) read_some(errors_.read_end, result_.error_output);
+      if (error_ == 0 && ends[1].revents != 0) read_some(output_.read_end, result_.output);
+      if (error_ == 0 && ends[2].revents != 0) read_some(errors_.read_end, result_.error_output);
     }
   }
 
@@ -317,22 +348,35 @@ class Filter {
     const ssize_t count = write(input_.write_end.number(), left_.data(), left_.size());
     if (count >= 0) {
       left_.remove_prefix(static_cast<std::size_t>(count));
-    } else if (errno != EAGAIN && errno != EINTR) {
+    } else if (errno == EPIPE) {
       left_ = {};  // it has read enough
+    } else if (errno != EAGAIN && errno != EINTR) {
+      give_up(errno);
     }
   }
 
-  static void read_some(Descriptor& end, std::string& text) {
+  /// Lets the program end, of which nothing is wanted any more.
+  void give_up(int error) {
+    error_ = error;
+    input_.write_end.close();
+    output_.read_end.close();
+    errors_.read_end.close();
+  }
+
+  void read_some(Descriptor& end, std::string& text) {
     std::array<char, 1 << 16> block{};
     const ssize_t count = read(end.number(), block.data(), block.size());
     if (count > 0) {
       text.append(block.data(), static_cast<std::size_t>(count));
-    } else if (count == 0 || errno != EINTR) {
+    } else if (count == 0) {
       end.close();
+    } else if (errno != EINTR) {
+      give_up(errno);
     }
   }
 
   std::string_view left_;
+  int error_ = 0;  ///< of the exchange; a value of errno
   Pipe input_;
   Pipe output_;
   Pipe errors_;

@@ -17,12 +17,16 @@ namespace cbc {
 [[nodiscard]] std::optional<std::string> write_atomically(const std::string& path,
                                                           std::string_view content);
 
+/// The same for a file that must not exist: "File exists" if there is one, which stays as it is.
+[[nodiscard]] std::optional<std::string> create_atomically(const std::string& path,
+                                                           std::string_view content);
+
 /// Why write_atomically could not write there now, or nothing: for what is written only after long
 /// work. Nothing changes.
 [[nodiscard]] std::optional<std::string> find_obstacle(const std::string& path);
 
-/// Removes what killed runs of write_atomically left behind in the folder of an output: files of
-/// this user with the names that it gives to unfinished ones, older than an hour. Reads the folder.
+/// Removes what killed runs of these functions left behind in the folder of an output: files of
+/// this user with the names that they give to unfinished ones, older than an hour. Reads the folder.
 void remove_leftovers(const std::string& path);
 
 /// What a program made of a text.
@@ -30,7 +34,7 @@ struct Filtered {
   bool is_found = false;     ///< the program could be started
   bool is_done = false;      ///< it ended with exit status 0
   std::string output;        ///< its standard output
-  std::string error_output;  ///< its standard error, or why it could not be run
+  std::string error_output;  ///< its standard error, or why it could not be run, or how it ended
 };
 
 /// Runs a program, found by PATH, with a text as standard input. No shell is involved.

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <exception>
-#include <system_error>
-#include <thread>
+#include <cstddef>
+#include <functional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "cbc/version.h"
 #include "compiled/compiled_file.h"
 #include "script/writer.h"
+#include "support/threads.h"
 #include "sweep/sequence.h"
 
 namespace cbc {
@@ -252,32 +252,6 @@ class Work {
   std::atomic<std::uint64_t> failed_;  ///< the first sequence that failed, or the end
 };
 
-/// Runs the work in this thread and in others.
-void run_in_threads(Work& work, std::vector<Tally>& tallies,
-                    const std::function<void(std::uint64_t)>& progress) {
-  std::vector<std::exception_ptr> errors(tallies.size());
-  const auto run = [&](std::size_t place, const std::function<void(std::uint64_t)>& tell) {
-    try {
-      work.do_share(tallies[place], tell);
-    } catch (...) {
-      errors[place] = std::current_exception();
-    }
-  };
-  std::vector<std::thread> threads;
-  for (std::size_t place = 1; place < tallies.size(); ++place) {
-    try {
-      threads.emplace_back([&run, place] { run(place, nullptr); });
-    } catch (const std::system_error&) {
-      break;  // no more threads available: the existing ones do the work
-    }
-  }
-  run(0, progress);
-  for (std::thread& thread : threads) thread.join();
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
-}
-
 std::string describe(const CompiledCatalog& catalog, const Candidate& candidate) {
   const bool is_task = form_of(candidate.verb).subject == VerbForm::SubjectKind::task;
   const Texts& names = is_task ? catalog.task_names : catalog.behavior_names;
@@ -339,7 +313,9 @@ SweepOutcome sweep(const CompiledCatalog& catalog, const SweepSettings& settings
   const auto threads = std::clamp<std::uint64_t>(range.end - range.first, 1, jobs);
   std::vector<Tally> tallies(threads, Tally(catalog));
   Work work(catalog, settings);
-  run_in_threads(work, tallies, progress);
+  run_in_threads(tallies.size(), [&](std::size_t place) {
+    work.do_share(tallies[place], place == 0 ? progress : nullptr);
+  });
 
   SweepOutcome outcome;
   if (const auto failed = work.failed()) {

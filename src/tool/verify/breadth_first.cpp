@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <thread>
+#include <cstddef>
+
+#include "support/threads.h"
 
 namespace cbc {
 
@@ -80,7 +82,8 @@ bool BreadthFirst::expand_batch(StateStore::Number begin, StateStore::Number end
   while (parts_.size() < parts) parts_.emplace_back(store_);
   std::atomic<std::size_t> next{0};
   std::atomic<bool> is_stopped{false};
-  const auto work = [&](Expander& expander, bool is_first) {
+  run_in_threads(std::min(expanders.size(), parts), [&](std::size_t job) {
+    Expander& expander = *expanders[job];
     for (std::size_t part = next++; part < parts && !is_stopped; part = next++) {
       Successors& successors = parts_[part];
       successors.clear();
@@ -90,15 +93,9 @@ bool BreadthFirst::expand_batch(StateStore::Number begin, StateStore::Number end
         expander.expand(store_.state(number), number, successors);
         successors.end();
       }
-      if (is_first && !may_go_on()) is_stopped = true;
+      if (job == 0 && !may_go_on()) is_stopped = true;
     }
-  };
-  std::vector<std::thread> threads;
-  for (std::size_t job = 1; job < std::min(expanders.size(), parts); ++job) {
-    threads.emplace_back(work, std::ref(*expanders[job]), false);
-  }
-  work(*expanders.front(), true);
-  for (std::thread& thread : threads) thread.join();
+  });
   if (is_stopped) return false;
   for (std::size_t part = 0; part < parts; ++part) insert(parts_[part]);
   return true;

@@ -1,5 +1,5 @@
 # Makes a C++ header of the files of the page: its beginning, up to what it may connect to, and two lists
-# of texts, before its data and after it.
+# of texts, before its data and after it; and the style of the page of coverage.
 #
 #   cmake -D folder=FOLDER -D output=HEADER -P embed.cmake
 #
@@ -30,7 +30,7 @@ function(to_base64 hash result)
   set(${result} "${text}=" PARENT_SCOPE)
 endfunction()
 
-# read_parts(PREFIX FILE…): sets PREFIX_literals to the files as literals, and PREFIX_hash.
+# read_parts(PREFIX FILE…): sets PREFIX_text to the files, PREFIX_literals to them as literals, and PREFIX_hash.
 function(read_parts prefix)
   set(all "")
   set(literals "")
@@ -41,10 +41,12 @@ function(read_parts prefix)
   endforeach()
   string(SHA256 hash "${all}")
   to_base64(${hash} base64)
+  set(${prefix}_text "${all}" PARENT_SCOPE)
   set(${prefix}_literals "${literals}" PARENT_SCOPE)
   set(${prefix}_hash "'sha256-${base64}'" PARENT_SCOPE)
 endfunction()
 
+read_parts(coverage coverage.css)
 read_parts(style ${styles})
 read_parts(script ${scripts})
 file(READ "${folder}/page.html" page)
@@ -75,6 +77,11 @@ inline constexpr std::string_view page_after_data[] = {
     R\"page(${before_script})page\",
 ${script_literals}    R\"page(${page})page\",
 };
+
+/// The style of the page of coverage, which has no script.
+inline constexpr std::string_view coverage_style =
+    R\"page(${coverage_text})page\";
+inline constexpr std::string_view coverage_style_hash = \"${coverage_hash}\";
 
 }  // namespace cbc
 ")
