@@ -145,6 +145,28 @@ Values seconds(Microseconds least) {
   return values;
 }
 
+namespace {
+
+Decimal parse_percent(const std::string& text) { return parse_decimal(text, 1, 0, 1000); }
+
+}  // namespace
+
+Values percent() {
+  Values values;
+  values.placeholder = "PERCENT";
+  values.expected = "a number from 0 to 100";
+  values.check = [](const std::string& text) -> std::string {
+    if (parse_percent(text).error == DecimalError::no_error) return {};
+    return fmt::format("expected a number from 0 to 100, with at most one decimal, found {}",
+                       quote(text));
+  };
+  return values;
+}
+
+std::uint64_t tenths_in(const std::string& percent) {
+  return static_cast<std::uint64_t>(parse_percent(percent).value);
+}
+
 Option& Option::required() {
   is_required = true;
   return *this;

@@ -64,6 +64,10 @@ struct Values {
                                   std::int64_t most = std::numeric_limits<std::int64_t>::max());
 /// Of a time of at least so many microseconds, written in seconds.
 [[nodiscard]] Values seconds(Microseconds least = 1);
+/// Of a part of a whole, from 0 to 100, with at most one decimal.
+[[nodiscard]] Values percent();
+/// The tenths of a percent in such a value.
+[[nodiscard]] std::uint64_t tenths_in(const std::string& percent);
 
 /// The parts between separators; at least one, which may be empty.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);

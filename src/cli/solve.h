@@ -107,7 +107,8 @@ void add_coverage_options(Command& command, CoverageOptions& options);
 struct Mission {
   std::shared_ptr<const CompiledCatalog> catalog;
   Script script;
-  std::shared_ptr<const CatalogSource> source{};  ///< if the loader was to keep it
+  std::shared_ptr<const CatalogSource> source{};     ///< if the loader was to keep it
+  std::shared_ptr<const yaml::Document> document{};  ///< the script as it was parsed, if kept
 };
 
 /// Reads the files of a command line, and checks every script against its catalog before anything
@@ -116,10 +117,17 @@ class MissionLoader {
  public:
   /// From now on, also keeps what catalogs were compiled from.
   void keep_sources() { catalogs_.keep_sources(); }
+  /// The same for the documents of scripts.
+  void keep_documents() { keeps_documents_ = true; }
 
   /// `paths`: a catalog (which may be missing if the scripts name theirs), then scripts; "-" is a
   /// script from standard input, a folder stands for the scripts in it. Empty if anything is wrong.
   [[nodiscard]] std::optional<std::vector<Mission>> load(const std::vector<std::string>& paths);
+  /// The same for scripts alone, which run on this catalog. There may be none. Those in the folder
+  /// `left_out`, if there is one, do not count.
+  [[nodiscard]] std::optional<std::vector<Mission>> load_for(
+      std::shared_ptr<const CompiledCatalog> catalog, const std::vector<std::string>& paths,
+      const std::optional<std::string>& left_out);
 
   /// The findings about the files.
   [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }
@@ -127,16 +135,19 @@ class MissionLoader {
  private:
   [[nodiscard]] std::shared_ptr<const CompiledCatalog> catalog_of(const std::string& script_path,
                                                                   const yaml::Document& script);
-  void add_script(const std::string& path, const yaml::Document& document);
+  void add_script(const std::string& path, std::shared_ptr<const yaml::Document> document);
   void add_folder(const std::string& path);
   void add_path(const std::string& path);
+  [[nodiscard]] bool is_left_out(const std::string& path) const;
   void complain_of_catalog(const std::string& path);
 
   InputFiles files_;
   CatalogLoader catalogs_{files_};
   std::shared_ptr<const CompiledCatalog> given_catalog_;
   bool is_given_catalog_bad_ = false;
+  bool keeps_documents_ = false;
   std::vector<Mission> missions_;
+  std::optional<std::string> left_out_;
   bool has_failed_ = false;
 };
 

@@ -18,52 +18,13 @@
 #include "cli/solve.h"
 #include "coverage/coverage.h"
 #include "coverage/goal_proof.h"
-#include "coverage/goal_watch.h"
 #include "coverage/goals.h"
+#include "coverage/watched_run.h"
 #include "report/coverage_report.h"
 #include "verify/property_reader.h"
 
 namespace cbc::cli {
 namespace {
-
-constexpr std::uint32_t percent_decimals = 1;
-
-Decimal parse_percent(const std::string& text) {
-  return parse_decimal(text, percent_decimals, 0, 1000);
-}
-
-Values percent() {
-  Values values;
-  values.placeholder = "PERCENT";
-  values.expected = "a number from 0 to 100";
-  values.check = [](const std::string& text) -> std::string {
-    if (parse_percent(text).error == DecimalError::no_error) return {};
-    return fmt::format("expected a number from 0 to 100, with at most one decimal, found {}",
-                       quote(text));
-  };
-  return values;
-}
-
-/// Forwards everything, and watches.
-class WatchedRun final : public RunListener {
- public:
-  WatchedRun(RunListener& listener, GoalWatch& watch) : listener_(listener), watch_(watch) {}
-
-  void on_decision(const EventRecord& record, const Circumstances& circumstances,
-                   const Assignment* solution) override {
-    watch_.on_decision(record, circumstances, solution);
-  }
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
-    watch_.on_event(record, state);
-    listener_.on_event(record, step, state);
-  }
-  void on_failure(const Failure& failure) override { listener_.on_failure(failure); }
-  void on_end(const State& state) override { listener_.on_end(state); }
-
- private:
-  RunListener& listener_;
-  GoalWatch& watch_;
-};
 
 CatalogCoverage coverage_of(std::shared_ptr<const CompiledCatalog> catalog,
                             const CatalogSource& source) {
@@ -144,14 +105,10 @@ CatalogCoverage* CoverageCollector::find(const CompiledCatalog& catalog) {
 RunResult CoverageCollector::run(const Mission& mission, const CoordinatorOptions& options,
                                  RunListener& listener) {
   const CompiledCatalog& catalog = *mission.catalog;
-  GoalWatch watch(catalog, find(catalog)->goals(), options);
-  State first(catalog);
-  first.change_situation(mission.script.situation.availability, mission.script.situation.variables);
-  watch.begin(first);
-  WatchedRun watched(listener, watch);
-  RunResult result = run_script(catalog, mission.script, options, watched);
-  met_[static_cast<std::size_t>(&mission - missions_.data())] = watch.met();
-  return result;
+  WatchedResult watched =
+      run_watched(catalog, find(catalog)->goals(), mission.script, options, listener);
+  met_[static_cast<std::size_t>(&mission - missions_.data())] = std::move(watched.met);
+  return std::move(watched.result);
 }
 
 void CoverageCollector::take(const Mission& mission) {
@@ -246,7 +203,7 @@ int report_coverage(Coverage coverage, const std::vector<Assumptions>& assumptio
     status = write_output(file, coverage_format_of(file).write(coverage, plain_style()));
   }
   if (options.coverage.fail_under.empty()) return status;
-  const auto least = static_cast<std::uint64_t>(parse_percent(options.coverage.fail_under).value);
+  const std::uint64_t least = tenths_in(options.coverage.fail_under);
   const GoalCount total = coverage.total();
   if (total.met * 1000 >= least * total.goals) return status;
   complain("the coverage is {}, less than {} % (--fail-under)", describe_percent(total),

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -28,10 +29,10 @@ namespace cbc::cli {
 std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::string>& paths) {
   std::size_t first_script = 0;
   if (!is_folder(paths.front())) {
-    const std::optional<InputFile> first = files_.read(paths.front());
+    std::optional<InputFile> first = files_.read(paths.front());
     if (first && first->document != nullptr &&
         (is_script(*first->document) || is_property_file(*first->document))) {
-      add_script(paths.front(), *first->document);
+      add_script(paths.front(), std::move(first->document));
     } else {
       if (first) given_catalog_ = catalogs_.load(*first);
       is_given_catalog_bad_ = given_catalog_ == nullptr;
@@ -52,18 +53,30 @@ std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::s
   return std::move(missions_);
 }
 
+std::optional<std::vector<Mission>> MissionLoader::load_for(
+    std::shared_ptr<const CompiledCatalog> catalog, const std::vector<std::string>& paths,
+    const std::optional<std::string>& left_out) {
+  left_out_ = left_out;
+  given_catalog_ = std::move(catalog);
+  for (const std::string& path : paths) add_path(path);
+  files_.print_findings();
+  if (has_failed_) return std::nullopt;
+  return std::move(missions_);
+}
+
 void MissionLoader::add_path(const std::string& path) {
   if (is_folder(path)) {
     add_folder(path);
     return;
   }
-  const std::optional<InputFile> file = files_.read(path);
+  if (is_left_out(path)) return;
+  std::optional<InputFile> file = files_.read(path);
   if (!file) {
     has_failed_ = true;
   } else if (file->document == nullptr) {
     complain_of_catalog(path);
   } else {
-    add_script(path, *file->document);
+    add_script(path, std::move(file->document));
   }
 }
 
@@ -71,13 +84,20 @@ void MissionLoader::add_path(const std::string& path) {
 /// a mistake in it.
 void MissionLoader::add_folder(const std::string& path) {
   for (const std::string& name : list_folder(path, {".yaml", ".yml", ".json"}, has_failed_)) {
-    const std::optional<InputFile> file = files_.read(name);
+    if (is_left_out(name)) continue;
+    std::optional<InputFile> file = files_.read(name);
     if (!file) {
       has_failed_ = true;
     } else if (file->document != nullptr && looks_like_script(*file->document)) {
-      add_script(name, *file->document);
+      add_script(name, std::move(file->document));
     }
   }
+}
+
+bool MissionLoader::is_left_out(const std::string& path) const {
+  if (!left_out_) return false;
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  return is_same_file(folder.empty() ? "." : folder.string(), *left_out_);
 }
 
 void MissionLoader::complain_of_catalog(const std::string& path) {
@@ -86,7 +106,9 @@ void MissionLoader::complain_of_catalog(const std::string& path) {
   has_failed_ = true;
 }
 
-void MissionLoader::add_script(const std::string& path, const yaml::Document& document) {
+void MissionLoader::add_script(const std::string& path,
+                               std::shared_ptr<const yaml::Document> shared) {
+  const yaml::Document& document = *shared;
   if (is_catalog(document)) {
     complain_of_catalog(path);
     return;
@@ -105,7 +127,9 @@ void MissionLoader::add_script(const std::string& path, const yaml::Document& do
   std::optional<Script> script = read_script(document, *catalog, Severity::warning, diagnostics);
   if (files_.take_findings(path, document, std::move(diagnostics), script.has_value()) && script) {
     std::shared_ptr<const CatalogSource> source = catalogs_.source_of(*catalog);
-    missions_.push_back({std::move(catalog), std::move(*script), std::move(source)});
+    if (!keeps_documents_) shared.reset();
+    missions_.push_back(
+        {std::move(catalog), std::move(*script), std::move(source), std::move(shared)});
   } else {
     has_failed_ = true;
   }

@@ -79,6 +79,10 @@ constexpr const char* verify_footer =
     "  cbc verify robot.properties.yaml --format junit > results.xml\n"
     "                                            for CI, a test suite per file\n"
     "  cbc verify new.yaml --same-as old.yaml    whether both decide alike, always\n"
+    "  cbc verify robot.yaml --write-tests tests --beside missions\n"
+    "                                            the missions that are missing\n"
+    "  cbc verify robot.yaml --mutants --beside missions/ --fail-under 80\n"
+    "                                            whether the missions notice changes\n"
     "  cbc verify robot.yaml --cut-sets LAND --open-psa land.xml\n"
     "                                            a fault tree for other programs\n"
     "\n"
@@ -87,8 +91,10 @@ constexpr const char* verify_footer =
     "start_on_request may be requested and stopped, behaviors may succeed and fail, and "
     "situation variables may change.\n"
     "\n"
-    "Exit status: 0 all properties are proved, 1 one is violated or undecided, or a limit ended "
-    "an exploration, 2 the input or the usage is wrong, 3 an internal error (please report it).\n"
+    "Exit status: 0 all properties are proved, 1 one is violated or undecided, a limit ended "
+    "an exploration, no script was found for a goal, or too few mutants are noticed, 2 the "
+    "input or the usage is wrong, 3 an "
+    "internal error (please report it).\n"
     "\n"
     "Read more: man cbc-verify, man cbc-events (scripts)";
 
@@ -140,6 +146,30 @@ void add_verify_command(Program& program) {
               "the shortest script whose last event differs; under the assumptions of a property "
               "file, if one is given")
       .not_with({"--format junit", "--format github"}, "it has no place for a comparison");
+  command
+      .option("--beside", options->beside, input("MISSION", ValueKind::script),
+              "A script that exists, or a folder of them. May be repeated")
+      .only_with({"--write-tests", "--mutants"});
+  command
+      .option("--write-tests", options->write_tests, folder(),
+              "Write scripts to the folder DIR, as few as possible, that meet all goals of "
+              "coverage that can be met and that those of --beside do not meet, with "
+              "expectations; scripts of an earlier call are replaced")
+      .not_with({"--scripts", "--html", "--same-as", "--cut-sets", "--reduce", "--jobs",
+                 "--max-memory", "--format json", "--format junit", "--format github"},
+                "it makes an exploration of its own");
+  command
+      .flag("--mutants", options->mutants,
+            "Change one thing of CATALOG at a time, and report which changes the missions of "
+            "--beside notice, in place of all else; of the others, whether a mission can, and "
+            "which one. The assumptions of a property file count")
+      .only_with({"--beside"})
+      .not_with(
+          {"--same-as", "--cut-sets", "--html", "--reduce", "--format junit", "--write-tests"});
+  command
+      .option("--fail-under", options->fail_under, percent(),
+              "Exit with status 1 if the missions notice fewer mutants than this")
+      .only_with({"--mutants"});
   command.add_confinement();
 
   command.group("Limits");

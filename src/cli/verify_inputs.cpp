@@ -14,7 +14,10 @@
 namespace cbc::cli {
 
 std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::string>& paths,
-                                                    const std::optional<std::string>& old_catalog) {
+                                                    const std::optional<std::string>& old_catalog,
+                                                    const std::vector<std::string>& beside,
+                                                    const std::optional<std::string>& left_out) {
+  catalogs_.keep_sources();
   add_first(paths.front());
   for (std::size_t place = 1; place < paths.size(); ++place) add_path(paths[place]);
   if (old_catalog) {
@@ -23,6 +26,13 @@ std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::strin
   }
   files_.print_findings();
   if (has_failed_) return std::nullopt;
+  questions_.source = catalogs_.source_of(*questions_.catalog);
+  MissionLoader missions;
+  missions.keep_documents();
+  std::optional<std::vector<Mission>> loaded =
+      missions.load_for(questions_.catalog, beside, left_out);
+  if (!loaded) return std::nullopt;
+  questions_.beside = std::move(*loaded);
   return std::move(questions_);
 }
 

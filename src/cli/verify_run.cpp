@@ -38,17 +38,6 @@ std::uint64_t default_memory() {
   return static_cast<std::uint64_t>(pages) / 4 * 3 * static_cast<std::uint64_t>(size);
 }
 
-ExplorationLimits limits_of(const VerifyOptions& options) {
-  ExplorationLimits limits;
-  limits.max_states = options.max_states;
-  limits.max_memory =
-      options.max_memory.empty() ? default_memory() : parse_memory(options.max_memory).value_or(0);
-  if (!options.time_limit.empty()) {
-    limits.seconds = to_seconds(parse_seconds(options.time_limit).value);
-  }
-  return limits;
-}
-
 /// The tasks that are named in --cut-sets. Empty if the catalog lacks one, which is reported.
 std::optional<std::vector<TaskId>> find_tasks(const CompiledCatalog& catalog,
                                               const std::vector<std::string>& names) {
@@ -162,7 +151,7 @@ class Call {
     if (!tasks) return exit_unusable;
     cut_tasks_ = *tasks;
     if (const int status = read_situation(); status != exit_ok) return status;
-    return check_outputs();
+    return prepare_outputs(options_);
   }
 
   int read_situation() {
@@ -174,27 +163,6 @@ class Call {
     if (!situation_ && questions_.files.size() == 1) {
       const SituationPart& initially = questions_.files.front()->assumptions.initially;
       if (!initially.variables.empty() || !initially.behaviors.empty()) situation_ = initially;
-    }
-    return exit_ok;
-  }
-
-  int check_outputs() {
-    std::vector<std::string> outputs;
-    if (options_.output != "-") outputs.push_back(options_.output);
-    for (const auto& output : {options_.html, options_.open_psa}) {
-      if (output) outputs.push_back(*output);
-    }
-    for (const std::string& output : outputs) {
-      if (!can_write_output(output)) return exit_unusable;
-    }
-    if (!options_.scripts) return exit_ok;
-    std::error_code error;
-    fs::create_directories(*options_.scripts, error);
-    if (!error && !fs::is_directory(*options_.scripts, error) && !error) {
-      error = std::make_error_code(std::errc::not_a_directory);
-    }
-    if (error) {
-      return complain("cannot make the folder {}: {}", quote(*options_.scripts), error.message());
     }
     return exit_ok;
   }
@@ -431,9 +399,42 @@ class Call {
 
 }  // namespace
 
+ExplorationLimits limits_of(const VerifyOptions& options) {
+  ExplorationLimits limits;
+  limits.max_states = options.max_states;
+  limits.max_memory =
+      options.max_memory.empty() ? default_memory() : parse_memory(options.max_memory).value_or(0);
+  if (!options.time_limit.empty()) {
+    limits.seconds = to_seconds(parse_seconds(options.time_limit).value);
+  }
+  return limits;
+}
+
+int prepare_outputs(const VerifyOptions& options) {
+  std::vector<std::string> outputs;
+  if (options.output != "-") outputs.push_back(options.output);
+  for (const auto& output : {options.html, options.open_psa}) {
+    if (output) outputs.push_back(*output);
+  }
+  for (const std::string& output : outputs) {
+    if (!can_write_output(output)) return exit_unusable;
+  }
+  if (!options.scripts) return exit_ok;
+  std::error_code error;
+  fs::create_directories(*options.scripts, error);
+  if (!error && !fs::is_directory(*options.scripts, error) && !error) {
+    error = std::make_error_code(std::errc::not_a_directory);
+  }
+  if (error) {
+    return complain("cannot make the folder {}: {}", quote(*options.scripts), error.message());
+  }
+  return exit_ok;
+}
+
 int verify(const VerifyOptions& options) {
   QuestionLoader loader;
-  std::optional<VerifyQuestions> questions = loader.load(options.paths, options.same_as);
+  std::optional<VerifyQuestions> questions =
+      loader.load(options.paths, options.same_as, options.beside, options.write_tests);
   if (!questions) {
     // CI systems could take a missing report for one without failures.
     const VerifyFormat& format = *find_named(verify_formats(), options.format);
@@ -442,6 +443,8 @@ int verify(const VerifyOptions& options) {
     }
     return exit_unusable;
   }
+  if (options.write_tests) return write_tests(options, *questions);
+  if (options.mutants) return verify_mutants(options, *questions);
   return Call(options, std::move(*questions)).run();
 }
 

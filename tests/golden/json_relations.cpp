@@ -36,6 +36,8 @@ class Relations {
       check_verify(report);
     } else if (schema == "cbc.coverage/1") {
       check_coverage(report);
+    } else if (schema == "cbc.mutants/1") {
+      check_mutants(report);
     } else {
       faults_.push_back("the schema is '" + schema + "'");
     }
@@ -240,6 +242,26 @@ class Relations {
     const Json& expectations = run.at("expectations");
     expect(expectations.at("failed") == expectations.at("failures").size(),
            "the number of failures is not that of failed expectations");
+  }
+
+  void check_mutants(const Json& report) {
+    const std::set<std::string> missions(report.at("missions").begin(),
+                                         report.at("missions").end());
+    std::map<std::string, std::size_t> counts;
+    std::size_t line = 0;
+    for (const Json& mutant : report.at("mutants")) {
+      ++counts[mutant.at("result").get<std::string>()];
+      const auto first = mutant.at("lines").at(0).get<std::size_t>();
+      expect(first >= line, "mutants are in order of lines");
+      line = first;
+      if (!mutant.contains("noticed_by")) continue;
+      expect(missions.contains(mutant.at("noticed_by").at("mission").get<std::string>()),
+             "a mutant is noticed by one of the missions");
+    }
+    for (const char* const result :
+         {"noticed", "survived", "equivalent", "undecided", "unjudged"}) {
+      expect(report.at(result) == counts[result], std::string("the number of ") + result);
+    }
   }
 
   void check_coverage(const Json& report) {

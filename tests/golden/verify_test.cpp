@@ -73,6 +73,41 @@ TEST_F(Verify, GivesEachScriptANameOfItsOwn) {
   EXPECT_EQ(names, (Names{"x.1.mission.yaml", "x.1-2.mission.yaml", "x.1-3.mission.yaml"}));
 }
 
+/// A folder with the missions that would notice survivors, beside those that exist: then nothing
+/// survives.
+TEST_F(Verify, WritesTheMissionsThatNoticeSurvivors) {
+  const std::string cases = "tests/golden/cases/verify_mutants/";
+  const std::string folder = scratch / "missions";
+  const auto judge = [&](const std::string& beside) {
+    const Result result =
+        verify({cases + "robot.yaml", "--mutants", "--beside", cases + "delivery.mission.yaml",
+                "--beside", beside, "--scripts", folder, "--format", "json"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return nlohmann::json::parse(result.out);
+  };
+  const nlohmann::json before = judge(cases + "delivery.mission.yaml");
+  EXPECT_GT(before["survived"], 5);
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const Result solved =
+        run({{"solve", cases + "robot.yaml", entry.path().string()}, CBC_SOURCE_DIR});
+    EXPECT_EQ(solved.status, 0) << solved.out << solved.err;
+  }
+  const nlohmann::json after = judge(folder);
+  EXPECT_EQ(after["survived"], 0);
+  EXPECT_EQ(after["equivalent"], before["equivalent"]);
+  EXPECT_EQ(after["percent"], 100);
+}
+
+/// The output does not depend on the number of threads.
+TEST_F(Verify, JudgesMutantsAlikeWithAnyNumberOfJobs) {
+  std::vector<std::string> arguments = {"catalogs/quadrotor.yaml",         "--mutants", "--beside",
+                                        "catalogs/quadrotor.mission.yaml", "-j",        "1"};
+  const Result one = verify(arguments);
+  EXPECT_EQ(one.status, 0) << one.err;
+  arguments.back() = "3";
+  EXPECT_EQ(verify(arguments).out, one.out);
+}
+
 TEST_F(Verify, DrawsCounterexamplesAndWitnesses) {
   const Result alone = verify({properties});
   const Result result = verify({properties, "--html", scratch / "page.html"});

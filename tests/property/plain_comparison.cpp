@@ -196,8 +196,9 @@ class PairSearch {
  public:
   PairSearch(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
              const Groups& groups, const Assumptions& old_assumptions,
-             const Assumptions& new_assumptions)
-      : to_old_(new_catalog, old_catalog),
+             const Assumptions& new_assumptions, PlainDifferences differences)
+      : differences_(differences),
+        to_old_(new_catalog, old_catalog),
         to_new_(old_catalog, new_catalog),
         old_(old_catalog, groups.of_old, old_assumptions),
         new_(new_catalog, groups.of_new, new_assumptions) {}
@@ -266,10 +267,20 @@ class PairSearch {
     return model.step(state, move, &happenings).next;
   }
 
-  [[nodiscard]] static std::vector<std::string> observe(const PlainModel& model,
-                                                        const std::vector<Happening>& happenings,
-                                                        const Snapshot& end) {
+  [[nodiscard]] std::vector<std::string> observe(const PlainModel& model, const Move& move,
+                                                 const std::vector<Happening>& happenings,
+                                                 const Snapshot& end) const {
     std::vector<std::string> lines;
+    if (differences_ == PlainDifferences::expectable) {
+      if (move.kind <= Move::Kind::situation_change) {
+        lines.emplace_back(name_of(happenings.front().outcome));
+      }
+      VisibleState visible = model.visible(end);
+      visible.queue.clear();
+      visible.waiting.clear();
+      lines.push_back(named(model.catalog(), visible));
+      return lines;
+    }
     for (const Happening& one : happenings) lines.push_back(named(model.catalog(), one));
     lines.push_back(named(model.catalog(), model.visible(end)));
     return lines;
@@ -286,7 +297,7 @@ class PairSearch {
                 node.depth + 1};
       if (new_.is_excluded(next.of_new) || old_.is_excluded(next.of_old)) continue;
       ++result.transitions;
-      if (observe(new_, of_new, next.of_new) != observe(old_, of_old, next.of_old)) {
+      if (observe(new_, move, of_new, next.of_new) != observe(old_, move, of_old, next.of_old)) {
         note_difference(place, move, result);
         return true;
       }
@@ -310,6 +321,7 @@ class PairSearch {
     result.moves = std::move(moves);
   }
 
+  const PlainDifferences differences_;
   Names to_old_;
   Names to_new_;
   PlainModel old_;
@@ -342,13 +354,13 @@ std::string named(const CompiledCatalog& catalog, const Happening& happening) {
 
 PlainComparison compare_plainly(const CompiledCatalog& old_catalog,
                                 const CompiledCatalog& new_catalog, const Assumptions& assumptions,
-                                std::uint64_t max_states) {
+                                std::uint64_t max_states, PlainDifferences differences) {
   PlainComparison result;
   result.is_complete = true;
   const Assumptions of_old = Names(new_catalog, old_catalog).assumptions(assumptions);
   const Assumptions of_new = Names(old_catalog, new_catalog).assumptions(of_old);
   for (const Groups& groups : join_groups(old_catalog, new_catalog)) {
-    PairSearch search(old_catalog, new_catalog, groups, of_old, of_new);
+    PairSearch search(old_catalog, new_catalog, groups, of_old, of_new, differences);
     if (!search.run(max_states, result)) result.is_complete = false;
     if (result.has_error) return result;
   }

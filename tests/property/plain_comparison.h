@@ -24,12 +24,16 @@ struct PlainComparison {
   std::uint32_t depth = 0;
 };
 
+/// What counts as a difference: see ComparisonScope::Differences.
+enum class PlainDifferences : std::uint8_t { all, expectable };
+
 /// Visits the pairs of states breadth first, for each set of groups that names join. `assumptions`
 /// are about the new catalog. `max_states`: of each set of groups.
 [[nodiscard]] PlainComparison compare_plainly(const CompiledCatalog& old_catalog,
                                               const CompiledCatalog& new_catalog,
                                               const Assumptions& assumptions,
-                                              std::uint64_t max_states);
+                                              std::uint64_t max_states,
+                                              PlainDifferences differences = PlainDifferences::all);
 
 /// The same for equal happenings of catalogs with other numbers: tasks and behaviors by name.
 [[nodiscard]] std::string named(const CompiledCatalog& catalog, const Happening& happening);

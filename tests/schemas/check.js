@@ -142,6 +142,7 @@ const least = {
   events: 500,
   graph: 20,
   lint: 5,
+  mutants: 1,
   situation: 3,
   solve: 60,
   state: 40,

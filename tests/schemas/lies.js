@@ -42,6 +42,7 @@ const failure = (report) => report.runs[0].expectations.failures[0];
 const kindOfTotals = of(lineWith('totals'), (line) => line.totals.kinds[0]);
 const goal = (kind) => (report) =>
   report.catalogs[0].goals.find((item) => item.kind === kind);
+const mutant = (result) => (report) => report.mutants.find((item) => item.result === result);
 const exclusion = (sweep) => sweep.reasons.find((item) => item.kind === 'exclusive');
 const histogram = (sweep) => sweep.nodes.histogram;
 const request = (state) => state.running[0]?.request;
@@ -183,6 +184,16 @@ const lies = {
     ['a task of a behavior', goal('behavior_active'), {task: 'A'}],
     ['a timeout of both', goal('timeout_fired'), {task: 'A', behavior: 'B'}],
     ['an unreachable goal that is reachable', goal('task_ran'), {unreachable: false}],
+  ],
+
+  mutants: [
+    ['no mission', whole, {missions: []}],
+    ['more than all', whole, {percent: 101}],
+    ['a mutant in line 0', mutant('noticed'), {lines: [0]}],
+    ['a survivor that was noticed', mutant('noticed'), {result: 'survived'}],
+    ['a noticed mutant that nobody noticed', mutant('survived'), {result: 'noticed'}],
+    ['an equivalent mutant with a script', mutant('equivalent'), {script: 'events: []'}],
+    ['a mission in line 0', mutant('noticed'), ({noticed_by}) => (noticed_by.line = 0)],
   ],
 
   solve: [

@@ -16,6 +16,7 @@ const schemaOf = {
   'cbc.solve/1': 'solve',
   'cbc.state/1': 'state',
   'cbc.coverage/1': 'coverage',
+  'cbc.mutants/1': 'mutants',
   'cbc.sweep/1': 'sweep',
   'cbc.together/1': 'together',
   'cbc.verify/1': 'verify',

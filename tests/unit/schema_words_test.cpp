@@ -12,6 +12,8 @@
 #include "cbc/event.h"
 #include "coordinator/record.h"
 #include "coverage/goals.h"
+#include "mutate/judge.h"
+#include "mutate/mutants.h"
 #include "diagnostic/diagnostic.h"
 #include "diagnostic/rules.h"
 #include "diff/catalog_diff.h"
@@ -143,6 +145,16 @@ TEST(SchemaWords, OfCoverage) {
             names_up_to(Goal::Kind::equal_displaced));
   EXPECT_EQ(words_at(coverage, "/$defs/catalog/properties/sections/items/properties/section"),
             names_up_to(GoalSection::priorities));
+}
+
+TEST(SchemaWords, OfMutants) {
+  const Json mutants = schema("mutants");
+  EXPECT_EQ(words_in_list(mutants, "/$defs/mutant/oneOf", "kind"),
+            names_up_to(Mutant::Kind::execution_goal_turned));
+  const std::string judged = "/$defs/judged/properties/";
+  EXPECT_EQ(words_at(mutants, judged + "result"), names_up_to(MutantVerdict::Result::unjudged));
+  EXPECT_EQ(words_at(mutants, judged + "noticed_by/properties/how"),
+            names_up_to(Notice::How::ended));
 }
 
 TEST(SchemaWords, OfVerifications) {

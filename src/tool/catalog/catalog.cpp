@@ -18,6 +18,17 @@
 
 namespace cbc {
 
+const Requirement& strongest_requirement(const Behavior& behavior, TaskIndex task) {
+  const Requirement* found = nullptr;
+  for (const Requirement& requirement : behavior.requirements) {
+    if (requirement.task != task) continue;
+    if (found == nullptr || requirement.minimum_performance > found->minimum_performance) {
+      found = &requirement;
+    }
+  }
+  return *found;  // NOLINT(clang-analyzer-core.uninitialized.UndefReturn): there is one
+}
+
 std::vector<TaskIndex> distinct_tasks(const ExclusivityList& list) {
   std::vector<TaskIndex> tasks = list.tasks;
   std::sort(tasks.begin(), tasks.end());

@@ -117,6 +117,10 @@ struct Catalog {
   return behavior.name.empty() ? "a behavior" : "behavior " + quote(behavior.name);
 }
 
+/// What a behavior requires of a task, which it requires: of several entries the first of the
+/// strongest.
+[[nodiscard]] const Requirement& strongest_requirement(const Behavior& behavior, TaskIndex task);
+
 /// Whether two parameters may be set to the same.
 [[nodiscard]] inline bool allow_the_same(const Parameter& a, const Parameter& b) {
   return a.allowed_values == b.allowed_values && a.allowed_is_list == b.allowed_is_list;

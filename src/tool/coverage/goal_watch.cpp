@@ -172,11 +172,17 @@ void GoalWatch::note_timeout(const EventRecord& record, const State& before) {
 void GoalWatch::ask_for_deciding(const EventRecord& record, const Circumstances& circumstances,
                                  const Assignment* solution) {
   if (!relaxation_.load(record, circumstances, solution)) return;
-  if (!relaxation_.is_repetition()) {
+  constexpr std::size_t most_known = 1'000'000;
+  if (decided_.size() == most_known) decided_.clear();
+  const auto [known, is_new] = decided_.try_emplace(relaxation_.digest());
+  if (is_new) {
+    const std::vector<std::uint8_t>& unasked = apart_.empty() ? met_ : apart_;
     for (const std::uint32_t number : deciding_[circumstances.trigger.group]) {
-      if (met_[number] == 0 && relaxation_.decided(goals_[number], number)) met_[number] = 1;
+      if (unasked[number] != 0 || !relaxation_.decided(goals_[number], number)) continue;
+      known->second.push_back(number);
     }
   }
+  for (const std::uint32_t number : known->second) met_[number] = 1;
   if (solution != nullptr || record.origin != Origin::script) return;
   const auto& places = places_.at(static_cast<std::size_t>(Kind::lower_rejected));
   if (places.empty() || record.verb != Verb::start) return;

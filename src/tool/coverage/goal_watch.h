@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
@@ -34,6 +36,12 @@ class GoalWatch {
 
   /// Where there are no times: any failure may be a timeout.
   void take_failures_for_timeouts() { takes_failures_for_timeouts_ = true; }
+  /// Lets only these goals be met again, before each event or path that is to be looked at alone.
+  /// Always the same ones, which nothing is asked about.
+  void restart(const std::vector<std::uint8_t>& met) {
+    apart_ = met;
+    met_ = met;
+  }
   /// Notes that the reactive task started by itself after it had given way.
   void note_return(TaskId task) { meet(Kind::reactive_returned, task); }
   /// Whether the reactive task has given way since begin().
@@ -64,7 +72,10 @@ class GoalWatch {
   /// By kind and its subject: the goal, or none. See subject_of.
   std::array<std::vector<std::uint32_t>, Goal::kinds> places_;
   std::vector<std::vector<std::uint32_t>> deciding_;  ///< by group: goals about deciding
+  /// By digest of problems: the goals about deciding that events with them meet.
+  std::unordered_map<std::string, std::vector<std::uint32_t>> decided_;
   std::vector<std::uint8_t> met_;
+  std::vector<std::uint8_t> apart_;          ///< those of restart(), or empty
   std::vector<std::uint8_t> has_given_way_;  ///< by task, in this mission
   std::vector<BehaviorId> conditional_;      ///< behaviors that name variables
   std::vector<std::uint8_t> fits_;           ///< by place in conditional_

@@ -251,18 +251,6 @@ class GoalFinder {
   std::vector<Goal> goals_;
 };
 
-/// The line of the requirement that was compiled: of several of one task the strongest.
-const Requirement& compiled_requirement(const Behavior& behavior, TaskIndex task) {
-  const Requirement* found = nullptr;
-  for (const Requirement& requirement : behavior.requirements) {
-    if (requirement.task != task) continue;
-    if (found == nullptr || requirement.minimum_performance > found->minimum_performance) {
-      found = &requirement;
-    }
-  }
-  return *found;
-}
-
 class LineFinder {
  public:
   LineFinder(const Catalog& source, const CompiledCatalog& catalog)
@@ -302,7 +290,7 @@ class LineFinder {
     return source_.behaviors[catalog_.behaviors[behavior].catalog_index];
   }
   [[nodiscard]] const Requirement& requirement_of(const Goal& goal) const {
-    return compiled_requirement(behavior_of(goal.behavior), index_of(goal.task));
+    return strongest_requirement(behavior_of(goal.behavior), index_of(goal.task));
   }
 
   /// Those of both names in the first list that has both.

@@ -167,8 +167,7 @@ bool Relaxation::load(const EventRecord& record, const Circumstances& circumstan
   return true;
 }
 
-bool Relaxation::is_repetition() {
-  constexpr std::size_t most_known = 1'000'000;
+std::string Relaxation::digest() const {
   std::string bytes;
   for (const Problem& problem : problems_) {
     bytes.append(reinterpret_cast<const char*>(&problem.group), sizeof(problem.group));
@@ -178,8 +177,7 @@ bool Relaxation::is_repetition() {
     append(bytes, problem.requests);
     append(bytes, problem.active);
   }
-  if (known_.size() == most_known) known_.clear();
-  return !known_.insert(to_hex(digest_of(bytes))).second;
+  return to_hex(digest_of(bytes));
 }
 
 bool Relaxation::was_protection_alone() {

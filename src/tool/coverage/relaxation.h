@@ -7,7 +7,6 @@
 #include <span>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -38,8 +37,8 @@ class Relaxation {
   [[nodiscard]] bool load(const EventRecord& record, const Circumstances& circumstances,
                           const Assignment* solution);
 
-  /// Whether an event with the same problems was loaded before: then all answers are as they were.
-  [[nodiscard]] bool is_repetition();
+  /// Of the problems of the event: events with the same digest have the same answers.
+  [[nodiscard]] std::string digest() const;
 
   /// Whether the constraint of the goal, which is about the group of the event, decided it: without
   /// it the answer is another one. `number` tells goals apart.
@@ -71,9 +70,6 @@ class Relaxation {
   std::size_t most_variants_;
   std::unordered_map<std::size_t, std::unique_ptr<Variant>> variants_;
   Solver solver_;  ///< with all constraints
-
-  /// Digests of the problems so far, which stand for them.
-  std::unordered_set<std::string> known_;
 
   // The event.
   std::vector<Problem> problems_;  ///< by protection level, up to that of the answer

@@ -418,17 +418,6 @@ Feasibility ProofContext::solve(std::span<const Goal> goals, std::span<const Rea
   return answer;
 }
 
-const Requirement& strongest_requirement(const Behavior& behavior, TaskIndex task) {
-  const Requirement* found = nullptr;
-  for (const Requirement& requirement : behavior.requirements) {
-    if (requirement.task != task) continue;
-    if (found == nullptr || requirement.minimum_performance > found->minimum_performance) {
-      found = &requirement;
-    }
-  }
-  return *found;  // NOLINT(clang-analyzer-core.uninitialized.UndefReturn): there is one
-}
-
 namespace {
 
 /// The first list that has both tasks.

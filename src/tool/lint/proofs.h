@@ -44,9 +44,6 @@ void check_redundant_minimums(ProofContext& proof);
 /// Constraints that are examined for one proof; among more it would take too long.
 inline constexpr std::size_t most_constraints = 20'000;
 
-/// The requirement of a task by a behavior that has one; of several the strongest, or the first.
-[[nodiscard]] const Requirement& strongest_requirement(const Behavior& behavior, TaskIndex task);
-
 /// Answers questions about the assignments that satisfy all constraints of a catalog. Every
 /// behavior is available, and every task is free to run or not.
 ///

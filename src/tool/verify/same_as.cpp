@@ -349,9 +349,9 @@ std::vector<std::uint32_t> waiting_of(const Model& model, const std::vector<std:
 /// then that of the old one.
 class PairStepper {
  public:
-  explicit PairStepper(const ModelPair& models)
-      : old_(models.old_model),
-        new_(models.new_model),
+  PairStepper(const ModelPair& models, bool reduce)
+      : old_(models.old_model, {.reduce = reduce}),
+        new_(models.new_model, {.reduce = reduce}),
         new_words_(models.new_model.packed_words()) {}
 
   void set_traces(MoveTrace& of_new, MoveTrace& of_old) {
@@ -395,7 +395,8 @@ class PairStepper {
 
 class PairExpander final : public Expander {
  public:
-  explicit PairExpander(const ModelPair& models) : models_(models), stepper_(models) {
+  PairExpander(const ModelPair& models, ComparisonScope::Differences differences, bool reduce)
+      : models_(models), differences_(differences), stepper_(models, reduce) {
     stepper_.set_traces(new_trace_, old_trace_);
   }
 
@@ -421,12 +422,27 @@ class PairExpander final : public Expander {
 
  private:
   [[nodiscard]] bool differ(const std::uint32_t* new_packed, const std::uint32_t* old_packed) {
+    if (differences_ == ComparisonScope::Differences::expectable) {
+      return outcome_of(new_trace_) != outcome_of(old_trace_) ||
+             running_in(models_.new_model, models_.new_tasks, models_.new_behaviors,
+                        cells_of(models_.new_model, new_packed)) !=
+                 running_in(models_.old_model, models_.old_tasks, models_.old_behaviors,
+                            cells_of(models_.old_model, old_packed));
+    }
     if (new_trace_.events.size() != old_trace_.events.size()) return true;
     for (std::size_t place = 0; place < new_trace_.events.size(); ++place) {
       if (differ(new_trace_.events[place], old_trace_.events[place])) return true;
     }
     return describe(models_.new_model, models_.new_tasks, models_.new_behaviors, new_packed) !=
            describe(models_.old_model, models_.old_tasks, models_.old_behaviors, old_packed);
+  }
+
+  /// That of the event of the script, if it is one that an expectation knows.
+  [[nodiscard]] static std::optional<Outcome> outcome_of(const MoveTrace& trace) {
+    if (trace.events.empty()) return std::nullopt;
+    const MoveTrace::Happening& first = trace.events.front();
+    if (first.origin != Origin::script || !form_of(first.verb).is_decided) return std::nullopt;
+    return first.outcome;
   }
 
   [[nodiscard]] bool differ(const MoveTrace::Happening& ours,
@@ -464,8 +480,31 @@ class PairExpander final : public Expander {
                waiting_of(models_.old_model, models_.old_tasks, theirs.waiting);
   }
 
+  using Running = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+  [[nodiscard]] static Running running_in(const Model& model,
+                                          const std::vector<std::uint32_t>& tasks,
+                                          const std::vector<std::uint32_t>& behaviors,
+                                          const std::vector<std::uint16_t>& cells) {
+    Running running;
+    for (std::uint32_t task = 0; task < tasks.size(); ++task) {
+      if (cells[task] == 0) continue;
+      const std::uint32_t value = model.tasks()[task].values.begin + cells[task] - 1U;
+      running.emplace_back(tasks[task], behaviors[model.behavior_of(value)]);
+    }
+    std::sort(running.begin(), running.end());
+    return running;
+  }
+
+  [[nodiscard]] static std::vector<std::uint16_t> cells_of(const Model& model,
+                                                           const std::uint32_t* packed) {
+    std::vector<std::uint16_t> cells(model.layout().cells);
+    model.unpack(packed, cells.data());
+    return cells;
+  }
+
   struct Shown {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> running;
+    Running running;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> queue;
     std::vector<std::uint32_t> waiting;
 
@@ -474,25 +513,18 @@ class PairExpander final : public Expander {
   [[nodiscard]] static Shown describe(const Model& model, const std::vector<std::uint32_t>& tasks,
                                       const std::vector<std::uint32_t>& behaviors,
                                       const std::uint32_t* packed) {
-    std::vector<std::uint16_t> cells(model.layout().cells);
-    model.unpack(packed, cells.data());
+    const std::vector<std::uint16_t> cells = cells_of(model, packed);
     const auto part = [&](std::uint32_t begin) {
       return std::vector<std::uint16_t>(cells.begin() + begin,
                                         cells.begin() + begin + model.layout().reactive_count);
     };
-    Shown shown;
-    for (std::uint32_t task = 0; task < tasks.size(); ++task) {
-      if (cells[task] == 0) continue;
-      const std::uint32_t value = model.tasks()[task].values.begin + cells[task] - 1U;
-      shown.running.emplace_back(tasks[task], behaviors[model.behavior_of(value)]);
-    }
-    std::sort(shown.running.begin(), shown.running.end());
-    shown.queue = queue_of(model, tasks, part(model.layout().queue));
-    shown.waiting = waiting_of(model, tasks, part(model.layout().waiting));
-    return shown;
+    return {running_in(model, tasks, behaviors, cells),
+            queue_of(model, tasks, part(model.layout().queue)),
+            waiting_of(model, tasks, part(model.layout().waiting))};
   }
 
   const ModelPair& models_;
+  const ComparisonScope::Differences differences_;
   PairStepper stepper_;
   MoveTrace old_trace_;
   MoveTrace new_trace_;
@@ -501,8 +533,9 @@ class PairExpander final : public Expander {
 };
 
 /// The moves along a path of pairs, as the new catalog names them.
-std::vector<Move> moves_along(const ModelPair& models, const BreadthFirst& search, Number number) {
-  PairStepper stepper(models);
+std::vector<Move> moves_along(const ModelPair& models, const BreadthFirst& search, Number number,
+                              bool reduce) {
+  PairStepper stepper(models, reduce);
   std::vector<std::uint32_t> packed(search.store().words());
   const std::vector<Number> path = search.path_to(number);
   std::vector<Move> moves;
@@ -555,7 +588,8 @@ Assumptions common_assumptions(const CompiledCatalog& old_catalog,
 CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
                                    const CompiledCatalog& new_catalog,
                                    const Assumptions& assumptions,
-                                   const VerificationOptions& options) {
+                                   const VerificationOptions& options,
+                                   const ComparisonScope& scope) {
   CatalogComparison result;
   const Translation to_old(new_catalog, old_catalog);
   const Translation to_new(old_catalog, new_catalog);
@@ -566,6 +600,10 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
   const Assumptions new_assumptions = translate(old_assumptions, to_new);
   bool is_complete = true;
   for (const GroupPair& groups : join_groups(old_catalog, new_catalog, to_old)) {
+    if (scope.group && std::find(groups.new_groups.begin(), groups.new_groups.end(),
+                                 *scope.group) == groups.new_groups.end()) {
+      continue;
+    }
     const ModelPair models(old_catalog, new_catalog, groups, old_assumptions, new_assumptions,
                            to_old, to_new);
     const std::vector<std::uint16_t> new_first = models.new_model.first_state();
@@ -592,7 +630,7 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
       return !options.on_progress || options.on_progress(groups.new_groups, progress);
     };
     for (unsigned job = 0; job < std::max(1U, options.jobs); ++job) {
-      auto expander = std::make_unique<PairExpander>(models);
+      auto expander = std::make_unique<PairExpander>(models, scope.differences, options.reduce);
       of_pairs.push_back(expander.get());
       expanders.push_back(std::move(expander));
     }
@@ -608,7 +646,8 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
           return a->first_difference() < b->first_difference();
         });
     if (found->first_difference() == UINT32_MAX) continue;
-    std::vector<Move> moves = moves_along(models, search, found->first_difference());
+    std::vector<Move> moves =
+        moves_along(models, search, found->first_difference(), options.reduce);
     moves.push_back(found->difference());
     if (result.result == Verdict::Result::violated && !comes_first(moves, result.moves)) continue;
     result.result = Verdict::Result::violated;

@@ -36,6 +36,20 @@ struct CatalogComparison {
   std::optional<std::string> error;  ///< see Exploration
 };
 
+/// What a comparison is about.
+struct ComparisonScope {
+  /// What counts as a difference after a move.
+  enum class Differences : std::uint8_t {
+    all,  ///< see CatalogComparison
+    /// What an expectation can see: the outcome of a start, stop or finish of a script, and the
+    /// tasks that run with their behaviors.
+    expectable
+  };
+  Differences differences = Differences::all;
+  /// Only the groups that are explored together with this one of the new catalog.
+  std::optional<std::uint32_t> group;
+};
+
 /// Assumptions about the new catalog for a comparison without a property file: what either catalog
 /// lets happen by default, as far as both know its name.
 [[nodiscard]] Assumptions common_assumptions(const CompiledCatalog& old_catalog,
@@ -46,6 +60,7 @@ struct CatalogComparison {
 [[nodiscard]] CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
                                                  const CompiledCatalog& new_catalog,
                                                  const Assumptions& assumptions,
-                                                 const VerificationOptions& options);
+                                                 const VerificationOptions& options,
+                                                 const ComparisonScope& scope = {});
 
 }  // namespace cbc

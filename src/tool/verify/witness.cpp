@@ -99,13 +99,12 @@ struct Schedule {
   std::vector<Microseconds> times;
 };
 
-Schedule find_schedule(const Timeline& timeline) {
-  constexpr Microseconds second = 1'000'000;
+Schedule find_schedule(const Timeline& timeline, Microseconds pause) {
   Schedule schedule;
   const auto try_unit = [&](Microseconds unit) {
     if (schedule.delay % unit != 0) return false;
     schedule.times =
-        find_times(timeline, schedule.delay / unit, std::max<Microseconds>(1, second / unit));
+        find_times(timeline, schedule.delay / unit, std::max<Microseconds>(1, pause / unit));
     for (Microseconds& time : schedule.times) time *= unit;
     return !schedule.times.empty();
   };
@@ -242,7 +241,7 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<std::uint
     timeline.is_due.push_back(false);
     timeline.first_joined.push_back(timeline.first_joined.back());
   }
-  const Schedule schedule = find_schedule(timeline);
+  const Schedule schedule = find_schedule(timeline, second);
 
   Witness witness;
   Script& script = witness.script;
@@ -267,6 +266,29 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<std::uint
   comments.push_back(std::exchange(due, {}));
   witness.text = write_script(catalog, script, comment, comments);
   return witness;
+}
+
+Script make_script(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
+                   const Assumptions& assumptions, const std::vector<Move>& moves,
+                   Microseconds pause) {
+  const Model model(catalog, groups, assumptions);
+  Stepper stepper(model);
+  const Schedule schedule =
+      find_schedule(follow(model, find_choices(model, moves), stepper), pause);
+  Script script;
+  script.timeouts = false;
+  script.reactive_delay = schedule.delay;
+  script.situation = situation_of(catalog, assumptions.initially);
+  for (std::size_t place = 0; place < moves.size(); ++place) {
+    Step& step = script.steps.emplace_back(step_of(moves[place]));
+    const bool is_due = moves[place].kind == Move::Kind::due;
+    if (is_due) step.expect.emplace();
+    step.time = schedule.times[place + (is_due ? 2 : 1)];
+  }
+  Step& end = script.steps.emplace_back();
+  end.expect.emplace();
+  end.time = schedule.times.back();
+  return script;
 }
 
 }  // namespace cbc

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cbc::cli {
+
+/// A folder of scripts that `cbc verify` writes, and replaces when it is called again. Each says so
+/// in a comment with a digest of the rest, so that none that anybody has changed is replaced.
+class TestFolder {
+ public:
+  struct File {
+    std::string name;
+    std::string text;
+  };
+
+  explicit TestFolder(std::string path) : path_(std::move(path)) {}
+
+  /// Makes the folder if it is missing, and looks at its files. False if there is one that is not
+  /// ours, or nothing can be written there; the reason is printed.
+  [[nodiscard]] bool open();
+  /// Replaces all scripts by these. Returns the exit status. After an error, no script is new.
+  [[nodiscard]] int replace(const std::vector<File>& files);
+
+  [[nodiscard]] std::string path_of(const std::string& name) const;
+
+ private:
+  std::string path_;
+  std::vector<std::string> names_;  ///< of our files
+};
+
+}  // namespace cbc::cli

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "base/text.h"
+#include "cli/command_line.h"
+#include "cli/ordered_work.h"
+#include "cli/output.h"
+#include "cli/verify.h"
+#include "coverage/goal_proof.h"
+#include "mutate/judge.h"
+#include "mutate/mutants.h"
+#include "report/mutants_report.h"
+
+namespace cbc::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Clock = std::chrono::steady_clock;
+
+/// False if a mission does not pass on the catalog itself; which one is printed.
+bool all_pass(const CompiledCatalog& catalog, const MissionDocuments& missions) {
+  bool pass = true;
+  for (const auto& mission : missions) {
+    const std::optional<Notice> notice = find_notice(catalog, *mission);
+    if (!notice) continue;
+    pass = false;
+    std::string place = printable(mission->file());
+    if (notice->line > 0) place += fmt::format(":{}", notice->line);
+    complain("{}: {}", place, notice->message);
+  }
+  if (!pass) {
+    complain(
+        "--mutants: expected missions that pass on {}; one that fails tells nothing of a "
+        "mutant (see 'cbc solve')",
+        quote(catalog.file));
+  }
+  return pass;
+}
+
+/// Judges all mutants, on several threads. What a stop leaves is not judged.
+void judge_all(const VerifyOptions& options, const MutantJudge& judge,
+               const std::function<bool()>& is_stopped, MutantsResult& result) {
+  constexpr std::chrono::milliseconds between_looks(100);
+  const auto judge_one = [&](std::size_t number) {
+    return is_stopped() ? MutantVerdict() : judge.judge(result.mutants[number]);
+  };
+  const std::size_t threads = std::min<std::size_t>(
+      thread_count(options.jobs), std::max<std::size_t>(1, result.mutants.size()));
+  Progress progress("judging", result.mutants.size());
+  OrderedWork<MutantVerdict> work(result.mutants.size(), threads, judge_one);
+  for (const Mutant& mutant : result.mutants) {
+    progress.begin(describe(*result.catalog, mutant));
+    while (!work.wait_for(between_looks)) progress.show();
+    result.verdicts.push_back(work.take());
+  }
+}
+
+/// Writes the scripts of survivors. The name says what each is about:
+/// "robot.320.exclusion_removed.mission.yaml".
+int write_scripts(const std::string& folder, const MutantsResult& result) {
+  const fs::path catalog = result.catalog->file;
+  const std::string stem =
+      result.catalog->file == display_name("-") ? "stdin" : catalog.stem().string();
+  std::set<std::string> taken;
+  for (std::size_t place = 0; place < result.mutants.size(); ++place) {
+    if (!result.verdicts[place].script) continue;
+    const Mutant& mutant = result.mutants[place];
+    const std::string first =
+        fmt::format("{}.{}.{}", stem, mutant.lines.front(), name_of(mutant.kind));
+    std::string name = first;
+    for (int number = 2; !taken.insert(name).second; ++number) {
+      name = fmt::format("{}-{}", first, number);
+    }
+    const std::string text = fmt::format(
+        "# Notices this change in line {}: {}\n# Run it with: cbc solve CATALOG FILE\n{}",
+        mutant.lines.front(), describe(*result.catalog, mutant), *result.verdicts[place].script);
+    const int status = write_output((fs::path(folder) / (name + ".mission.yaml")).string(), text);
+    if (status != exit_ok) return status;
+  }
+  return exit_ok;
+}
+
+int status_of(const VerifyOptions& options, const MutantCount& count) {
+  int status = count.is_complete() ? exit_ok : exit_no;
+  if (options.fail_under.empty() || count.score().tenths() >= tenths_in(options.fail_under))
+    return status;
+  complain("the missions notice {} of the mutants, less than {} % (--fail-under)",
+           describe_percent(count.score()), options.fail_under);
+  return exit_no;
+}
+
+}  // namespace
+
+int verify_mutants(const VerifyOptions& options, const VerifyQuestions& questions) {
+  const CompiledCatalog& catalog = *questions.catalog;
+  if (questions.source == nullptr) {
+    return complain("--mutants: the catalog {} was compiled; expected the YAML, whose lines count",
+                    quote(catalog.file));
+  }
+  if (questions.files.size() > 1) {
+    return usage_error("verify", "--mutants takes at most one property file, found {}",
+                       questions.files.size());
+  }
+  if (questions.beside.empty()) {
+    return complain("--beside: found no event script in {}", quote(options.beside.back()));
+  }
+  const Assumptions assumptions = questions.files.empty() ? assumptions_of_goals(catalog)
+                                                          : questions.files.front()->assumptions;
+  if (const int status = prepare_outputs(options); status != exit_ok) return status;
+  MissionDocuments missions;
+  MutantsResult result;
+  for (const Mission& mission : questions.beside) {
+    missions.push_back(mission.document);
+    result.missions.push_back(mission.script.file);
+  }
+  if (!all_pass(catalog, missions)) return exit_unusable;
+  result.catalog = &questions.source->catalog;
+  result.mutants = find_mutants(*result.catalog);
+
+  // States of one mutant; the largest groups of catalogs have far more, and nobody would wait.
+  constexpr std::uint64_t most_states = 1'000'000;
+  const StopSignals signals;
+  const Clock::time_point begin = Clock::now();
+  JudgeOptions of_judge;
+  of_judge.limits = limits_of(options);
+  const double seconds = std::exchange(of_judge.limits.seconds, 0);
+  if (of_judge.limits.max_states == 0) of_judge.limits.max_states = most_states;
+  of_judge.limits.max_memory /= thread_count(options.jobs);
+  of_judge.is_stopped = [&] {
+    const std::chrono::duration<double> elapsed = Clock::now() - begin;
+    return signals.have_come() || (seconds > 0 && elapsed.count() >= seconds);
+  };
+  const MutantJudge judge(*result.catalog, catalog, missions, assumptions, of_judge);
+  judge_all(options, judge, of_judge.is_stopped, result);
+
+  if (options.scripts) {
+    if (const int status = write_scripts(*options.scripts, result); status != exit_ok)
+      return status;
+  }
+  const MutantsFormat& format = *find_named(mutants_formats(), options.format);
+  const Style style = options.output == "-" ? style_for(stdout) : plain_style();
+  const int status = write_output(options.output, format.write(result, style));
+  return status == exit_ok ? status_of(options, result.count()) : status;
+}
+
+}  // namespace cbc::cli

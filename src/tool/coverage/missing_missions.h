@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "coverage/goal_graph.h"
+#include "coverage/goals.h"
+#include "script/script.h"
+#include "verify/properties.h"
+
+namespace cbc {
+
+/// Scripts that together meet the goals that can be met, and that no mission meets yet
+/// (docs/coverage.md, "The missing missions").
+struct MissingMissions {
+  struct Mission {
+    std::string name;  ///< of a file, without its ending: after the goal with which it ends
+    std::uint32_t group = 0;
+    Script script;
+    std::string text;                  ///< of the script
+    std::vector<std::uint32_t> goals;  ///< that no mission before it meets
+    std::uint64_t events = 0;          ///< of the script, without its expectations
+  };
+  struct Unmet {
+    std::uint32_t goal = 0;
+    std::string reason;
+  };
+
+  std::vector<Mission> missions;
+  std::uint64_t wanted = 0;       ///< goals that the missions so far do not meet
+  std::uint64_t unreachable = 0;  ///< of these: proven, no mission can meet them
+  std::vector<Unmet> unmet;       ///< the others that no script was found for
+  /// The least number of such scripts, each about one group, with at most so many events as its
+  /// group allows. Empty if a limit ended the exploration.
+  std::optional<std::uint64_t> lower_bound;
+  std::uint32_t most_events = 0;       ///< of a script, with those of the clock
+  std::vector<std::uint32_t> partial;  ///< groups whose exploration a limit ended
+  std::uint64_t states = 0;
+  std::uint64_t moves = 0;
+  std::optional<std::string> error;  ///< the first state contradicts `never`
+  std::string fault;                 ///< of cbc: a script does not do what was proven
+};
+
+struct MissingMissionOptions {
+  GoalGraphOptions exploration;
+  std::uint32_t events = 8;  ///< of a script, if no goal takes more
+  /// Called before each script, with the number of those before it; false ends the search. May be
+  /// empty.
+  std::function<bool(std::size_t number)> on_mission;
+};
+
+/// `met`: by goal, whether the present missions meet it. The same input gives the same scripts.
+[[nodiscard]] MissingMissions find_missing_missions(const CompiledCatalog& catalog,
+                                                    std::span<const Goal> goals,
+                                                    const std::vector<std::uint8_t>& met,
+                                                    const Assumptions& assumptions,
+                                                    const MissingMissionOptions& options);
+
+/// A name for a script about a goal: words of lower-case letters and digits, with hyphens.
+[[nodiscard]] std::string name_after(const CompiledCatalog& catalog, const Goal& goal);
+
+}  // namespace cbc

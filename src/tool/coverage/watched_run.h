@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "coordinator/coordinator.h"
+#include "coverage/goals.h"
+#include "script/runner.h"
+#include "script/script.h"
+
+namespace cbc {
+
+/// For runs of which only the result matters.
+class SilentRun final : public RunListener {
+ public:
+  void on_event(const EventRecord& /*record*/, const Step* /*step*/,
+                const State& /*state*/) override {}
+};
+
+/// A run of a script, and the goals that it met.
+struct WatchedResult {
+  RunResult result;
+  std::vector<std::uint8_t> met;  ///< by goal
+};
+
+/// Runs a script as run_script does, and watches it. `goals` are those of find_goals.
+[[nodiscard]] WatchedResult run_watched(const CompiledCatalog& catalog, std::span<const Goal> goals,
+                                        const Script& script, const CoordinatorOptions& options,
+                                        RunListener& listener);
+
+}  // namespace cbc

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "catalog/catalog.h"
+#include "compiled/compiled_catalog.h"
+#include "mutate/mutants.h"
+#include "verify/explore.h"
+#include "verify/properties.h"
+#include "yaml/document.h"
+
+namespace cbc {
+
+// Which mutants of a catalog its missions notice (docs/coverage.md, "Mutants").
+
+/// Scripts, as they were parsed.
+using MissionDocuments = std::vector<std::shared_ptr<const yaml::Document>>;
+
+/// How a mission tells that a catalog is not the one that it was written for.
+struct Notice {
+  enum class How : std::uint8_t {
+    failed,      ///< an expectation does not hold
+    unreadable,  ///< the script has errors with this catalog
+    ended        ///< the run ended early
+  };
+  How how = How::failed;
+  std::size_t mission = 0;  ///< its place among the missions
+  std::uint32_t line = 0;   ///< of the expectation, or of the first error; 0: none
+  std::string message;
+};
+
+/// The word of a way in JSON.
+[[nodiscard]] std::string_view name_of(Notice::How how);
+
+/// Runs a mission up to the first expectation that fails. Empty if all hold. `is_stopped`: asked
+/// now and then; true ends the run as if all held. May be empty.
+[[nodiscard]] std::optional<Notice> find_notice(const CompiledCatalog& catalog,
+                                                const yaml::Document& mission,
+                                                const std::function<bool()>& is_stopped = {});
+
+/// What is known of a mutant.
+struct MutantVerdict {
+  enum class Result : std::uint8_t {
+    noticed,
+    survived,    ///< no mission notices it, although one could
+    equivalent,  ///< no mission can notice it, as far as the assumptions allow its events
+    undecided,   ///< no mission notices it; a limit came before it was known whether one can
+    unjudged     ///< the end came before all missions had run
+  };
+  Result result = Result::unjudged;
+  std::optional<Notice> notice;       ///< the first one, if it is noticed
+  std::optional<std::string> script;  ///< of a survivor: a mission that would notice it, if known
+};
+
+/// The word of a result in JSON.
+[[nodiscard]] std::string_view name_of(MutantVerdict::Result result);
+
+struct JudgeOptions {
+  ExplorationLimits limits;  ///< of the exploration for one mutant; the time does not count
+  /// Asked now and then, perhaps by several threads at once; true ends the work. May be empty.
+  std::function<bool()> is_stopped;
+};
+
+/// Judges mutants, one after the other or several at once.
+class MutantJudge {
+ public:
+  /// `source` is what the catalog was compiled from; both, and the missions, must outlive the
+  /// judge. All missions pass on the catalog. `assumptions`: which events a mission may have; the
+  /// first state does not contradict them.
+  MutantJudge(const Catalog& source, const CompiledCatalog& catalog,
+              const MissionDocuments& missions, Assumptions assumptions, JudgeOptions options);
+
+  [[nodiscard]] MutantVerdict judge(const Mutant& mutant) const;
+
+ private:
+  [[nodiscard]] bool is_stopped() const { return options_.is_stopped && options_.is_stopped(); }
+  [[nodiscard]] std::uint32_t group_of(const Mutant& mutant) const;
+  void compare(const Mutant& mutant, const CompiledCatalog& changed, MutantVerdict& verdict) const;
+  void compare_times(const Mutant& mutant, const Catalog& changed_source,
+                     const CompiledCatalog& changed, MutantVerdict& verdict) const;
+
+  const Catalog& source_;
+  const CompiledCatalog& catalog_;
+  const MissionDocuments& missions_;
+  const Assumptions assumptions_;
+  const JudgeOptions options_;
+};
+
+}  // namespace cbc

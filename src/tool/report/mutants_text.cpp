@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "report/lint_report.h"
+#include "report/mutants_report.h"
+#include "support/wording.h"
+
+// Mutants as text and as annotations.
+
+namespace cbc {
+namespace {
+
+constexpr std::string_view heading_of_result = "noticed by";
+
+/// The mission that notices it, or the result.
+std::string describe_result(const MutantsResult& result, const MutantVerdict& verdict) {
+  if (verdict.result == MutantVerdict::Result::survived) return "SURVIVED";
+  if (!verdict.notice) return std::string(name_of(verdict.result));
+  const std::string mission = printable(result.missions[verdict.notice->mission]);
+  return verdict.notice->line == 0 ? mission : fmt::format("{}:{}", mission, verdict.notice->line);
+}
+
+std::string describe_lines(const Mutant& mutant) {
+  std::string text;
+  for (const std::uint32_t line : mutant.lines) {
+    text += fmt::format("{}{}", text.empty() ? "" : ",", line);
+  }
+  return text;
+}
+
+std::string table_to_text(const MutantsResult& result, const Style& style) {
+  std::vector<std::string> results;
+  std::size_t width = heading_of_result.size();
+  for (const MutantVerdict& verdict : result.verdicts) {
+    width = std::max(width, results.emplace_back(describe_result(result, verdict)).size());
+  }
+  std::string text = fmt::format("\n  {:>9}  {:<{}}  changed\n", "line", heading_of_result, width);
+  for (std::size_t place = 0; place < result.mutants.size(); ++place) {
+    const bool has_survived = result.verdicts[place].result == MutantVerdict::Result::survived;
+    const std::string padded = fmt::format("{:<{}}", results[place], width);
+    text += fmt::format("  {:>9}  {}  {}\n", describe_lines(result.mutants[place]),
+                        has_survived ? style.paint(style.bad, padded) : padded,
+                        describe(*result.catalog, result.mutants[place]));
+  }
+  return text;
+}
+
+std::string indent(const std::string& lines) {
+  std::string text;
+  for (std::size_t begin = 0; begin < lines.size();) {
+    const std::size_t end = std::min(lines.find('\n', begin), lines.size());
+    text += "    " + lines.substr(begin, end - begin) + "\n";
+    begin = end + 1;
+  }
+  return text;
+}
+
+std::string survivors_to_text(const MutantsResult& result) {
+  std::string text;
+  for (std::size_t place = 0; place < result.mutants.size(); ++place) {
+    const MutantVerdict& verdict = result.verdicts[place];
+    if (verdict.result != MutantVerdict::Result::survived) continue;
+    if (text.empty()) text = "\nno mission notices that; these would\n";
+    const Mutant& mutant = result.mutants[place];
+    text += fmt::format("  {}:{}: {}\n", printable(result.catalog->file), mutant.lines.front(),
+                        describe(*result.catalog, mutant));
+    text += indent(verdict.script.value_or("no script is known that tells the two apart\n"));
+  }
+  return text;
+}
+
+/// What counts, and what does not.
+std::string summary_to_text(const MutantCount& count) {
+  std::string text = fmt::format("\nmutants: {} noticed, {} survived, {} equivalent", count.noticed,
+                                 count.survived, count.equivalent);
+  if (count.undecided > 0) text += fmt::format(", {} undecided", count.undecided);
+  if (count.unjudged > 0) text += fmt::format(", {} not judged", count.unjudged);
+  text += fmt::format("\nscore: {}\n", describe_percent(count.score()));
+  if (count.undecided > 0) {
+    text +=
+        "undecided: no mission notices them, but a limit came before it was known whether one "
+        "could;\n  see --max-states, --max-memory and --time-limit\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+MutantCount MutantsResult::count() const {
+  MutantCount count;
+  for (const MutantVerdict& verdict : verdicts) {
+    switch (verdict.result) {
+      case MutantVerdict::Result::noticed:
+        ++count.noticed;
+        break;
+      case MutantVerdict::Result::survived:
+        ++count.survived;
+        break;
+      case MutantVerdict::Result::equivalent:
+        ++count.equivalent;
+        break;
+      case MutantVerdict::Result::undecided:
+        ++count.undecided;
+        break;
+      case MutantVerdict::Result::unjudged:
+        ++count.unjudged;
+        break;
+    }
+  }
+  return count;
+}
+
+std::string mutants_to_text(const MutantsResult& result, const Style& style) {
+  std::string text = fmt::format("{}{}{}, {}, {}\n", style.strong, printable(result.catalog->file),
+                                 style.reset, quantity(result.mutants.size(), "mutant"),
+                                 quantity(result.missions.size(), "mission"));
+  if (!result.mutants.empty()) text += table_to_text(result, style);
+  return text + survivors_to_text(result) + summary_to_text(result.count());
+}
+
+std::string mutants_to_github(const MutantsResult& result) {
+  std::map<std::uint32_t, std::string> messages;  // by line
+  for (std::size_t place = 0; place < result.mutants.size(); ++place) {
+    const MutantVerdict& verdict = result.verdicts[place];
+    if (verdict.result != MutantVerdict::Result::survived) continue;
+    std::string& message = messages[result.mutants[place].lines.front()];
+    if (!message.empty()) message += '\n';
+    message += describe(*result.catalog, result.mutants[place]);
+    if (verdict.script) message += "\n" + indent(*verdict.script);
+    while (message.ends_with('\n')) message.pop_back();
+  }
+  std::string text;
+  for (const auto& [line, message] : messages) {
+    const Position begin{line, 1};
+    text += github_command("notice", {result.catalog->file, Range{begin, begin}},
+                           "No mission notices that", message);
+  }
+  return text;
+}
+
+std::span<const MutantsFormat> mutants_formats() {
+  using Given = const MutantsResult&;
+  static constexpr MutantsFormat formats[] = {
+      {"text", mutants_to_text},
+      {"json", [](Given result, const Style& /*style*/) { return mutants_to_json(result); }},
+      {"github", [](Given result, const Style& /*style*/) { return mutants_to_github(result); }},
+  };
+  return formats;
+}
+
+}  // namespace cbc

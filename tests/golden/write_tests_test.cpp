@@ -1,0 +1,181 @@
+// `cbc verify --write-tests` from outside: the scripts, the folder, and what is refused.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "golden/process.h"
+#include "support/read_file.h"
+#include "support/scratch_folder.h"
+
+namespace cbc::golden {
+namespace {
+
+namespace fs = std::filesystem;
+using Files = std::map<std::string, std::string>;
+
+class WriteTests : public testing::Test {
+ protected:
+  static Result cbc(std::vector<std::string> arguments) { return run({arguments, CBC_SOURCE_DIR}); }
+  Result write_tests(const std::string& catalog, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"verify", catalog, "--write-tests", folder};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return cbc(arguments);
+  }
+  [[nodiscard]] Files files() const {
+    Files files;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      files[entry.path().filename().string()] = test::read_file(entry.path());
+    }
+    return files;
+  }
+  /// The reachable goals are met by these missions, and all expectations hold.
+  void expect_complete(const std::string& catalog, std::vector<std::string> missions) {
+    std::vector<std::string> arguments{"solve", catalog};
+    arguments.insert(arguments.end(), missions.begin(), missions.end());
+    for (const char* const option : {"--coverage", "--prove", "--fail-under", "100"}) {
+      arguments.emplace_back(option);
+    }
+    const Result covered = cbc(arguments);
+    EXPECT_EQ(covered.status, 0) << covered.out << covered.err;
+  }
+
+  test::ScratchFolder scratch;
+  const std::string folder = scratch / "tests";
+};
+
+constexpr const char* robot = R"(
+behaviors:
+- {behavior: FOLLOW_PATH, task: FOLLOW_PATH, requires: [{task: LOCALIZE}]}
+- {behavior: DESCEND, task: LAND}
+- {behavior: GPS, task: LOCALIZE, suitability: 90}
+- {behavior: CAMERA, task: LOCALIZE, suitability: 60}
+tasks:
+- {task: FOLLOW_PATH}
+- {task: LAND, timeout: 20}
+- {task: LOCALIZE, start_on_request: false, execution_goal: keep_running}
+exclusivity_constraints:
+- mutually_exclusive: [FOLLOW_PATH, LAND]
+)";
+
+TEST_F(WriteTests, MeetsAllGoals) {
+  scratch.write("robot.yaml", robot);
+  const Result result = write_tests(scratch / "robot.yaml");
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  EXPECT_EQ(result.err, "");
+  expect_complete(scratch / "robot.yaml", {folder});
+}
+
+TEST_F(WriteTests, MeetsWhatTheMissionOfTheQuadrotorDoesNot) {
+  const std::string catalog = "catalogs/quadrotor.yaml";
+  const std::string mission = "catalogs/quadrotor.mission.yaml";
+  const Result result = write_tests(catalog, {"--beside", mission});
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  expect_complete(catalog, {mission, folder});
+  // What docs/coverage.md shows, and how good it is.
+  const std::string shown = result.out.substr(0, result.out.find(" each\n") + 6);
+  const std::string page = test::read_file(CBC_SOURCE_DIR "/docs/coverage.md");
+  EXPECT_NE(page.find("```text\n" + shown + "```\n"), std::string::npos) << shown;
+  const std::string bound = "no fewer than ";
+  const int least = std::stoi(shown.substr(shown.find(bound) + bound.size()));
+  EXPECT_LE(2 * files().size(), 3 * static_cast<std::size_t>(least));
+}
+
+TEST_F(WriteTests, WritesTheSameAgain) {
+  scratch.write("robot.yaml", robot);
+  const Result first = write_tests(scratch / "robot.yaml");
+  const Files before = files();
+  EXPECT_FALSE(before.empty());
+  // Its own scripts do not count as missions that exist.
+  const Result second = write_tests(scratch / "robot.yaml", {"--beside", folder});
+  EXPECT_EQ(second.out, first.out);
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(WriteTests, RemovesScriptsThatAreNotNeededAnyMore) {
+  scratch.write("robot.yaml", robot);
+  EXPECT_EQ(write_tests(scratch / "robot.yaml").status, 0);
+  fs::create_directory(scratch / "missions");
+  for (const auto& [name, text] : files()) scratch.write("missions/" + name, text);
+  const Result result = write_tests(scratch / "robot.yaml", {"--beside", scratch / "missions"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("0 tests with 0 events"), std::string::npos) << result.out;
+  EXPECT_EQ(files(), Files());
+}
+
+TEST_F(WriteTests, KeepsWhatAnybodyHasWritten) {
+  scratch.write("robot.yaml", robot);
+  EXPECT_EQ(write_tests(scratch / "robot.yaml").status, 0);
+  const Files before = files();
+  const std::string changed = before.begin()->second + "# a remark\n";
+  scratch.write("tests/" + before.begin()->first, changed);
+  const Result result = write_tests(scratch / "robot.yaml");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_NE(result.err.find("'" + before.begin()->first + "'"), std::string::npos) << result.err;
+  EXPECT_EQ(files().begin()->second, changed);
+}
+
+TEST_F(WriteTests, RefusesFoldersWithOtherThings) {
+  scratch.write("robot.yaml", robot);
+  fs::create_directories(folder + "/inner.yaml");
+  EXPECT_EQ(write_tests(scratch / "robot.yaml").status, 2);
+  fs::remove(folder + "/inner.yaml");
+  scratch.write("tests/notes.txt", "mine");
+  EXPECT_EQ(write_tests(scratch / "robot.yaml").status, 2);
+  EXPECT_EQ(files(), (Files{{"notes.txt", "mine"}}));
+  fs::remove(folder + "/notes.txt");
+  EXPECT_EQ(write_tests(scratch / "robot.yaml").status, 0);
+  fs::create_symlink(scratch / "robot.yaml", folder + "/link.yaml");
+  EXPECT_EQ(write_tests(scratch / "robot.yaml").status, 2);
+}
+
+TEST_F(WriteTests, RefusesFilesAndFoldersThatCannotBeWritten) {
+  scratch.write("robot.yaml", robot);
+  scratch.write("tests", "a file");
+  EXPECT_EQ(write_tests(scratch / "robot.yaml").status, 2);
+  EXPECT_EQ(test::read_file(folder), "a file");
+  fs::remove(folder);
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  fs::create_directory(folder);
+  fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_EQ(write_tests(scratch / "robot.yaml").status, 2);
+  fs::permissions(folder, fs::perms::owner_all);
+}
+
+TEST_F(WriteTests, GivesSafeNames) {
+  scratch.write("odd.yaml", R"(
+behaviors:
+- {behavior: "../../X", task: "a/b"}
+- {behavior: "../../x", task: "A/B"}
+- {behavior: "…", task: "\u0001"}
+exclusivity_constraints: [{mutually_exclusive: ["a/b", "A/B", "\u0001"]}]
+)");
+  const Result result = write_tests(scratch / "odd.yaml");
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  for (const auto& [name, text] : files()) {
+    EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-."), std::string::npos)
+        << name;
+    EXPECT_NE(name.front(), '-');
+    EXPECT_NE(name.front(), '.');
+  }
+  expect_complete(scratch / "odd.yaml", {folder});
+}
+
+TEST_F(WriteTests, SaysWhatALimitLeavesOpen) {
+  const Result result = write_tests("catalogs/quadrotor.yaml", {"--max-states", "10"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.out.find("a limit ended the exploration"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("no fewer than"), std::string::npos);
+  for (const auto& [name, text] : files()) {
+    EXPECT_EQ(cbc({"solve", "catalogs/quadrotor.yaml", folder + "/" + name}).status, 0) << name;
+  }
+}
+
+}  // namespace
+}  // namespace cbc::golden

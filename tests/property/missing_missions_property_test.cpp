@@ -1,0 +1,117 @@
+// Random small catalogs and assumptions: the scripts that are written, read back from their text,
+// must pass, and together meet every goal that is not proven unreachable, which
+// goal_proof_property_test.cpp compares with a plain enumeration. CBC_SEED and CBC_PROPERTY_CASES
+// are as in property_test.cpp.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "coverage/goal_proof.h"
+#include "coverage/goals.h"
+#include "coverage/missing_missions.h"
+#include "coverage/watched_run.h"
+#include "demand.h"
+#include "diagnostic/diagnostic.h"
+#include "random_cases.h"
+#include "script/reader.h"
+#include "verify_case.h"
+#include "yaml/document.h"
+
+namespace cbc::plain {
+namespace {
+
+using oracle::demand;
+
+constexpr std::uint64_t default_cases = 100;
+constexpr std::uint64_t most_states = 400;
+
+/// By goal: whether the script of the text meets it.
+std::vector<std::uint8_t> run_text(const CompiledCatalog& catalog, const std::vector<Goal>& goals,
+                                   const std::string& text) {
+  Diagnostics diagnostics;
+  const auto document = yaml::parse(text, "script.yaml", diagnostics);
+  demand(document != nullptr, "it is no YAML: " + text);
+  const auto script = read_script(*document, catalog, Severity::warning, diagnostics);
+  demand(script.has_value(), "the script is refused: " + text);
+  SilentRun silent;
+  WatchedResult watched = run_watched(catalog, goals, *script, {}, silent);
+  demand(watched.result.status == Coordinator::Status::ok, "it ends: " + text);
+  demand(watched.result.failed == 0, "an expectation fails: " + text);
+  return std::move(watched.met);
+}
+
+void check(const VerifyCase& sample, oracle::Statistics& statistics) {
+  const CompiledCatalog& catalog = sample.catalog;
+  const Assumptions& assumptions = sample.question.assumptions;
+  const std::vector<Goal> goals = find_goals(catalog);
+  GoalProofOptions of_proof;
+  of_proof.max_states = most_states;
+  const GoalProof proof = prove_unreachable(catalog, goals, assumptions, of_proof);
+  if (proof.error) return statistics.count("excluded");
+  for (const GoalProof::Group& group : proof.groups) {
+    if (!group.is_complete) return statistics.count("too many states");
+  }
+  std::vector<std::uint8_t> met(goals.size(), 0);
+  const MissingMissions missing = find_missing_missions(catalog, goals, met, assumptions, {});
+  demand(!missing.error && missing.fault.empty(), "a fault: " + missing.fault);
+  demand(missing.lower_bound.has_value() && *missing.lower_bound <= missing.missions.size(),
+         "fewer scripts than the bound");
+  std::set<std::string> names;
+  std::set<std::uint32_t> counted;
+  for (const MissingMissions::Mission& mission : missing.missions) {
+    demand(names.insert(mission.name).second, "two scripts of one name");
+    const std::vector<std::uint8_t> by_script = run_text(catalog, goals, mission.text);
+    for (const std::uint32_t goal : mission.goals) {
+      demand(by_script[goal] != 0, "not met: " + describe(catalog, goals[goal]) + mission.text);
+      demand(counted.insert(goal).second, "counted twice: " + describe(catalog, goals[goal]));
+    }
+    demand(!mission.goals.empty(), "a script for nothing");
+    for (std::size_t goal = 0; goal < goals.size(); ++goal) met[goal] |= by_script[goal];
+  }
+  statistics.count(missing.missions.empty() ? "no scripts" : "scripts");
+  std::set<std::uint32_t> unmet;
+  for (const MissingMissions::Unmet& one : missing.unmet) unmet.insert(one.goal);
+  for (std::uint32_t goal = 0; goal < goals.size(); ++goal) {
+    const std::string text = describe(catalog, goals[goal]);
+    if (met[goal] != 0) {
+      demand(unmet.count(goal) == 0, "met, but listed: " + text);
+      statistics.count("met");
+      continue;
+    }
+    if (proof.unreachable[goal] != 0) {
+      demand(unmet.count(goal) == 0, "unreachable, but listed: " + text);
+      statistics.count("unreachable");
+      continue;
+    }
+    demand(unmet.count(goal) != 0, "neither met nor listed: " + text);
+    // A state has no times: others may always come first.
+    demand(goals[goal].kind == Goal::Kind::timeout_fired, "no script meets it: " + text);
+    statistics.count("no time for a timeout");
+  }
+  const MissingMissions nothing = find_missing_missions(catalog, goals, met, assumptions, {});
+  demand(nothing.missions.empty(), "more scripts are written beside these");
+}
+
+void run_case(std::uint64_t seed, oracle::Results& results) {
+  try {
+    check(generate_verify_case(seed), results.statistics);
+  } catch (const std::exception& fault) {
+    results.faults.push_back({seed, fault.what()});
+  }
+}
+
+constexpr oracle::LowerBound lower_bounds[] = {
+    {"scripts", 300}, {"met", 3000}, {"unreachable", 500}};
+
+TEST(MissingMissions, MeetWhatCanBeMet) {
+  oracle::run_random_cases(default_cases, run_case, lower_bounds);
+}
+
+}  // namespace
+}  // namespace cbc::plain
