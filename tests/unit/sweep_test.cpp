@@ -392,8 +392,7 @@ TEST(SweepMerger, RefusesWhatDoesNotBelongTogether) {
             of("its number of sequences is 9, not 8"));
   EXPECT_EQ(with([](SweepResult& r) { r.settings.shard.count = 4; }),
             of("its number of shards is 4, not 3"));
-  EXPECT_EQ(with([](SweepResult& r) { r.settings.shape.events = 1; }),
-            of("it has other options"));
+  EXPECT_EQ(with([](SweepResult& r) { r.settings.shape.events = 1; }), of("it has other options"));
   EXPECT_EQ(with([](SweepResult& r) { r.settings.search.max_nodes = 1; }),
             of("it has other options"));
   EXPECT_EQ(with([](SweepResult& r) { r.digest = "x"; }), of("it is for another catalog"));

@@ -63,7 +63,8 @@ const Rule task_without_behavior = {
     .summary = "No behavior performs a task.",
     .explanation =
         "The task is listed in the section 'tasks', but no behavior can perform it, so it can "
-        "never run. The coordinator rejects every request for it, and never chooses a behavior that "
+        "never run. The coordinator rejects every request for it, and never chooses a behavior "
+        "that "
         "requires it; such a behavior is not reported again.",
     .example = R"(behaviors:
 - {behavior: HOVER_WITH_PID, task: HOVER}

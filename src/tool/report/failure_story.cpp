@@ -43,7 +43,8 @@ std::string describe_decision(const CompiledCatalog& catalog, const Surprise& su
                   fmt::format("{} of {}", other.objective.satisfied, other.objective.requests));
     case Criterion::request_order:
       return fmt::format(
-          "by the order of requests: {} is served; with what is expected, {} at best, whose request "
+          "by the order of requests: {} is served; with what is expected, {} at best, whose "
+          "request "
           "comes later",
           task_name(catalog, difference.task), task_name(catalog, difference.other_task));
     case Criterion::suitability: {

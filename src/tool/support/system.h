@@ -26,7 +26,8 @@ namespace cbc {
 [[nodiscard]] std::optional<std::string> find_obstacle(const std::string& path);
 
 /// Removes what killed runs of these functions left behind in the folder of an output: files of
-/// this user with the names that they give to unfinished ones, older than an hour. Reads the folder.
+/// this user with the names that they give to unfinished ones, older than an hour. Reads the
+/// folder.
 void remove_leftovers(const std::string& path);
 
 /// What a program made of a text.
