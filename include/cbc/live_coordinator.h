@@ -94,8 +94,7 @@ struct HandledEvent {
 ///
 /// A behavior that finished is inactive already, so the changes contain no deactivation of it. This
 /// includes a behavior that timed out: it is the subject of an event of origin timeout, and has to
-/// be stopped first, and a behavior that a new situation does not fit, of origin situation. (If a
-/// finish is rejected at a search limit, its behavior stays active.)
+/// be stopped first, and a behavior that a new situation does not fit, of origin situation.
 ///
 /// An activation counts as done as soon as it is decided. If it fails on the robot, report a fault
 /// of the behavior, so that it is not tried again, and then its finish with process_failure.

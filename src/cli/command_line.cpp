@@ -206,8 +206,8 @@ void Command::add_confinement() {
     return is_folder(value) ? "" : fmt::format("there is no folder {}", quote(value));
   };
   Option& added = add("--confine", std::move(folder),
-                      "Read no file outside of the folder DIR, whatever files and links name; for "
-                      "files of people you do not trust");
+                      "Read no file outside the folder DIR, whatever files and links name; for "
+                      "files from people you do not trust");
   added.store = [](const std::string& value) { confine_reading(value); };
 }
 

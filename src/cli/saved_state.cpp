@@ -42,7 +42,7 @@ int report_end(const Runner& runner, const CoordinatorOptions& options) {
   const std::string reason = describe_end(result, options);
   if (!reason.empty()) complain(reason);
   if (result.status == Coordinator::Status::refused_answer) {
-    complain("this is a fault of cbc, not of the catalog; please report it");
+    complain("this is a bug in cbc, not in the catalog; please report it");
   }
   return status_of(result);
 }

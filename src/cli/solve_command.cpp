@@ -225,7 +225,7 @@ void add_solve_command(Program& program) {
   command.option("--format", options->format, one_of("FORMAT", formats),
                  fmt::format("{} (default: {}); jsonl writes each event as a line, as soon as it "
                              "is solved, and takes - for a stream of events, one per line (JSON, "
-                             "or a mapping in braces); html and lcov are of --coverage",
+                             "or a mapping in braces); html and lcov only with --coverage",
                              join_with_or(formats), formats.front()));
   command
       .option(
@@ -303,8 +303,8 @@ void add_solve_command(Program& program) {
   state.is_replaceable = true;
   command
       .option("--state-in", options->stream.state_in, state,
-              "Continue from a saved state of the same catalog, with its clock, situation, "
-              "reactive delay, and without timeouts if it has none")
+              "Continue from a saved state of the same catalog, with its time, situation and "
+              "reactive delay, and without timeouts if the saved run had none")
       .only_with({"--format jsonl", "--replay"});
   command
       .option(

@@ -116,7 +116,10 @@ std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_of(const std::stri
   if (given_catalog_ != nullptr || is_given_catalog_bad_) return given_catalog_;
   const std::optional<std::string> named = path_of_catalog(script_path, script);
   if (!named) {
-    complain("script {} names no catalog, and none is given", quote(display_name(script_path)));
+    complain(
+        "script {} names no catalog, and none is given; give one on the command line, or write "
+        "'catalog: FILE' into it",
+        quote(display_name(script_path)));
     return nullptr;
   }
   return catalogs_.load(*named, NamedBy::file);
@@ -236,7 +239,7 @@ void complain_of_run(const Mission& mission, const RunResult& result, const std:
   fmt::print(stderr, "cbc: {}: {}\n", quote(mission.script.file), reason);
   if (result.status == Coordinator::Status::refused_answer) {
     fmt::print(stderr,
-               "cbc: this is a fault of cbc, not of the catalog {}; please report it with the "
+               "cbc: this is a bug in cbc, not in the catalog {}; please report it with the "
                "catalog and the script\n",
                quote(mission.catalog->file));
   }

@@ -83,7 +83,7 @@ void add_sweep_options(Command& command, SweepOptions& options) {
   add("--priorities", options.priorities, whole_number("P", 1, 1'000'000),
       "Requests have priorities from 1 to P (default: 3)");
   add("--failures", options.failures, probability(),
-      "Share of finished behaviors that have failed, from 0 to 1 (default: 0.3)");
+      "Share of finishes that are failures, from 0 to 1 (default: 0.3)");
   add("--faults", options.faults, probability(),
       "Share of events that are faults, repairs or changes of the situation, from 0 to 1 (default: "
       "0.1)");
@@ -141,7 +141,7 @@ int report_failure(const SweepFailure& failure, const SweepSettings& settings) {
     complain("sequence {}: the checker rejects an answer of the solver: {}", failure.sequence,
              failure.internal_error);
     complain(
-        "this is a fault of cbc, not of the catalog; please report it with the catalog and "
+        "this is a bug in cbc, not in the catalog; please report it with the catalog and "
         "this script:");
     fmt::print(stderr, "{}", failure.script);
     return exit_internal;

@@ -132,13 +132,13 @@ void add_verify_command(Program& program) {
                  "same for any N");
 
   command.flag("--reduce", options->reduce,
-               "Take states for the same that differ only in the order of requests that cannot "
+               "Treat states as one that differ only in the order of requests that cannot "
                "interact: the same verdicts and scripts, but fewer states to visit and to count");
   command
       .option("--same-as", options->same_as, input("OLD", ValueKind::catalog),
               "Prove that CATALOG decides every reachable event as the catalog OLD does, or show "
-              "the shortest script whose last event differs; the assumptions of a property file "
-              "count")
+              "the shortest script whose last event differs; under the assumptions of a property "
+              "file, if one is given")
       .not_with({"--format junit", "--format github"}, "it has no place for a comparison");
   command.add_confinement();
 
@@ -164,9 +164,9 @@ void add_verify_command(Program& program) {
       .only_with({"--cut-sets"});
   command
       .option("--situation", options->situation, situation_entry(),
-              "Behaviors that do not fit in this situation are out: the value of a situation "
-              "variable, or of a behavior true or false. Without it, 'initially' of a property "
-              "file counts. May be repeated")
+              "Behaviors that do not fit this situation cannot be active: the value of a "
+              "situation variable, or of a behavior true or false. Without it, 'initially' of a "
+              "property file counts. May be repeated")
       .only_with({"--cut-sets"});
   command
       .option("--open-psa", options->open_psa, further_output("FILE"),

@@ -76,7 +76,10 @@ bool QuestionLoader::find_catalog(const std::string& path, const yaml::Document&
   if (is_given_) return questions_.catalog != nullptr;
   const std::optional<std::string> named = path_of_catalog(path, document);
   if (!named) {
-    complain("property file {} names no catalog, and none is given", quote(display_name(path)));
+    complain(
+        "property file {} names no catalog, and none is given; give one on the command line, or "
+        "write 'catalog: FILE' into it",
+        quote(display_name(path)));
     return false;
   }
   if (!questions_.named_catalog) {

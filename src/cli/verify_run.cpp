@@ -392,7 +392,7 @@ class Call {
     }
     complain("{}: this script does not end as it should", printable(answer.witness->script.file));
     complain(
-        "this is a fault of cbc, not of the catalog; please report it with the catalog and "
+        "this is a bug in cbc, not in the catalog; please report it with the catalog and "
         "this script:");
     fmt::print(stderr, "{}", answer.witness->text);
     return exit_internal;

@@ -160,6 +160,59 @@ TEST(Runner, GoesOnWithTheOutcomeOfTheLastEvent) {
   EXPECT_EQ(listener.failed_after, std::vector<std::uint64_t>{1});
 }
 
+TEST(Runner, ResumesAnyStateWhateverCameBefore) {
+  const CompiledCatalog catalog = test::compile_text(R"(
+situation: [{variable: LIGHT, values: [day, night]}]
+tasks:
+- {task: A, timeout: 5}
+- {task: B}
+- {task: H, reactive_start: true}
+- {task: I, reactive_start: true}
+behaviors:
+- {behavior: a, task: A, situation: {LIGHT: day}}
+- {behavior: b, task: B}
+- {behavior: h, task: H}
+- {behavior: i, task: I}
+exclusivity_constraints:
+- mutually_exclusive: [A, H]
+- mutually_exclusive: [B, I]
+)");
+  Diagnostics diagnostics;
+  const auto document = yaml::parse(R"(
+- start: A
+  priority: 3
+- fault: b
+- situation: {i: false}
+- wait: 1
+- finish: a
+- situation: {LIGHT: night}
+- situation: {i: true, h: false, LIGHT: day}
+- repair: b
+- start: B
+- start: A
+)",
+                                    "s.yaml", diagnostics);
+  const auto script = read_script(*document, catalog, Severity::warning, diagnostics);
+  ASSERT_TRUE(script) << show(diagnostics);
+
+  Silent listener;
+  Runner runner(catalog, {}, listener);
+  runner.begin({});
+  std::vector<Snapshot> snapshots{runner.snapshot()};
+  for (const Step& step : script->steps) {
+    EXPECT_TRUE(runner.take(step));
+    snapshots.push_back(runner.snapshot());
+  }
+  Runner other(catalog, {}, listener);
+  for (const Snapshot& before : snapshots) {
+    for (const Snapshot& snapshot : snapshots) {
+      other.resume(before);
+      other.resume(snapshot);
+      EXPECT_EQ(write_state(catalog, other.snapshot()), write_state(catalog, snapshot));
+    }
+  }
+}
+
 TEST(Runner, TakesSituationAndDelayFromTheScript) {
   EXPECT_EQ(Protocol(R"(
 reactive_delay: 2

@@ -393,11 +393,11 @@ TEST(SweepMerger, RefusesWhatDoesNotBelongTogether) {
   EXPECT_EQ(with([](SweepResult& r) { r.settings.shard.count = 4; }),
             of("its number of shards is 4, not 3"));
   EXPECT_EQ(with([](SweepResult& r) { r.settings.shape.events = 1; }),
-            of("its options are others"));
+            of("it has other options"));
   EXPECT_EQ(with([](SweepResult& r) { r.settings.search.max_nodes = 1; }),
-            of("its options are others"));
-  EXPECT_EQ(with([](SweepResult& r) { r.digest = "x"; }), of("it is of another catalog"));
-  EXPECT_EQ(with([](SweepResult& r) { r.task_names.pop_back(); }), of("it is of another catalog"));
+            of("it has other options"));
+  EXPECT_EQ(with([](SweepResult& r) { r.digest = "x"; }), of("it is for another catalog"));
+  EXPECT_EQ(with([](SweepResult& r) { r.task_names.pop_back(); }), of("it is for another catalog"));
   EXPECT_EQ(with([](SweepResult& r) { r.version = "9"; }),
             of("its version of cbc is '9', not '" + first.version + "'"));
   EXPECT_EQ(with([](SweepResult& r) { r.times.emplace(); }),

@@ -36,6 +36,9 @@ void Coordinator::resume(const Snapshot& snapshot) {
   now_ = snapshot.now;
   record_.index = snapshot.events;
   state_.restore(snapshot);
+  lost_.clear();
+  misfits_.clear();
+  restart_count();
 }
 
 Snapshot Coordinator::snapshot() const {

@@ -74,9 +74,9 @@ class Coordinator {
   void begin(std::span<const Availability> situation,
              std::span<const VariableValue> variables = {});
 
-  /// Instead of begin: continues from the state of another coordinator, which find_inconsistency
-  /// accepts. The reactive delay, and whether there are timeouts, are those of the options; they
-  /// should be those of the snapshot.
+  /// Instead of begin, or at any time later: continues from the state of another coordinator, which
+  /// find_inconsistency accepts. The reactive delay, and whether there are timeouts, are those of
+  /// the options; they should be those of the snapshot.
   void resume(const Snapshot& snapshot);
   /// All that another coordinator needs to continue, without the outcome. Not after
   /// refused_answer.

@@ -35,6 +35,11 @@ void Timers::remove(Item item) {
   sift_down(position_[last.second]);
 }
 
+void Timers::clear() {
+  for (const auto& [due, item] : heap_) position_[item] = absent;
+  heap_.clear();
+}
+
 void Timers::put(std::uint32_t position, const std::pair<Microseconds, Item>& entry) {
   heap_[position] = entry;
   position_[entry.second] = position;
@@ -105,7 +110,21 @@ State::State(const CompiledCatalog& catalog)
   }
 }
 
+void State::clear() {
+  for (const std::uint32_t index : running()) set_value(catalog_.task_ids[index], none, 0);
+  for (BehaviorId behavior = 0; behavior < catalog_.behaviors.size(); ++behavior) {
+    if (is_denied(behavior)) set_denied(behavior, false);
+  }
+  std::fill(faulty_.begin(), faulty_.end(), std::uint8_t{0});
+  std::fill(active_.begin(), active_.end(), std::uint8_t{0});
+  std::fill(waiting_.begin(), waiting_.end(), std::uint8_t{0});
+  waiting_count_ = 0;
+  timeouts_.clear();
+  queue_.clear();
+}
+
 void State::restore(const Snapshot& snapshot) {
+  clear();
   for (const BehaviorId behavior : snapshot.denied) set_denied(behavior, true);
   for (std::uint32_t variable = 0; variable < snapshot.variables.size(); ++variable) {
     set_variable({variable, snapshot.variables[variable]});

@@ -24,6 +24,7 @@ class Timers {
 
   void set(Item item, Microseconds due);
   void remove(Item item);
+  void clear();
 
   [[nodiscard]] bool empty() const { return heap_.empty(); }
   [[nodiscard]] bool has(Item item) const { return position_[item] != absent; }
@@ -64,7 +65,7 @@ class State {
  public:
   explicit State(const CompiledCatalog& catalog);
 
-  /// Takes over a state that find_inconsistency accepts. Only for a new State.
+  /// Takes over a state that find_inconsistency accepts.
   void restore(const Snapshot& snapshot);
 
   // Values of the tasks.
@@ -77,7 +78,7 @@ class State {
   }
   /// Running tasks as catalog indices, ascending. Takes time proportional to the catalog.
   [[nodiscard]] std::vector<std::uint32_t> running() const;
-  /// Idle tasks are those that do not start on request only; f3 counts them.
+  /// Idle tasks are those that can start without a request; f3 counts them.
   [[nodiscard]] std::uint32_t idle_running() const { return idle_running_; }
   [[nodiscard]] std::uint32_t idle_total() const { return idle_total_; }
 
@@ -163,6 +164,7 @@ class State {
   [[nodiscard]] bool excludes_running_task(TaskId task) const;
 
  private:
+  void clear();
   void update_available(BehaviorId behavior);
 
   const CompiledCatalog& catalog_;

@@ -15,7 +15,7 @@
 namespace cbc {
 
 /// The objectives of a solution but for f2, over the whole catalog (docs/semantics.md,
-/// "Objectives"). Idle tasks are those that do not start on request only.
+/// "Objectives"). Idle tasks are those that can start without a request.
 struct ObjectiveValues {
   std::uint32_t satisfied = 0;     ///< requests, for f1
   std::uint32_t requests = 0;      ///< active requests, for f1

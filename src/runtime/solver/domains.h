@@ -23,7 +23,7 @@ class Domains {
     std::int64_t cost = 0;      ///< log_cost of the suitabilities, zeros left out
     std::uint32_t factors = 0;  ///< suitabilities other than 1 and 0
     std::uint32_t zeros = 0;    ///< suitabilities of 0
-    std::uint32_t idle = 0;     ///< tasks that do not start on request only (f3)
+    std::uint32_t idle = 0;     ///< tasks that can start without a request (f3)
   };
 
   struct Mark {

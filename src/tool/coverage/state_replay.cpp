@@ -1,6 +1,7 @@
 #include "coverage/state_replay.h"
 
-#include <algorithm>
+#include "script/runner.h"
+#include "verify/witness.h"
 
 namespace cbc {
 namespace {
@@ -8,29 +9,17 @@ namespace {
 /// The present instant. What is in the queue comes due in the microseconds after it, set by set.
 constexpr Microseconds present = second;
 
-class WatchedMove final : public EventListener {
- public:
-  explicit WatchedMove(GoalWatch& watch) : watch_(watch) {}
-
-  void on_decision(const EventRecord& record, const Circumstances& circumstances,
-                   const Assignment* solution) override {
-    watch_.on_decision(record, circumstances, solution);
-    if (solution != nullptr && circumstances.trigger.is_reactive) {
-      started.push_back(circumstances.trigger.task);
-    }
-  }
-  void on_event(const EventRecord& record) override {
-    watch_.on_event(record, coordinator->state());
-  }
-
-  const Coordinator* coordinator = nullptr;
-  std::vector<TaskId> started;
-
- private:
-  GoalWatch& watch_;
-};
+CoordinatorOptions without_times() {
+  CoordinatorOptions options;
+  options.timeouts = false;
+  options.find_conflicts = false;
+  return options;
+}
 
 }  // namespace
+
+StateReplay::StateReplay(const Model& model, GoalWatch& watch)
+    : model_(model), watch_(watch), coordinator_(model.catalog(), without_times(), *this) {}
 
 void StateReplay::load(const Stepper& stepper) {
   const Model::Layout& layout = model_.layout();
@@ -74,62 +63,33 @@ void StateReplay::load(const Stepper& stepper) {
 }
 
 void StateReplay::take(const Move& move) {
-  WatchedMove watched(watch_);
-  CoordinatorOptions options;
-  options.timeouts = false;
-  options.find_conflicts = false;
-  Coordinator coordinator(model_.catalog(), options, watched);
-  watched.coordinator = &coordinator;
-  coordinator.resume(state_);
-  watch_.begin(coordinator.state());
-  const VariableValue value{move.subject, static_cast<std::uint32_t>(move.choice)};
-  const Availability availability{move.subject, move.choice != 0};
-  Event event;
-  event.subject = move.subject;
-  event.verb = Verb::finish;
-  switch (move.kind) {
-    case Move::Kind::start:
-      event.verb = Verb::start;
-      event.priority = move.choice;
-      break;
-    case Move::Kind::stop:
-      event.verb = Verb::stop;
-      break;
-    case Move::Kind::success:
-      event.cause = FinishCause::goal_achieved;
-      break;
-    case Move::Kind::failure:
-      event.cause = FinishCause::process_failure;
-      break;
-    case Move::Kind::situation_change:
-      event.cause = FinishCause::situation_change;
-      break;
-    case Move::Kind::fault:
-      event.verb = Verb::fault;
-      break;
-    case Move::Kind::repair:
-      event.verb = Verb::repair;
-      break;
-    case Move::Kind::variable:
-      event.verb = Verb::situation;
-      event.variables = {&value, 1};
-      break;
-    case Move::Kind::own:
-      event.verb = Verb::situation;
-      event.situation = {&availability, 1};
-      break;
-    case Move::Kind::due:
-      // Before the second set.
-      static_cast<void>(coordinator.advance_to(present + 2));
-      break;
+  coordinator_.resume(state_);
+  watch_.begin(coordinator_.state());
+  started_.clear();
+  if (move.kind == Move::Kind::due) {
+    // Before the second set.
+    static_cast<void>(coordinator_.advance_to(present + 2));
+  } else {
+    const Step step = step_of(move);
+    static_cast<void>(coordinator_.handle(event_of(step)));
   }
-  if (move.kind != Move::Kind::due) static_cast<void>(coordinator.handle(event));
-  started_ = std::move(watched.started);
   gave_way_.clear();
   for (const std::uint32_t task : model_.reactive()) {
     const TaskId id = model_.tasks()[task].id;
     if (watch_.has_given_way(id)) gave_way_.push_back(id);
   }
+}
+
+void StateReplay::on_decision(const EventRecord& record, const Circumstances& circumstances,
+                              const Assignment* solution) {
+  watch_.on_decision(record, circumstances, solution);
+  if (solution != nullptr && circumstances.trigger.is_reactive) {
+    started_.push_back(circumstances.trigger.task);
+  }
+}
+
+void StateReplay::on_event(const EventRecord& record) {
+  watch_.on_event(record, coordinator_.state());
 }
 
 }  // namespace cbc

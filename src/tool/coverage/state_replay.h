@@ -13,10 +13,10 @@
 namespace cbc {
 
 /// Makes moves of an exploration once more, on a coordinator that is watched for goals.
-class StateReplay {
+class StateReplay final : private EventListener {
  public:
   /// Model and watch must outlive this object.
-  StateReplay(const Model& model, GoalWatch& watch) : model_(model), watch_(watch) {}
+  StateReplay(const Model& model, GoalWatch& watch);
 
   /// Takes up the state of the stepper.
   void load(const Stepper& stepper);
@@ -28,8 +28,13 @@ class StateReplay {
   [[nodiscard]] const std::vector<TaskId>& gave_way() const { return gave_way_; }
 
  private:
+  void on_decision(const EventRecord& record, const Circumstances& circumstances,
+                   const Assignment* solution) override;
+  void on_event(const EventRecord& record) override;
+
   const Model& model_;
   GoalWatch& watch_;
+  Coordinator coordinator_;
   Snapshot state_;
   std::vector<TaskId> started_;
   std::vector<TaskId> gave_way_;

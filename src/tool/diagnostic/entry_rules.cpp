@@ -63,7 +63,7 @@ const Rule task_without_behavior = {
     .summary = "No behavior performs a task.",
     .explanation =
         "The task is listed in the section 'tasks', but no behavior can perform it, so it can "
-        "never run. The coordinator rejects every request of it, and never chooses a behavior that "
+        "never run. The coordinator rejects every request for it, and never chooses a behavior that "
         "requires it; such a behavior is not reported again.",
     .example = R"(behaviors:
 - {behavior: HOVER_WITH_PID, task: HOVER}
@@ -253,7 +253,7 @@ tasks:
 const Rule confusable_name = {
     .name = "confusable-name",
     .severity = Severity::warning,
-    .summary = "A name is easily taken for another one, or has what cannot be seen.",
+    .summary = "A name is easily taken for another one, or has an invisible character.",
     .explanation =
         "Two names differ only in upper and lower case, in what separates the words ('_', '-', "
         "'.', '/' or blanks), in characters that look alike (0 and O; 1, l and I; some Cyrillic or "
@@ -272,7 +272,7 @@ tasks:
 )",
     .mending =
         "If both names mean the same, use one of them; otherwise rename one. "
-        "Leave out what cannot be seen.",
+        "Remove invisible characters.",
     .mended = R"(behaviors:
 - {behavior: FOLLOW_PATH_WITH_PID, task: FOLLOW_PATH}
 - {behavior: FOLLOW_PATH_WITH_MPC, task: FOLLOW_PATH}

@@ -69,7 +69,7 @@ const Rule dead_task = {
     .summary = "A task can never run, though behaviors perform it.",
     .explanation =
         "No assignment of behaviors to tasks that satisfies all constraints has the task running, "
-        "even if all behaviors are available. The coordinator rejects every request of it. Whether "
+        "even if all behaviors are available. The coordinator rejects every request for it. Whether "
         "tasks start on request does not matter here. The same holds for a task whose behaviors, "
         "with what they require, fit in no "
         "common situation.\n\n"

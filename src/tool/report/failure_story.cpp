@@ -34,7 +34,7 @@ std::string describe_decision(const CompiledCatalog& catalog, const Surprise& su
   const Configuration& other = *surprise.look_back.why_not.alternative;
   const Difference& difference = surprise.look_back.why_not.difference;
   const auto both = [](std::string_view what, const auto& ours, const auto& theirs) {
-    return fmt::format("by {}: {}; with what is expected {} at best", what, ours, theirs);
+    return fmt::format("by {}: {}; with what is expected, {} at best", what, ours, theirs);
   };
   switch (difference.criterion) {
     case Criterion::requests:
@@ -43,7 +43,7 @@ std::string describe_decision(const CompiledCatalog& catalog, const Surprise& su
                   fmt::format("{} of {}", other.objective.satisfied, other.objective.requests));
     case Criterion::request_order:
       return fmt::format(
-          "by the order of requests: {} is served; with what is expected {} at best, whose request "
+          "by the order of requests: {} is served; with what is expected, {} at best, whose request "
           "comes later",
           task_name(catalog, difference.task), task_name(catalog, difference.other_task));
     case Criterion::suitability: {

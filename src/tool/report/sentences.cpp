@@ -300,7 +300,7 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
       return fmt::format("{} excludes {}", task, task_name(catalog, reason.other_task)) +
              place(catalog, reason);
     case Reason::Kind::on_request:
-      return fmt::format("{} starts only on request, and has none", task);
+      return fmt::format("{} starts only on request, and is not requested", task);
     case Reason::Kind::requires_task:
       return fmt::format("{} requires {}", behavior, task) + place(catalog, reason);
     case Reason::Kind::performance:

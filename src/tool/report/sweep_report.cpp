@@ -50,7 +50,7 @@ std::string describe_reason(const SweepResult& result, const RejectionReason& re
     case Reason::Kind::exclusive:
       return task + " excludes " + name_in(result.task_names, reason.other_task);
     case Reason::Kind::on_request:
-      return task + " starts only on request, and has none";
+      return task + " starts only on request, and is not requested";
     case Reason::Kind::requires_task:
       return behavior + " requires " + task;
     case Reason::Kind::performance:

@@ -74,13 +74,13 @@ std::optional<std::string> SweepMerger::find_difference(const SweepResult& shard
   }
   if (shard.digest != merged_.digest || shard.task_names != merged_.task_names ||
       shard.behavior_names != merged_.behavior_names) {
-    return "it is of another catalog";
+    return "it is for another catalog";
   }
   if (theirs.sequences != ours.sequences) {
     return differs("number of sequences", theirs.sequences, ours.sequences);
   }
   if (theirs.seed != ours.seed) return differs("seed", theirs.seed, ours.seed);
-  if (theirs.shape != ours.shape || theirs.search != ours.search) return "its options are others";
+  if (theirs.shape != ours.shape || theirs.search != ours.search) return "it has other options";
   if (theirs.shard.count != ours.shard.count) {
     return differs("number of shards", theirs.shard.count, ours.shard.count);
   }

@@ -135,45 +135,6 @@ std::vector<const Model::Choice*> find_choices(const Model& model, const std::ve
   return choices;
 }
 
-Step step_of(const Move& move) {
-  Step step;
-  step.subject = move.subject;
-  switch (move.kind) {
-    case Move::Kind::start:
-      step.verb = Verb::start;
-      step.priority = move.choice;
-      break;
-    case Move::Kind::stop:
-      step.verb = Verb::stop;
-      break;
-    case Move::Kind::success:
-    case Move::Kind::failure:
-    case Move::Kind::situation_change:
-      step.verb = Verb::finish;
-      step.cause = move.kind == Move::Kind::success   ? FinishCause::goal_achieved
-                   : move.kind == Move::Kind::failure ? FinishCause::process_failure
-                                                      : FinishCause::situation_change;
-      break;
-    case Move::Kind::fault:
-      step.verb = Verb::fault;
-      break;
-    case Move::Kind::repair:
-      step.verb = Verb::repair;
-      break;
-    case Move::Kind::variable:
-      step.verb = Verb::situation;
-      step.situation.variables.push_back({move.subject, static_cast<std::uint32_t>(move.choice)});
-      break;
-    case Move::Kind::own:
-      step.verb = Verb::situation;
-      step.situation.availability.push_back({move.subject, move.choice != 0});
-      break;
-    case Move::Kind::due:
-      break;
-  }
-  return step;
-}
-
 /// The tasks that a condition is about.
 void add_tasks(const CompiledCatalog& catalog, const StateCondition& condition,
                std::set<TaskId>& tasks) {
@@ -225,6 +186,45 @@ Situation situation_of(const CompiledCatalog& catalog, const SituationPart& part
 }
 
 }  // namespace
+
+Step step_of(const Move& move) {
+  Step step;
+  step.subject = move.subject;
+  switch (move.kind) {
+    case Move::Kind::start:
+      step.verb = Verb::start;
+      step.priority = move.choice;
+      break;
+    case Move::Kind::stop:
+      step.verb = Verb::stop;
+      break;
+    case Move::Kind::success:
+    case Move::Kind::failure:
+    case Move::Kind::situation_change:
+      step.verb = Verb::finish;
+      step.cause = move.kind == Move::Kind::success   ? FinishCause::goal_achieved
+                   : move.kind == Move::Kind::failure ? FinishCause::process_failure
+                                                      : FinishCause::situation_change;
+      break;
+    case Move::Kind::fault:
+      step.verb = Verb::fault;
+      break;
+    case Move::Kind::repair:
+      step.verb = Verb::repair;
+      break;
+    case Move::Kind::variable:
+      step.verb = Verb::situation;
+      step.situation.variables.push_back({move.subject, static_cast<std::uint32_t>(move.choice)});
+      break;
+    case Move::Kind::own:
+      step.verb = Verb::situation;
+      step.situation.availability.push_back({move.subject, move.choice != 0});
+      break;
+    case Move::Kind::due:
+      break;
+  }
+  return step;
+}
 
 Witness make_witness(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
                      const Assumptions& assumptions, const std::vector<Move>& moves,

@@ -18,6 +18,9 @@ struct Witness {
   std::string text;  ///< of the script, with comments
 };
 
+/// The move as a step of a script. Not for Move::Kind::due, which the clock makes.
+[[nodiscard]] Step step_of(const Move& move);
+
 /// The script of these moves, made on these groups. `property`: decides what is expected at the
 /// end; null: the values of all tasks and, if the last move is a start or a stop, its outcome.
 /// `comment`: the first lines of the text, without "# ".

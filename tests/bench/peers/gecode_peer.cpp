@@ -35,7 +35,7 @@ struct Value {
 struct Task {
   bool is_forced = false;
   bool is_root = false;         ///< may run though nothing requires it
-  bool counts_as_idle = false;  ///< does not start on request only
+  bool counts_as_idle = false;  ///< can start without a request
   int changes_if_stopped = 0;
   std::vector<Value> values;
 };
