@@ -487,12 +487,16 @@ Script generate_script(Random& random, const Catalog& catalog) {
   return ScriptGenerator(random, catalog).generate();
 }
 
-Case generate_case(std::uint64_t seed) {
-  Random random(seed);
+Case generate_case(Random& random) {
   Case result;
   result.catalog = generate_catalog(random);
   result.script = generate_script(random, result.catalog);
   return result;
+}
+
+Case generate_case(std::uint64_t seed) {
+  Random random(seed);
+  return generate_case(random);
 }
 
 }  // namespace cbc::oracle

@@ -17,6 +17,7 @@ struct Case {
 // The catalog has no finding of severity error; the product of the domain sizes of each of its
 // groups is small enough to be enumerated. The script is made with the oracle at hand, so that most
 // of its events do something.
+Case generate_case(Random& random);
 Case generate_case(std::uint64_t seed);
 
 // All times of a case are multiples of one of these, so that many things fall due together.

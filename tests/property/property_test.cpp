@@ -3,15 +3,14 @@
 // difference is printed, and CBC_SEED=<that> CBC_PROPERTY_CASES=1 repeats it alone.
 #include <cstdint>
 #include <exception>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "conflict_check.h"
+#include "enumeration.h"
+#include "event_case.h"
 #include "generator.h"
-#include "oracle.h"
 #include "random_cases.h"
 #include "subject.h"
 #include "yaml_text.h"
@@ -19,93 +18,14 @@
 namespace cbc::oracle {
 namespace {
 
-using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr std::uint64_t default_event_cases = 3000;
 
-// The type that a scalar of a parameter has in JSON is free; its text is not.
-json scalars_as_text(const ordered_json& value) {
-  if (value.is_object() || value.is_array()) {
-    json result = value.is_object() ? json::object() : json::array();
-    for (const auto& [key, item] : value.items()) {
-      if (value.is_object()) {
-        result[key] = scalars_as_text(item);
-      } else {
-        result.push_back(scalars_as_text(item));
-      }
-    }
-    return result;
-  }
-  return value.is_null() || value.is_string() ? json(value) : json(value.dump());
-}
-
-// What is compared of an event. The order of keys matters only where it is catalog order.
-json comparable(ordered_json event) {
-  event.erase("conflict");
-  if (event.contains("search") && event["search"].is_object()) {
-    event["search"].erase("solutions");
-    event["search"].erase("nodes");
-    event["search"].erase("elapsed_us");
-  }
-  json result = event;
-  if (event.contains("parameters")) {
-    result["parameters"] = scalars_as_text(event["parameters"]);
-  }
-  for (const char* key : {"running", "requests", "queue"}) {
-    json pairs = json::array();
-    if (event.contains(key)) {
-      for (const auto& [name, value] : event[key].items()) {
-        pairs.push_back({name, value});
-      }
-    }
-    result[key] = pairs;
-  }
-  return result;
-}
-
-// The index of the first event that differs; the number of events if none does.
-std::size_t first_difference(const ordered_json& expected, const ordered_json& actual) {
-  std::size_t i = 0;
-  while (i < expected.size() && i < actual.size() &&
-         comparable(expected[i]) == comparable(actual[i])) {
-    ++i;
-  }
-  return i;
-}
-
-std::string event_text(const ordered_json& events, std::size_t index) {
-  return index < events.size() ? events[index].dump(1) : "no such event";
-}
-
 void run_event_case(std::uint64_t seed, Results& results) {
-  const Case sample = generate_case(seed);
   Random forms(~seed);
-  const std::string catalog = catalog_yaml(sample.catalog, forms);
-  const std::string script = script_yaml(sample.catalog, sample.script, forms);
-  const ordered_json expected = run_oracle(sample.catalog, sample.script, &results.statistics);
-
-  const std::string inputs =
-      "seed " + std::to_string(seed) + "\n--- catalog\n" + catalog + "--- script\n" + script;
-  try {
-    const ordered_json actual = run_subject(catalog, script);
-    const std::size_t index = first_difference(expected, actual);
-    if (index < expected.size() || index < actual.size()) {
-      results.faults.push_back({seed, inputs + "--- first difference: event " +
-                                          std::to_string(index + 1) + "\n--- oracle\n" +
-                                          event_text(expected, index) + "\n--- subject\n" +
-                                          event_text(actual, index) + "\n"});
-      return;
-    }
-    const std::optional<ConflictFault> fault = check_conflicts(
-        CatalogFacts(sample.catalog), catalog, sample.script, actual, &results.statistics);
-    if (fault) {
-      results.faults.push_back(
-          {seed, inputs + "--- wrong conflict: event " + std::to_string(fault->event + 1) + "\n" +
-                     fault->what + "\n--- subject\n" + event_text(actual, fault->event) + "\n"});
-    }
-  } catch (const std::exception& error) {
-    results.faults.push_back({seed, inputs + "--- refused\n" + error.what() + "\n"});
+  if (const auto fault = find_fault(generate_case(seed), forms, &results.statistics)) {
+    results.faults.push_back({seed, "seed " + std::to_string(seed) + "\n" + *fault});
   }
 }
 

@@ -4,12 +4,9 @@
 #include <string_view>
 
 #include "compiled/compiled_file.h"
+#include "support/rich_catalog.h"
 
 namespace cbc::test {
-
-/// A small catalog with something of everything: several groups, tasks and behaviors of all kinds,
-/// requirements and minimums, exclusivity, parameters, packages, timeouts.
-extern const std::string_view rich_catalog;
 
 /// The file of a catalog.
 [[nodiscard]] std::string compiled_bytes(std::string_view yaml);

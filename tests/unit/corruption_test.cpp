@@ -6,48 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "compiled/compiled_file.h"
-#include "coordinator/coordinator.h"
 #include "support/content_place.h"
+#include "support/exercise.h"
 #include "unit/compiled_bytes.h"
 
 /// Damaged compiled catalogs: cut off anywhere, or with any byte changed.
 namespace cbc {
 namespace {
-
-class NoListener final : public EventListener {
- public:
-  void on_event(const EventRecord&) override {}
-};
-
-/// Lets everything happen to a catalog: each task is started and each behavior fails. The checker
-/// looks at every answer.
-void exercise(const CompiledCatalog& catalog) {
-  NoListener nobody;
-  CoordinatorOptions options;
-  options.max_clock_events = 50;
-  options.search.max_nodes = 1000;
-  Coordinator coordinator(catalog, options, nobody);
-  coordinator.begin({});
-  Microseconds now = 0;
-  const auto step = [&](Verb verb, std::uint32_t subject, std::int32_t priority) {
-    now += second;
-    Event event;
-    event.verb = verb;
-    event.subject = subject;
-    event.cause = FinishCause::wrong_progress;
-    if (verb == Verb::start) event.priority = priority;
-    Coordinator::Status status = coordinator.advance_to(now);
-    if (status == Coordinator::Status::ok) status = coordinator.handle(event);
-    EXPECT_NE(status, Coordinator::Status::refused_answer) << coordinator.internal_error();
-    return status == Coordinator::Status::ok;
-  };
-  for (std::uint32_t task = 0; task < catalog.tasks.size(); ++task) {
-    if (!step(Verb::start, task, static_cast<std::int32_t>(1 + task % 3))) return;
-  }
-  for (std::uint32_t behavior = 0; behavior < catalog.behaviors.size(); ++behavior) {
-    if (!step(Verb::finish, behavior, 0)) return;
-  }
-}
 
 /// Whether a file was refused, with a reason; if not, it must hold the same as `bytes`.
 bool is_refused(const CompiledFileResult& result, const std::string& bytes) {
@@ -108,7 +73,7 @@ TEST(Corruption, EveryChangedByteUnderANewDigestIsRefusedOrAGoodCatalog) {
         continue;
       }
       ++taken;
-      exercise(result.file->catalog);
+      EXPECT_EQ(test::exercise(result.file->catalog), std::nullopt);
       if (HasFailure()) FAIL() << "byte " << place << " changed by " << change;
     }
   }

@@ -268,6 +268,35 @@ TEST(Runner, NothingTimesOutAfterAStateWithoutTimeouts) {
   EXPECT_EQ(find_inconsistency(catalog, snapshot), "task 'A' cannot wait for a timeout");
 }
 
+/// What a state lists are sets: a repetition was not written by a coordinator.
+TEST(Runner, RefusesRepetitionsInASavedState) {
+  const CompiledCatalog catalog = test::compile_text(R"(
+behaviors:
+- {behavior: a, task: A, situation: {DARK: false}}
+situation:
+- {variable: DARK}
+)");
+  class : public RunListener {
+    void on_event(const EventRecord&, const Step*, const State&) override {}
+  } nobody;
+  Runner runner(catalog, {}, nobody);
+  runner.begin({});
+  const std::string state = write_state(catalog, runner.snapshot());
+  ASSERT_EQ(read_state(state, catalog).error, "");
+  const auto error_with = [&](std::string_view place, std::string_view added) {
+    std::string damaged = state;
+    const std::size_t at = damaged.find(place);
+    if (at == std::string::npos) return "there is no " + std::string(place) + " in " + state;
+    damaged.insert(at + place.size(), added);
+    return read_state(damaged, catalog).error;
+  };
+  EXPECT_EQ(error_with(R"("unavailable": [)", R"("a")"), "");
+  EXPECT_EQ(error_with(R"("unavailable": [)", R"("a", "a")"), "behavior 'a' is unavailable twice");
+  EXPECT_EQ(error_with(R"("faulty": [)", R"("a", "a")"), "behavior 'a' is faulty twice");
+  EXPECT_EQ(error_with(R"("variables": {)", R"("DARK": true,)"),
+            "situation variable 'DARK' has two values");
+}
+
 TEST(Runner, PassesPrioritiesParametersAndCausesOn) {
   const Protocol protocol(R"(
 - {start: A, priority: 4, parameters: {x: 1}}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <set>
+#include <string_view>
 
 #include "base/text.h"
 #include "solver/checker.h"
@@ -282,6 +283,8 @@ class SnapshotCheck {
     for (const auto& [behavior, time] : snapshot_.active) check_activation(behavior, time);
     for (const Snapshot::RunningTask& entry : snapshot_.running) check_task(entry);
     check_active();
+    check_repetitions(snapshot_.denied, "unavailable");
+    check_repetitions(snapshot_.faulty, "faulty");
     for (const auto& [task, due] : snapshot_.queue) check_queued(task, due);
     for (const TaskId task : snapshot_.waiting) check_waiting(task);
     if (problem_.empty()) check_constraints();
@@ -388,6 +391,15 @@ class SnapshotCheck {
       refuse(concat("behavior ", quote(catalog_.name_of_behavior(behavior)),
                     " is active, but does not fit the value of ",
                     quote(catalog_.name_of_variable(*variable))));
+    }
+  }
+
+  void check_repetitions(const std::vector<BehaviorId>& behaviors, std::string_view what) {
+    std::set<BehaviorId> known;
+    for (const BehaviorId behavior : behaviors) {
+      if (known.insert(behavior).second) continue;
+      refuse(
+          concat("behavior ", quote(catalog_.name_of_behavior(behavior)), " is ", what, " twice"));
     }
   }
 

@@ -270,6 +270,9 @@ class StateReader {
     if (!place) {
       throw JsonFault("situation variable " + quote(value.name()) + " has no value " + quote(text));
     }
+    if (out_.variables[*variable] != none) {
+      throw JsonFault("situation variable " + quote(value.name()) + " has two values");
+    }
     out_.variables[*variable] = *place;
   }
 

@@ -1,0 +1,28 @@
+// Lints texts as `cbc lint --fix` does.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "catalog/catalog.h"
+#include "compiled/compiled_catalog.h"
+#include "lint/controls.h"
+#include "lint/lint.h"
+
+namespace cbc::fuzz {
+
+struct LintedCatalog {
+  LintedFile file;
+  Catalog catalog;
+  std::optional<CompiledCatalog> compiled;
+  std::size_t errors = 0;
+};
+[[nodiscard]] LintedCatalog lint(std::string text, const SeveritySettings& settings);
+
+/// Writes the findings in one of the formats: all of them for each input would be slow.
+void report(const LintedFile& file);
+
+/// Applies all fixes, which must end, keep the meaning, and add no errors.
+void fix(const LintedCatalog& linted, const SeveritySettings& settings);
+
+}  // namespace cbc::fuzz
