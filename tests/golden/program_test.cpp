@@ -186,6 +186,18 @@ std::vector<std::string> names_of_published_catalogs() {
   return names;
 }
 
+/// A NAME.mission.yaml for each, and those of other folders.
+std::size_t count_published_missions() {
+  std::size_t count = names_of_published_catalogs().size();
+  for (const char* const folder : {"/catalogs/missions", "/catalogs/tests"}) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(CBC_SOURCE_DIR + std::string(folder))) {
+      if (entry.path().extension() == ".yaml") ++count;
+    }
+  }
+  return count;
+}
+
 TEST(PublishedCatalogs, HaveNoFindings) {
   const std::vector<std::string> names = names_of_published_catalogs();
   ASSERT_GE(names.size(), 2U);
@@ -193,7 +205,8 @@ TEST(PublishedCatalogs, HaveNoFindings) {
   Result result = run(call);
   EXPECT_EQ(result.status, 0);
   const std::string count = std::to_string(names.size());
-  EXPECT_EQ(result.out, "no findings in " + count + " catalogs, " + count + " scripts, " + count +
+  EXPECT_EQ(result.out, "no findings in " + count + " catalogs, " +
+                            std::to_string(count_published_missions()) + " scripts, " + count +
                             " property files\n");
   EXPECT_EQ(result.err, "");
   for (const std::string& name : names) {
@@ -215,7 +228,7 @@ TEST(PublishedMissions, MeetTheirExpectations) {
   EXPECT_EQ(result.status, 0) << result.out;
   EXPECT_EQ(result.err, "");
   const nlohmann::json report = nlohmann::json::parse(result.out);
-  EXPECT_EQ(report["runs"].size(), names_of_published_catalogs().size());
+  EXPECT_EQ(report["runs"].size(), count_published_missions());
   for (const nlohmann::json& run : report["runs"]) {
     EXPECT_GT(run["expectations"]["passed"], 0) << run["script"];
   }

@@ -81,7 +81,9 @@ std::string summary_to_text(const MutantCount& count) {
                                  count.survived, count.equivalent);
   if (count.undecided > 0) text += fmt::format(", {} undecided", count.undecided);
   if (count.unjudged > 0) text += fmt::format(", {} not judged", count.unjudged);
-  text += fmt::format("\nscore: {}\n", describe_percent(count.score()));
+  text += count.score().goals == 0 && !count.is_complete()
+              ? "\nscore: unknown\n"
+              : fmt::format("\nscore: {}\n", describe_percent(count.score()));
   if (count.undecided > 0) {
     text +=
         "undecided: no mission notices them, but a limit came before it was known whether one "

@@ -1,0 +1,81 @@
+// The missions of the catalogs in catalogs/ test them completely: all goals of coverage that can be
+// met, and every change that a mission can notice.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "golden/process.h"
+#include "support/catalog_files.h"
+
+namespace cbc::golden {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> names_of_catalogs() {
+  std::vector<std::string> names;
+  for (const fs::path& file : test::catalog_files(CBC_SOURCE_DIR "/catalogs")) {
+    names.push_back(file.stem());
+  }
+  return names;
+}
+
+/// NAME.mission.yaml, those that `cbc verify --write-tests` wrote, and those about something else.
+std::vector<std::string> missions_of(const std::string& catalog) {
+  std::vector<std::string> missions{"catalogs/" + catalog + ".mission.yaml",
+                                    "catalogs/tests/" + catalog};
+  for (const auto& entry : fs::directory_iterator(CBC_SOURCE_DIR "/catalogs/missions")) {
+    const std::string name = entry.path().filename();
+    if (name.starts_with(catalog + "-")) missions.push_back("catalogs/missions/" + name);
+  }
+  return missions;
+}
+
+class Gallery : public testing::TestWithParam<std::string> {
+ protected:
+  [[nodiscard]] Result cbc(std::vector<std::string> arguments,
+                           const std::vector<std::string>& more) const {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run({arguments, CBC_SOURCE_DIR});
+  }
+  const std::string catalog = "catalogs/" + GetParam() + ".yaml";
+  const std::vector<std::string> missions = missions_of(GetParam());
+};
+
+TEST_P(Gallery, MissionsMeetAllGoalsThatCanBeMet) {
+  std::vector<std::string> arguments{"solve", catalog};
+  arguments.insert(arguments.end(), missions.begin(), missions.end());
+  const std::vector<std::string> complete{"--fail-under", "100", "--coverage"};
+  // A proof is needed only if some goals cannot be met.
+  if (cbc(arguments, complete).status == 0) return;
+  const Result result = cbc(arguments, {"--fail-under", "100", "--prove", "--coverage"});
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+}
+
+TEST_P(Gallery, MissionsNoticeEveryChange) {
+  if (GetParam() == "autoware" && std::getenv("CBC_RANDOM_PERCENT") != nullptr) {
+    GTEST_SKIP() << "this takes minutes with sanitizers";
+  }
+  std::vector<std::string> arguments{"verify", catalog, "--mutants", "--fail-under", "100"};
+  for (const std::string& mission : missions) {
+    arguments.emplace_back("--beside");
+    arguments.push_back(mission);
+  }
+  const Result result = cbc(arguments, {});
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogs, Gallery, testing::ValuesIn(names_of_catalogs()),
+                         [](const auto& tested) {
+                           std::string name = tested.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace cbc::golden
