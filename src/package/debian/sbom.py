@@ -30,7 +30,7 @@ LICENSES = {
     "xxhash": "BSD-2-Clause",
     "yaml-cpp": "MIT",
 }
-TARGETS = ("cbc", "cbc_tool", "cbc_exploration", "cbc_runtime")  # whose objects are in the program
+TARGETS = ("cbc", "cbc_program", "cbc_tool", "cbc_exploration", "cbc_runtime")  # whose objects are in the program
 
 
 def output_of(*command):
