@@ -12,13 +12,6 @@
 
 namespace cbc {
 
-/// For runs of which only the result matters.
-class SilentRun final : public RunListener {
- public:
-  void on_event(const EventRecord& /*record*/, const Step* /*step*/,
-                const State& /*state*/) override {}
-};
-
 /// A run of a script, and the goals that it met.
 struct WatchedResult {
   RunResult result;

@@ -20,12 +20,6 @@
 namespace cbc {
 namespace {
 
-class SilentListener final : public RunListener {
- public:
-  void on_event(const EventRecord& /*record*/, const Step* /*step*/,
-                const State& /*state*/) override {}
-};
-
 /// The finish by the timeout of a behavior with a task; 0: there is none.
 Microseconds timeout_of(const Catalog& catalog, const Behavior& behavior, TaskIndex index) {
   const Task& task = catalog.tasks[index];
@@ -125,7 +119,7 @@ std::optional<Notice> find_notice(const CompiledCatalog& catalog, const yaml::Do
   options.reactive_delay = script->reactive_delay;
   options.timeouts = script->timeouts;
   options.is_stopped = is_stopped;
-  SilentListener listener;
+  SilentRun listener;
   Runner runner(catalog, options, listener);
   runner.begin(script->situation);
   bool goes_on = true;

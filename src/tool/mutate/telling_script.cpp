@@ -15,12 +15,6 @@
 namespace cbc {
 namespace {
 
-class SilentListener final : public RunListener {
- public:
-  void on_event(const EventRecord& /*record*/, const Step* /*step*/,
-                const State& /*state*/) override {}
-};
-
 /// What an expectation at the end of a script can see.
 struct Sight {
   std::vector<std::string_view> behaviors;  ///< by task in catalog order; empty: it does not run
@@ -38,7 +32,7 @@ std::optional<Sight> see_end(const CompiledCatalog& catalog, const std::string& 
   options.find_conflicts = false;
   options.reactive_delay = script->reactive_delay;
   options.timeouts = script->timeouts;
-  SilentListener listener;
+  SilentRun listener;
   Runner runner(catalog, options, listener);
   runner.begin(script->situation);
   for (const Step& step : script->steps) {

@@ -117,6 +117,13 @@ class RunListener {
   virtual void on_end(const State& /*state*/) {}
 };
 
+/// For runs of which only the result matters.
+class SilentRun final : public RunListener {
+ public:
+  void on_event(const EventRecord& /*record*/, const Step* /*step*/,
+                const State& /*state*/) override {}
+};
+
 /// The place and the message of a failure.
 struct FailedExpectation {
   Range range;
