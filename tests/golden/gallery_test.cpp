@@ -58,7 +58,8 @@ TEST_P(Gallery, MissionsMeetAllGoalsThatCanBeMet) {
 }
 
 TEST_P(Gallery, MissionsNoticeEveryChange) {
-  if (GetParam() == "autoware" && std::getenv("CBC_RANDOM_PERCENT") != nullptr) {
+  const bool is_large = GetParam() == "autoware" || GetParam() == "px4";
+  if (is_large && std::getenv("CBC_RANDOM_PERCENT") != nullptr) {
     GTEST_SKIP() << "this takes minutes with sanitizers";
   }
   std::vector<std::string> arguments{"verify", catalog, "--mutants", "--fail-under", "100"};
