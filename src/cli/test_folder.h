@@ -22,6 +22,8 @@ class TestFolder {
   /// Replaces all scripts by these. Returns the exit status. After an error, no script is new.
   [[nodiscard]] int replace(const std::vector<File>& files);
 
+  /// Whether it had no scripts when it was opened.
+  [[nodiscard]] bool was_empty() const { return names_.empty(); }
   [[nodiscard]] std::string path_of(const std::string& name) const;
 
  private:

@@ -93,8 +93,13 @@ int write_scripts(const std::string& folder, const MutantsResult& result) {
 
 int status_of(const VerifyOptions& options, const MutantCount& count) {
   int status = count.is_complete() ? exit_ok : exit_no;
-  if (options.fail_under.empty() || count.score().tenths() >= tenths_in(options.fail_under))
-    return status;
+  if (options.fail_under.empty()) return status;
+  if (!count.is_score_known()) {
+    complain("whether the missions notice {} % of the mutants is unknown (--fail-under)",
+             options.fail_under);
+    return exit_no;
+  }
+  if (count.score().tenths() >= tenths_in(options.fail_under)) return status;
   complain("the missions notice {} of the mutants, less than {} % (--fail-under)",
            describe_percent(count.score()), options.fail_under);
   return exit_no;

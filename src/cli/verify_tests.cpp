@@ -121,6 +121,11 @@ int write_tests(const VerifyOptions& options, const VerifyQuestions& questions) 
              quote(catalog.file));
     return exit_internal;
   }
+  if (!missing.partial.empty() && !folder.was_empty()) {
+    complain("a limit ended the exploration; the folder {} is as it was",
+             quote(*options.write_tests));
+    return exit_no;
+  }
   WrittenTests tests{&catalog, goals, questions.beside.size(), &missing, {}};
   std::vector<TestFolder::File> files;
   for (const MissingMissions::Mission& mission : missing.missions) {

@@ -71,6 +71,17 @@ TEST_F(WriteTests, MeetsAllGoals) {
   expect_complete(scratch / "robot.yaml", {folder});
 }
 
+TEST_F(WriteTests, KeepsItsScriptsIfALimitComesFirst) {
+  scratch.write("robot.yaml", robot);
+  EXPECT_EQ(write_tests(scratch / "robot.yaml").status, 0);
+  const Files before = files();
+  const Result result = write_tests(scratch / "robot.yaml", {"--max-states", "2"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.err,
+            "cbc: a limit ended the exploration; the folder '" + folder + "' is as it was\n");
+  EXPECT_EQ(files(), before);
+}
+
 TEST_F(WriteTests, MeetsWhatTheMissionOfTheQuadrotorDoesNot) {
   const std::string catalog = "catalogs/quadrotor.yaml";
   const std::string mission = "catalogs/quadrotor.mission.yaml";

@@ -44,13 +44,14 @@ std::string mutants_to_json(const MutantsResult& result) {
   return json_line([&](JsonWriter& json) {
     json.write_members({{"schema", "cbc.mutants/1"}, {"catalog", result.catalog->file}});
     json.on_new_line().write_list("missions", result.missions);
-    json.on_new_line().write_members(
-        {{"noticed", count.noticed},
-         {"survived", count.survived},
-         {"equivalent", count.equivalent},
-         {"undecided", count.undecided},
-         {"unjudged", count.unjudged},
-         {"percent", static_cast<double>(count.score().tenths()) / 10}});
+    json.on_new_line().write_members({{"noticed", count.noticed},
+                                      {"survived", count.survived},
+                                      {"equivalent", count.equivalent},
+                                      {"undecided", count.undecided},
+                                      {"unjudged", count.unjudged}});
+    if (count.is_score_known()) {
+      json.write("percent", static_cast<double>(count.score().tenths()) / 10);
+    }
     json.on_new_line().open("mutants", '[');
     for (std::size_t place = 0; place < result.mutants.size(); ++place) {
       const MutantVerdict& verdict = result.verdicts[place];

@@ -27,6 +27,8 @@ struct MutantCount {
 
   /// Of those that a mission could notice, how many one does.
   [[nodiscard]] GoalCount score() const { return {noticed + survived, noticed, 0}; }
+  /// Whether the score says anything: some count, or it is known that none does.
+  [[nodiscard]] bool is_score_known() const { return score().goals > 0 || is_complete(); }
   /// Whether it is known of all whether they count.
   [[nodiscard]] bool is_complete() const { return undecided + unjudged == 0; }
 };

@@ -81,9 +81,8 @@ std::string summary_to_text(const MutantCount& count) {
                                  count.survived, count.equivalent);
   if (count.undecided > 0) text += fmt::format(", {} undecided", count.undecided);
   if (count.unjudged > 0) text += fmt::format(", {} not judged", count.unjudged);
-  text += count.score().goals == 0 && !count.is_complete()
-              ? "\nscore: unknown\n"
-              : fmt::format("\nscore: {}\n", describe_percent(count.score()));
+  text += count.is_score_known() ? fmt::format("\nscore: {}\n", describe_percent(count.score()))
+                                 : "\nscore: unknown\n";
   if (count.undecided > 0) {
     text +=
         "undecided: no mission notices them, but a limit came before it was known whether one "
