@@ -237,6 +237,15 @@ int create_output(const std::string& path, std::string_view content) {
   return exit_ok;
 }
 
+std::error_code make_folder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (!error && !std::filesystem::is_directory(path, error) && !error) {
+    error = std::make_error_code(std::errc::not_a_directory);
+  }
+  return error;
+}
+
 bool can_write_output(const std::string& path) {
   if (path == "-") return true;
   if (const auto refusal = find_read_file(path)) {

@@ -41,11 +41,7 @@ std::string TestFolder::path_of(const std::string& name) const {
 }
 
 bool TestFolder::open() {
-  std::error_code error;
-  fs::create_directories(path_, error);
-  if (!error && !fs::is_directory(path_, error) && !error) {
-    error = std::make_error_code(std::errc::not_a_directory);
-  }
+  std::error_code error = make_folder(path_);
   std::vector<std::string> foreign;
   if (!error) {
     fs::directory_iterator entry(path_, error);

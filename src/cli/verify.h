@@ -58,6 +58,10 @@ struct VerifyQuestions {
   std::shared_ptr<const CatalogSource> source;
 };
 
+/// What is assumed where goals of coverage count: by the property file, of which there is at most
+/// one, or the same as in `cbc solve --prove`.
+[[nodiscard]] Assumptions goal_assumptions(const VerifyQuestions& questions);
+
 /// Reads the files of a command line. Findings and other problems go to standard error.
 class QuestionLoader {
  public:

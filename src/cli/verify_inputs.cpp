@@ -9,9 +9,15 @@
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/verify.h"
+#include "coverage/goal_proof.h"
 #include "verify/property_reader.h"
 
 namespace cbc::cli {
+
+Assumptions goal_assumptions(const VerifyQuestions& questions) {
+  return questions.files.empty() ? assumptions_of_goals(*questions.catalog)
+                                 : questions.files.front()->assumptions;
+}
 
 std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::string>& paths,
                                                     const std::optional<std::string>& old_catalog,

@@ -16,7 +16,6 @@
 #include "cli/ordered_work.h"
 #include "cli/output.h"
 #include "cli/verify.h"
-#include "coverage/goal_proof.h"
 #include "mutate/judge.h"
 #include "mutate/mutants.h"
 #include "report/mutants_report.h"
@@ -120,8 +119,7 @@ int verify_mutants(const VerifyOptions& options, const VerifyQuestions& question
   if (questions.beside.empty()) {
     return complain("--beside: found no event script in {}", quote(options.beside.back()));
   }
-  const Assumptions assumptions = questions.files.empty() ? assumptions_of_goals(catalog)
-                                                          : questions.files.front()->assumptions;
+  const Assumptions assumptions = goal_assumptions(questions);
   if (const int status = prepare_outputs(options); status != exit_ok) return status;
   MissionDocuments missions;
   MutantsResult result;

@@ -420,12 +420,7 @@ int prepare_outputs(const VerifyOptions& options) {
     if (!can_write_output(output)) return exit_unusable;
   }
   if (!options.scripts) return exit_ok;
-  std::error_code error;
-  fs::create_directories(*options.scripts, error);
-  if (!error && !fs::is_directory(*options.scripts, error) && !error) {
-    error = std::make_error_code(std::errc::not_a_directory);
-  }
-  if (error) {
+  if (const std::error_code error = make_folder(*options.scripts)) {
     return complain("cannot make the folder {}: {}", quote(*options.scripts), error.message());
   }
   return exit_ok;

@@ -15,7 +15,6 @@
 #include "cli/output.h"
 #include "cli/test_folder.h"
 #include "cli/verify.h"
-#include "coverage/goal_proof.h"
 #include "coverage/goals.h"
 #include "coverage/missing_missions.h"
 #include "coverage/watched_run.h"
@@ -105,8 +104,7 @@ int write_tests(const VerifyOptions& options, const VerifyQuestions& questions) 
   const std::vector<Goal> goals = find_goals(catalog);
   const auto met = goals_met_by(questions.beside, goals);
   if (!met) return exit_unusable;
-  const Assumptions assumptions = questions.files.empty() ? assumptions_of_goals(catalog)
-                                                          : questions.files.front()->assumptions;
+  const Assumptions assumptions = goal_assumptions(questions);
   const std::optional<MissingMissions> found =
       find_tests(options, questions, goals, *met, assumptions);
   if (!found) {

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "support/lines.h"
 #include "support/read_file.h"
 
 namespace cbc::fuzz {
@@ -12,13 +13,9 @@ namespace {
 
 using oracle::Random;
 
+/// At least one.
 std::vector<std::string> lines_of(std::string_view text) {
-  std::vector<std::string> lines;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    lines.emplace_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
+  std::vector<std::string> lines = test::lines_of(text);
   if (lines.empty()) lines.emplace_back();
   return lines;
 }

@@ -6,9 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "report/lint_report.h"
+#include "support/lines.h"
 
 namespace cbc {
 namespace {
+
+using test::lines_of;
 
 constexpr Rule made_up{
     .name = "too-blue",
@@ -21,16 +24,6 @@ constexpr Rule made_up{
     .example = "walls:\n- blue\n",
     .mending = "Paint it.",
     .mended = "walls:\n- green\n"};
-
-std::vector<std::string> lines_of(std::string_view text) {
-  std::vector<std::string> lines;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    lines.emplace_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return lines;
-}
 
 TEST(RuleText, SaysAllAboutARule) {
   EXPECT_EQ(rule_text(made_up, plain_style()),

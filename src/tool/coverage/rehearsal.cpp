@@ -18,7 +18,7 @@ class MissionRehearsal::Stage final : public RunListener {
   Stage(const MissionRehearsal& rehearsal, std::uint32_t group, Script script)
       : catalog_(rehearsal.catalog_),
         watch_(catalog_, rehearsal.goals_, {}),
-        runner_(catalog_, options_of(script), *this) {
+        runner_(catalog_, without_conflicts(script), *this) {
     result_.group = group;
     result_.script = std::move(script);
     runner_.begin(result_.script.situation);
@@ -84,10 +84,8 @@ class MissionRehearsal::Stage final : public RunListener {
     return true;
   }
 
-  static CoordinatorOptions options_of(const Script& script) {
-    CoordinatorOptions options;
-    options.reactive_delay = script.reactive_delay;
-    options.timeouts = script.timeouts;
+  static CoordinatorOptions without_conflicts(const Script& script) {
+    CoordinatorOptions options = options_of(script);
     options.find_conflicts = false;
     return options;
   }

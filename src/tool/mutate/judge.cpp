@@ -79,7 +79,6 @@ Microseconds take_expectation(Script& script) {
 
 /// So long after the end of a script that everything in the queue has come due.
 Microseconds settled(const Script& script, Microseconds end) {
-  constexpr Microseconds second = 1'000'000;
   return end + script.reactive_delay + second;
 }
 
@@ -114,10 +113,8 @@ std::optional<Notice> find_notice(const CompiledCatalog& catalog, const yaml::Do
     }
     return notice;
   }
-  CoordinatorOptions options;
+  CoordinatorOptions options = options_of(*script);
   options.find_conflicts = false;
-  options.reactive_delay = script->reactive_delay;
-  options.timeouts = script->timeouts;
   options.is_stopped = is_stopped;
   SilentRun listener;
   Runner runner(catalog, options, listener);

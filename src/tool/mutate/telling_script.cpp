@@ -28,10 +28,8 @@ std::optional<Sight> see_end(const CompiledCatalog& catalog, const std::string& 
   if (document == nullptr) return std::nullopt;
   const auto script = read_script(*document, catalog, Severity::note, ignored);
   if (!script) return std::nullopt;
-  CoordinatorOptions options;
+  CoordinatorOptions options = options_of(*script);
   options.find_conflicts = false;
-  options.reactive_delay = script->reactive_delay;
-  options.timeouts = script->timeouts;
   SilentRun listener;
   Runner runner(catalog, options, listener);
   runner.begin(script->situation);

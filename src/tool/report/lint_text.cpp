@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "diagnostic/diagnostic.h"
 #include "report/lint_report.h"
+#include "report/wrap.h"
 #include "support/wording.h"
 
 namespace cbc {
@@ -47,12 +48,6 @@ std::string wrap(std::string_view paragraph) {
     used += word.size();
   }
   return text + '\n';
-}
-
-std::string indent(std::string_view lines) {
-  std::string text;
-  while (!lines.empty()) text += fmt::format("    {}\n", take_until("\n", lines));
-  return text;
 }
 
 std::string example_text(std::string_view heading, std::string_view example, const Style& style) {

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "report/lint_report.h"
 #include "report/mutants_report.h"
+#include "report/wrap.h"
 #include "support/wording.h"
 
 // Mutants as text and as annotations.
@@ -47,16 +48,6 @@ std::string table_to_text(const MutantsResult& result, const Style& style) {
     text += fmt::format("  {:>9}  {}  {}\n", describe_lines(result.mutants[place]),
                         has_survived ? style.paint(style.bad, padded) : padded,
                         describe(*result.catalog, result.mutants[place]));
-  }
-  return text;
-}
-
-std::string indent(const std::string& lines) {
-  std::string text;
-  for (std::size_t begin = 0; begin < lines.size();) {
-    const std::size_t end = std::min(lines.find('\n', begin), lines.size());
-    text += "    " + lines.substr(begin, end - begin) + "\n";
-    begin = end + 1;
   }
   return text;
 }

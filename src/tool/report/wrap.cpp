@@ -49,4 +49,16 @@ std::string wrap_line(std::string_view line, std::size_t columns, std::size_t in
   return text;
 }
 
+std::string indent(std::string_view lines) {
+  std::string text;
+  for (std::size_t begin = 0; begin < lines.size();) {
+    const std::size_t end = std::min(lines.find('\n', begin), lines.size());
+    text += "    ";
+    text += lines.substr(begin, end - begin);
+    text += '\n';
+    begin = end + 1;
+  }
+  return text;
+}
+
 }  // namespace cbc

@@ -11,4 +11,7 @@ namespace cbc {
 /// Escape sequences of colors take no columns. `columns`: of the terminal; 0: no limit.
 [[nodiscard]] std::string wrap_line(std::string_view line, std::size_t columns, std::size_t indent);
 
+/// The lines, four columns further to the right; each ends with a line break.
+[[nodiscard]] std::string indent(std::string_view lines);
+
 }  // namespace cbc

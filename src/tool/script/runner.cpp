@@ -203,11 +203,15 @@ Event event_of(const Step& step) {
   return event;
 }
 
+CoordinatorOptions options_of(const Script& script, CoordinatorOptions options) {
+  options.reactive_delay = script.reactive_delay;
+  options.timeouts = script.timeouts;
+  return options;
+}
+
 RunResult run_script(const CompiledCatalog& catalog, const Script& script,
                      const CoordinatorOptions& options, RunListener& listener) {
-  CoordinatorOptions of_script = options;
-  of_script.reactive_delay = script.reactive_delay;
-  of_script.timeouts = script.timeouts;
+  CoordinatorOptions of_script = options_of(script, options);
   // Without expectations nobody asks.
   of_script.hindsight =
       options.hindsight && std::any_of(script.steps.begin(), script.steps.end(),

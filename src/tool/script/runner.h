@@ -146,6 +146,9 @@ struct RunResult {
 /// The event of a step that is not an expectation. It refers to the step.
 [[nodiscard]] Event event_of(const Step& step);
 
+/// The options with what the script itself says.
+[[nodiscard]] CoordinatorOptions options_of(const Script& script, CoordinatorOptions options = {});
+
 /// Runs steps through a coordinator, one after the other.
 class Runner final : private EventListener {
  public:
