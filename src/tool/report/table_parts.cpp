@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "draw/diagram.h"
 #include "report/catalog_report.h"
+#include "report/wrap.h"
 
 namespace cbc {
 
@@ -35,6 +36,10 @@ std::string cut_to(std::size_t columns, std::string text) {
 
 std::string_view without_end_blanks(std::string_view text) {
   return text.substr(0, text.find_last_not_of(' ') + 1);
+}
+
+std::string assumptions_to_text(std::string_view assumptions) {
+  return wrap_line(assumptions, text_width, 2) + "\n";
 }
 
 std::string escape_html(std::string_view text) {

@@ -23,6 +23,9 @@ inline constexpr std::size_t longest_name = 28;
 /// The text without the blanks at its end.
 [[nodiscard]] std::string_view without_end_blanks(std::string_view text);
 
+/// The line that describe_assumptions gives, broken to the width of tables.
+[[nodiscard]] std::string assumptions_to_text(std::string_view assumptions);
+
 /// Escapes a text for the HTML-like labels of Graphviz.
 [[nodiscard]] std::string escape_html(std::string_view text);
 

@@ -448,6 +448,11 @@ std::string comparison_text(const VerifyResult& result, const Style& style) {
   const auto add_names = [&](const std::string& file, const std::vector<std::string>& names) {
     if (!names.empty()) text += wrap(fmt::format("  only {} has  ", file), names, ",");
   };
+  if (result.parts.empty()) {
+    const CompiledCatalog& catalog = *result.catalog;
+    text += assumptions_to_text(
+        describe_assumptions(catalog, common_assumptions(*reported.old_catalog, catalog), {}));
+  }
   add_names(old_name, comparison.names.only_old);
   add_names(new_name, comparison.names.only_new);
   const std::string counts =
@@ -499,9 +504,12 @@ std::string verify_to_text(const VerifyResult& result, const Style& style) {
     text += style.reset;
     if (part.file != nullptr) text += " with " + printable(catalog.file);
     text += "\n";
+    const Assumptions assumptions =
+        part.file == nullptr ? default_assumptions(catalog) : part.file->assumptions;
+    const std::string_view file =
+        part.file == nullptr ? std::string_view() : std::string_view(part.file->path);
+    text += assumptions_to_text(describe_assumptions(catalog, assumptions, file));
     if (part.is_about_groups()) {
-      const Assumptions assumptions =
-          part.file == nullptr ? default_assumptions(catalog) : part.file->assumptions;
       text += GroupText(result, part, assumptions, style).write();
     } else {
       text += PropertyText(result, part, style).write();

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "support/wording.h"
 
 namespace cbc {
 
@@ -197,6 +198,70 @@ Verification verify_properties(const CompiledCatalog& catalog, const PropertyFil
     }
   }
   return result;
+}
+
+namespace {
+
+/// "priorities 1 and 2"
+std::string describe_priorities(const Assumptions& assumptions) {
+  std::set<std::int32_t> priorities;
+  for (const Assumptions::Start& start : assumptions.start) {
+    priorities.insert(start.priorities.begin(), start.priorities.end());
+  }
+  std::string text = priorities.size() == 1 ? "priority" : "priorities";
+  for (const std::int32_t priority : priorities) {
+    const bool is_last = priority == *priorities.rbegin() && priorities.size() > 1;
+    const bool is_first = priority == *priorities.begin();
+    text += fmt::format("{}{}", is_last ? " and " : is_first ? " " : ", ", priority);
+  }
+  return text;
+}
+
+std::string describe_requests(const CompiledCatalog& catalog, const Assumptions& assumptions) {
+  if (assumptions.start.empty()) return "no task is requested";
+  const auto& start = assumptions.start;
+  std::string text = fmt::format(
+      "{} of {} {} requested ({})", start.size(), quantity(catalog.tasks.size(), "task"),
+      start.size() == 1 ? "is" : "are", describe_priorities(assumptions));
+  const bool stops_the_same =
+      std::equal(start.begin(), start.end(), assumptions.stop.begin(), assumptions.stop.end(),
+                 [](const Assumptions::Start& one, TaskId task) { return one.task == task; });
+  if (stops_the_same) return text + " and stopped";
+  return text + fmt::format(", {} stopped", assumptions.stop.size());
+}
+
+}  // namespace
+
+std::string describe_assumptions(const CompiledCatalog& catalog, const Assumptions& assumptions,
+                                 std::string_view file) {
+  std::string text = fmt::format("assumed ({}): {}", file.empty() ? "default" : printable(file),
+                                 describe_requests(catalog, assumptions));
+  text += assumptions.successes && assumptions.failures ? "; behaviors succeed and fail"
+          : assumptions.successes                       ? "; behaviors succeed, but do not fail"
+          : assumptions.failures                        ? "; behaviors fail, but do not succeed"
+                                                        : "; behaviors do not finish";
+  text += assumptions.faults == 0 ? "; none is faulty"
+                                  : fmt::format("; up to {} faulty at a time", assumptions.faults);
+  const std::size_t variables = catalog.variables.size();
+  if (variables > 0) {
+    const std::size_t changing = assumptions.variables.size();
+    text += changing == 0 ? "; no variable changes"
+            : changing < variables
+                ? fmt::format("; {} of {} variables change", changing, variables)
+                : std::string(variables == 1 ? "; the variable changes" : "; all variables change");
+  }
+  if (!assumptions.behaviors.empty()) {
+    text += fmt::format("; {} may become unavailable",
+                        quantity(assumptions.behaviors.size(), "behavior"));
+  }
+  if (!assumptions.never.empty()) {
+    text += fmt::format("; {} never {}", quantity(assumptions.never.size(), "situation"),
+                        assumptions.never.size() == 1 ? "occurs" : "occur");
+  }
+  const SituationPart& initially = assumptions.initially;
+  const std::size_t given = initially.variables.size() + initially.behaviors.size();
+  if (given > 0) text += fmt::format("; {} given initially", quantity(given, "value"));
+  return text;
 }
 
 }  // namespace cbc

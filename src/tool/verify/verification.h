@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
@@ -64,6 +65,13 @@ struct PropertyScope {
   auto operator<=>(const PropertyScope&) const = default;
 };
 [[nodiscard]] PropertyScope scope_of(const CompiledCatalog& catalog, const Property& property);
+
+/// What may happen, and who says so, on one line: "assumed (default): 2 of 3 tasks are requested
+/// (priority 1) and stopped; behaviors succeed and fail; none is faulty; all variables change".
+/// `file`: of the assumptions; empty: none.
+[[nodiscard]] std::string describe_assumptions(const CompiledCatalog& catalog,
+                                               const Assumptions& assumptions,
+                                               std::string_view file);
 
 /// A property in words: "LAND can always start with priority 3".
 [[nodiscard]] std::string describe(const CompiledCatalog& catalog, const Property& property);
