@@ -167,6 +167,10 @@ std::uint64_t tenths_in(const std::string& percent) {
   return static_cast<std::uint64_t>(parse_percent(percent).value);
 }
 
+std::string describe_percent(const std::string& percent) {
+  return format_decimal(parse_percent(percent).value, 1) + " %";
+}
+
 Option& Option::required() {
   is_required = true;
   return *this;

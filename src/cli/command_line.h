@@ -68,6 +68,8 @@ struct Values {
 [[nodiscard]] Values percent();
 /// The tenths of a percent in such a value.
 [[nodiscard]] std::uint64_t tenths_in(const std::string& percent);
+/// Such a value as it is written: "50 %", "99.5 %".
+[[nodiscard]] std::string describe_percent(const std::string& percent);
 
 /// The parts between separators; at least one, which may be empty.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);

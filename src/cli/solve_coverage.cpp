@@ -22,6 +22,7 @@
 #include "coverage/watched_run.h"
 #include "report/coverage_report.h"
 #include "verify/property_reader.h"
+#include "verify/verification.h"
 
 namespace cbc::cli {
 namespace {
@@ -139,7 +140,8 @@ std::optional<Assumptions> read_assumptions(const std::string& path,
 }
 
 /// False if nothing can be proven; the reason is printed.
-bool prove(CatalogCoverage& coverage, const Assumptions& assumptions, const StopSignals& signals) {
+bool prove(CatalogCoverage& coverage, const Assumptions& assumptions, const std::string& file,
+           const StopSignals& signals) {
   const CompiledCatalog& catalog = coverage.catalog();
   Progress progress("proving", catalog.group_count());
   std::optional<std::uint32_t> begun;
@@ -161,7 +163,8 @@ bool prove(CatalogCoverage& coverage, const Assumptions& assumptions, const Stop
     complain("--prove: not all states of group {} of {} were visited; nothing is proven about it",
              group, quote(catalog.file));
   }
-  coverage.set_unreachable(std::move(proof.unreachable));
+  coverage.set_unreachable(std::move(proof.unreachable),
+                           describe_assumptions(catalog, assumptions, file));
   return true;
 }
 
@@ -191,7 +194,11 @@ int report_coverage(Coverage coverage, const std::vector<Assumptions>& assumptio
   if (!assumptions.empty()) {
     const StopSignals signals;
     for (std::size_t place = 0; place < assumptions.size(); ++place) {
-      if (!prove(coverage.catalogs[place], assumptions[place], signals)) return exit_unusable;
+      const std::string file =
+          options.coverage.assume ? display_name(*options.coverage.assume) : std::string();
+      if (!prove(coverage.catalogs[place], assumptions[place], file, signals)) {
+        return exit_unusable;
+      }
     }
   }
   int status = exit_ok;
@@ -206,8 +213,8 @@ int report_coverage(Coverage coverage, const std::vector<Assumptions>& assumptio
   const std::uint64_t least = tenths_in(options.coverage.fail_under);
   const GoalCount total = coverage.total();
   if (total.met * 1000 >= least * total.goals) return status;
-  complain("the coverage is {}, less than {} % (--fail-under)", describe_percent(total),
-           options.coverage.fail_under);
+  complain("the coverage is {}, less than {} (--fail-under)", cbc::describe_percent(total),
+           describe_percent(options.coverage.fail_under));
   return std::max<int>(status, exit_no);
 }
 

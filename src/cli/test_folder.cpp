@@ -1,11 +1,13 @@
 #include "cli/test_folder.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string_view>
 #include <system_error>
+#include <unistd.h>
 
 #include <fmt/core.h>
 
@@ -41,20 +43,33 @@ std::string TestFolder::path_of(const std::string& name) const {
 }
 
 bool TestFolder::open() {
-  std::error_code error = make_folder(path_);
-  std::vector<std::string> foreign;
-  if (!error) {
-    fs::directory_iterator entry(path_, error);
-    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-      std::error_code ignored;
-      const bool is_file = fs::is_regular_file(entry->symlink_status(ignored));
-      const std::string name = entry->path().filename().string();
-      const bool is_ours = is_file && name.ends_with(".yaml") && is_signed(entry->path());
-      (is_ours ? names_ : foreign).push_back(name);
-    }
+  std::error_code error;
+  fs::path lowest = fs::absolute(path_, error).lexically_normal();
+  if (!lowest.has_filename()) lowest = lowest.parent_path();  // "tests/"
+  const fs::path folder = lowest;
+  while (!error && !fs::exists(lowest, error) && !error) lowest = lowest.parent_path();
+  if (!error && !fs::is_directory(lowest, error) && !error) {
+    error = std::make_error_code(std::errc::not_a_directory);
+  }
+  if (!error && ::access(lowest.c_str(), W_OK | X_OK) != 0) {
+    error = std::error_code(errno, std::generic_category());
   }
   if (error) {
-    complain("cannot make the folder {}: {}", quote(path_), error.message());
+    complain("cannot write to the folder {}: {}", quote(path_), error.message());
+    return false;
+  }
+  if (lowest != folder) return true;
+  std::vector<std::string> foreign;
+  fs::directory_iterator entry(path_, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    std::error_code ignored;
+    const bool is_file = fs::is_regular_file(entry->symlink_status(ignored));
+    const std::string name = entry->path().filename().string();
+    const bool is_ours = is_file && name.ends_with(".yaml") && is_signed(entry->path());
+    (is_ours ? names_ : foreign).push_back(name);
+  }
+  if (error) {
+    complain("cannot read the folder {}: {}", quote(path_), error.message());
     return false;
   }
   if (!foreign.empty()) {
@@ -65,11 +80,16 @@ bool TestFolder::open() {
         quote(path_), quote(first));
     return false;
   }
-  return can_write_output(path_of("test.yaml"));
+  return true;
 }
 
 int TestFolder::replace(const std::vector<File>& files) {
   std::vector<std::string> made;
+  if (!files.empty()) {
+    if (const std::error_code error = make_folder(path_)) {
+      return complain("cannot make the folder {}: {}", quote(path_), error.message());
+    }
+  }
   for (const File& file : files) {
     const int status = write_output(path_of(file.name), sign(file.text));
     if (status == exit_ok) {

@@ -16,10 +16,11 @@ class TestFolder {
 
   explicit TestFolder(std::string path) : path_(std::move(path)) {}
 
-  /// Makes the folder if it is missing, and looks at its files. False if there is one that is not
-  /// ours, or nothing can be written there; the reason is printed.
+  /// Looks at the files of the folder, if it exists. False if there is one that is not ours, or the
+  /// folder cannot be made or written to; the reason is printed. Changes nothing.
   [[nodiscard]] bool open();
-  /// Replaces all scripts by these. Returns the exit status. After an error, no script is new.
+  /// Replaces all scripts by these; makes the folder if there are any. Returns the exit status.
+  /// After an error, no script is new.
   [[nodiscard]] int replace(const std::vector<File>& files);
 
   /// Whether it had no scripts when it was opened.

@@ -19,22 +19,46 @@
 #include "coverage/missing_missions.h"
 #include "coverage/watched_run.h"
 #include "report/missing_missions_report.h"
+#include "support/wording.h"
+#include "verify/verification.h"
 
 namespace cbc::cli {
 namespace {
 
-/// By goal: whether the missions meet it. Empty if one of them ends early; the reason is printed.
+/// When to stop: a signal has come, or the time is over.
+class Deadline {
+ public:
+  /// Begins now. `seconds`: 0 for no limit.
+  explicit Deadline(double seconds) : seconds_(seconds) {}
+
+  [[nodiscard]] bool has_come() const { return signals_.have_come() || is_late(); }
+  [[nodiscard]] bool is_late() const {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+    return seconds_ > 0 && elapsed.count() >= seconds_;
+  }
+
+ private:
+  const StopSignals signals_;
+  const double seconds_;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// By goal: whether the missions meet it. Empty if one of them ends early; the reason is printed,
+/// unless it is the deadline.
 std::optional<std::vector<std::uint8_t>> goals_met_by(const std::vector<Mission>& missions,
-                                                      const std::vector<Goal>& goals) {
+                                                      const std::vector<Goal>& goals,
+                                                      const Deadline& deadline) {
   std::vector<std::uint8_t> met(goals.size(), 0);
   Progress progress("solving", missions.size());
   for (const Mission& mission : missions) {
     progress.begin(mission.script.file);
     progress.show();
     SilentRun silent;
-    const CoordinatorOptions options;
+    CoordinatorOptions options;
+    options.is_stopped = [&] { return deadline.has_come(); };
     const WatchedResult watched =
         run_watched(*mission.catalog, goals, mission.script, options, silent);
+    if (deadline.has_come()) return std::nullopt;
     const std::string reason = describe_end(watched.result, options);
     if (!reason.empty()) {
       progress.clear();
@@ -54,40 +78,67 @@ std::string path_from(const std::string& folder, const std::string& catalog) {
   return error ? std::string{} : path.generic_string();
 }
 
-/// Finds the scripts, and shows the progress. Empty if a signal ends it.
-std::optional<MissingMissions> find_tests(const VerifyOptions& options,
-                                          const VerifyQuestions& questions,
-                                          const std::vector<Goal>& goals,
-                                          const std::vector<std::uint8_t>& met,
-                                          const Assumptions& assumptions) {
+/// Finds the scripts, and shows the progress.
+MissingMissions find_tests(const VerifyOptions& options, const VerifyQuestions& questions,
+                           const std::vector<Goal>& goals, const std::vector<std::uint8_t>& met,
+                           const Assumptions& assumptions, const Deadline& deadline) {
   const CompiledCatalog& catalog = *questions.catalog;
-  const StopSignals signals;
-  const ExplorationLimits limits = limits_of(options);
   Progress progress("exploring", catalog.group_count());
   MissingMissionOptions of_search;
   of_search.catalog =
       path_from(*options.write_tests, questions.named_catalog.value_or(options.paths.front()));
-  if (limits.max_states > 0) of_search.exploration.max_states = limits.max_states;
+  if (options.max_states > 0) of_search.exploration.max_states = options.max_states;
   std::optional<std::uint32_t> begun;
-  std::chrono::steady_clock::time_point begin;
   of_search.exploration.on_progress = [&](std::uint32_t group, std::uint64_t states) {
-    const auto now = std::chrono::steady_clock::now();
-    if (begun != group) {
-      progress.begin(fmt::format("group {}", group));
-      begin = now;
-    }
+    if (begun != group) progress.begin(fmt::format("group {}", group));
     begun = group;
     progress.show(fmt::format(" ({} states)", states));
-    const std::chrono::duration<double> elapsed = now - begin;
-    return !signals.have_come() && (limits.seconds <= 0 || elapsed.count() < limits.seconds);
+    return true;
   };
   of_search.on_mission = [&](std::size_t number) {
-    progress.show(fmt::format(" ({} tests)", number));
-    return !signals.have_come();
+    progress.show(fmt::format(" ({})", quantity(number, "test")));
   };
-  MissingMissions missing = find_missing_missions(catalog, goals, met, assumptions, of_search);
-  if (signals.have_come()) return std::nullopt;
-  return missing;
+  of_search.is_stopped = [&] { return deadline.has_come(); };
+  return find_missing_missions(catalog, goals, met, assumptions, of_search);
+}
+
+/// How far the work had come when it was stopped.
+std::string describe_progress(const MissingMissions& missing, std::size_t groups) {
+  const std::string states = quantity(missing.states, "state");
+  switch (missing.reached) {
+    case MissingMissions::Phase::exploration:
+      return fmt::format("in the exploration, after {}", states);
+    case MissingMissions::Phase::planning:
+      return fmt::format("in the planning, after the exploration of {} with {}",
+                         quantity(groups, "group"), states);
+    default:
+      return fmt::format("after {} had been found", quantity(missing.missions.size(), "test"));
+  }
+}
+
+/// Which command looks at what these tests leave.
+std::string command_for_mutants(const VerifyOptions& options, const MissingMissions& missing) {
+  std::vector<std::string> missions = options.beside;
+  std::erase_if(missions, [&](const std::string& mission) {
+    return is_same_file(mission, *options.write_tests);
+  });
+  if (!missing.missions.empty()) missions.push_back(*options.write_tests);
+  if (missions.empty()) return {};
+  std::string command = "cbc verify";
+  for (const std::string& path : options.paths) command += " " + printable(path);
+  command += " --mutants";
+  for (const std::string& mission : missions) command += " --beside " + printable(mission);
+  return command + " --scripts DIR";
+}
+
+/// Says that nothing is written. Returns the exit status.
+int complain_of_end(const VerifyOptions& options, const Deadline& deadline,
+                    const std::string& progress) {
+  const std::string limit = format_decimal(parse_seconds(options.time_limit).value, 6);
+  const std::string reason =
+      deadline.is_late() ? fmt::format("--time-limit {} ended it", limit) : "interrupted";
+  complain("--write-tests: {} {}; nothing was written", reason, progress);
+  return exit_no;
 }
 
 }  // namespace
@@ -102,17 +153,19 @@ int write_tests(const VerifyOptions& options, const VerifyQuestions& questions) 
   if (!folder.open()) return exit_unusable;
   const CompiledCatalog& catalog = *questions.catalog;
   const std::vector<Goal> goals = find_goals(catalog);
-  const auto met = goals_met_by(questions.beside, goals);
-  if (!met) return exit_unusable;
-  const Assumptions assumptions = goal_assumptions(questions);
-  const std::optional<MissingMissions> found =
-      find_tests(options, questions, goals, *met, assumptions);
-  if (!found) {
-    complain("interrupted; the folder {} is as it was", quote(*options.write_tests));
-    return exit_no;
+  const Deadline deadline(limits_of(options).seconds);
+  const auto met = goals_met_by(questions.beside, goals, deadline);
+  if (!met) {
+    return deadline.has_come() ? complain_of_end(options, deadline, "in the missions that exist")
+                               : exit_unusable;
   }
-  const MissingMissions& missing = *found;
+  const Assumptions assumptions = goal_assumptions(questions);
+  const MissingMissions missing =
+      find_tests(options, questions, goals, *met, assumptions, deadline);
   if (missing.error) return complain("--write-tests: {}", *missing.error);
+  if (missing.reached != MissingMissions::Phase::done) {
+    return complain_of_end(options, deadline, describe_progress(missing, catalog.group_count()));
+  }
   if (!missing.fault.empty()) {
     complain("--write-tests: {}", missing.fault);
     complain("this is a fault of cbc, not of the catalog {}; please report it with the catalog",
@@ -124,7 +177,14 @@ int write_tests(const VerifyOptions& options, const VerifyQuestions& questions) 
              quote(*options.write_tests));
     return exit_no;
   }
-  WrittenTests tests{&catalog, goals, questions.beside.size(), &missing, {}};
+  WrittenTests tests;
+  tests.catalog = &catalog;
+  tests.assumptions = describe_assumptions(
+      catalog, assumptions, questions.files.empty() ? "" : questions.files.front()->path);
+  tests.goals = goals;
+  if (!options.beside.empty()) tests.missions = questions.beside.size();
+  tests.missing = &missing;
+  tests.next = command_for_mutants(options, missing);
   std::vector<TestFolder::File> files;
   for (const MissingMissions::Mission& mission : missing.missions) {
     files.push_back({mission.name + ".yaml", mission.text});

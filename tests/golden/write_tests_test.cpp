@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -43,6 +44,11 @@ class WriteTests : public testing::Test {
     }
     const Result covered = cbc(arguments);
     EXPECT_EQ(covered.status, 0) << covered.out << covered.err;
+  }
+
+  /// A report whose first line has another end.
+  static std::string with_heading(std::string report, const std::string& end) {
+    return report.insert(report.find('\n'), end);
   }
 
   test::ScratchFolder scratch;
@@ -104,7 +110,7 @@ TEST_F(WriteTests, WritesTheSameAgain) {
   EXPECT_FALSE(before.empty());
   // Its own scripts do not count as missions that exist.
   const Result second = write_tests(scratch / "robot.yaml", {"--beside", folder});
-  EXPECT_EQ(second.out, first.out);
+  EXPECT_EQ(second.out, with_heading(first.out, " beside no mission"));
   EXPECT_EQ(files(), before);
 }
 
@@ -115,8 +121,68 @@ TEST_F(WriteTests, RemovesScriptsThatAreNotNeededAnyMore) {
   for (const auto& [name, text] : files()) scratch.write("missions/" + name, text);
   const Result result = write_tests(scratch / "robot.yaml", {"--beside", scratch / "missions"});
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("0 tests with 0 events"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\nnothing is missing\n"), std::string::npos) << result.out;
   EXPECT_EQ(files(), Files());
+}
+
+TEST_F(WriteTests, MakesNoFolderForNothing) {
+  scratch.write("robot.yaml", robot);
+  EXPECT_EQ(write_tests(scratch / "robot.yaml").status, 0);
+  fs::rename(folder, scratch / "missions");
+  EXPECT_EQ(write_tests(scratch / "robot.yaml", {"--beside", scratch / "missions"}).status, 0);
+  EXPECT_FALSE(fs::exists(folder));
+}
+
+TEST_F(WriteTests, NamesTheCommandForWhatIsLeft) {
+  scratch.write("robot.yaml", robot);
+  const Result result = write_tests(scratch / "robot.yaml");
+  const std::string command = "cbc verify " + (scratch / "robot.yaml") + " --mutants --beside " +
+                              folder + " --scripts DIR\n";
+  EXPECT_NE(result.out.find("\n  " + command), std::string::npos) << result.out;
+  const std::string more = scratch / "more";
+  EXPECT_EQ(
+      cbc({"verify", scratch / "robot.yaml", "--mutants", "--beside", folder, "--scripts", more})
+          .status,
+      0);
+  const Result judged = cbc({"verify", scratch / "robot.yaml", "--mutants", "--beside", folder,
+                             "--beside", more, "--fail-under", "100"});
+  EXPECT_EQ(judged.status, 0) << judged.out << judged.err;
+}
+
+TEST_F(WriteTests, WritesNothingOnceTheTimeIsOver) {
+  const Result result = write_tests("catalogs/px4.yaml", {"--time-limit", "0.000001"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.out, "");
+  const std::string expected =
+      "cbc: --write-tests: --time-limit 0.000001 ended it in the exploration, after ";
+  EXPECT_EQ(result.err.substr(0, expected.size()), expected);
+  EXPECT_TRUE(result.err.ends_with("; nothing was written\n")) << result.err;
+  EXPECT_FALSE(fs::exists(folder));
+}
+
+TEST_F(WriteTests, SaysWhereTheTimeWasOver) {
+  const Result result =
+      write_tests("catalogs/quadrotor.yaml",
+                  {"--beside", "catalogs/quadrotor.mission.yaml", "--time-limit", "0.0000010"});
+  EXPECT_EQ(result.err,
+            "cbc: --write-tests: --time-limit 0.000001 ended it in the missions that exist; "
+            "nothing was written\n");
+}
+
+TEST_F(WriteTests, WritesNothingAfterAnInterrupt) {
+  Result result;
+  try {
+    result = run_on_terminal_until(
+        {{"verify", "catalogs/autoware.yaml", "--write-tests", folder}, CBC_SOURCE_DIR},
+        "\rexploring ");
+  } catch (const std::system_error& error) {
+    GTEST_SKIP() << "no terminal here: " << error.what();
+  }
+  EXPECT_EQ(result.status, 1) << result.out;
+  EXPECT_NE(result.out.find("cbc: --write-tests: interrupted in the exploration, after "),
+            std::string::npos)
+      << result.out;
+  EXPECT_FALSE(fs::exists(folder));
 }
 
 TEST_F(WriteTests, KeepsWhatAnybodyHasWritten) {
@@ -151,11 +217,16 @@ TEST_F(WriteTests, RefusesFilesAndFoldersThatCannotBeWritten) {
   scratch.write("tests", "a file");
   EXPECT_EQ(write_tests(scratch / "robot.yaml").status, 2);
   EXPECT_EQ(test::read_file(folder), "a file");
+  const Result below = cbc({"verify", scratch / "robot.yaml", "--write-tests", folder + "/a/b/"});
+  EXPECT_EQ(below.status, 2);
+  EXPECT_EQ(below.err, "cbc: cannot write to the folder '" + folder + "/a/b/': Not a directory\n");
   fs::remove(folder);
   if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   fs::create_directory(folder);
   fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);
-  EXPECT_EQ(write_tests(scratch / "robot.yaml").status, 2);
+  const Result refused = write_tests(scratch / "robot.yaml");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(refused.err, "cbc: cannot write to the folder '" + folder + "': Permission denied\n");
   fs::permissions(folder, fs::perms::owner_all);
 }
 

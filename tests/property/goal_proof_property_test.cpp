@@ -75,6 +75,7 @@ bool run_group(const PlainModel& model, GoalWatch& watch) {
     if (paths.emplace(model.key(state), path).second) states.emplace_back(state, path);
   };
   add(model.first_state(), {});
+  run_path(model, {}, watch);
   for (std::size_t next = 0; next < states.size(); ++next) {
     if (states.size() > most_states) return false;
     const auto [state, path] = states[next];
@@ -109,16 +110,25 @@ void compare(const VerifyCase& sample, oracle::Statistics& statistics) {
   for (std::size_t number = 0; number < goals.size(); ++number) {
     const Goal& goal = goals[number];
     const bool is_met = watch.met()[number] != 0;
-    const bool is_unreachable = proof.unreachable[number] != 0;
+    const bool is_unreachable = !proof.unreachable[number].empty();
     const std::string text = describe(catalog, goal);
     demand(!is_met || !is_unreachable, "it is met: " + text);
-    if (!is_judged(goal)) continue;
+    if (!is_judged(goal)) {
+      if (is_forestalled(catalog, goal, proof.facts)) statistics.count("forestalled");
+      continue;
+    }
     const bool is_of_free_variable =
         goal.variable != none &&
         std::none_of(catalog.fitting_values.begin(), catalog.fitting_values.end(),
                      [&](const FittingValue& one) { return one.variable == goal.variable; });
     demand(is_met || is_unreachable || is_of_free_variable, "nothing meets it: " + text);
     statistics.count(is_met ? "met" : "unreachable");
+    if (is_unreachable) {
+      const std::string reason =
+          why_unreachable(catalog, goals, number, assumptions, watch.facts());
+      demand(proof.unreachable[number] == reason,
+             text + ": " + proof.unreachable[number] + ", but " + reason);
+    }
     if (is_about_deciding(goal.kind)) statistics.count(is_met ? "decides" : "never decides");
   }
 }
@@ -148,8 +158,8 @@ TEST(GoalProof, KnowsWhatReturns) {
     for (std::size_t goal = 0; goal < goals.size(); ++goal) {
       const bool is_about_blinking = goals[goal].kind >= Goal::Kind::timeout_fired &&
                                      goals[goal].kind <= Goal::Kind::reactive_returned;
-      if (is_about_blinking && proof.unreachable[goal] != 0) {
-        texts.push_back(describe(catalog, goals[goal]));
+      if (is_about_blinking && !proof.unreachable[goal].empty()) {
+        texts.push_back(describe(catalog, goals[goal]) + ": " + proof.unreachable[goal]);
       }
     }
     return texts;
@@ -166,8 +176,10 @@ tasks:
 - {task: BLINK, reactive_start: true, start_on_request: false, execution_goal: keep_running}
 - {task: DOCK}
 )"),
-            (std::vector<std::string>{"task BLINK gave way",
-                                      "task BLINK returned by itself after it gave way"}));
+            (std::vector<std::string>{"task BLINK gave way: only its own stop and the end of its "
+                                      "behavior stop task BLINK",
+                                      "task BLINK returned by itself after it gave way: task "
+                                      "BLINK never gives way"}));
 }
 
 }  // namespace

@@ -3,9 +3,11 @@
 // goal_proof_property_test.cpp compares with a plain enumeration. CBC_SEED and CBC_PROPERTY_CASES
 // are as in property_test.cpp.
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -46,6 +48,32 @@ std::vector<std::uint8_t> run_text(const CompiledCatalog& catalog, const std::ve
   return std::move(watched.met);
 }
 
+/// However early it is stopped, it ends soon, and says that it was.
+void check_stop(const VerifyCase& sample, const std::vector<Goal>& goals,
+                const MissingMissions& whole, oracle::Statistics& statistics) {
+  const std::vector<std::uint8_t> met(goals.size(), 0);
+  std::uint64_t asked = 0;
+  std::uint64_t most = UINT64_MAX;
+  MissingMissionOptions options;
+  options.is_stopped = [&] { return ++asked > most; };
+  const auto find = [&] {
+    asked = 0;
+    return find_missing_missions(sample.catalog, goals, met, sample.question.assumptions, options);
+  };
+  demand(find().missions.size() == whole.missions.size(), "being asked changes something");
+  const std::uint64_t all = asked;
+  for (std::uint64_t part = 0; part < 4; ++part) {
+    most = all * part / 4;
+    const MissingMissions found = find();
+    demand(found.reached != MissingMissions::Phase::done, "it was not stopped");
+    constexpr std::uint64_t soon = 200;
+    demand(asked <= most + soon, "it goes on for long");
+    static constexpr std::array<const char*, 3> phases = {
+        "stopped in the exploration", "stopped in the planning", "stopped in the rehearsal"};
+    statistics.count(phases.at(static_cast<std::size_t>(found.reached)));
+  }
+}
+
 void check(const VerifyCase& sample, oracle::Statistics& statistics) {
   const CompiledCatalog& catalog = sample.catalog;
   const Assumptions& assumptions = sample.question.assumptions;
@@ -77,6 +105,8 @@ void check(const VerifyCase& sample, oracle::Statistics& statistics) {
   statistics.count(missing.missions.empty() ? "no scripts" : "scripts");
   std::set<std::uint32_t> unmet;
   for (const MissingMissions::Unmet& one : missing.unmet) unmet.insert(one.goal);
+  std::map<std::uint32_t, std::string> reasons;
+  for (const MissingMissions::Unmet& one : missing.unreachable) reasons[one.goal] = one.reason;
   for (std::uint32_t goal = 0; goal < goals.size(); ++goal) {
     const std::string text = describe(catalog, goals[goal]);
     if (met[goal] != 0) {
@@ -84,8 +114,10 @@ void check(const VerifyCase& sample, oracle::Statistics& statistics) {
       statistics.count("met");
       continue;
     }
-    if (proof.unreachable[goal] != 0) {
+    if (!proof.unreachable[goal].empty()) {
       demand(unmet.count(goal) == 0, "unreachable, but listed: " + text);
+      demand(reasons[goal] == proof.unreachable[goal],
+             text + ": " + reasons[goal] + ", but " + proof.unreachable[goal]);
       statistics.count("unreachable");
       continue;
     }
@@ -96,6 +128,7 @@ void check(const VerifyCase& sample, oracle::Statistics& statistics) {
   }
   const MissingMissions nothing = find_missing_missions(catalog, goals, met, assumptions, {});
   demand(nothing.missions.empty(), "more scripts are written beside these");
+  check_stop(sample, goals, missing, statistics);
 }
 
 void run_case(std::uint64_t seed, oracle::Results& results) {
@@ -106,8 +139,11 @@ void run_case(std::uint64_t seed, oracle::Results& results) {
   }
 }
 
-constexpr oracle::LowerBound lower_bounds[] = {
-    {"scripts", 300}, {"met", 3000}, {"unreachable", 500}};
+constexpr oracle::LowerBound lower_bounds[] = {{"scripts", 300},
+                                               {"met", 3000},
+                                               {"unreachable", 500},
+                                               {"stopped in the exploration", 300},
+                                               {"stopped in the planning", 300}};
 
 TEST(MissingMissions, MeetWhatCanBeMet) {
   oracle::run_random_cases(default_cases, run_case, lower_bounds);

@@ -79,7 +79,6 @@ function isOptional(object, name) {
   if (name === 'variables') return !('groups' in object) && !('unconditional' in object);
   if (name === 'behavior') return ['minimum_decided', 'minimum_removed', 'performance'].includes(object.kind);
   if (name === 'script') return 'change' in object; // of a mutant; not of a property
-  if (name === 'unreachable') return 'met_by' in object; // of a goal; not of numbers
   if (['file', 'groups', 'reduced', 'states_at_depth'].includes(name)) return 'group' in object; // of an exploration
   if (name === 'error') return 'events' in object; // of a run; not of a line
   const others = [

@@ -112,7 +112,7 @@ TEST(Goals, AreThoseOfTheCatalog) {
   const Texts goals = goals_of(test::compile_text(robot));
   for (const char* const senseless :
        {"behavior GPS achieved its goal", "behavior DOCK_NOW was replaced",
-        "the timeout of task DRIVE ended it", "behavior GPS began to fit the situation",
+        "task DRIVE ran into its timeout", "behavior GPS began to fit the situation",
         "a start of BEEP displaced a lower priority",
         "a start of LOCALIZE displaced a lower priority", "task DRIVE started by itself"}) {
     EXPECT_FALSE(goals.contains(senseless)) << senseless;
@@ -185,11 +185,11 @@ exclusivity_constraints: [{mutually_exclusive: [A, B]}, {mutually_exclusive: [S,
 }
 
 TEST(Goals, OfTimeouts) {
-  expect_tells_apart(robot, "the timeout of task DOCK ended it", "[{start: DOCK}, {wait: 10.1}]",
+  expect_tells_apart(robot, "task DOCK ran into its timeout", "[{start: DOCK}, {wait: 10.1}]",
                      "[{start: DOCK}, {wait: 9.9}]");
-  expect_tells_apart(robot, "the timeout of task DOCK ended it", "[{start: DOCK}, {wait: 10.1}]",
+  expect_tells_apart(robot, "task DOCK ran into its timeout", "[{start: DOCK}, {wait: 10.1}]",
                      "[{start: DOCK}, {finish: DOCK_NOW, cause: time_out}]");
-  expect_tells_apart(robot, "the timeout of behavior DRIVE_SLOWLY ended it",
+  expect_tells_apart(robot, "behavior DRIVE_SLOWLY ran into its timeout",
                      "[{situation: {LIGHT: night}}, {start: DRIVE}, {wait: 21}]",
                      "[{start: DRIVE}, {wait: 21}]");
 }
@@ -283,8 +283,8 @@ situation:
   EXPECT_EQ(lines.at("the minimum that A_BY requires of S matters"), Lines{7});
   EXPECT_EQ(lines.at("the minimum of S matters"), Lines{17});
   EXPECT_EQ(lines.at("it matters that A excludes B"), (Lines{20, 21}));
-  EXPECT_EQ(lines.at("the timeout of behavior A_BY ended it"), Lines{4});
-  EXPECT_EQ(lines.at("the timeout of task B ended it"), Lines{15});
+  EXPECT_EQ(lines.at("behavior A_BY ran into its timeout"), Lines{4});
+  EXPECT_EQ(lines.at("task B ran into its timeout"), Lines{15});
   EXPECT_EQ(lines.at("V was true"), Lines{23});
   EXPECT_EQ(lines.at("behavior B_BY began to fit the situation"), Lines{10});
 }

@@ -52,14 +52,19 @@ class CatalogCoverage {
   /// Adds a mission, or what is new of one that was added before. `met`: by goal.
   void add(const std::string& mission, const std::vector<std::uint8_t>& met);
 
-  /// Sets goals apart that are proven unreachable: by goal. Those that a mission meets all the same
-  /// stay, as missions need not keep to assumptions.
-  void set_unreachable(std::vector<std::uint8_t> unreachable) {
-    unreachable_ = std::move(unreachable);
+  /// Sets goals apart that are proven unreachable: by goal why, or nothing. Those that a mission
+  /// meets all the same stay, as missions need not keep to assumptions, which are given in words.
+  void set_unreachable(std::vector<std::string> reasons, std::string assumptions) {
+    reasons_ = std::move(reasons);
+    assumptions_ = std::move(assumptions);
   }
   [[nodiscard]] bool is_unreachable(std::size_t goal) const {
-    return !unreachable_.empty() && unreachable_[goal] != 0 && !is_met(goal);
+    return !reasons_.empty() && !reasons_[goal].empty() && !is_met(goal);
   }
+  /// Of an unreachable goal.
+  [[nodiscard]] const std::string& reason_of(std::size_t goal) const { return reasons_[goal]; }
+  /// Of the proof; empty if nothing was to be proven.
+  [[nodiscard]] const std::string& assumptions() const { return assumptions_; }
   [[nodiscard]] bool is_missed(std::size_t goal) const {
     return !is_met(goal) && !is_unreachable(goal);
   }
@@ -89,7 +94,8 @@ class CatalogCoverage {
   std::vector<Goal> goals_;
   std::vector<std::string> missions_;
   std::vector<std::vector<std::uint32_t>> met_by_;  ///< by goal
-  std::vector<std::uint8_t> unreachable_;           ///< by goal; empty: nothing is proven
+  std::vector<std::string> reasons_;                ///< by goal; empty: nothing is proven
+  std::string assumptions_;
 };
 
 /// The coverage of several catalogs, each by the missions that run on it.

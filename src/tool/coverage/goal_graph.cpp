@@ -6,6 +6,7 @@
 
 #include "coverage/goal_watch.h"
 #include "coverage/state_replay.h"
+#include "coverage/timeout_race.h"
 #include "verify/model.h"
 #include "verify/stepper.h"
 
@@ -22,6 +23,7 @@ class GraphBuilder {
         assumptions_(assumptions),
         options_(options),
         watch_(catalog, goals, {}),
+        forestalled_by_(catalog.values.items.size(), none),
         returns_(catalog.tasks.size(), none) {
     watch_.take_failures_for_timeouts();
     graph_.goal_count = goals.size();
@@ -45,6 +47,8 @@ class GraphBuilder {
       graph_.parts.push_back({group, static_cast<std::uint32_t>(graph_.state_count()), false});
       graph_.parts.back().is_complete = explore(model, graph_.parts.back());
     }
+    graph_.facts = watch_.facts();
+    graph_.facts.forestalled_by = std::move(forestalled_by_);
     return std::move(graph_);
   }
 
@@ -53,6 +57,7 @@ class GraphBuilder {
   bool explore(const Model& model, const GoalGraph::Part& part) {
     Stepper stepper(model, {.reduce = true});
     StateReplay replay(model, watch_);
+    TimeoutRace race(catalog_, part.group);
     numbers_.clear();
     states_.clear();
     std::vector<std::uint32_t> packed(model.packed_words());
@@ -73,6 +78,7 @@ class GraphBuilder {
           stepper.pack(packed.data());
           watch_.restart(unwanted_);
           replay.take(move);
+          race.note(replay, move);
           add_edge(part.first_state + static_cast<std::uint32_t>(state),
                    part.first_state + find(packed), move, replay);
         }
@@ -80,6 +86,7 @@ class GraphBuilder {
       }
       graph_.begin.push_back(static_cast<std::uint32_t>(graph_.edges.size()));
     }
+    if (goes_on) race.tell(forestalled_by_);
     return goes_on;
   }
 
@@ -155,8 +162,9 @@ class GraphBuilder {
   const GoalGraphOptions& options_;
   GoalWatch watch_;
   GoalGraph graph_;
-  std::vector<std::uint8_t> unwanted_;  ///< by goal: not asked about
-  std::vector<std::uint32_t> returns_;  ///< by task: its goal of returning, if it is wanted
+  std::vector<ValueId> forestalled_by_;  ///< see GoalFacts
+  std::vector<std::uint8_t> unwanted_;   ///< by goal: not asked about
+  std::vector<std::uint32_t> returns_;   ///< by task: its goal of returning, if it is wanted
   std::unordered_map<std::string, std::uint32_t> numbers_;  ///< of the states of the group
   std::vector<std::vector<std::uint32_t>> states_;          ///< packed
   std::vector<std::uint32_t> items_;                        ///< of the present edge

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
+#include "coverage/goal_facts.h"
 #include "coverage/goals.h"
 #include "verify/explore.h"
 #include "verify/properties.h"
@@ -41,8 +42,9 @@ struct GoalGraph {
   std::vector<std::uint32_t> items;
   std::vector<std::uint8_t> is_return;  ///< by goal
   std::vector<Part> parts;              ///< by group
-  std::uint64_t moves = 0;              ///< with those that are left out, as others do the same
-  std::optional<std::string> error;     ///< the first state contradicts `never`
+  GoalFacts facts;
+  std::uint64_t moves = 0;           ///< with those that are left out, as others do the same
+  std::optional<std::string> error;  ///< the first state contradicts `never`
 
   [[nodiscard]] std::size_t state_count() const { return begin.size() - 1; }
   [[nodiscard]] std::span<const std::uint32_t> items_of(const Edge& edge) const {

@@ -10,6 +10,7 @@
 #include "coordinator/coordinator.h"
 #include "coverage/goal_watch.h"
 #include "coverage/state_replay.h"
+#include "coverage/timeout_race.h"
 #include "verify/model.h"
 #include "verify/stepper.h"
 
@@ -27,6 +28,7 @@ class GroupExploration {
       : model_(catalog, {group}, assumptions),
         stepper_(model_, {.reduce = true}),
         replay_(model_, watch),
+        race_(catalog, group),
         group_(group),
         options_(options) {}
 
@@ -49,6 +51,8 @@ class GroupExploration {
     result_.states = states_.size();
     return result_;
   }
+
+  [[nodiscard]] const TimeoutRace& race() const { return race_; }
 
   /// The reactive tasks that start by themselves in some path after they have given way.
   [[nodiscard]] std::vector<TaskId> returning() const {
@@ -92,6 +96,7 @@ class GroupExploration {
       const Number reached = find(packed);
       next_[state].push_back(reached);
       replay_.take(move);
+      race_.note(replay_, move);
       for (const TaskId task : replay_.gave_way()) left_behind_[task].push_back(reached);
       for (const TaskId task : replay_.started()) starts_from_[task].push_back(state);
     }
@@ -119,6 +124,7 @@ class GroupExploration {
   const Model model_;
   Stepper stepper_;
   StateReplay replay_;
+  TimeoutRace race_;
   const std::uint32_t group_;
   const GoalProofOptions& options_;
   GoalProof::Group result_;
@@ -166,18 +172,24 @@ Assumptions assumptions_of_goals(const CompiledCatalog& catalog) {
 GoalProof prove_unreachable(const CompiledCatalog& catalog, std::span<const Goal> goals,
                             const Assumptions& assumptions, const GoalProofOptions& options) {
   GoalProof proof;
-  proof.unreachable.assign(goals.size(), 0);
+  proof.unreachable.resize(goals.size());
+  proof.groups.resize(catalog.group_count());
+  std::vector<ValueId> forestalled_by(catalog.values.items.size(), none);
   GoalWatch watch(catalog, goals, {});
   watch.take_failures_for_timeouts();
   for (std::uint32_t group = 0; group < catalog.group_count(); ++group) {
+    if (options.group.value_or(group) != group) continue;
     GroupExploration exploration(catalog, group, assumptions, watch, options);
     if (exploration.begins_excluded()) {
       proof.error = "the first state is in a situation that 'never' excludes";
       return proof;
     }
-    proof.groups.push_back(exploration.run());
+    proof.groups[group] = exploration.run();
+    if (proof.groups[group].is_complete) exploration.race().tell(forestalled_by);
     for (const TaskId task : exploration.returning()) watch.note_return(task);
   }
+  proof.facts = watch.facts();
+  proof.facts.forestalled_by = std::move(forestalled_by);
   for (std::size_t number = 0; number < goals.size(); ++number) {
     const Goal& goal = goals[number];
     const std::vector<std::uint32_t> groups = groups_of(catalog, goal);
@@ -185,7 +197,9 @@ GoalProof prove_unreachable(const CompiledCatalog& catalog, std::span<const Goal
       return proof.groups[group].is_complete;
     });
     const bool is_free = groups.empty() && may_have(assumptions, goal);
-    proof.unreachable[number] = watch.met()[number] == 0 && is_proven && !is_free ? 1 : 0;
+    const bool is_met = watch.met()[number] != 0 && !is_forestalled(catalog, goal, proof.facts);
+    if (is_met || !is_proven || is_free) continue;
+    proof.unreachable[number] = why_unreachable(catalog, goals, number, assumptions, proof.facts);
   }
   return proof;
 }

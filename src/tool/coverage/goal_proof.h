@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
+#include "coverage/goal_facts.h"
 #include "coverage/goals.h"
 #include "verify/properties.h"
 
@@ -21,13 +22,16 @@ struct GoalProof {
     std::uint64_t moves = 0;
     bool is_complete = false;  ///< false: a limit came first, and nothing is proven
   };
-  std::vector<Group> groups;              ///< by group
-  std::vector<std::uint8_t> unreachable;  ///< by goal: proven
+  std::vector<Group> groups;  ///< by group
+  /// By goal: why no move meets it, if that is proven; otherwise empty. See why_unreachable.
+  std::vector<std::string> unreachable;
+  GoalFacts facts;  ///< of the groups that are complete
   /// The first state contradicts `never`; then nothing is proven.
   std::optional<std::string> error;
 };
 
 struct GoalProofOptions {
+  std::optional<std::uint32_t> group;    ///< the only one to visit; empty: all
   std::uint64_t max_states = 1'000'000;  ///< of each group
   /// Called now and then; false ends the exploration as a limit does. May be empty.
   std::function<bool(std::uint32_t group, std::uint64_t states)> on_progress;

@@ -38,6 +38,7 @@ GoalWatch::GoalWatch(const CompiledCatalog& catalog, std::span<const Goal> goals
       goals_(goals),
       relaxation_(catalog, options),
       deciding_(catalog.group_count()),
+      facts_(catalog, goals.size()),
       met_(goals.size(), 0),
       has_given_way_(catalog.tasks.size(), 0),
       was_active_(catalog.behaviors.size(), 0) {
@@ -55,7 +56,9 @@ GoalWatch::GoalWatch(const CompiledCatalog& catalog, std::span<const Goal> goals
     places[subject_of(catalog, goal)] = number;
   }
   for (const BehaviorId behavior : catalog.behavior_ids) {
-    if (!catalog.fitting_values_of(behavior).empty()) conditional_.push_back(behavior);
+    const bool is_conditional = !catalog.fitting_values_of(behavior).empty();
+    if (is_conditional) conditional_.push_back(behavior);
+    facts_.fitted[behavior] = is_conditional ? 0 : 1;
   }
 }
 
@@ -96,6 +99,7 @@ void GoalWatch::note_values(const State& before, const Trigger& trigger,
     const BehaviorId old_behavior = before.behavior(task);
     const BehaviorId behavior = behavior_in(catalog_, task, solution[place]);
     if (behavior != none) {
+      facts_.performed[catalog_.values.begin[task] + solution[place]] = 1;
       if (old_behavior == none) meet(Kind::task_ran, task);
       if (was_active_[behavior] == 0) meet(Kind::behavior_active, behavior);
       for (std::uint32_t requirement = catalog_.requirements.begin[behavior];
@@ -125,6 +129,7 @@ void GoalWatch::note_stop(const Trigger& trigger, const State& before, TaskId ta
                               : task == trigger.task;
   if (is_own_end) return;
   has_given_way_[task] = 1;
+  facts_.gave_way[task] = 1;
   meet(Kind::reactive_gave_way, task);
 }
 
@@ -132,6 +137,7 @@ void GoalWatch::note_start(const EventRecord& record, const Circumstances& circu
                            const Assignment& solution) {
   const Trigger& trigger = circumstances.trigger;
   if (trigger.is_reactive) {
+    facts_.started_itself[trigger.task] = 1;
     meet(Kind::reactive_started, trigger.task);
     if (has_given_way_[trigger.task] != 0) meet(Kind::reactive_returned, trigger.task);
     return;
@@ -171,22 +177,25 @@ void GoalWatch::note_timeout(const EventRecord& record, const State& before) {
 /// Only of what no earlier event has decided.
 void GoalWatch::ask_for_deciding(const EventRecord& record, const Circumstances& circumstances,
                                  const Assignment* solution) {
+  const auto& rejectable = places_.at(static_cast<std::size_t>(Kind::lower_rejected));
+  const auto& deciding = deciding_[circumstances.trigger.group];
+  if (rejectable.empty() && deciding.empty()) return;
   if (!relaxation_.load(record, circumstances, solution)) return;
   constexpr std::size_t most_known = 1'000'000;
   if (decided_.size() == most_known) decided_.clear();
   const auto [known, is_new] = decided_.try_emplace(relaxation_.digest());
   if (is_new) {
     const std::vector<std::uint8_t>& unasked = apart_.empty() ? met_ : apart_;
-    for (const std::uint32_t number : deciding_[circumstances.trigger.group]) {
-      if (unasked[number] != 0 || !relaxation_.decided(goals_[number], number)) continue;
-      known->second.push_back(number);
+    for (const std::uint32_t number : deciding) {
+      if (unasked[number] != 0 || !relaxation_.may_matter(goals_[number])) continue;
+      facts_.was_asked[number] = 1;
+      if (relaxation_.decided(goals_[number], number)) known->second.push_back(number);
     }
   }
   for (const std::uint32_t number : known->second) met_[number] = 1;
   if (solution != nullptr || record.origin != Origin::script) return;
-  const auto& places = places_.at(static_cast<std::size_t>(Kind::lower_rejected));
-  if (places.empty() || record.verb != Verb::start) return;
-  const std::uint32_t number = places[record.task];
+  if (rejectable.empty() || record.verb != Verb::start) return;
+  const std::uint32_t number = rejectable[record.task];
   if (number == none || met_[number] != 0) return;
   if (relaxation_.was_protection_alone()) met_[number] = 1;
 }
@@ -196,6 +205,10 @@ void GoalWatch::on_event(const EventRecord& record, const State& state) {
     if (change.is_activation && !change.success) meet(Kind::behavior_failed, change.behavior);
   }
   if (record.verb == Verb::situation) note_situation(state);
+  if (record.verb == Verb::start && record.origin == Origin::script) {
+    if (record.outcome == Outcome::accepted) facts_.start_accepted[record.task] = 1;
+    if (record.outcome == Outcome::rejected) facts_.start_rejected[record.task] = 1;
+  }
 }
 
 void GoalWatch::note_situation(const State& state) {
@@ -205,6 +218,7 @@ void GoalWatch::note_situation(const State& state) {
   for (std::size_t place = 0; place < conditional_.size(); ++place) {
     const BehaviorId behavior = conditional_[place];
     const bool fits = state.fits(behavior);
+    (fits ? facts_.fitted : facts_.misfitted)[behavior] = 1;
     if (fits && fits_[place] == 0) meet(Kind::behavior_began_to_fit, behavior);
     // What follows it is not decided yet.
     if (!fits && fits_[place] != 0 && state.is_active(behavior)) {

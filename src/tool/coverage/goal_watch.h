@@ -13,6 +13,7 @@
 #include "coordinator/explainer.h"
 #include "coordinator/record.h"
 #include "coordinator/state.h"
+#include "coverage/goal_facts.h"
 #include "coverage/goals.h"
 #include "coverage/relaxation.h"
 #include "solver/problem.h"
@@ -47,6 +48,8 @@ class GoalWatch {
   /// Whether the reactive task has given way since begin().
   [[nodiscard]] bool has_given_way(TaskId task) const { return has_given_way_[task] != 0; }
 
+  /// What was seen since the object was made. Nothing is known of timeouts.
+  [[nodiscard]] const GoalFacts& facts() const { return facts_; }
   /// By goal: whether an event has met it.
   [[nodiscard]] const std::vector<std::uint8_t>& met() const { return met_; }
   /// The problems that were solved beside those of the events.
@@ -74,6 +77,7 @@ class GoalWatch {
   std::vector<std::vector<std::uint32_t>> deciding_;  ///< by group: goals about deciding
   /// By digest of problems: the goals about deciding that events with them meet.
   std::unordered_map<std::string, std::vector<std::uint32_t>> decided_;
+  GoalFacts facts_;
   std::vector<std::uint8_t> met_;
   std::vector<std::uint8_t> apart_;          ///< those of restart(), or empty
   std::vector<std::uint8_t> has_given_way_;  ///< by task, in this mission

@@ -362,7 +362,7 @@ std::string describe(const CompiledCatalog& catalog, const Goal& goal) {
     case Goal::Kind::exclusion_decided:
       return fmt::format("it matters that {} excludes {}", task, task_name(goal.other_task));
     case Goal::Kind::timeout_fired:
-      return fmt::format("the timeout of {} ended it",
+      return fmt::format("{} ran into its timeout",
                          behavior.empty() ? "task " + task : "behavior " + behavior);
     case Goal::Kind::reactive_started:
       return fmt::format("task {} started by itself", task);

@@ -15,6 +15,7 @@ namespace cbc {
 namespace {
 
 using Goals = MissionPlanner::Goals;
+using Phase = MissingMissions::Phase;
 
 bool is_any(const Goals& goals) {
   return std::any_of(goals.begin(), goals.end(), [](std::uint8_t goal) { return goal != 0; });
@@ -36,15 +37,24 @@ class MissionFinder {
       missing_[goal] = met[goal] == 0 ? 1 : 0;
       result_.wanted += missing_[goal];
     }
-    graph_ = explore_goals(catalog_, goals_, missing_, assumptions_, options_.exploration);
+    GoalGraphOptions of_exploration = options_.exploration;
+    of_exploration.on_progress = [&](std::uint32_t group, std::uint64_t states) {
+      const auto& on_progress = options_.exploration.on_progress;
+      return !is_stopped() && (!on_progress || on_progress(group, states));
+    };
+    result_.reached = Phase::exploration;
+    graph_ = explore_goals(catalog_, goals_, missing_, assumptions_, of_exploration);
     result_.error = graph_.error;
     result_.states = graph_.state_count();
     result_.moves = graph_.moves;
-    if (graph_.error) return std::move(result_);
+    if (graph_.error || is_stopped()) return std::move(result_);
+    result_.reached = Phase::planning;
     for (const GoalGraph::Part& part : graph_.parts) {
       if (!part.is_complete) result_.partial.push_back(part.group);
     }
-    MissionPlanner planner(graph_, options_.events);
+    const auto stop = [this] { return is_stopped(); };
+    MissionPlanner planner(graph_, options_.events, stop);
+    if (is_stopped()) return std::move(result_);
     set_apart(planner);
     if (result_.partial.empty()) result_.lower_bound = planner.lower_bound(bounded());
     for (std::uint32_t part = 0; part < graph_.parts.size(); ++part) {
@@ -53,6 +63,8 @@ class MissionFinder {
     perform(planner, missing_);
     wait_for_timeouts(planner);
     perform(planner, without_timeouts());
+    if (is_stopped()) return std::move(result_);
+    result_.reached = Phase::done;
     show_first_values();
     list_unmet();
     return std::move(result_);
@@ -69,13 +81,14 @@ class MissionFinder {
           initial_value(assumptions_, goal.variable) == goal.value) {
         first_values_[number] = 1;
         missing_[number] = 0;
-      } else if (planner.reachable()[number] == 0) {
+      } else if (planner.reachable()[number] == 0 || is_forestalled(catalog_, goal, graph_.facts)) {
         missing_[number] = 0;
+        const auto place = static_cast<std::uint32_t>(number);
         if (result_.partial.empty()) {
-          ++result_.unreachable;
+          result_.unreachable.push_back(
+              {place, why_unreachable(catalog_, goals_, number, assumptions_, graph_.facts)});
         } else {
-          result_.unmet.push_back({static_cast<std::uint32_t>(number),
-                                   "a limit ended the exploration before it was met"});
+          result_.unmet.push_back({place, "not met before a limit ended the exploration"});
         }
       }
     }
@@ -113,7 +126,8 @@ class MissionFinder {
   /// Adds scripts that meet these goals. Where other timeouts come first, those do not fire.
   void perform(MissionPlanner& planner, const Goals& wanted) {
     for (const MissionPlanner::Path& path : planner.plan(wanted)) {
-      if (!goes_on()) break;
+      if (is_stopped()) return;
+      result_.reached = Phase::rehearsal;
       std::vector<std::uint8_t> is_timeout;
       for (const std::uint32_t edge : path.edges) {
         const auto items = graph_.items_of(graph_.edges[edge]);
@@ -163,8 +177,8 @@ class MissionFinder {
   bool wait_once(const MissionPlanner& planner, const Goals& wanted, std::size_t most_tries) {
     std::optional<Rehearsal> best;
     std::size_t most = 0;
-    if (!goes_on()) return false;
     for (const MissionPlanner::Path& path : planner.paths_toward(wanted, most_tries)) {
+      if (is_stopped()) return false;
       const std::uint32_t limit = planner.most_events(path.part);
       if (path.edges.size() >= limit) continue;
       Rehearsal tried =
@@ -182,9 +196,11 @@ class MissionFinder {
     return best.has_value();
   }
 
-  [[nodiscard]] bool goes_on() {
-    if (options_.on_mission && !options_.on_mission(result_.missions.size())) is_stopped_ = true;
-    return !is_stopped_;
+  [[nodiscard]] bool is_stopped() const {
+    if (options_.on_mission && result_.reached != Phase::exploration) {
+      options_.on_mission(result_.missions.size());
+    }
+    return options_.is_stopped && options_.is_stopped();
   }
 
   /// Writes the script, if it meets anything that is missing.
@@ -249,9 +265,8 @@ class MissionFinder {
       if (missing_[goal] == 0 && first_values_[goal] == 0) continue;
       const bool is_timeout = goals_[goal].kind == Goal::Kind::timeout_fired;
       result_.unmet.push_back(
-          {goal, is_stopped_  ? "the search was stopped"
-                 : is_timeout ? "in every state that was tried, something else happens before it"
-                              : "no script was found"});
+          {goal, is_timeout ? "in every state that was tried, something else comes first"
+                            : "no script that was tried shows it"});
     }
     std::sort(result_.unmet.begin(), result_.unmet.end(),
               [](const auto& a, const auto& b) { return a.goal < b.goal; });
@@ -267,7 +282,6 @@ class MissionFinder {
   Goals missing_;       ///< by goal: no mission meets it, and one can
   Goals first_values_;  ///< the same, of those that each script meets as it begins
   std::set<std::string> names_;
-  bool is_stopped_ = false;
 };
 
 }  // namespace

@@ -31,11 +31,12 @@ struct MissingMissions {
     std::uint32_t goal = 0;
     std::string reason;
   };
+  enum class Phase : std::uint8_t { exploration, planning, rehearsal, done };
 
   std::vector<Mission> missions;
-  std::uint64_t wanted = 0;       ///< goals that the missions so far do not meet
-  std::uint64_t unreachable = 0;  ///< of these: proven, no mission can meet them
-  std::vector<Unmet> unmet;       ///< the others that no script was found for
+  std::uint64_t wanted = 0;        ///< goals that the missions so far do not meet
+  std::vector<Unmet> unreachable;  ///< of these: proven, no mission can meet them; by goal
+  std::vector<Unmet> unmet;        ///< the others that no script was found for; by goal
   /// The least number of such scripts, each about one group, with at most so many events as its
   /// group allows. Empty if a limit ended the exploration.
   std::optional<std::uint64_t> lower_bound;
@@ -43,6 +44,7 @@ struct MissingMissions {
   std::vector<std::uint32_t> partial;  ///< groups whose exploration a limit ended
   std::uint64_t states = 0;
   std::uint64_t moves = 0;
+  Phase reached = Phase::done;       ///< what is_stopped ended; then the rest means nothing
   std::optional<std::string> error;  ///< the first state contradicts `never`
   std::string fault;                 ///< of cbc: a script does not do what was proven
 };
@@ -51,9 +53,10 @@ struct MissingMissionOptions {
   GoalGraphOptions exploration;
   std::string catalog;       ///< see Script
   std::uint32_t events = 8;  ///< of a script, if no goal takes more
-  /// Called before each script, with the number of those before it; false ends the search. May be
-  /// empty.
-  std::function<bool(std::size_t number)> on_mission;
+  /// Called now and then after the exploration, with the number of scripts so far. May be empty.
+  std::function<void(std::size_t number)> on_mission;
+  /// Asked now and then; once it is true, the work ends. May be empty.
+  std::function<bool()> is_stopped;
 };
 
 /// `met`: by goal, whether the present missions meet it. The same input gives the same scripts.

@@ -52,8 +52,10 @@ struct MissionPlanner::Partial {
   std::uint64_t gained = 0;
 };
 
-MissionPlanner::MissionPlanner(const GoalGraph& graph, std::uint32_t events)
+MissionPlanner::MissionPlanner(const GoalGraph& graph, std::uint32_t events,
+                               std::function<bool()> is_stopped)
     : graph_(graph),
+      is_stopped_(std::move(is_stopped)),
       source_(graph.edges.size()),
       reachable_(graph.goal_count, 0),
       returning_(graph.goal_count),
@@ -111,6 +113,7 @@ void MissionPlanner::find_limits(std::uint32_t events) {
       }
     }
     for (const std::uint32_t goal : returns) {
+      if (is_stopped()) return;
       Path path = path_that_returns(part, goal);
       if (path.edges.empty()) continue;
       note(goal, static_cast<std::uint32_t>(path.edges.size()));
@@ -184,7 +187,7 @@ void MissionPlanner::weigh(const std::vector<Weight>& weights, std::uint32_t par
   collected_.resize(longest_ + 1);
   for (std::vector<Weight>& layer : collected_) layer.resize(graph_.state_count());
   std::fill(collected_[0].begin() + first, collected_[0].begin() + end, 0);
-  for (std::uint32_t left = 1; left <= longest; ++left) {
+  for (std::uint32_t left = 1; left <= longest && !is_stopped(); ++left) {
     const std::vector<Weight>& next = collected_[left - 1];
     for (std::uint32_t state = first; state < end; ++state) {
       Weight most = 0;
@@ -272,11 +275,12 @@ std::uint64_t MissionPlanner::improve(std::vector<Weight>& weights, std::uint32_
   const std::uint64_t rounds = std::clamp<std::uint64_t>(most_work / work, 16, 600);
   std::uint64_t bound = 0;
   std::vector<Weight> best = weights;
-  for (std::uint64_t round = 0; round < rounds; ++round) {
+  for (std::uint64_t round = 0; round < rounds && !is_stopped(); ++round) {
     Weight sum = 0;
     for (const Weight weight : weights) sum += weight;
     if (sum == 0) return 0;
     weigh(weights, part);
+    if (is_stopped()) break;
     const std::uint32_t at = part == none ? best_part() : part;
     const Weight most = collected_[limits_[at]][graph_.parts[at].first_state];
     // Rounded up, as paths are whole.
@@ -308,7 +312,7 @@ MissionPlanner::Path MissionPlanner::search(std::uint32_t part,
   std::vector<Partial> beam;
   beam.push_back({graph_.parts[part].first_state, {part, {}}, Walk(graph_), 0});
   Partial best = beam.front();
-  for (std::uint32_t left = limit; left > 0 && !beam.empty(); --left) {
+  for (std::uint32_t left = limit; left > 0 && !beam.empty() && !is_stopped(); --left) {
     struct Extension {
       std::size_t partial = 0;
       std::uint32_t edge = 0;
@@ -376,6 +380,7 @@ std::vector<MissionPlanner::Path> MissionPlanner::cover(const Goals& wanted,
       return paths;
     }
     weigh(left, none);
+    if (is_stopped()) return paths;
     if (take(search(best_part(), left))) continue;
     // Returns collect weight on paths that do not meet them.
     bool is_new = false;
@@ -412,6 +417,7 @@ void MissionPlanner::drop_and_cut(std::vector<Path>& paths, const Goals& wanted)
                    [&](std::size_t a, std::size_t b) { return goals[a].size() < goals[b].size(); });
   const auto is_needed = [&](std::uint32_t goal) { return wanted[goal] != 0 && times[goal] == 1; };
   for (const std::size_t place : order) {
+    if (is_stopped()) return;
     Path& path = paths[place];
     while (!path.edges.empty()) {
       const std::uint32_t last = path.edges.back();

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "coverage/goal_graph.h"
@@ -23,8 +24,10 @@ class MissionPlanner {
   using Goals = std::vector<std::uint8_t>;
 
   /// The graph must outlive this object. A path has at most `events` moves, or as many as it takes
-  /// to meet the goal of its group that is furthest away.
-  MissionPlanner(const GoalGraph& graph, std::uint32_t events);
+  /// to meet the goal of its group that is furthest away. `is_stopped`: asked now and then; once it
+  /// is true, what is planned means nothing, and comes soon. May be empty.
+  MissionPlanner(const GoalGraph& graph, std::uint32_t events,
+                 std::function<bool()> is_stopped = {});
 
   /// By goal: whether a path meets it.
   [[nodiscard]] const Goals& reachable() const { return reachable_; }
@@ -54,6 +57,7 @@ class MissionPlanner {
 
   struct Partial;
 
+  [[nodiscard]] bool is_stopped() const { return is_stopped_ && is_stopped_(); }
   void find_depths();
   void find_limits(std::uint32_t events);
   [[nodiscard]] std::vector<std::uint32_t> shortest_to(std::uint32_t state) const;
@@ -69,6 +73,7 @@ class MissionPlanner {
   void drop_and_cut(std::vector<Path>& paths, const Goals& wanted) const;
 
   const GoalGraph& graph_;
+  const std::function<bool()> is_stopped_;
   std::vector<std::uint32_t> source_;    ///< by edge: its state
   std::vector<std::uint32_t> entrance_;  ///< by state: the edge of a shortest path; none: first
   std::vector<std::uint32_t> depths_;    ///< by state

@@ -40,6 +40,9 @@ class Relaxation {
   /// Of the problems of the event: events with the same digest have the same answers.
   [[nodiscard]] std::string digest() const;
 
+  /// Whether the event could have another answer without the constraint of the goal, as far as one
+  /// sees without a search.
+  [[nodiscard]] bool may_matter(const Goal& goal) const;
   /// Whether the constraint of the goal, which is about the group of the event, decided it: without
   /// it the answer is another one. `number` tells goals apart.
   [[nodiscard]] bool decided(const Goal& goal, std::size_t number);
@@ -59,7 +62,6 @@ class Relaxation {
     Solver solver;
   };
 
-  [[nodiscard]] bool may_matter(const Goal& goal) const;
   [[nodiscard]] bool may_run(TaskId task) const;
   [[nodiscard]] bool may_be_active(BehaviorId behavior) const;
   [[nodiscard]] Variant& variant_of(const Goal& goal, std::size_t number);

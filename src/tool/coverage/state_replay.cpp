@@ -1,5 +1,7 @@
 #include "coverage/state_replay.h"
 
+#include <algorithm>
+
 #include "script/runner.h"
 #include "verify/witness.h"
 
@@ -60,6 +62,8 @@ void StateReplay::load(const Stepper& stepper) {
     if (set != 0) state_.queue.emplace_back(task, present + set);
     if (cells[layout.waiting + reactive] != 0) state_.waiting.push_back(task);
   }
+  coordinator_.resume(state_);
+  watch_.begin(coordinator_.state());
 }
 
 void StateReplay::take(const Move& move) {
@@ -78,6 +82,12 @@ void StateReplay::take(const Move& move) {
     const TaskId id = model_.tasks()[task].id;
     if (watch_.has_given_way(id)) gave_way_.push_back(id);
   }
+}
+
+/// What was there before has been there since the beginning.
+bool StateReplay::goes_on(TaskId task) const {
+  const State& state = coordinator_.state();
+  return std::max(state.taken_at(task), state.activated_at(state.behavior(task))) < present;
 }
 
 void StateReplay::on_decision(const EventRecord& record, const Circumstances& circumstances,

@@ -23,6 +23,11 @@ class StateReplay final : private EventListener {
   /// Makes a move from the state, which must have it.
   void take(const Move& move);
 
+  /// After the last move.
+  [[nodiscard]] const State& state() const { return coordinator_.state(); }
+  /// Whether a task that runs after the last move ran before it with the same behavior, which has
+  /// not been activated again.
+  [[nodiscard]] bool goes_on(TaskId task) const;
   /// The reactive tasks that started by themselves, that gave way in the last move.
   [[nodiscard]] const std::vector<TaskId>& started() const { return started_; }
   [[nodiscard]] const std::vector<TaskId>& gave_way() const { return gave_way_; }

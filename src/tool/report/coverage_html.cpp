@@ -29,6 +29,9 @@ class CatalogPage {
 
   std::string write() {
     html_ = fmt::format("<section>\n<h2>{}</h2>\n", xml_text(coverage_.catalog().file));
+    if (!coverage_.assumptions().empty()) {
+      html_ += fmt::format("<p>{}</p>\n", xml_text(coverage_.assumptions()));
+    }
     write_counts();
     write_missions();
     write_source();
@@ -96,7 +99,8 @@ class CatalogPage {
   void write_goal(std::uint32_t goal) {
     const std::string what = xml_text(describe(coverage_.catalog(), coverage_.goals()[goal]));
     if (coverage_.is_unreachable(goal)) {
-      html_ += fmt::format("<li class=\"by\">impossible: {}</li>\n", what);
+      html_ += fmt::format("<li class=\"by\">impossible: {} ({})</li>\n", what,
+                           xml_text(coverage_.reason_of(goal)));
       return;
     }
     if (!coverage_.is_met(goal)) {

@@ -56,7 +56,10 @@ void write_catalog(JsonWriter& json, const CatalogCoverage& coverage) {
     json.on_new_line().open('{');
     write_identity(json, coverage.catalog(), coverage.goals()[goal]);
     json.write_list("lines", coverage.goals()[goal].lines);
-    if (coverage.is_unreachable(goal)) json.write("unreachable", true);
+    if (coverage.is_unreachable(goal)) {
+      json.write("unreachable", true);
+      json.write("reason", coverage.reason_of(goal));
+    }
     json.write_list("met_by", coverage.missions_of(goal),
                     [&](std::uint32_t mission) { json.write(coverage.missions()[mission]); });
     json.close('}');

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "report/coverage_report.h"
 #include "report/lint_report.h"
+#include "report/table_parts.h"
 #include "support/wording.h"
 
 // Coverage as text, as a tracefile of LCOV and as annotations.
@@ -37,14 +38,18 @@ void add_list(const CatalogCoverage& coverage, std::string_view heading,
     is_empty = false;
     text += fmt::format("  {}: {}\n", place_of(coverage, coverage.goals()[goal]),
                         describe(coverage.catalog(), coverage.goals()[goal]));
+    if (coverage.is_unreachable(goal)) {
+      text += fmt::format("    {}\n", coverage.reason_of(goal));
+    }
   }
 }
 
 std::string catalog_to_text(const CatalogCoverage& coverage, const Style& style) {
-  std::string text = fmt::format("{}{}{}, {}\n\n", style.strong, printable(coverage.catalog().file),
+  std::string text = fmt::format("{}{}{}, {}\n", style.strong, printable(coverage.catalog().file),
                                  style.reset, quantity(coverage.missions().size(), "mission"));
+  if (!coverage.assumptions().empty()) text += assumptions_to_text(coverage.assumptions());
   text +=
-      fmt::format("  {:<14} {:>7} {:>7} {:>7} {:>9}\n", "", "goals", "met", "missed", "covered");
+      fmt::format("\n  {:<14} {:>7} {:>7} {:>7} {:>9}\n", "", "goals", "met", "missed", "covered");
   const auto sections = coverage.by_section();
   for (std::size_t section = 0; section < goal_sections; ++section) {
     if (sections.at(section).goals + sections.at(section).unreachable == 0) continue;
@@ -53,7 +58,7 @@ std::string catalog_to_text(const CatalogCoverage& coverage, const Style& style)
   const GoalCount total = coverage.total();
   text += table_row("total", total);
   add_list(coverage, "no mission shows that", &CatalogCoverage::is_missed, text);
-  add_list(coverage, "no mission can show, and so it does not count, that",
+  add_list(coverage, "under these assumptions no mission can show, and so it does not count, that",
            &CatalogCoverage::is_unreachable, text);
   return text;
 }

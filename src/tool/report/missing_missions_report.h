@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,10 +15,12 @@ namespace cbc {
 /// What `cbc verify --write-tests` reports.
 struct WrittenTests {
   const CompiledCatalog* catalog = nullptr;
+  std::string assumptions;  ///< in words: see describe_assumptions
   std::span<const Goal> goals;
-  std::uint64_t missions = 0;  ///< that were there
+  std::optional<std::uint64_t> missions;  ///< that were there; empty: none were named
   const MissingMissions* missing = nullptr;
   std::vector<std::string> paths;  ///< by script
+  std::string next;  ///< the command that looks at what the scripts leave; may be empty
 };
 
 /// The result for people.

@@ -6,14 +6,35 @@
 
 #include "base/text.h"
 #include "report/missing_missions_report.h"
+#include "report/table_parts.h"
 #include "support/wording.h"
 
 namespace cbc {
 
+namespace {
+
+std::string list_goals(const WrittenTests& tests, const char* heading,
+                       const std::vector<MissingMissions::Unmet>& goals) {
+  if (goals.empty()) return {};
+  std::string text = fmt::format("\n{}\n", heading);
+  for (const MissingMissions::Unmet& goal : goals) {
+    text += fmt::format("  {}\n    {}\n", describe(*tests.catalog, tests.goals[goal.goal]),
+                        goal.reason);
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string written_tests_to_text(const WrittenTests& tests) {
   const MissingMissions& missing = *tests.missing;
   std::string text = printable(tests.catalog->file);
-  if (tests.missions > 0) text += fmt::format(" beside {}", quantity(tests.missions, "mission"));
+  if (tests.missions == 0U) {
+    text += " beside no mission";
+  } else if (tests.missions) {
+    text += fmt::format(" beside {}", quantity(*tests.missions, "mission"));
+  }
+  text += "\n" + assumptions_to_text(tests.assumptions) + "\n";
   std::uint64_t met = 0;
   std::uint64_t events = 0;
   std::size_t width = 0;
@@ -22,22 +43,25 @@ std::string written_tests_to_text(const WrittenTests& tests) {
     met += mission.goals.size();
     events += mission.events;
   }
-  text += "\n\n";
   const auto row = [&](const char* what, std::uint64_t count) {
     text += fmt::format("  {:<18}{:>8}\n", what, count);
   };
   row("goals", tests.goals.size());
   row("met before", tests.goals.size() - missing.wanted);
-  row("unreachable", missing.unreachable);
+  row("unreachable", missing.unreachable.size());
   row("met by tests", met);
   row("not met", missing.unmet.size());
-  text += fmt::format("\n{} with {}", quantity(missing.missions.size(), "test"),
-                      quantity(events, "event"));
-  if (missing.lower_bound && !missing.missions.empty()) {
-    text += fmt::format("; no fewer than {} can do, with at most {} each", *missing.lower_bound,
-                        quantity(missing.most_events, "event"));
+  if (!missing.missions.empty()) {
+    text += fmt::format("\n{} with {}", quantity(missing.missions.size(), "test"),
+                        quantity(events, "event"));
+    if (missing.lower_bound) {
+      text += fmt::format("; no fewer than {} can do, with at most {} each", *missing.lower_bound,
+                          quantity(missing.most_events, "event"));
+    }
+    text += "\n";
+  } else {
+    text += missing.unmet.empty() ? "\nnothing is missing\n" : "\nno test was found\n";
   }
-  text += "\n";
   for (std::size_t place = 0; place < missing.missions.size(); ++place) {
     const MissingMissions::Mission& mission = missing.missions[place];
     text += fmt::format("  {:<{}}  {:>3}  {:>3}\n", printable(tests.paths[place]), width,
@@ -47,11 +71,13 @@ std::string written_tests_to_text(const WrittenTests& tests) {
     text += fmt::format(
         "\na limit ended the exploration of group {}: what it has beyond is not known\n", group);
   }
-  if (missing.unmet.empty()) return text;
-  text += "\nno test shows that\n";
-  for (const MissingMissions::Unmet& unmet : missing.unmet) {
-    text +=
-        fmt::format("  {}: {}\n", describe(*tests.catalog, tests.goals[unmet.goal]), unmet.reason);
+  text += list_goals(tests, "no test shows that", missing.unmet);
+  text += list_goals(tests, "under these assumptions no test can show that", missing.unreachable);
+  if (!tests.next.empty()) {
+    text += fmt::format(
+        "\nchanges of the catalog that all of these leave unnoticed, with a test for "
+        "each:\n  {}\n",
+        tests.next);
   }
   return text;
 }
