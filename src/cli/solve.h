@@ -107,8 +107,7 @@ void add_coverage_options(Command& command, CoverageOptions& options);
 struct Mission {
   std::shared_ptr<const CompiledCatalog> catalog;
   Script script;
-  std::shared_ptr<const CatalogSource> source{};     ///< if the loader was to keep it
-  std::shared_ptr<const yaml::Document> document{};  ///< the script as it was parsed, if kept
+  std::shared_ptr<const CatalogSource> source{};  ///< if the loader was to keep it
 };
 
 /// Reads the files of a command line, and checks every script against its catalog before anything
@@ -117,8 +116,6 @@ class MissionLoader {
  public:
   /// From now on, also keeps what catalogs were compiled from.
   void keep_sources() { catalogs_.keep_sources(); }
-  /// The same for the documents of scripts.
-  void keep_documents() { keeps_documents_ = true; }
 
   /// `paths`: a catalog (which may be missing if the scripts name theirs), then scripts; "-" is a
   /// script from standard input, a folder stands for the scripts in it. Empty if anything is wrong.
@@ -135,7 +132,7 @@ class MissionLoader {
  private:
   [[nodiscard]] std::shared_ptr<const CompiledCatalog> catalog_of(const std::string& script_path,
                                                                   const yaml::Document& script);
-  void add_script(const std::string& path, std::shared_ptr<const yaml::Document> document);
+  void add_script(const std::string& path, const yaml::Document& document);
   void add_folder(const std::string& path);
   void add_path(const std::string& path);
   [[nodiscard]] bool is_left_out(const std::string& path) const;
@@ -145,7 +142,6 @@ class MissionLoader {
   CatalogLoader catalogs_{files_};
   std::shared_ptr<const CompiledCatalog> given_catalog_;
   bool is_given_catalog_bad_ = false;
-  bool keeps_documents_ = false;
   std::vector<Mission> missions_;
   std::optional<std::string> left_out_;
   bool has_failed_ = false;

@@ -32,7 +32,7 @@ std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::s
     std::optional<InputFile> first = files_.read(paths.front());
     if (first && first->document != nullptr &&
         (is_script(*first->document) || is_property_file(*first->document))) {
-      add_script(paths.front(), std::move(first->document));
+      add_script(paths.front(), *first->document);
     } else {
       if (first) given_catalog_ = catalogs_.load(*first);
       is_given_catalog_bad_ = given_catalog_ == nullptr;
@@ -76,7 +76,7 @@ void MissionLoader::add_path(const std::string& path) {
   } else if (file->document == nullptr) {
     complain_of_catalog(path);
   } else {
-    add_script(path, std::move(file->document));
+    add_script(path, *file->document);
   }
 }
 
@@ -89,7 +89,7 @@ void MissionLoader::add_folder(const std::string& path) {
     if (!file) {
       has_failed_ = true;
     } else if (file->document != nullptr && looks_like_script(*file->document)) {
-      add_script(name, std::move(file->document));
+      add_script(name, *file->document);
     }
   }
 }
@@ -106,9 +106,7 @@ void MissionLoader::complain_of_catalog(const std::string& path) {
   has_failed_ = true;
 }
 
-void MissionLoader::add_script(const std::string& path,
-                               std::shared_ptr<const yaml::Document> shared) {
-  const yaml::Document& document = *shared;
+void MissionLoader::add_script(const std::string& path, const yaml::Document& document) {
   if (is_catalog(document)) {
     complain_of_catalog(path);
     return;
@@ -127,9 +125,7 @@ void MissionLoader::add_script(const std::string& path,
   std::optional<Script> script = read_script(document, *catalog, Severity::warning, diagnostics);
   if (files_.take_findings(path, document, std::move(diagnostics), script.has_value()) && script) {
     std::shared_ptr<const CatalogSource> source = catalogs_.source_of(*catalog);
-    if (!keeps_documents_) shared.reset();
-    missions_.push_back(
-        {std::move(catalog), std::move(*script), std::move(source), std::move(shared)});
+    missions_.push_back({std::move(catalog), std::move(*script), std::move(source)});
   } else {
     has_failed_ = true;
   }

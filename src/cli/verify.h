@@ -53,7 +53,7 @@ struct VerifyQuestions {
   std::optional<std::string> named_catalog;  ///< path of the catalog that the property files name
   std::vector<std::unique_ptr<const PropertyFile>> files;
   std::shared_ptr<const CompiledCatalog> old_catalog;  ///< to compare with, or null
-  std::vector<Mission> beside;  ///< the missions that exist, with their documents
+  std::vector<Mission> beside;                         ///< the missions that exist
   /// What the catalog was compiled from; null if it was compiled before.
   std::shared_ptr<const CatalogSource> source;
 };

@@ -179,7 +179,8 @@ void add_verify_command(Program& program) {
                  "The same when its states take this much memory, such as 512M or 8G (default: "
                  "three quarters of the memory of the machine)");
   command.option("--time-limit", options->time_limit, seconds(),
-                 "The same after this time; also ends each search for cut sets");
+                 "The same after this time; also ends each search for cut sets, and all of "
+                 "--write-tests or --mutants");
 
   command.group("Faults");
   const std::string no_place = "it has no place for cut sets";

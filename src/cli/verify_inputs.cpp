@@ -34,7 +34,6 @@ std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::strin
   if (has_failed_) return std::nullopt;
   questions_.source = catalogs_.source_of(*questions_.catalog);
   MissionLoader missions;
-  missions.keep_documents();
   std::optional<std::vector<Mission>> loaded =
       missions.load_for(questions_.catalog, beside, left_out);
   if (!loaded) return std::nullopt;

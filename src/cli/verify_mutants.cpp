@@ -19,6 +19,7 @@
 #include "mutate/judge.h"
 #include "mutate/mutants.h"
 #include "report/mutants_report.h"
+#include "verify/verification.h"
 
 namespace cbc::cli {
 namespace {
@@ -27,24 +28,25 @@ namespace fs = std::filesystem;
 
 using Clock = std::chrono::steady_clock;
 
-/// False if a mission does not pass on the catalog itself; which one is printed.
-bool all_pass(const CompiledCatalog& catalog, const MissionDocuments& missions) {
-  bool pass = true;
-  for (const auto& mission : missions) {
-    const std::optional<Notice> notice = find_notice(catalog, *mission);
+/// False if missions do not pass on the catalog itself; which ones is printed.
+bool all_pass(const CompiledCatalog& catalog, const std::vector<Script>& missions) {
+  constexpr std::size_t most_named = 20;
+  std::size_t failing = 0;
+  for (const Script& mission : missions) {
+    const std::optional<Notice> notice = find_notice(catalog, mission);
     if (!notice) continue;
-    pass = false;
-    std::string place = printable(mission->file());
+    if (++failing > most_named) continue;
+    std::string place = printable(mission.file);
     if (notice->line > 0) place += fmt::format(":{}", notice->line);
     complain("{}: {}", place, notice->message);
   }
-  if (!pass) {
-    complain(
-        "--mutants: expected missions that pass on {}; one that fails tells nothing of a "
-        "mutant (see 'cbc solve')",
-        quote(catalog.file));
-  }
-  return pass;
+  if (failing == 0) return true;
+  if (failing > most_named) complain("and {} more", failing - most_named);
+  complain(
+      "--mutants: expected missions that pass on {}, but {} of {} {}; one that fails tells nothing "
+      "of a mutant (see 'cbc solve')",
+      quote(catalog.file), failing, missions.size(), failing == 1 ? "fails" : "fail");
+  return false;
 }
 
 /// Judges all mutants, on several threads. What a stop leaves is not judged.
@@ -94,13 +96,13 @@ int status_of(const VerifyOptions& options, const MutantCount& count) {
   int status = count.is_complete() ? exit_ok : exit_no;
   if (options.fail_under.empty()) return status;
   if (!count.is_score_known()) {
-    complain("whether the missions notice {} % of the mutants is unknown (--fail-under)",
-             options.fail_under);
+    complain("whether the missions notice {} of the mutants is unknown (--fail-under)",
+             describe_percent(options.fail_under));
     return exit_no;
   }
   if (count.score().tenths() >= tenths_in(options.fail_under)) return status;
-  complain("the missions notice {} of the mutants, less than {} % (--fail-under)",
-           describe_percent(count.score()), options.fail_under);
+  complain("the missions notice {} of the mutants, less than {} (--fail-under)",
+           cbc::describe_percent(count.score()), describe_percent(options.fail_under));
   return exit_no;
 }
 
@@ -121,14 +123,17 @@ int verify_mutants(const VerifyOptions& options, const VerifyQuestions& question
   }
   const Assumptions assumptions = goal_assumptions(questions);
   if (const int status = prepare_outputs(options); status != exit_ok) return status;
-  MissionDocuments missions;
+  std::vector<Script> missions;
   MutantsResult result;
   for (const Mission& mission : questions.beside) {
-    missions.push_back(mission.document);
+    missions.push_back(mission.script);
     result.missions.push_back(mission.script.file);
   }
   if (!all_pass(catalog, missions)) return exit_unusable;
   result.catalog = &questions.source->catalog;
+  result.assumptions = describe_assumptions(
+      catalog, assumptions, questions.files.empty() ? "" : questions.files.front()->path);
+  result.writes_scripts = options.scripts.has_value();
   result.mutants = find_mutants(*result.catalog);
 
   // States of one mutant; the largest groups of catalogs have far more, and nobody would wait.

@@ -2,6 +2,7 @@
 // exactly if it fails on its text; and one is equivalent exactly if a plain search finds no
 // difference. CBC_SEED and CBC_PROPERTY_CASES are as in property_test.cpp.
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -69,8 +70,7 @@ class PlainMutants {
 
   void add_behavior(std::size_t place) {
     const oracle::Behavior& behavior = catalog_.behaviors[place];
-    auto& without = add("behavior_removed " + behavior.name).behaviors;
-    without.erase(without.begin() + static_cast<std::ptrdiff_t>(place));
+    never_fit(add("behavior_removed " + behavior.name), place);
     std::map<std::size_t, oracle::Millionths> required;
     for (const oracle::Requirement& one : behavior.requirements) {
       required[one.task] = std::max(required[one.task], one.minimum);
@@ -125,7 +125,7 @@ class PlainMutants {
       }
     }
     if (task.timeout && !task.keep_running && uses_own) {
-      add("timeout_removed " + task.name).tasks[place].timeout.reset();
+      add("timeout_removed task " + task.name).tasks[place].timeout.reset();
     }
     if (task.keep_running && ((task.timeout && uses_own) || uses_others)) {
       add("execution_goal_turned " + task.name).tasks[place].keep_running = false;
@@ -164,12 +164,29 @@ class PlainMutants {
     }
   }
 
+  /// Scripts still name the behavior, but it needs a value that no event gives.
+  static void never_fit(oracle::Catalog& catalog, std::size_t behavior) {
+    catalog.behaviors[behavior].situation.push_back({catalog.variables.size(), {1}});
+    catalog.variables.push_back({"IT IS THERE", {"no", "yes"}});
+  }
+
   oracle::Catalog catalog_;
   std::map<std::string, oracle::Catalog> all_;
 };
 
+/// The catalog of the key "behavior_removed NAME", in which the name is gone.
+oracle::Catalog without_name(oracle::Catalog catalog, const std::string& key) {
+  const std::string name = key.substr(key.find(' ') + 1);
+  catalog.variables.pop_back();
+  std::erase_if(catalog.behaviors, [&](const auto& behavior) { return behavior.name == name; });
+  return catalog;
+}
+
 std::string key_of(const cbc::Catalog& catalog, const Mutant& mutant) {
   std::string key(name_of(mutant.kind));
+  // A task may have the name of a behavior.
+  const bool is_of_task = mutant.behavior == Mutant::none;
+  if (mutant.kind == Mutant::Kind::timeout_removed && is_of_task) key += " task";
   if (mutant.behavior != Mutant::none) key += " " + catalog.behaviors[mutant.behavior].name;
   if (mutant.task != Mutant::none) key += " " + catalog.tasks[mutant.task].name;
   if (mutant.kind == Mutant::Kind::exclusion_removed) {
@@ -222,6 +239,11 @@ bool passes(const CompiledCatalog& catalog, const std::string& text,
   return result.status == Coordinator::Status::ok && result.failed == 0;
 }
 
+bool can_be_read(const CompiledCatalog& catalog, const std::string& text) {
+  Diagnostics diagnostics;
+  return read_script(*parse(text), catalog, Severity::note, diagnostics).has_value();
+}
+
 /// Some events, after some of which it is expected what the catalog does.
 std::string make_mission(const CompiledCatalog& catalog, Random& random) {
   std::string text;
@@ -269,11 +291,55 @@ struct Case {
   Assumptions assumptions;
 };
 
-/// Whether a mission could notice the mutant; nothing if there are too many states.
+/// Events that the assumptions allow, with times, after each of which it is expected what the
+/// catalog does.
+std::string make_timed_mission(const Case& one, Random& random) {
+  const CompiledCatalog& catalog = one.sample.catalog;
+  std::string text;
+  const std::size_t events = 2 + random.below(6);
+  for (std::size_t event = 0; event < events; ++event) {
+    if (!one.assumptions.start.empty() && random.percent(60)) {
+      const auto& start = one.assumptions.start[random.below(one.assumptions.start.size())];
+      const std::int32_t priority = start.priorities[random.below(start.priorities.size())];
+      text += "- {start: " + std::string(catalog.name_of_task(start.task)) +
+              ", priority: " + std::to_string(priority) + "}\n";
+    } else if (random.percent(50)) {
+      const auto& names = catalog.behavior_names;
+      text += "- {finish: " + std::string(names[random.below(names.size())]) +
+              ", cause: process_failure}\n";
+    }
+    static constexpr std::array<const char*, 4> waits = {"0.0137", "0.5137", "5.0137", "60.0137"};
+    text += "- {wait: " + std::string(waits[random.below(waits.size())]) + "}\n";
+    std::string active;
+    if (!passes(catalog, "events:\n" + text, &active)) return {};
+    text += "- expect: {active: [" + active + "]}\n";
+  }
+  return "events:\n" + text;
+}
+
+/// Whether a state of the group of the behavior has the property; nothing if there are too many.
+std::optional<bool> is_reachable(const Case& one, const Property& property, BehaviorId behavior) {
+  const CompiledCatalog& catalog = one.sample.catalog;
+  const Exploration found = explore_plainly(catalog, {catalog.group_of(behavior)}, one.assumptions,
+                                            {&property}, most_states);
+  if (found.verdicts.front().has_script) return true;
+  return found.complete ? std::optional(false) : std::nullopt;
+}
+
+/// Whether a mission could notice the mutant; nothing if there are too many states. Of timeouts:
+/// whether one could if no other timeout came first.
 std::optional<bool> can_be_noticed(const Case& one, const std::string& key,
                                    const oracle::Catalog& changed,
                                    const CompiledCatalog& compiled) {
   const CompiledCatalog& catalog = one.sample.catalog;
+  if (key.starts_with("behavior_removed")) {
+    const auto behavior = catalog.find_behavior(key.substr(key.find(' ') + 1));
+    Property property;
+    property.kind = Property::Kind::reachable;
+    property.condition.active = {catalog.behavior_ids[behavior.value()]};
+    // The other way around it may show, too: if it is active in the middle of a move.
+    if (is_reachable(one, property, property.condition.active.front()).value_or(false)) return true;
+  }
   if (!key.starts_with("timeout") && !key.starts_with("execution_goal")) {
     const PlainComparison found = compare_plainly(compiled, catalog, one.assumptions, most_states,
                                                   PlainDifferences::expectable);
@@ -291,11 +357,8 @@ std::optional<bool> can_be_noticed(const Case& one, const std::string& key,
       property.kind = Property::Kind::reachable;
       property.condition.running = {
           {catalog.task_ids[performance.task], catalog.behavior_ids[behavior]}};
-      const Exploration found =
-          explore_plainly(catalog, {catalog.group_of(catalog.behavior_ids[behavior])},
-                          one.assumptions, {&property}, most_states);
-      if (found.verdicts.front().has_script) return true;
-      if (!found.complete) return std::nullopt;
+      const auto found = is_reachable(one, property, catalog.behavior_ids[behavior]);
+      if (!found || *found) return found;
     }
   }
   return false;
@@ -306,6 +369,20 @@ void check_verdict(const Case& one, const std::string& key, const oracle::Catalo
   const std::optional<CompiledCatalog> compiled =
       oracle::compile_yaml(oracle::catalog_yaml(changed, random));
   demand(compiled.has_value(), "an invalid catalog");
+  // Whether its name is there must make no difference, but to scripts that name it.
+  std::optional<CompiledCatalog> nameless;
+  if (key.starts_with("behavior_removed")) {
+    nameless = oracle::compile_yaml(oracle::catalog_yaml(without_name(changed, key), random));
+    demand(nameless.has_value(), "an invalid catalog without the name");
+    for (const std::string& mission : one.missions) {
+      if (!can_be_read(*nameless, mission)) {
+        statistics.count("it is named");
+        if (passes(*compiled, mission)) statistics.count("named, but not noticed");
+        continue;
+      }
+      demand(passes(*nameless, mission) == passes(*compiled, mission), "the name matters");
+    }
+  }
   const auto noticing =
       std::find_if(one.missions.begin(), one.missions.end(),
                    [&](const std::string& mission) { return !passes(*compiled, mission); });
@@ -316,17 +393,29 @@ void check_verdict(const Case& one, const std::string& key, const oracle::Catalo
     demand(verdict.notice->mission == static_cast<std::size_t>(noticing - one.missions.begin()),
            "another mission notices it first");
     statistics.count("noticed " + key.substr(0, key.find(' ')));
-    if (verdict.notice->how == Notice::How::unreadable) statistics.count("unreadable");
     return;
   }
   const std::optional<bool> can = can_be_noticed(one, key, changed, *compiled);
   if (!can) return statistics.count("too many states");
   const bool has_survived = verdict.result == MutantVerdict::Result::survived;
-  demand(has_survived || verdict.result == MutantVerdict::Result::equivalent, "undecided");
+  const bool is_equivalent = verdict.result == MutantVerdict::Result::equivalent;
+  const bool is_about_times = key.starts_with("timeout") || key.starts_with("execution_goal");
+  if (*can && verdict.result == MutantVerdict::Result::undecided) {
+    demand(verdict.doubt == MutantVerdict::Doubt::no_script, "a limit came first");
+    return statistics.count(is_about_times ? "no time for a timeout" : "no script");
+  }
+  if (is_about_times && *can && is_equivalent) {
+    for (int mission = 0; mission < 10; ++mission) {
+      const std::string text = make_timed_mission(one, random);
+      demand(text.empty() || passes(*compiled, text), "noticed by:\n" + text);
+    }
+    return statistics.count("forestalled timeout");
+  }
+  demand(has_survived || is_equivalent, "undecided");
   demand(has_survived == *can, *can ? "a mission could notice it" : "no mission could");
   statistics.count(has_survived ? "survived" : "equivalent");
   if (!has_survived) return;
-  if (!verdict.script) return statistics.count("no script");
+  demand(verdict.script.has_value(), "it survived without a script");
   demand(passes(one.sample.catalog, *verdict.script), "not on the original:\n" + *verdict.script);
   demand(!passes(*compiled, *verdict.script), "not noticed by:\n" + *verdict.script);
   statistics.count("script of " + key.substr(0, key.find(' ')));
@@ -350,12 +439,14 @@ void judge_some(const Case& one, Random& random, oracle::Statistics& statistics)
   if (compare_plainly(catalog, catalog, one.assumptions, 1).has_error) {
     return statistics.count("excluded first state");
   }
-  MissionDocuments documents;
+  std::vector<Script> scripts;
   for (const std::string& mission : one.missions) {
-    documents.push_back(parse(mission));
-    demand(!find_notice(one.sample.catalog, *documents.back()), "a mission fails at once");
+    Diagnostics diagnostics;
+    scripts.push_back(
+        read_script(*parse(mission), one.sample.catalog, Severity::note, diagnostics).value());
+    demand(!find_notice(one.sample.catalog, scripts.back()), "a mission fails at once");
   }
-  const MutantJudge judge(source, one.sample.catalog, documents, one.assumptions, {});
+  const MutantJudge judge(source, one.sample.catalog, scripts, one.assumptions, {});
   random.shuffle(keys);
   keys.resize(std::min(keys.size(), judged_per_case));
   for (const std::string& key : keys) {
@@ -389,7 +480,8 @@ void run_case(std::uint64_t seed, oracle::Results& results) {
 const oracle::LowerBound lower_bounds[] = {
     {"survived", 500},
     {"equivalent", 500},
-    {"unreadable", 20},
+    {"it is named", 100},
+    {"named, but not noticed", 20},
     {"noticed behavior_removed", 100},
     {"noticed suitability_lowered", 20},
     {"noticed requirement_removed", 20},

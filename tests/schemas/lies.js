@@ -184,6 +184,8 @@ const lies = {
     ['a task of a behavior', goal('behavior_active'), {task: 'A'}],
     ['a timeout of both', goal('timeout_fired'), {task: 'A', behavior: 'B'}],
     ['an unreachable goal that is reachable', goal('task_ran'), {unreachable: false}],
+    ['an unreachable goal without a reason', goal('task_ran'), {unreachable: true}],
+    ['a reason of a goal that is reachable', goal('task_ran'), {reason: 'it never runs'}],
   ],
 
   mutants: [
@@ -193,6 +195,8 @@ const lies = {
     ['a survivor that was noticed', mutant('noticed'), {result: 'survived'}],
     ['a noticed mutant that nobody noticed', mutant('survived'), {result: 'noticed'}],
     ['an equivalent mutant with a script', mutant('equivalent'), {script: 'events: []'}],
+    ['an undecided mutant without a reason', mutant('equivalent'), {result: 'undecided'}],
+    ['a reason for doubt about an equivalent one', mutant('equivalent'), {reason: 'limit'}],
     ['a mission in line 0', mutant('noticed'), ({noticed_by}) => (noticed_by.line = 0)],
   ],
 

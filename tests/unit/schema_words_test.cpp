@@ -153,6 +153,7 @@ TEST(SchemaWords, OfMutants) {
             names_up_to(Mutant::Kind::execution_goal_turned));
   const std::string judged = "/$defs/judged/properties/";
   EXPECT_EQ(words_at(mutants, judged + "result"), names_up_to(MutantVerdict::Result::unjudged));
+  EXPECT_EQ(words_at(mutants, judged + "reason"), names_up_to(MutantVerdict::Doubt::no_script));
   EXPECT_EQ(words_at(mutants, judged + "noticed_by/properties/how"),
             names_up_to(Notice::How::ended));
 }

@@ -10,9 +10,9 @@
 
 #include "compile/compile.h"
 #include "coordinator/coordinator.h"
-#include "diagnostic/diagnostic.h"
+#include "coordinator/state.h"
+#include "coverage/goal_proof.h"
 #include "mutate/telling_script.h"
-#include "script/reader.h"
 #include "script/runner.h"
 #include "verify/same_as.h"
 #include "verify/witness.h"
@@ -27,12 +27,7 @@ Microseconds timeout_of(const Catalog& catalog, const Behavior& behavior, TaskIn
   return behavior.timeout.value_or(task.timeout.value_or(0));
 }
 
-/// A behavior that times out with one of its tasks in only one of two catalogs, or earlier.
-struct TimeDifference {
-  TaskIndex task = 0;
-  BehaviorIndex behavior = 0;
-  Microseconds first = 0;  ///< the shorter timeout
-};
+using TimeDifference = MutantJudge::TimeDifference;
 
 /// Both catalogs have the same tasks and behaviors.
 std::vector<TimeDifference> find_time_differences(const Catalog& original, const Catalog& mutant) {
@@ -85,7 +80,7 @@ Microseconds settled(const Script& script, Microseconds end) {
 }  // namespace
 
 std::string_view name_of(Notice::How how) {
-  static constexpr std::array<std::string_view, 3> names = {"failed", "unreadable", "ended"};
+  static constexpr std::array<std::string_view, 2> names = {"failed", "ended"};
   return names.at(static_cast<std::size_t>(how));
 }
 
@@ -95,32 +90,22 @@ std::string_view name_of(MutantVerdict::Result result) {
   return names.at(static_cast<std::size_t>(result));
 }
 
-std::optional<Notice> find_notice(const CompiledCatalog& catalog, const yaml::Document& mission,
+std::string_view name_of(MutantVerdict::Doubt doubt) {
+  static constexpr std::array<std::string_view, 2> names = {"limit", "no_script"};
+  return names.at(static_cast<std::size_t>(doubt));
+}
+
+std::optional<Notice> find_notice(const CompiledCatalog& catalog, const Script& mission,
                                   const std::function<bool()>& is_stopped) {
   Notice notice;
-  Diagnostics findings;
-  const std::optional<Script> script = read_script(mission, catalog, Severity::note, findings);
-  if (!script) {
-    findings.sort();
-    notice.how = Notice::How::unreadable;
-    const auto& all = findings.all();
-    const auto error = std::find_if(all.begin(), all.end(), [](const Diagnostic& finding) {
-      return finding.severity == Severity::error;
-    });
-    if (error != all.end()) {
-      notice.line = error->range.begin.line;
-      notice.message = error->message;
-    }
-    return notice;
-  }
-  CoordinatorOptions options = options_of(*script);
+  CoordinatorOptions options = options_of(mission);
   options.find_conflicts = false;
   options.is_stopped = is_stopped;
   SilentRun listener;
   Runner runner(catalog, options, listener);
-  runner.begin(script->situation);
+  runner.begin(mission.situation);
   bool goes_on = true;
-  for (const Step& step : script->steps) {
+  for (const Step& step : mission.steps) {
     goes_on = runner.take(step);
     if (!goes_on || runner.result().failed > 0) break;
   }
@@ -140,7 +125,7 @@ std::optional<Notice> find_notice(const CompiledCatalog& catalog, const yaml::Do
 }
 
 MutantJudge::MutantJudge(const Catalog& source, const CompiledCatalog& catalog,
-                         const MissionDocuments& missions, Assumptions assumptions,
+                         const std::vector<Script>& missions, Assumptions assumptions,
                          JudgeOptions options)
     : source_(source),
       catalog_(catalog),
@@ -154,7 +139,7 @@ MutantVerdict MutantJudge::judge(const Mutant& mutant) const {
   const CompiledCatalog changed = compile(changed_source);
   for (std::size_t mission = 0; mission < missions_.size(); ++mission) {
     if (is_stopped()) return verdict;
-    verdict.notice = find_notice(changed, *missions_[mission], options_.is_stopped);
+    verdict.notice = find_notice(changed, missions_[mission], options_.is_stopped);
     if (!verdict.notice) continue;
     verdict.notice->mission = mission;
     verdict.result = MutantVerdict::Result::noticed;
@@ -191,11 +176,13 @@ void MutantJudge::compare(const Mutant& mutant, const CompiledCatalog& changed,
                                                              : MutantVerdict::Result::undecided;
     return;
   }
-  verdict.result = MutantVerdict::Result::survived;
   Script script = found.witness->script;
   const Microseconds end = take_expectation(script);
   const std::array times = {end, settled(script, end)};
   verdict.script = find_telling_script(catalog_, changed, script, times);
+  verdict.result =
+      verdict.script ? MutantVerdict::Result::survived : MutantVerdict::Result::undecided;
+  verdict.doubt = MutantVerdict::Doubt::no_script;
 }
 
 /// States have no times, so a difference between timeouts is none between states. It shows in every
@@ -221,6 +208,7 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
   verdict.result = MutantVerdict::Result::equivalent;
   // Nothing fails, and so nothing times out.
   if (differences.empty() || !assumptions_.failures) return;
+  bool is_any_reachable = false;
   const std::vector<std::uint32_t> groups = {group_of(mutant)};
   ExplorationOptions options;
   options.limits = options_.limits;
@@ -229,18 +217,45 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
   const Exploration found = explore(catalog_, groups, assumptions_, asked, options);
   for (std::size_t place = 0; place < properties.size(); ++place) {
     if (!found.verdicts[place].has_script) continue;
-    verdict.result = MutantVerdict::Result::survived;
+    is_any_reachable = true;
     Script script =
         make_witness(catalog_, groups, assumptions_, found.verdicts[place].script, asked[place], {})
             .script;
     const Microseconds end = take_expectation(script) + differences[place / 2].first;
     const std::array times = {end, settled(script, end)};
     verdict.script = find_telling_script(catalog_, changed, script, times);
-    if (verdict.script) return;
+    if (!verdict.script) continue;
+    verdict.result = MutantVerdict::Result::survived;
+    return;
   }
-  if (verdict.result == MutantVerdict::Result::equivalent && !found.complete) {
+  if (!found.complete) {
     verdict.result = MutantVerdict::Result::undecided;
+  } else if (is_any_reachable &&
+             !(never_time_out(catalog_, differences) && never_time_out(changed, differences))) {
+    verdict.result = MutantVerdict::Result::undecided;
+    verdict.doubt = MutantVerdict::Doubt::no_script;
   }
+}
+
+/// Whether other timeouts always come before these: then they never end anything.
+bool MutantJudge::never_time_out(const CompiledCatalog& catalog,
+                                 const std::vector<TimeDifference>& differences) const {
+  const std::uint32_t group = catalog.tasks[catalog.task_ids[differences.front().task]].group;
+  GoalProofOptions options;
+  options.group = group;
+  options.max_states = options_.limits.max_states;
+  options.on_progress = [this](std::uint32_t, std::uint64_t) { return !is_stopped(); };
+  const GoalProof proof = prove_unreachable(catalog, {}, assumptions_, options);
+  if (proof.error || !proof.groups[group].is_complete) return false;
+  return std::all_of(differences.begin(), differences.end(), [&](const TimeDifference& difference) {
+    const TaskId task = catalog.task_ids[difference.task];
+    const BehaviorId behavior = catalog.behavior_ids[difference.behavior];
+    const auto values = catalog.performs[behavior];
+    const ValueId value = *std::find_if(values.begin(), values.end(),
+                                        [&](ValueId one) { return catalog.task_of(one) == task; });
+    return timeout_of(catalog, task, behavior) == 0 || proof.facts.performed[value] == 0 ||
+           proof.facts.forestalled_by[value] != none;
+  });
 }
 
 }  // namespace cbc

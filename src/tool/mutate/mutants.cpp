@@ -204,6 +204,23 @@ void remove_pair(std::vector<ExclusivityList>& lists, TaskIndex a, TaskIndex b) 
   lists = std::move(result);
 }
 
+/// Lets the behavior fit in no situation: it needs a value that a new variable never gets. Its name
+/// stays, so that scripts can name it.
+void remove_for_ever(Catalog& catalog, Behavior& behavior) {
+  Variable variable;
+  variable.name = "a catalog with " + behavior.name;
+  variable.values = {"no", "yes"};
+  const auto is_taken = [&](const Variable& other) { return other.name == variable.name; };
+  while (std::any_of(catalog.variables.begin(), catalog.variables.end(), is_taken)) {
+    variable.name += "'";
+  }
+  Condition condition;
+  condition.variable = static_cast<std::uint32_t>(catalog.variables.size());
+  condition.values = {1};
+  catalog.variables.push_back(std::move(variable));
+  behavior.situation.push_back(std::move(condition));
+}
+
 std::string percent(Millionths suitability) { return format_decimal(suitability, 4) + " %"; }
 
 const Performance& performance_of(const Behavior& behavior, TaskIndex task) {
@@ -228,7 +245,7 @@ Catalog mutate(const Catalog& catalog, const Mutant& mutant) {
       mutant.behavior == Mutant::none ? nullptr : &changed.behaviors[mutant.behavior];
   switch (mutant.kind) {
     case Mutant::Kind::behavior_removed:
-      changed.behaviors.erase(changed.behaviors.begin() + mutant.behavior);
+      remove_for_ever(changed, *behavior);
       break;
     case Mutant::Kind::suitability_lowered:
       for (Performance& performance : behavior->performs) {

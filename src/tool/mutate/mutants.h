@@ -15,7 +15,7 @@ namespace cbc {
 /// kind; everything else is `none`. Numbers are places in the Catalog.
 struct Mutant {
   enum class Kind : std::uint8_t {
-    behavior_removed,         ///< behavior
+    behavior_removed,         ///< behavior, which can never be active
     suitability_lowered,      ///< behavior and its task, to `suitability`, below that of `other`
     requirement_removed,      ///< behavior and the task that it requires
     minimum_removed,          ///< task; of a requirement, also the behavior
@@ -43,11 +43,12 @@ struct Mutant {
 /// The word of a kind in JSON.
 [[nodiscard]] std::string_view name_of(Mutant::Kind kind);
 
-/// All mutants of a catalog, by their first line. Each of them is a valid catalog with the same
-/// tasks.
+/// All mutants of a catalog, by their first line.
 [[nodiscard]] std::vector<Mutant> find_mutants(const Catalog& catalog);
 
-/// The catalog with the change.
+/// The catalog with the change: a valid one with the same tasks, behaviors and variables in the
+/// same places, so that a script for the one is a script for the other. A behavior that is removed
+/// stays in it, but fits in no situation; a variable is added for this.
 [[nodiscard]] Catalog mutate(const Catalog& catalog, const Mutant& mutant);
 
 /// What was changed, in words: "HOVER_STILL no longer requires LOCALIZE".

@@ -58,6 +58,9 @@ std::string mutants_to_json(const MutantsResult& result) {
       json.on_new_line().open('{');
       write_identity(json, *result.catalog, result.mutants[place]);
       json.write("result", name_of(verdict.result));
+      if (verdict.result == MutantVerdict::Result::undecided) {
+        json.write("reason", name_of(verdict.doubt));
+      }
       if (verdict.notice) write_notice(json, result, *verdict.notice);
       if (verdict.script) json.write("script", *verdict.script);
       json.close('}');

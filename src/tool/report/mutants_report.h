@@ -23,6 +23,7 @@ struct MutantCount {
   std::uint64_t survived = 0;
   std::uint64_t equivalent = 0;
   std::uint64_t undecided = 0;
+  std::uint64_t without_script = 0;  ///< of these: see MutantVerdict::Doubt
   std::uint64_t unjudged = 0;
 
   /// Of those that a mission could notice, how many one does.
@@ -36,9 +37,11 @@ struct MutantCount {
 /// The mutants of a catalog, and what its missions make of them.
 struct MutantsResult {
   const Catalog* catalog = nullptr;
+  std::string assumptions;              ///< in words: see describe_assumptions
   std::vector<std::string> missions;    ///< their files
   std::vector<Mutant> mutants;          ///< by line
   std::vector<MutantVerdict> verdicts;  ///< by mutant
+  bool writes_scripts = false;          ///< the missions are written to files, too
 
   [[nodiscard]] MutantCount count() const;
 };

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "report/lint_report.h"
 #include "report/mutants_report.h"
+#include "report/table_parts.h"
 #include "report/wrap.h"
 #include "support/wording.h"
 
@@ -61,7 +62,7 @@ std::string survivors_to_text(const MutantsResult& result) {
     const Mutant& mutant = result.mutants[place];
     text += fmt::format("  {}:{}: {}\n", printable(result.catalog->file), mutant.lines.front(),
                         describe(*result.catalog, mutant));
-    text += indent(verdict.script.value_or("no script is known that tells the two apart\n"));
+    text += indent(*verdict.script);
   }
   return text;
 }
@@ -74,10 +75,17 @@ std::string summary_to_text(const MutantCount& count) {
   if (count.unjudged > 0) text += fmt::format(", {} not judged", count.unjudged);
   text += count.is_score_known() ? fmt::format("\nscore: {}\n", describe_percent(count.score()))
                                  : "\nscore: unknown\n";
-  if (count.undecided > 0) {
-    text +=
-        "undecided: no mission notices them, but a limit came before it was known whether one "
-        "could;\n  see --max-states, --max-memory and --time-limit\n";
+  if (const std::uint64_t limited = count.undecided - count.without_script; limited > 0) {
+    text += fmt::format(
+        "undecided: a limit came before it was known whether a mission could notice {};\n"
+        "  see --max-states, --max-memory and --time-limit\n",
+        quantity(limited, "mutant"));
+  }
+  if (count.without_script > 0) {
+    text += fmt::format(
+        "undecided: {} may differ from the catalog, but no mission was found that shows it, as "
+        "times matter\n",
+        quantity(count.without_script, "mutant"));
   }
   return text;
 }
@@ -99,6 +107,7 @@ MutantCount MutantsResult::count() const {
         break;
       case MutantVerdict::Result::undecided:
         ++count.undecided;
+        if (verdict.doubt == MutantVerdict::Doubt::no_script) ++count.without_script;
         break;
       case MutantVerdict::Result::unjudged:
         ++count.unjudged;
@@ -112,8 +121,14 @@ std::string mutants_to_text(const MutantsResult& result, const Style& style) {
   std::string text = fmt::format("{}{}{}, {}, {}\n", style.strong, printable(result.catalog->file),
                                  style.reset, quantity(result.mutants.size(), "mutant"),
                                  quantity(result.missions.size(), "mission"));
+  text += assumptions_to_text(result.assumptions);
   if (!result.mutants.empty()) text += table_to_text(result, style);
-  return text + survivors_to_text(result) + summary_to_text(result.count());
+  const std::string survivors = survivors_to_text(result);
+  text += survivors + summary_to_text(result.count());
+  if (!survivors.empty() && !result.writes_scripts) {
+    text += "--scripts DIR writes the missions that would notice the survivors\n";
+  }
+  return text;
 }
 
 std::string mutants_to_github(const MutantsResult& result) {
