@@ -1,9 +1,12 @@
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -116,6 +119,15 @@ std::string describe_progress(const MissingMissions& missing, std::size_t groups
   }
 }
 
+/// A path for a shell.
+std::string in_shell(const std::string& path) {
+  const bool is_plain = std::all_of(path.begin(), path.end(), [](char character) {
+    return std::isalnum(static_cast<unsigned char>(character)) != 0 ||
+           std::string_view("_./-+").find(character) != std::string_view::npos;
+  });
+  return is_plain ? path : fmt::format("'{}'", printable(path));
+}
+
 /// Which command looks at what these tests leave.
 std::string command_for_mutants(const VerifyOptions& options, const MissingMissions& missing) {
   std::vector<std::string> missions = options.beside;
@@ -125,9 +137,9 @@ std::string command_for_mutants(const VerifyOptions& options, const MissingMissi
   if (!missing.missions.empty()) missions.push_back(*options.write_tests);
   if (missions.empty()) return {};
   std::string command = "cbc verify";
-  for (const std::string& path : options.paths) command += " " + printable(path);
+  for (const std::string& path : options.paths) command += " " + in_shell(path);
   command += " --mutants";
-  for (const std::string& mission : missions) command += " --beside " + printable(mission);
+  for (const std::string& mission : missions) command += " --beside " + in_shell(mission);
   return command + " --scripts DIR";
 }
 

@@ -237,12 +237,14 @@ tasks:
   EXPECT_EQ(reasons(text, quiet).at("task LOCALIZE ran into its timeout"),
             "no behavior fails, and so none runs into a timeout");
 
-  // The same times, the longer one first.
+  // At the same instant, the task that the catalog has first comes first.
   const auto replaced = [&](std::string from, const std::string& to) {
     std::string changed = text;
     return changed.replace(changed.find(from), from.size(), to);
   };
-  EXPECT_EQ(reasons(replaced("timeout: 20", "timeout: 10")), Reasons());
+  EXPECT_EQ(reasons(replaced("timeout: 20", "timeout: 10")),
+            (Reasons{{"task LOCALIZE ran into its timeout",
+                      "task DRIVE always runs into its timeout of 10 s before"}}));
   const std::string turned = R"(
 behaviors:
 - {behavior: GPS, task: LOCALIZE}
