@@ -204,6 +204,7 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
     properties.push_back(std::move(property));
   }
   std::vector<const Property*> asked;
+  asked.reserve(properties.size());
   for (const Property& property : properties) asked.push_back(&property);
   verdict.result = MutantVerdict::Result::equivalent;
   // Nothing fails, and so nothing times out.
