@@ -107,13 +107,14 @@ pid_t spawn(const Call& call, const File& in, const File& out, const File& err) 
   posix_spawn_file_actions_adddup2(&actions, out.descriptor(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, err.descriptor(), STDERR_FILENO);
   posix_spawn_file_actions_addchdir_np(&actions, call.folder.c_str());
-  // What runs in the background of a shell ignores interrupts.
-  sigset_t interrupts;
-  sigemptyset(&interrupts);
-  sigaddset(&interrupts, SIGINT);
+  // What runs in the background of a shell ignores interrupts, and below nohup hangups.
+  sigset_t ignored;
+  sigemptyset(&ignored);
+  sigaddset(&ignored, SIGHUP);
+  sigaddset(&ignored, SIGINT);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setsigdefault(&attributes, &interrupts);
+  posix_spawnattr_setsigdefault(&attributes, &ignored);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   pid_t process = -1;
   const int error = ::posix_spawn(&process, CBC_PROGRAM_PATH, &actions, &attributes,

@@ -110,7 +110,7 @@ class Trials:
                               stderr=subprocess.DEVNULL, start_new_session=True, preexec_fn=set_limits) as process:
             try:
                 # On a busy machine; what waits for ever uses no processor time.
-                output = process.communicate(timeout=300 + 30 * limit)[0].decode("utf-8", "replace")
+                output = process.communicate(timeout=30 + 10 * limit)[0].decode("utf-8", "replace")
             except subprocess.TimeoutExpired:
                 os.killpg(process.pid, signal.SIGKILL)
                 output = process.communicate()[0].decode("utf-8", "replace")
