@@ -309,7 +309,7 @@ class Page(PageCase):
     def test_a_fault_that_explains_a_failure_is_told_there(self):
         case = "tests/golden/cases/fault_of_active_expected/mission.yaml"
         self.open(solve("late-fault", case))
-        self.assert_shows(2)
+        self.assertEqual(self.number(), 2)
         detail = self.text("#detail-body")
         self.assertIn("LOCALIZE", self.text("#detail-body table.differences"))
         self.assertIn("the fault takes effect at its next activation", detail)
@@ -317,16 +317,16 @@ class Page(PageCase):
     def test_what_breaks_a_property_is_shown_at_its_end(self):
         page = OUT / "broken.html"
         properties = write("broken.properties.yaml", {
-            "catalog": str(ROOT / QUADROTOR), "properties": [{"never": {"running": ["HOVER"]}}]})
+            "catalog": str(ROOT / "catalogs/warehouse.yaml"),
+            "properties": [{"never": {"active": ["SONAR_GUARD"]}}]})
         result = subprocess.run([PROGRAM, "verify", properties, "--html", str(page)], cwd=ROOT,
                                 stdout=subprocess.DEVNULL, check=False)
         self.assertEqual(result.returncode, 1)
         self.url = page.as_uri()
         self.browser.load(self.url)
-        size = self.browser.ask("page.run.size")
-        self.assertGreater(size, 1)
-        self.assert_shows(size)
-        self.assertIn("HOVER", self.text("#state-body"))
+        self.assertGreater(self.browser.ask("page.run.size"), 1)
+        self.assertEqual(self.number(), self.browser.ask("page.run.size"))
+        self.assertIn("SONAR_GUARD", self.text("#state-body"))
 
     def test_why_of_events_and_of_failed_expectations(self):
         fast = "<i>FAST</i>"

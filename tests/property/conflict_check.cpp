@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <exception>
 #include <map>
 #include <set>
@@ -366,8 +367,8 @@ class Checker {
       for (const ordered_json& value : entry["best"]) {
         reason.best.emplace_back(task_of(value.at("task")), behavior_of(value.at("behavior")));
         const auto& [task, behavior] = reason.best.back();
-        demand(value.at("suitability").get<double>() * 10'000 ==
-                   static_cast<double>(facts_.suitability(behavior, task)),
+        demand(std::llround(value.at("suitability").get<double>() * 10'000) ==
+                   facts_.suitability(behavior, task),
                "not the suitability");
       }
     }
@@ -444,9 +445,15 @@ class Checker {
     }
   }
 
-  bool has_failed(const Rejection& rejection, std::size_t behavior) const {
+  enum class Failed { at_all, before_rollback };
+
+  bool has_failed(const Rejection& rejection, std::size_t behavior,
+                  Failed when = Failed::at_all) const {
     const ordered_json& changes = rejection.event.at("changes");
     return std::any_of(changes.begin(), changes.end(), [&](const ordered_json& change) {
+      if (when == Failed::before_rollback && change.at("cause") == "undone") {
+        return false;
+      }
       return change.at("op") == "activate" && change.at("success") == false &&
              behavior_of(change.at("behavior")) == behavior;
     });
@@ -542,7 +549,8 @@ class Checker {
           add(Kind::performance, requirement.task, behavior, requirement.minimum);
         }
       }
-      if (has_failed(rejection, behavior)) add(Kind::faulty, none, behavior);
+      if (has_failed(rejection, behavior, Failed::before_rollback))
+        add(Kind::faulty, none, behavior);
       if (!before.own[behavior]) add(Kind::unavailable, none, behavior);
       if (!facts_.fits(behavior, before.variables)) add(Kind::situation, none, behavior);
     }

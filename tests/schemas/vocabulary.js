@@ -82,8 +82,10 @@ function isOptional(object, name) {
   if (name === 'unreachable') return 'met_by' in object; // of a goal; not of numbers
   if (['file', 'groups', 'reduced', 'states_at_depth'].includes(name)) return 'group' in object; // of an exploration
   if (name === 'error') return 'events' in object; // of a run; not of a line
+  if (name === 'notes') return 'conflict' in object; // of a failed expectation; not of a report of lint
   const others = [
     'alternatives',
+    'best',
     'complete_order',
     'due',
     'parameters',
