@@ -445,15 +445,18 @@ class Checker {
     }
   }
 
-  enum class Failed { at_all, before_rollback };
+  enum class Failed { at_all, before_rejection };
 
   bool has_failed(const Rejection& rejection, std::size_t behavior,
                   Failed when = Failed::at_all) const {
     const ordered_json& changes = rejection.event.at("changes");
-    return std::any_of(changes.begin(), changes.end(), [&](const ordered_json& change) {
-      if (when == Failed::before_rollback && change.at("cause") == "undone") {
-        return false;
+    auto end = changes.end();
+    if (when == Failed::before_rejection) {  // without the last rollback
+      while (end != changes.begin() && (end - 1)->at("cause") == "undone") {
+        --end;
       }
+    }
+    return std::any_of(changes.begin(), end, [&](const ordered_json& change) {
       return change.at("op") == "activate" && change.at("success") == false &&
              behavior_of(change.at("behavior")) == behavior;
     });
@@ -549,7 +552,7 @@ class Checker {
           add(Kind::performance, requirement.task, behavior, requirement.minimum);
         }
       }
-      if (has_failed(rejection, behavior, Failed::before_rollback))
+      if (has_failed(rejection, behavior, Failed::before_rejection))
         add(Kind::faulty, none, behavior);
       if (!before.own[behavior]) add(Kind::unavailable, none, behavior);
       if (!facts_.fits(behavior, before.variables)) add(Kind::situation, none, behavior);

@@ -58,8 +58,8 @@ namespace {
 /// A set of reasons, as a member.
 void write_conflict(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
                     std::span<const Reason> reasons) {
-  json.write_list("conflict", reasons,
-                  [&](const Reason& reason) { write_reason(json, catalog, record, reason); });
+  json.write_list("conflict", order_reasons(catalog, record, reasons),
+                  [&](const Reason* reason) { write_reason(json, catalog, record, *reason); });
 }
 
 std::optional<std::string_view> name_of_value(const CompiledCatalog& catalog, TaskId task,

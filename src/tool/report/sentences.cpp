@@ -404,23 +404,24 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
 
 namespace {
 
-/// A sentence about a reason.
+/// A reason among others, and what is said of it.
 struct Told {
   std::string text;
   const Reason* reason = nullptr;
+  std::size_t depth = 0;  ///< how many others it helps to explain, one by one
   bool is_told = false;
 };
 
-/// Orders sentences so that one explains another: what is said of a required task stands below the
-/// requirement, and indented.
+/// Orders reasons so that one explains another: what is said of a required task stands below the
+/// requirement.
 class Chain {
  public:
-  Chain(const CompiledCatalog& catalog, std::vector<Told> sentences)
-      : catalog_(catalog), sentences_(std::move(sentences)) {}
+  Chain(const CompiledCatalog& catalog, std::vector<Told> reasons)
+      : catalog_(catalog), reasons_(std::move(reasons)) {}
 
   /// `root`: the task that all is about, or none.
-  std::vector<std::string> take(TaskId root) && {
-    for (const Told& told : sentences_) {
+  std::vector<Told> take(TaskId root) && {
+    for (const Told& told : reasons_) {
       if (told.reason->kind == Reason::Kind::is_protected || leads_on(*told.reason)) {
         reachable_.insert(told.reason->task);
       }
@@ -430,18 +431,15 @@ class Chain {
       tell_about(root, 0);
     }
     for (const bool is_first : {true, false}) {
-      for (Told& told : sentences_) {
+      for (Told& told : reasons_) {
         const bool is_beginning = told.reason->kind == Reason::Kind::is_protected;
         if (!told.is_told && (is_beginning || !is_first)) tell(told, 0);
       }
     }
-    return std::move(lines_);
+    return std::move(ordered_);
   }
 
  private:
-  /// Deeper chains would leave no room for words.
-  static constexpr std::size_t deepest = 8;
-
   static bool leads_on(const Reason& reason) {
     return reason.behavior != none && reason.task != none;
   }
@@ -462,7 +460,7 @@ class Chain {
     if (!visited_.insert(task).second) return;
     // What leads to other tasks comes last: a behavior may perform these, too.
     for (const bool leads : {false, true}) {
-      for (Told& told : sentences_) {
+      for (Told& told : reasons_) {
         if (told.is_told || leads_on(*told.reason) != leads) continue;
         if (is_about(*told.reason, task)) tell(told, depth);
       }
@@ -470,18 +468,31 @@ class Chain {
   }
 
   void tell(Told& told, std::size_t depth) {
-    told.is_told = true;
-    lines_.push_back(std::string(2 * std::min(depth, deepest), ' ') + told.text);
-    if (leads_on(*told.reason) || told.reason->kind == Reason::Kind::is_protected) {
-      tell_about(told.reason->task, depth + 1);
+    add(told, depth);
+    const Reason& reason = *told.reason;
+    if (leads_on(reason)) {
+      // The requirement, and the minimum of it.
+      for (Told& other : reasons_) {
+        const bool is_same =
+            other.reason->behavior == reason.behavior && other.reason->task == reason.task;
+        if (!other.is_told && is_same) add(other, depth);
+      }
+    }
+    if (leads_on(reason) || reason.kind == Reason::Kind::is_protected) {
+      tell_about(reason.task, depth + 1);
     }
   }
 
+  void add(Told& told, std::size_t depth) {
+    told.is_told = true;
+    ordered_.push_back({std::move(told.text), told.reason, depth});
+  }
+
   const CompiledCatalog& catalog_;
-  std::vector<Told> sentences_;
+  std::vector<Told> reasons_;
   std::set<TaskId> reachable_;
   std::set<TaskId> visited_;
-  std::vector<std::string> lines_;
+  std::vector<Told> ordered_;
 };
 
 }  // namespace
@@ -538,10 +549,25 @@ std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const 
       return sentence.reason->kind == Reason::Kind::on_request;
     });
   }
-  std::vector<std::string> lines =
-      Chain(catalog, std::move(sentences)).take(it != none ? it : record.task);
+  constexpr std::size_t deepest = 8;  // deeper chains would leave no room for words
+  std::vector<std::string> lines;
+  for (const Told& sentence :
+       Chain(catalog, std::move(sentences)).take(it != none ? it : record.task)) {
+    lines.push_back(std::string(2 * std::min(sentence.depth, deepest), ' ') + sentence.text);
+  }
   if (has_several) lines.push_back(describe_missing_requests(catalog, on_request));
   return lines;
+}
+
+std::vector<const Reason*> order_reasons(const CompiledCatalog& catalog, const EventRecord& record,
+                                         std::span<const Reason> reasons) {
+  std::vector<Told> all;
+  for (const Reason& reason : reasons) all.push_back({{}, &reason});
+  std::vector<const Reason*> ordered;
+  for (const Told& told : Chain(catalog, std::move(all)).take(record.task)) {
+    ordered.push_back(told.reason);
+  }
+  return ordered;
 }
 
 std::vector<std::string> describe_rejection(const CompiledCatalog& catalog,

@@ -90,6 +90,11 @@ namespace cbc {
                                                         std::span<const Reason> reasons,
                                                         TaskId it = none);
 
+/// The same order for reasons that are told one by one.
+[[nodiscard]] std::vector<const Reason*> order_reasons(const CompiledCatalog& catalog,
+                                                       const EventRecord& record,
+                                                       std::span<const Reason> reasons);
+
 /// For places where lines become one text.
 [[nodiscard]] std::string_view without_indentation(std::string_view line);
 
