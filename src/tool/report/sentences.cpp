@@ -561,12 +561,18 @@ std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const 
 
 std::vector<const Reason*> order_reasons(const CompiledCatalog& catalog, const EventRecord& record,
                                          std::span<const Reason> reasons) {
+  // That the event stops its tasks comes last.
+  const bool is_event_last = !reasons.empty() && (reasons.back().kind == Reason::Kind::stopped ||
+                                                  reasons.back().kind == Reason::Kind::finished);
   std::vector<Told> all;
-  for (const Reason& reason : reasons) all.push_back({{}, &reason});
+  for (const Reason& reason : reasons.first(reasons.size() - (is_event_last ? 1 : 0))) {
+    all.push_back({{}, &reason});
+  }
   std::vector<const Reason*> ordered;
   for (const Told& told : Chain(catalog, std::move(all)).take(record.task)) {
     ordered.push_back(told.reason);
   }
+  if (is_event_last) ordered.push_back(&reasons.back());
   return ordered;
 }
 
