@@ -550,7 +550,10 @@ int Program::run(const std::vector<std::string>& arguments) const {
   }
   if (const std::string fault = find_left_over(*this, parsed, arguments); !fault.empty())
     return refuse(fault);
-  if (parsed.command == nullptr) return refuse("expected a command");
+  if (parsed.command == nullptr) {
+    fmt::print(stderr, "{}", usage_of(*this));
+    return refuse("expected a command");
+  }
   if (parsed.unfinished != nullptr) {
     return refuse(
         fmt::format("{} needs {}", parsed.unfinished->name(), parsed.unfinished->values.expected));

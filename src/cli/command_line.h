@@ -235,6 +235,9 @@ class Program {
 /// The text that --help prints of a command, or of the program itself.
 [[nodiscard]] std::string help_of(const Program& program, const Command& command);
 
+/// What is printed where there is no command: the form of a command line, and all commands.
+[[nodiscard]] std::string usage_of(const Program& program);
+
 /// The complaint about a name that no command has.
 [[nodiscard]] std::string describe_unknown_command(const Program& program, const std::string& name);
 

@@ -79,6 +79,14 @@ std::string help_of(const Program& program, const Command& command) {
   return help + "\n" + wrap_lines(text.footer);
 }
 
+std::string usage_of(const Program& program) {
+  std::string text = "Usage: cbc " + program.itself().text().usages.front() + "\n\nCommands:\n";
+  for (const Command& command : program.commands()) {
+    text += entry(command.name(), command.description());
+  }
+  return text + "\n";
+}
+
 namespace {
 
 constexpr const char* help_examples =

@@ -390,6 +390,8 @@ bool InputFiles::keep(std::vector<Diagnostic> findings, const SeveritySettings& 
   bool has_errors = false;
   for (Diagnostic& finding : findings) {
     if (settings.is_failure(finding.severity)) {
+      const bool is_warning = finding.severity != Severity::error;
+      if (is_warning && keeps_findings_) ++strict_[settings.strict_file()];
       finding.severity = Severity::error;
       has_errors = true;
     }
@@ -402,6 +404,10 @@ void InputFiles::print_findings() {
   std::stable_sort(findings_.begin(), findings_.end(),
                    [](const Diagnostic& a, const Diagnostic& b) { return a.file < b.file; });
   cli::print_findings(findings_, texts_);
+  for (const auto& [file, count] : strict_) {
+    complain("{} above {}: 'strict: true' in {} makes warnings errors", quantity(count, "error"),
+             count == 1 ? "is a warning otherwise" : "are warnings otherwise", quote(file));
+  }
 }
 
 std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const InputFile& file) {

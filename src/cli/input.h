@@ -159,6 +159,8 @@ class InputFiles {
   const bool keeps_findings_;
   std::map<std::string, std::string> texts_;  ///< by name in messages
   std::vector<Diagnostic> findings_;
+  /// By settings file, how many warnings it makes errors.
+  std::map<std::string, std::size_t> strict_;
   SettingsFinder settings_;
 };
 

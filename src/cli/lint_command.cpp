@@ -402,10 +402,10 @@ std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& 
   std::shared_ptr<const CompiledCatalog> compiled =
       catalogs_.load(catalog, given.empty() ? NamedBy::file : NamedBy::command_line);
   if (compiled == nullptr) {
-    complain(
-        "{} {} is not checked, as its catalog {} cannot be used; "
-        "'cbc lint' says why",
-        is_of_properties ? "property file" : "script", quote(document.file()), quote(catalog));
+    complain("{} {} is not checked, as its catalog {} cannot be used; {}",
+             is_of_properties ? "property file" : "script", quote(document.file()), quote(catalog),
+             is_linted ? "correct that first"
+                       : fmt::format("'cbc lint {}' says why", printable(catalog)));
     // If it was linted, its errors are findings.
     if (!is_linted) has_failed_ = true;
   }

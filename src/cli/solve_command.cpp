@@ -239,7 +239,9 @@ void add_solve_command(Program& program) {
   command
       .flag("--brief", options->brief,
             "Write one line for each event, with its changes, instead of a table of them")
-      .not_with({"--sweep", "--merge", "--replay", "--why", "--alternatives"})
+      .not_with({"--sweep", "--merge"}, "a sweep does not report single events")
+      .not_with({"--replay"}, "a replay reports no events, only a difference")
+      .not_with({"--why", "--alternatives"}, "one line has no room for reasons")
       .not_with({"--coverage -"}, reports_no_runs)
       .only_with_values("--format", {"text"});
   command

@@ -368,6 +368,7 @@ class Call {
 
   int draw() {
     HtmlReport picture;
+    picture.open_at_end();
     for (const VerifyPart& part : result_.parts) {
       for (const ReportedAnswer& reported : part.answers) {
         if (!reported.replay) continue;

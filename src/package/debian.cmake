@@ -24,7 +24,7 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "graphviz") # for the pictures of `cbc graph`
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "graphviz, man-db") # for the pictures of `cbc graph`, and the manual
 if(CBC_PROGRAM_NAME STREQUAL "cbc")
   set(CPACK_DEBIAN_PACKAGE_CONFLICTS coinor-cbc) # has a program of the same name
 endif()

@@ -8,13 +8,14 @@ somebody who has never seen the page should find out from one of them.
 
 import json
 import re
+import subprocess
 import time
 import unittest
 import urllib.parse
 
 from chromium import BrowserError
 from page_case import (
-    AXE, HOSTILE_BEHAVIORS, HOSTILE_TASK, OUT, QUADROTOR, ROOT, PageCase, hostile_files, long_script,
+    AXE, HOSTILE_BEHAVIORS, HOSTILE_TASK, OUT, PROGRAM, QUADROTOR, ROOT, PageCase, hostile_files, long_script,
     shown, solve, write)
 
 
@@ -304,6 +305,28 @@ class Page(PageCase):
                          "one.dispatchEvent(new Event('change')); })()")
         self.assertEqual(self.browser.ask(shown), [event["index"] for event in self.events
                                                    if event["outcome"] == "rejected"])
+
+    def test_a_fault_that_explains_a_failure_is_told_there(self):
+        case = "tests/golden/cases/fault_of_active_expected/mission.yaml"
+        self.open(solve("late-fault", case))
+        self.assertEqual(self.number(), 2)
+        detail = self.text("#detail-body")
+        self.assertIn("LOCALIZE", self.text("#detail-body table.differences"))
+        self.assertIn("the fault takes effect at its next activation", detail)
+
+    def test_what_breaks_a_property_is_shown_at_its_end(self):
+        page = OUT / "broken.html"
+        properties = write("broken.properties.yaml", {
+            "catalog": str(ROOT / "catalogs/warehouse.yaml"),
+            "properties": [{"never": {"active": ["SONAR_GUARD"]}}]})
+        result = subprocess.run([PROGRAM, "verify", properties, "--html", str(page)], cwd=ROOT,
+                                stdout=subprocess.DEVNULL, check=False)
+        self.assertEqual(result.returncode, 1)
+        self.url = page.as_uri()
+        self.browser.load(self.url)
+        self.assertGreater(self.browser.ask("page.run.size"), 1)
+        self.assertEqual(self.number(), self.browser.ask("page.run.size"))
+        self.assertIn("SONAR_GUARD", self.text("#state-body"))
 
     def test_why_of_events_and_of_failed_expectations(self):
         fast = "<i>FAST</i>"

@@ -52,6 +52,8 @@ list_files() {
     -prune -o -print) | sort
 }
 
+[[ $(dpkg-deb -f "$package" Recommends) == *man-db* ]] || fail "without man, nobody can read the manual"
+
 ((EUID == 0)) || skip "only root can make a new root"
 command -v mmdebstrap >/dev/null || skip "there is no mmdebstrap"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <exception>
 #include <map>
 #include <set>
@@ -196,6 +197,7 @@ struct Reason {
   int priority = 0;
   std::size_t line = 0;
   Millionths minimum = 0;
+  std::vector<std::pair<std::size_t, std::size_t>> best;  // tasks and behaviors
 };
 
 class Checker {
@@ -307,6 +309,9 @@ class Checker {
              "a reason that comes alone, or before a search");
     }
     check_minimal(rejection, reasons);
+    for (std::size_t place = 0; place < reasons.size(); ++place) {
+      if (reasons[place].kind == Kind::performance) check_best(rejection, reasons, place);
+    }
     count("conflict of " + (reasons.size() < 5 ? std::to_string(reasons.size()) : "5 or more"));
     count(std::string("conflict of a ") + (rejection.reactive ? "reactive start"
                                            : rejection.starts ? "start"
@@ -329,6 +334,7 @@ class Checker {
       keys.insert(key);
     }
     demand(keys.erase("kind") == 1 && keys.erase("message") == 1, "no kind or message");
+    demand(keys.erase("best") == 0 || entry["kind"] == "performance", "not a performance");
     demand(!entry["message"].get<std::string>().empty(), "an empty message");
     const auto form = std::find_if(forms().begin(), forms().end(), [&](const Form& candidate) {
       return entry["kind"].get<std::string>() == candidate.name && keys == candidate.keys;
@@ -356,6 +362,15 @@ class Checker {
     }
     if (reason.kind == Kind::requirement || reason.kind == Kind::performance) {
       reason.minimum = minimum_of(reason);
+    }
+    if (entry.contains("best")) {
+      for (const ordered_json& value : entry["best"]) {
+        reason.best.emplace_back(task_of(value.at("task")), behavior_of(value.at("behavior")));
+        const auto& [task, behavior] = reason.best.back();
+        demand(std::llround(value.at("suitability").get<double>() * 10'000) ==
+                   facts_.suitability(behavior, task),
+               "not the suitability");
+      }
     }
     return reason;
   }
@@ -430,17 +445,26 @@ class Checker {
     }
   }
 
-  bool has_failed(const Rejection& rejection, std::size_t behavior) const {
+  enum class Failed { at_all, before_rejection };
+
+  bool has_failed(const Rejection& rejection, std::size_t behavior,
+                  Failed when = Failed::at_all) const {
     const ordered_json& changes = rejection.event.at("changes");
-    return std::any_of(changes.begin(), changes.end(), [&](const ordered_json& change) {
+    auto end = changes.end();
+    if (when == Failed::before_rejection) {  // without the last rollback
+      while (end != changes.begin() && (end - 1)->at("cause") == "undone") {
+        --end;
+      }
+    }
+    return std::any_of(changes.begin(), end, [&](const ordered_json& change) {
       return change.at("op") == "activate" && change.at("success") == false &&
              behavior_of(change.at("behavior")) == behavior;
     });
   }
 
-  // Every assignment of the relaxed problem must be ruled out by a reason, and every reason must be
-  // the only one to rule out some assignment.
-  void check_minimal(const Rejection& rejection, const std::vector<Reason>& reasons) const {
+  // Calls `look` with each assignment of the relaxed problem.
+  template <typename Look>
+  void enumerate(const Rejection& rejection, Look look) const {
     const std::vector<std::size_t>& tasks = facts_.groups[facts_.group_of[rejection.subject]];
     std::vector<std::vector<std::size_t>> domains;
     for (const std::size_t task : tasks) {
@@ -455,20 +479,13 @@ class Checker {
     demand(std::none_of(domains.begin(), domains.end(), [](const auto& d) { return d.empty(); }),
            "the task has no behavior, but the reason is another one");
 
-    std::vector<bool> needed(reasons.size(), false);
     std::vector<std::size_t> digits(tasks.size(), 0);
     Assignment values = rejection.before.values;
     for (bool more = true; more;) {
       for (std::size_t i = 0; i < tasks.size(); ++i) {
         values[tasks[i]] = domains[i][digits[i]];
       }
-      const std::vector<std::size_t> violated = first_violated(rejection, reasons, values);
-      if (violated.empty()) {
-        throw std::runtime_error("the reasons leave a solution: " + describe(values, tasks));
-      }
-      if (violated.size() == 1) {
-        needed[violated.front()] = true;
-      }
+      look(values);
       more = false;
       for (std::size_t i = 0; i < tasks.size() && !more; ++i) {
         more = ++digits[i] < domains[i].size();
@@ -477,9 +494,127 @@ class Checker {
         }
       }
     }
+  }
+
+  // Every assignment of the relaxed problem must be ruled out by a reason, and every reason must be
+  // the only one to rule out some assignment.
+  void check_minimal(const Rejection& rejection, const std::vector<Reason>& reasons) const {
+    std::vector<bool> needed(reasons.size(), false);
+    enumerate(rejection, [&](const Assignment& values) {
+      const std::vector<std::size_t> violated = first_violated(rejection, reasons, values);
+      if (violated.empty()) {
+        throw std::runtime_error(
+            "the reasons leave a solution: " +
+            describe(values, facts_.groups[facts_.group_of[rejection.subject]]));
+      }
+      if (violated.size() == 1) {
+        needed[violated.front()] = true;
+      }
+    });
     for (std::size_t i = 0; i < reasons.size(); ++i) {
       demand(needed[i], "superfluous: " + rejection.event["conflict"][i].dump());
     }
+  }
+
+  // All reasons that there may be in the group, in this state.
+  std::vector<Reason> all_reasons(const Rejection& rejection) const {
+    std::vector<Reason> all;
+    const auto add = [&all](Kind kind, std::size_t task, std::size_t behavior = none,
+                            Millionths minimum = 0, std::size_t other_task = none) {
+      Reason& reason = all.emplace_back();
+      reason.kind = kind;
+      reason.task = task;
+      reason.behavior = behavior;
+      reason.minimum = minimum;
+      reason.other_task = other_task;
+    };
+    const Moment& before = rejection.before;
+    std::set<std::size_t> behaviors;
+    for (const std::size_t task : facts_.groups[facts_.group_of[rejection.subject]]) {
+      const Task& of_catalog = facts_.catalog.tasks[task];
+      behaviors.insert(facts_.behaviors_of[task].begin(), facts_.behaviors_of[task].end());
+      for (const std::size_t other : facts_.excludes[task]) {
+        add(Kind::exclusive, task, none, 0, other);
+      }
+      if (of_catalog.minimum > 0) add(Kind::performance, task, none, of_catalog.minimum);
+      if (task == rejection.subject) continue;
+      const auto& request = before.requests[task];
+      if (request && (rejection.reactive || *request > rejection.priority)) {
+        add(Kind::is_protected, task);
+      } else if (before.values[task] == none && of_catalog.start_on_request) {
+        add(Kind::on_request, task);
+      }
+    }
+    for (const std::size_t behavior : behaviors) {
+      for (const Requirement& requirement : facts_.catalog.behaviors[behavior].requirements) {
+        add(Kind::requirement, requirement.task, behavior);
+        if (requirement.minimum > 0) {
+          add(Kind::performance, requirement.task, behavior, requirement.minimum);
+        }
+      }
+      if (has_failed(rejection, behavior, Failed::before_rejection))
+        add(Kind::faulty, none, behavior);
+      if (!before.own[behavior]) add(Kind::unavailable, none, behavior);
+      if (!facts_.fits(behavior, before.variables)) add(Kind::situation, none, behavior);
+    }
+    return all;
+  }
+
+  // How near to a minimum one can come: the best performance of its task, to a millionth.
+  void check_best(const Rejection& rejection, const std::vector<Reason>& conflict,
+                  std::size_t place) const {
+    const Reason& minimum = conflict[place];
+    std::vector<Reason> rest = conflict;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(place));
+    std::vector<Reason> others;
+    for (Reason& reason : all_reasons(rejection)) {
+      if (reason.kind != Kind::performance || reason.task != minimum.task) {
+        others.push_back(std::move(reason));
+      }
+    }
+    auto best = find_best(rejection, minimum.task, rest, others);
+    if (!best) {
+      std::erase_if(others, [](const Reason& reason) {
+        return reason.kind == Kind::exclusive || reason.kind == Kind::performance ||
+               reason.kind == Kind::is_protected;
+      });
+      best = find_best(rejection, minimum.task, rest, others);
+      count(best ? "best performance, with the behaviors that can be chosen"
+                 : "best performance unknown");
+    } else {
+      count("best performance, where all else holds");
+    }
+    demand(best.has_value() == !minimum.best.empty(), "a best performance that is not known");
+    if (!best) return;
+    double told = 1;
+    std::set<std::size_t> tasks;
+    for (const auto& [task, behavior] : minimum.best) {
+      told *= static_cast<double>(facts_.suitability(behavior, task)) / 1e6;
+      demand(tasks.insert(task).second, "a task twice");
+    }
+    for (const auto& [task, behavior] : minimum.best) {
+      for (const Requirement& requirement : facts_.catalog.behaviors[behavior].requirements) {
+        demand(tasks.contains(requirement.task), "a required task is missing");
+      }
+    }
+    demand(told < *best + 1e-9 && told > *best - 1.001e-6, "not the best performance");
+    demand(told < static_cast<double>(minimum.minimum) / 1e6 + 1e-9, "it reaches the minimum");
+  }
+
+  std::optional<double> find_best(const Rejection& rejection, std::size_t task,
+                                  const std::vector<Reason>& rest,
+                                  const std::vector<Reason>& others) const {
+    std::optional<double> best;
+    enumerate(rejection, [&](const Assignment& values) {
+      if (values[task] == none || !first_violated(rejection, rest, values).empty() ||
+          !first_violated(rejection, others, values).empty()) {
+        return;
+      }
+      const ExactPerformance exact = performance(facts_, values, task);
+      const double one = nearest_double(exact.product, power_of_million(exact.factors));
+      best = std::max(best.value_or(0), one);
+    });
+    return best;
   }
 
   // At most two: more make no difference.

@@ -72,6 +72,7 @@ const exclusivity = of(group, (item) => item.exclusivity[0]);
 // What is said.
 const faulty = {kind: 'faulty', behavior: 'GPS', message: 'GPS is faulty'};
 const priority = {kind: 'priority', task: 'HOVER', priority: 2, message: 'HOVER has priority 2'};
+const performer = {task: 'LOCALIZE', behavior: 'GPS', suitability: 90};
 const stopped = {task: 'HOVER', cause: 'interrupted'};
 const activation = {
   op: 'activate',
@@ -157,6 +158,13 @@ const lies = {
     ['an unavailable behavior of a task', reason('unavailable'), {task: 'HOVER'}],
     ['a requirement with a priority', reason('requires'), {priority: 1}],
     ['a protected behavior', reason('protected'), {behavior: 'GPS'}],
+    ['a requirement that does best', reason('requires'), {best: [performer]}],
+    ['a best performance of nothing', reason('performance'), {best: []}],
+    [
+      'a best performance beyond 100 %',
+      reason('performance'),
+      {best: [{...performer, suitability: 101}]},
+    ],
     [
       'a rejection because a behavior finished',
       (line) => line.conflict?.find((item) => item.kind === 'faulty'),

@@ -94,7 +94,7 @@ TEST(SeveritySettings, TheStrongerOnesWin) {
   EXPECT_FALSE(settings.is_strict());
 
   SeveritySettings strict;
-  strict.make_strict();
+  strict.make_strict({});
   settings.override_with(strict);
   EXPECT_TRUE(settings.is_strict());
   settings.override_with(SeveritySettings{});

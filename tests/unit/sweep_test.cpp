@@ -168,7 +168,7 @@ class Recount final : public RunListener {
     }
     for (const Json& reason : event["conflict"]) {
       Json key = reason;
-      for (const char* const member : {"priority", "line", "message"}) key.erase(member);
+      for (const char* const member : {"priority", "line", "best", "message"}) key.erase(member);
       ++reasons[key.dump()];
     }
     if (!event["search"].is_null()) ++nodes[event["search"]["nodes"].get<std::uint64_t>()];

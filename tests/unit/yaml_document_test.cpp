@@ -258,6 +258,10 @@ TEST(YamlDocument, RefusesWhatIsNotClosed) {
   EXPECT_EQ(tree("a: [{b: 1, c: 2\nd: 3\n"), syntax_error("1:5-6", "'{' is not closed"));
   EXPECT_EQ(tree("a: [b: 1, c: 2\nd: 3\n"), syntax_error("1:4-5", "'[' is not closed") +
                                                 "  2:2-3 expected ',' or ']' before this\n");
+  // Of what may be a key, the parser tells nothing before its end.
+  EXPECT_EQ(
+      tree("- {a: b, c: [{d: e}\n- {f: g}\n"),
+      syntax_error("1:13-14", "'[' is not closed") + "  2:1-2 expected ',' or ']' before this\n");
   EXPECT_EQ(tree("[1, 2"), syntax_error("1:1-2", "'[' is not closed"));
   EXPECT_EQ(tree("{a: 1"), syntax_error("1:1-2", "'{' is not closed"));
   const std::string message = "a text in quotes does not end";

@@ -544,6 +544,7 @@ void Coordinator::assign(const Trigger& trigger) {
   const TaskId first = catalog_.group_tasks[trigger.group];
   for (TaskId task = first; task < first + solution_.size(); ++task) {
     const bool was_running = state_.is_running(task);
+    const bool had_request = state_.has_request(task);
     const bool has_finished = problem_builder_.has_finished(task);
     state_.set_value(task, solution_[task - first], now_);
     if (was_running == state_.is_running(task)) continue;
@@ -552,7 +553,7 @@ void Coordinator::assign(const Trigger& trigger) {
       continue;
     }
     record_.stopped_tasks.push_back(
-        {task, has_finished ? trigger.cause : FinishCause::interrupted});
+        {task, has_finished ? trigger.cause : FinishCause::interrupted, has_finished, had_request});
     const bool is_own_end =
         has_finished ? trigger.cause != FinishCause::situation_change : task == trigger.task;
     if (!is_own_end) stopped_by_others_.push_back(task);

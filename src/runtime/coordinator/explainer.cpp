@@ -134,13 +134,25 @@ class ConflictSearches {
   /// by mistake.
   [[nodiscard]] bool has_solution(std::span<const Reason> reasons) {
     return std::any_of(searches_.begin(), searches_.end(), [&](ConflictSearch& search) {
-      if (is_exhausted()) return true;
-      const std::uint64_t before = search.effort();
-      const Feasibility answer = search.solve(reasons, effort_left_, deadline_);
-      effort_left_ -= std::min(search.effort() - before, effort_left_);
-      if (deadline_ && std::chrono::steady_clock::now() >= *deadline_) effort_left_ = 0;
-      return answer != Feasibility::no;
+      return solve(search, reasons) != Feasibility::no;
     });
+  }
+
+  /// The values of a task and of all that it requires, in a solution of one of the ways. Empty if
+  /// there is none; nothing where that takes too long.
+  [[nodiscard]] std::optional<std::vector<ValueId>> find_values(std::span<const Reason> reasons,
+                                                                TaskId task) {
+    for (ConflictSearch& search : searches_) {
+      switch (solve(search, reasons)) {
+        case Feasibility::no:
+          break;
+        case Feasibility::yes:
+          return search.values_of(task);
+        case Feasibility::unknown:
+          return std::nullopt;
+      }
+    }
+    return std::vector<ValueId>();
   }
 
   /// Keeps only the reasons that a proof of no solution used. False if there is no proof.
@@ -163,10 +175,99 @@ class ConflictSearches {
   [[nodiscard]] bool is_exhausted() const { return effort_left_ == 0; }
 
  private:
+  [[nodiscard]] Feasibility solve(ConflictSearch& search, std::span<const Reason> reasons) {
+    if (is_exhausted()) return Feasibility::unknown;
+    const std::uint64_t before = search.effort();
+    const Feasibility answer = search.solve(reasons, effort_left_, deadline_);
+    effort_left_ -= std::min(search.effort() - before, effort_left_);
+    if (deadline_ && std::chrono::steady_clock::now() >= *deadline_) effort_left_ = 0;
+    return answer;
+  }
+
   std::vector<ConflictSearch>& searches_;
   const ConflictSearch::Deadline deadline_;
   std::uint64_t effort_left_ = most_effort;
 };
+
+/// Whether a reason says which behaviors can perform what, and with what else.
+bool is_about_behaviors(const Reason& reason) {
+  switch (reason.kind) {
+    case Reason::Kind::on_request:
+    case Reason::Kind::requires_task:
+    case Reason::Kind::unavailable:
+    case Reason::Kind::situation:
+    case Reason::Kind::faulty:
+    case Reason::Kind::finished:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// What holds beside a minimum performance of a conflict set: the rest of the set, and of the other
+/// candidates those that count, but for other minimums of the task.
+template <typename Counts>
+std::vector<Reason> reasons_beside(const Reason& minimum, std::span<const Reason> conflict_set,
+                                   std::span<const Reason> candidates, Counts counts) {
+  std::vector<Reason> reasons;
+  for (const Reason& reason : conflict_set) {
+    if (reason != minimum) reasons.push_back(reason);
+  }
+  for (const Reason& reason : candidates) {
+    const bool is_of_task = reason.kind == Reason::Kind::performance && reason.task == minimum.task;
+    const bool is_known =
+        std::find(conflict_set.begin(), conflict_set.end(), reason) != conflict_set.end();
+    if (!is_of_task && !is_known && counts(reason)) reasons.push_back(reason);
+  }
+  return reasons;
+}
+
+/// The performance of a task with these values, to a millionth below.
+Millionths performance_of(const CompiledCatalog& catalog, std::span<const ValueId> values) {
+  double performance = one_million;
+  for (const ValueId value : values) {
+    performance *= static_cast<double>(catalog.values.items[value].suitability) / one_million;
+  }
+  return static_cast<Millionths>(performance);
+}
+
+/// The values with which the task does best where these reasons hold. Empty if they leave no
+/// solution; nothing where that takes too long.
+std::optional<std::vector<ValueId>> find_best(const CompiledCatalog& catalog,
+                                              ConflictSearches& searches, TaskId task,
+                                              std::vector<Reason> reasons) {
+  const std::size_t place = reasons.size();
+  reasons.emplace_back();
+  reasons[place].kind = Reason::Kind::performance;
+  reasons[place].task = task;
+  std::vector<ValueId> best;
+  for (;;) {
+    auto values = searches.find_values(reasons, task);
+    if (!values) return std::nullopt;
+    if (values->empty()) return best;
+    best = std::move(*values);
+    Millionths& minimum = reasons[place].minimum_performance;
+    minimum = std::max(minimum, performance_of(catalog, best)) + 1;
+    if (minimum > one_million) return best;
+  }
+}
+
+/// Tells of each minimum performance of a conflict set how near to it one can come: where all else
+/// holds, or, if something else leaves no solution either, with the behaviors that can be chosen.
+void add_best(const CompiledCatalog& catalog, ConflictSearches& searches,
+              std::span<const Reason> candidates, std::vector<Reason>& conflict_set) {
+  const std::vector<Reason> plain = conflict_set;
+  for (Reason& reason : conflict_set) {
+    if (reason.kind != Reason::Kind::performance) continue;
+    const auto find = [&](auto counts) {
+      return find_best(catalog, searches, reason.task,
+                       reasons_beside(reason, plain, candidates, counts));
+    };
+    auto best = find([](const Reason&) { return true; });
+    if (best && best->empty()) best = find(is_about_behaviors);
+    if (best) reason.best = std::move(*best);
+  }
+}
 
 /// The demands of the event alone.
 Demands demands_of(const CompiledCatalog& catalog, const State& state, const Trigger& trigger) {
@@ -207,7 +308,7 @@ std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
                                                 const Circumstances& circumstances,
                                                 std::span<const Demands> ways) {
   const Trigger& trigger = circumstances.trigger;
-  std::vector<Reason> candidates = Candidates(catalog, circumstances).collect(ways);
+  const std::vector<Reason> candidates = Candidates(catalog, circumstances).collect(ways);
   if (candidates.size() > most_candidates) return std::nullopt;
 
   const std::vector<std::uint32_t> present = present_values(catalog, circumstances);
@@ -220,10 +321,12 @@ std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
   }
   ConflictSearches all(searches, circumstances.deadline);
   if (!all.has_solution({})) return std::vector<Reason>();
-  if (!all.keep_used(candidates)) return std::nullopt;
+  std::vector<Reason> used = candidates;
+  if (!all.keep_used(used)) return std::nullopt;
   std::vector<Reason> reasons = minimal_conflict_set(
-      candidates, [&all](std::span<const Reason> some) { return all.has_solution(some); });
+      used, [&all](std::span<const Reason> some) { return all.has_solution(some); });
   if (all.is_exhausted()) return std::nullopt;
+  add_best(catalog, all, candidates, reasons);
   return reasons;
 }
 

@@ -60,17 +60,18 @@ void Hindsight::note_rejection(const EventRecord& record, const Trigger& trigger
   rejection.kind = trigger.kind;
 }
 
-/// Only the group counts for the answer, and for the reasons against another one.
+/// Only the group counts for the answer, and for the reasons against another one; what runs
+/// elsewhere is a part of the suitability that is told.
 void Hindsight::save_state(const Circumstances& circumstances, Snapshot& before) const {
   const State& state = circumstances.state;
   const std::uint32_t group = circumstances.trigger.group;
   before.running.clear();
-  for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1]; ++task) {
-    if (!state.is_running(task)) continue;
+  for (const std::uint32_t index : state.running()) {
+    const TaskId task = catalog_.task_ids[index];
     Snapshot::RunningTask& entry = before.running.emplace_back();
     entry.task = task;
     entry.value_index = state.value_index(task);
-    if (!state.has_request(task)) continue;
+    if (catalog_.tasks[task].group != group || !state.has_request(task)) continue;
     const Request& request = state.request(task);
     entry.request = Request{request.priority, request.event, {}};
   }
@@ -103,7 +104,10 @@ LookBack Hindsight::look_back(std::uint32_t group, std::span<const Demands> ways
   if (found == decisions_.end()) return answer;
   answer.kind = LookBack::Kind::decided;
   answer.event = &found->second.event;
-  answer.why_not = explain(found->second, ways);
+  const auto before = std::make_shared<State>(catalog_);
+  before->restore(found->second.before);
+  answer.before = before;
+  answer.why_not = explain(found->second, *before, ways);
   return answer;
 }
 
@@ -146,14 +150,12 @@ std::vector<Reason> Hindsight::missing_requests(const State& before, const Trigg
   return reasons;
 }
 
-WhyNot Hindsight::explain(Decision& decision, std::span<const Demands> ways) {
+WhyNot Hindsight::explain(Decision& decision, const State& before, std::span<const Demands> ways) {
   WhyNot answer;
   if (decision.search.result.status != SearchStatus::optimal) {
     answer.is_cut = true;
     return answer;
   }
-  State before(catalog_);
-  before.restore(decision.before);
   answer.conflict = missing_requests(before, decision.trigger, ways);
   if (!answer.conflict.empty()) return answer;
   ProblemBuilder builder(catalog_, before);

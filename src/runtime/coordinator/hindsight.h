@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -34,6 +35,9 @@ struct LookBack {
   /// was chosen. Valid until the next event or question.
   const EventRecord* event = nullptr;
   WhyNot why_not;  ///< of decided
+  /// Of decided: the state before the event, for what has changed in other groups since. It has
+  /// what runs, and of the group also its requests.
+  std::shared_ptr<const State> before;
 };
 
 /// Remembers for each group the last event that was accepted, with the state before it, and a start
@@ -58,7 +62,7 @@ class Hindsight {
     SearchRecord search;
     Trigger trigger;
     std::vector<BehaviorId> failed;
-    Snapshot before;  ///< what it has of the group
+    Snapshot before;  ///< what runs, and the rest of what it has of the group
     ObjectiveValues elsewhere;
     Assignment solution;
   };
@@ -73,7 +77,8 @@ class Hindsight {
                                                 std::span<const Demands> ways) const;
   [[nodiscard]] std::vector<Reason> missing_requests(const State& before, const Trigger& trigger,
                                                      std::span<const Demands> ways) const;
-  [[nodiscard]] WhyNot explain(Decision& decision, std::span<const Demands> ways);
+  [[nodiscard]] WhyNot explain(Decision& decision, const State& before,
+                               std::span<const Demands> ways);
 
   const CompiledCatalog& catalog_;
   const State& state_;

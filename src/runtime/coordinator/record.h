@@ -172,6 +172,8 @@ struct Change {
 struct StoppedTask {
   TaskId task = 0;
   FinishCause cause = FinishCause::interrupted;
+  bool has_finished = false;  ///< by the finish of its behavior
+  bool had_request = false;   ///< before the event
 };
 
 struct SearchRecord {

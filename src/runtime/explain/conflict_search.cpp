@@ -60,6 +60,16 @@ Feasibility ConflictSearch::solve(std::span<const Reason> reasons, std::uint64_t
   }
 }
 
+std::vector<ValueId> ConflictSearch::values_of(TaskId task) {
+  std::vector<ValueId> values;
+  if (!trail_.is_true(trail_.runs(task))) return values;
+  static_cast<void>(may_reach(task, 0));
+  for (const TaskId each : closure_) {
+    values.push_back(catalog_.values.begin[each] + trail_.best(each));
+  }
+  return values;
+}
+
 /// The demands come first: where they and the catalog alone, or with protected tasks, leave no
 /// solution, the other reasons of the state are no part of the proof.
 bool ConflictSearch::begin(std::span<const Reason> reasons) {

@@ -43,6 +43,10 @@ class ConflictSearch {
   [[nodiscard]] Feasibility solve(std::span<const Reason> reasons, std::uint64_t most_effort,
                                   const Deadline& deadline = std::nullopt);
 
+  /// After the answer yes: the values of a task and of all that it requires; empty if nothing needs
+  /// the task.
+  [[nodiscard]] std::vector<ValueId> values_of(TaskId task);
+
   /// After the answer no: by reason, whether the proof used it. The reasons that it used leave no
   /// solution by themselves.
   [[nodiscard]] const std::vector<std::uint8_t>& is_used() const { return is_used_; }

@@ -58,6 +58,11 @@ struct Reason {
   std::uint32_t variable = none;       ///< of situation: one that the behavior does not fit
   std::uint32_t value = 0;             ///< of situation: its present value; none: any misfit
   std::uint32_t line = 0;              ///< of the catalog; 0 if no line states the reason
+  /// Of performance, where it is known: the values of the task and of all that it requires with
+  /// which the task would do best without this minimum (docs/semantics.md, "Rejection").
+  std::vector<ValueId> best;
+
+  friend bool operator==(const Reason& a, const Reason& b) = default;
 };
 
 [[nodiscard]] std::string_view name_of(Reason::Kind kind);

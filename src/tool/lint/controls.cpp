@@ -92,7 +92,7 @@ void SeveritySettings::set(const Rule& rule, RuleSetting setting) {
 
 void SeveritySettings::override_with(const SeveritySettings& stronger) {
   for (const auto& [rule, setting] : stronger.settings_) settings_[rule] = setting;
-  is_strict_ = is_strict_ || stronger.is_strict_;
+  if (stronger.is_strict_) make_strict(stronger.strict_file_);
   never_together_.insert(never_together_.end(), stronger.never_together_.begin(),
                          stronger.never_together_.end());
 }
@@ -176,7 +176,7 @@ SeveritySettings settings_of_options(const SeverityOptions& options,
       }
     }
   }
-  if (options.strict) settings.make_strict();
+  if (options.strict) settings.make_strict({});
   return settings;
 }
 
@@ -208,7 +208,8 @@ class SettingsReader {
       if (const yaml::Node* rules = fields.find(name_of(setting))) read_rules(*rules, setting);
     }
     if (const yaml::Node* strict = fields.find("strict")) {
-      if (yaml::read_boolean(*strict, "strict", reporter_).value_or(false)) settings_.make_strict();
+      if (yaml::read_boolean(*strict, "strict", reporter_).value_or(false))
+        settings_.make_strict(file_);
     }
     if (const yaml::Node* lists = fields.find(never_together)) read_never_together(*lists);
     fields.report_unknown(yaml::UnknownKeys::refused);

@@ -43,8 +43,12 @@ class SeveritySettings {
  public:
   /// A fixed rule can only be set to error.
   void set(const Rule& rule, RuleSetting setting);
-  /// Lets warnings count as failure.
-  void make_strict() { is_strict_ = true; }
+  /// Lets warnings count as failure. `file`: the settings file that says so; empty: the command
+  /// line.
+  void make_strict(std::string file) {
+    is_strict_ = true;
+    strict_file_ = std::move(file);
+  }
   /// Adds tasks of which no two may run together.
   void add_never_together(NeverTogether tasks) { never_together_.push_back(std::move(tasks)); }
 
@@ -55,6 +59,8 @@ class SeveritySettings {
   [[nodiscard]] std::optional<Severity> severity_of(const Diagnostic& finding) const;
   /// Whether warnings count as failure.
   [[nodiscard]] bool is_strict() const { return is_strict_; }
+  /// The settings file that says so; empty: the command line.
+  [[nodiscard]] const std::string& strict_file() const { return strict_file_; }
   [[nodiscard]] const std::vector<NeverTogether>& never_together() const { return never_together_; }
 
   /// Whether a finding with this severity is a failure.
@@ -73,6 +79,7 @@ class SeveritySettings {
 
   std::map<std::string_view, RuleSetting> settings_;  // by name of the rule
   bool is_strict_ = false;
+  std::string strict_file_;
   std::vector<NeverTogether> never_together_;
 };
 

@@ -18,6 +18,11 @@
 #include "support/json.h"
 
 namespace cbc {
+namespace {
+
+constexpr double one_percent = one_million / 100.0;
+
+}  // namespace
 
 void write_reason(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
                   const Reason& reason) {
@@ -36,19 +41,25 @@ void write_reason(JsonWriter& json, const CompiledCatalog& catalog, const EventR
     json.write("priority", reason.priority);
   }
   if (reason.line != 0) json.write("line", reason.line);
+  if (!reason.best.empty()) {
+    json.write_list("best", reason.best, [&](ValueId id) {
+      const Value& value = catalog.values.items[id];
+      json.write_object({{"task", catalog.name_of_task(catalog.task_of(id))},
+                         {"behavior", catalog.name_of_behavior(value.behavior)},
+                         {"suitability", value.suitability / one_percent}});
+    });
+  }
   json.write("message", describe_reason(catalog, record, reason));
   json.close('}');
 }
 
 namespace {
 
-constexpr double one_percent = one_million / 100.0;
-
 /// A set of reasons, as a member.
 void write_conflict(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
                     std::span<const Reason> reasons) {
-  json.write_list("conflict", reasons,
-                  [&](const Reason& reason) { write_reason(json, catalog, record, reason); });
+  json.write_list("conflict", order_reasons(catalog, record, reasons),
+                  [&](const Reason* reason) { write_reason(json, catalog, record, *reason); });
 }
 
 std::optional<std::string_view> name_of_value(const CompiledCatalog& catalog, TaskId task,
@@ -160,7 +171,8 @@ void write_loss(JsonWriter& json, const CompiledCatalog& catalog, const EventRec
 std::string message_of(const Sentences& sentences) {
   std::string text = sentences.first;
   for (std::size_t place = 0; place < sentences.more.size(); ++place) {
-    text += (place == 0 ? " " : "; ") + sentences.more[place];
+    text += place == 0 ? " " : "; ";
+    text += without_indentation(sentences.more[place]);
   }
   return text;
 }
@@ -361,7 +373,7 @@ void write_surprise(JsonWriter& json, const CompiledCatalog& catalog, const Surp
                   [&](TaskId task) { json.write(catalog.name_of_task(task)); });
   if (look_back.kind == LookBack::Kind::due) json.write_seconds("due", look_back.due);
   if (look_back.kind == LookBack::Kind::decided) {
-    write_why_not(json, catalog, *look_back.event, look_back.why_not, state);
+    write_why_not(json, catalog, *look_back.event, look_back.why_not, *look_back.before);
     write_conflict(json, catalog, *look_back.event, look_back.why_not.conflict);
   } else {
     json.write_members({{"limit_reached", false}, {"alternative", nullptr}, {"loses", nullptr}});
@@ -370,6 +382,8 @@ void write_surprise(JsonWriter& json, const CompiledCatalog& catalog, const Surp
     write_conflict(json, catalog, is_rejected ? *look_back.event : EventRecord(),
                    is_rejected ? look_back.event->conflict : std::vector<Reason>());
   }
+  const std::vector<std::string> notes = notes_of(catalog, surprise, state);
+  if (!notes.empty()) json.write_list("notes", notes);
   json.write("message", message_of(describe_surprise(catalog, surprise, state)));
   json.close('}');
 }

@@ -28,8 +28,8 @@ std::string value_text(const CompiledCatalog& catalog, TaskId task, std::uint32_
 }
 
 /// "decided by ...": the objective, and its values in both answers.
-std::string describe_decision(const CompiledCatalog& catalog, const Surprise& surprise,
-                              const State& state) {
+std::string describe_decision(const CompiledCatalog& catalog, const Surprise& surprise) {
+  const State& state = *surprise.look_back.before;
   const Configuration& chosen = surprise.look_back.event->explanation.chosen;
   const Configuration& other = *surprise.look_back.why_not.alternative;
   const Difference& difference = surprise.look_back.why_not.difference;
@@ -66,8 +66,7 @@ std::string describe_decision(const CompiledCatalog& catalog, const Surprise& su
   return {};
 }
 
-Sentences describe_decided(const CompiledCatalog& catalog, const Surprise& surprise,
-                           const State& state) {
+Sentences describe_decided(const CompiledCatalog& catalog, const Surprise& surprise) {
   const EventRecord& event = *surprise.look_back.event;
   const WhyNot& why_not = surprise.look_back.why_not;
   Sentences text;
@@ -86,7 +85,7 @@ Sentences describe_decided(const CompiledCatalog& catalog, const Surprise& surpr
     return text;
   }
   text.first = fmt::format("decided at {} {}:", describe_place(catalog, event),
-                           describe_decision(catalog, surprise, state));
+                           describe_decision(catalog, surprise));
   std::size_t count = 0;
   for (const TaskId task :
        differing_tasks(catalog, surprise.group, event.explanation.chosen.assignment,
@@ -132,8 +131,7 @@ bool is_over(const Reason& reason, const State& state) {
   }
 }
 
-Sentences describe_look_back(const CompiledCatalog& catalog, const Surprise& surprise,
-                             const State& state) {
+Sentences describe_look_back(const CompiledCatalog& catalog, const Surprise& surprise) {
   const LookBack& look_back = surprise.look_back;
   switch (look_back.kind) {
     case LookBack::Kind::undecided:
@@ -148,7 +146,7 @@ Sentences describe_look_back(const CompiledCatalog& catalog, const Surprise& sur
       return {describe_place(catalog, *look_back.event) + " was rejected:",
               describe_rejection(catalog, *look_back.event)};
     case LookBack::Kind::decided:
-      return describe_decided(catalog, surprise, state);
+      return describe_decided(catalog, surprise);
   }
   return {};
 }
@@ -178,17 +176,31 @@ std::vector<TaskId> differing_tasks(const CompiledCatalog& catalog, std::uint32_
   return tasks;
 }
 
-Sentences describe_surprise(const CompiledCatalog& catalog, const Surprise& surprise,
-                            const State& state) {
-  Sentences text = describe_look_back(catalog, surprise, state);
+std::vector<std::string> notes_of(const CompiledCatalog& catalog, const Surprise& surprise,
+                                  const State& state) {
+  std::vector<std::string> notes;
   const LookBack& look_back = surprise.look_back;
   const std::vector<Reason>& reasons = look_back.kind == LookBack::Kind::rejected
                                            ? look_back.event->conflict
                                            : look_back.why_not.conflict;
   if (std::any_of(reasons.begin(), reasons.end(),
                   [&state](const Reason& reason) { return is_over(reason, state); })) {
-    text.more.emplace_back("this has changed since, but no later event has decided it anew");
+    notes.emplace_back("this has changed since, but no later event has decided it anew");
   }
+  for (const TaskId task : surprise.tasks) {
+    if (!state.is_running(task) || !state.is_faulty(state.behavior(task))) continue;
+    std::string note = describe_late_fault(catalog, state.behavior(task));
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) {
+      notes.push_back(std::move(note));
+    }
+  }
+  return notes;
+}
+
+Sentences describe_surprise(const CompiledCatalog& catalog, const Surprise& surprise,
+                            const State& state) {
+  Sentences text = describe_look_back(catalog, surprise);
+  for (std::string& note : notes_of(catalog, surprise, state)) text.more.push_back(std::move(note));
   return text;
 }
 

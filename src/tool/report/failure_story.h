@@ -23,8 +23,14 @@ namespace cbc {
                                                   std::uint32_t group, const Assignment& one,
                                                   const Assignment& other);
 
+/// What else one has to know of tasks that are not as expected: that what prevented it no longer
+/// does, and that faults of their behaviors have no effect yet. `state`: as below.
+[[nodiscard]] std::vector<std::string> notes_of(const CompiledCatalog& catalog,
+                                                const Surprise& surprise, const State& state);
+
 /// Why tasks are not as expected: the event that decided, the objective with both values, and what
-/// differs; or what prevents it. `state`: the one in which the expectation does not hold.
+/// differs; or what prevents it; then the notes. `state`: the one in which the expectation does not
+/// hold.
 [[nodiscard]] Sentences describe_surprise(const CompiledCatalog& catalog, const Surprise& surprise,
                                           const State& state);
 

@@ -119,6 +119,7 @@ void HtmlReport::end_run(const RunResult& result, const std::string& error) {
   json_.end_run(result, error);
   JsonWriter json(runs_json_);
   json.write("left_out", left_out_of_run_);
+  if (opens_at_end_) json.write("opens_at_end", true);
   json.close('}');
   left_out_ += left_out_of_run_;
 }

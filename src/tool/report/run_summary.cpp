@@ -42,25 +42,61 @@ void add_failures(const std::string& file, std::span<const FailedExpectation> fa
 
 }  // namespace
 
-void RunSummary::begin_run(const Script& script) {
+void RunSummary::begin_run(const CompiledCatalog& catalog, const Script& script) {
+  catalog_ = &catalog;
   file_ = printable(script.file);
   rejected_.clear();
+  timeouts_ = {};
+  cycles_.clear();
 }
 
-void RunSummary::add(const CompiledCatalog& catalog, const EventRecord& record, const Step* step) {
+void RunSummary::add(const EventRecord& record, const Step* step) {
+  if (record.origin == Origin::timeout) note_timeout(record);
+  if (record.origin == Origin::script && record.verb != Verb::wait) end_timeouts();
   if (record.outcome != Outcome::rejected || rejected_.size() == most_places) return;
   const std::string place = step == nullptr ? file_ : describe_place(file_, step->range);
   rejected_.push_back(fmt::format("    {}: at {} s, {}", place, format_time(record.time),
-                                  describe_event(catalog, record, nullptr)));
+                                  describe_event(*catalog_, record, nullptr)));
 }
 
-std::vector<SummaryLine> RunSummary::lines(const RunResult& result) const {
+void RunSummary::note_timeout(const EventRecord& record) {
+  if (timeouts_.counts.empty()) timeouts_.first = record.time;
+  timeouts_.last = record.time;
+  ++timeouts_.counts[record.behavior];
+}
+
+/// A behavior that times out twice has been activated again, though the script did nothing: that
+/// goes on for ever.
+void RunSummary::end_timeouts() {
+  std::string behaviors;
+  for (const auto& [behavior, count] : timeouts_.counts) {
+    if (count < 2) continue;
+    behaviors += fmt::format("{}{} ({} times)", behaviors.empty() ? "" : ", ",
+                             behavior_name(*catalog_, behavior), count);
+  }
+  if (!behaviors.empty()) {
+    cycles_.push_back(fmt::format("    from {} s to {} s, while the script does nothing: {}",
+                                  format_time(timeouts_.first), format_time(timeouts_.last),
+                                  behaviors));
+  }
+  timeouts_ = {};
+}
+
+std::vector<SummaryLine> RunSummary::lines(const RunResult& result) {
+  end_timeouts();
   std::vector<SummaryLine> lines;
   lines.push_back({row("events", result.events)});
   lines.push_back({row("accepted", result.accepted)});
   lines.push_back({row("rejected", result.rejected)});
   for (const std::string& rejected : rejected_) lines.push_back({rejected, place_indent});
   add_rest(result.rejected, lines);
+  if (!cycles_.empty()) {
+    lines.push_back({"  timeouts again and again"});
+    for (std::size_t place = 0; place < std::min(cycles_.size(), most_places); ++place) {
+      lines.push_back({cycles_[place], place_indent});
+    }
+    add_rest(cycles_.size(), lines);
+  }
   if (result.failed == 0) return lines;
   lines.push_back({row("failed expectations", result.failed), 0, true});
   add_failures(file_, result.failures, lines);

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "cbc/units.h"
 #include "compiled/compiled_catalog.h"
 #include "coordinator/record.h"
 #include "script/runner.h"
@@ -20,19 +23,33 @@ struct SummaryLine {
   bool is_bad = false;  ///< of a failure
 };
 
-/// The summary of one run: how many events were accepted and rejected, which were rejected, and
-/// which expectations failed, with their places.
+/// The summary of one run: how many events were accepted and rejected, which were rejected, which
+/// behaviors time out again and again while the script does nothing, and which expectations failed,
+/// with their places.
 class RunSummary {
  public:
   /// Starts a run.
-  void begin_run(const Script& script);
-  void add(const CompiledCatalog& catalog, const EventRecord& record, const Step* step);
+  void begin_run(const CompiledCatalog& catalog, const Script& script);
+  void add(const EventRecord& record, const Step* step);
 
-  [[nodiscard]] std::vector<SummaryLine> lines(const RunResult& result) const;
+  [[nodiscard]] std::vector<SummaryLine> lines(const RunResult& result);
 
  private:
+  /// Timeouts since the last event of the script.
+  struct Timeouts {
+    Microseconds first = 0;
+    Microseconds last = 0;
+    std::map<BehaviorId, std::uint64_t> counts;
+  };
+
+  void note_timeout(const EventRecord& record);
+  void end_timeouts();
+
+  const CompiledCatalog* catalog_ = nullptr;
   std::string file_;
   std::vector<std::string> rejected_;
+  Timeouts timeouts_;
+  std::vector<std::string> cycles_;
 };
 
 /// The summary of several runs: a row for each script, and the places of all failures.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -44,6 +45,16 @@ class Product {
     text.insert(0, decimals_ - text.size(), '0');
     text.erase(text.find_last_not_of('0') + 1);
     return "0." + text;
+  }
+
+  /// In percent, with up to 4 decimals; the rest is cut off, so that a number below a limit does
+  /// not look as if it reached it.
+  [[nodiscard]] std::string percent() const {
+    const std::string digits = exact();
+    if (digits == "1") return "100";
+    std::string millionths = digits.size() > 2 ? digits.substr(2, 6) : "";
+    millionths.resize(6, '0');
+    return format_decimal(std::stol(millionths), 4);
   }
 
  private:
@@ -202,6 +213,25 @@ std::string describe_event(const CompiledCatalog& catalog, const EventRecord& re
   return text;
 }
 
+std::string_view without_indentation(std::string_view line) {
+  return line.substr(std::min(line.find_first_not_of(' '), line.size()));
+}
+
+std::string_view stop_word(const EventRecord& record, const StoppedTask& stopped) {
+  if (stopped.has_finished) return name_of(stopped.cause);
+  if (record.verb == Verb::stop && record.task == stopped.task) {
+    return name_of(ChangeCause::requested);
+  }
+  return name_of(stopped.had_request ? ChangeCause::displaced : ChangeCause::released);
+}
+
+std::string describe_late_fault(const CompiledCatalog& catalog, BehaviorId behavior) {
+  return fmt::format(
+      "{} is active, and goes on; the fault takes effect at its next activation; "
+      "'finish: {}, cause: process_failure' stops it",
+      behavior_name(catalog, behavior), printable(catalog.name_of_behavior(behavior)));
+}
+
 std::string describe_note(const CompiledCatalog& catalog, const EventRecord& record,
                           const State& state) {
   const BehaviorId behavior = record.behavior;
@@ -209,10 +239,7 @@ std::string describe_note(const CompiledCatalog& catalog, const EventRecord& rec
   const std::string name = behavior_name(catalog, behavior);
   const bool is_active = state.is_active(behavior);
   if (record.verb == Verb::fault && is_active) {
-    return fmt::format(
-        "{} is active, and goes on; the fault takes effect at its next activation; "
-        "'finish: {}, cause: process_failure' stops it",
-        name, printable(catalog.name_of_behavior(behavior)));
+    return describe_late_fault(catalog, behavior);
   }
   if (record.verb != Verb::finish || record.outcome != Outcome::unchanged || is_active) return {};
   List instead;
@@ -243,6 +270,20 @@ std::string describe_expectation(const CompiledCatalog& catalog, const Expectati
 }
 
 namespace {
+
+/// ", but it reaches 51.3 % at best (...)": how near to a minimum performance one can come.
+std::string describe_best(const CompiledCatalog& catalog, const Reason& reason) {
+  if (reason.best.empty()) return {};
+  Product product;
+  List factors;
+  for (const ValueId id : reason.best) {
+    const Value& value = catalog.values.items[id];
+    product.multiply(value.suitability);
+    factors.add(fmt::format("{} {} %", printable(catalog.name_of_behavior(value.behavior)),
+                            format_decimal(value.suitability, 4)));
+  }
+  return fmt::format(", but it reaches {} % at best ({})", product.percent(), factors.text());
+}
 
 std::string place(const CompiledCatalog& catalog, const Reason& reason) {
   return fmt::format(" ({}:{})", printable(catalog.file), reason.line);
@@ -281,6 +322,45 @@ std::string describe_protection(const EventRecord& record, const Reason& reason)
   return fmt::format("runs with priority {}, higher than {}", reason.priority, level);
 }
 
+/// How a behavior ended that this event therefore does not choose.
+std::string describe_end(const CompiledCatalog& catalog, const EventRecord& record,
+                         BehaviorId behavior) {
+  const auto values = catalog.performs[behavior];
+  const bool is_of_one = record.task != none || values.size() == 1;
+  const std::string name = behavior_name(catalog, behavior);
+  switch (record.cause) {
+    case FinishCause::goal_achieved:
+      return is_of_one
+                 ? fmt::format(
+                       "{} has just achieved its goal, so nothing performs it now",
+                       task_name(catalog, record.task != none ? record.task
+                                                              : catalog.task_of(values.front())))
+                 : name + " has just achieved the goal of its tasks, so nothing performs them now";
+    case FinishCause::time_out:
+      return name + " has just timed out";
+    case FinishCause::wrong_progress:
+      return name + " has just ended for wrong progress";
+    case FinishCause::process_failure:
+      return name + " has just failed (process_failure)";
+    case FinishCause::interrupted:
+      return name + " has just been interrupted";
+    case FinishCause::situation_change:
+      return name + " has just ended, as the situation changed";
+  }
+  return {};
+}
+
+/// Of several tasks that start only on request.
+std::string describe_missing_requests(const CompiledCatalog& catalog,
+                                      const std::vector<TaskId>& tasks) {
+  std::string names;
+  for (std::size_t place = 0; place < tasks.size(); ++place) {
+    names += place == 0 ? "" : place + 1 < tasks.size() ? ", " : " and ";
+    names += task_name(catalog, tasks[place]);
+  }
+  return names + " start only on request, and are not requested: request them first";
+}
+
 }  // namespace
 
 std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& record,
@@ -300,14 +380,14 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
       return fmt::format("{} excludes {}", task, task_name(catalog, reason.other_task)) +
              place(catalog, reason);
     case Reason::Kind::on_request:
-      return fmt::format("{} starts only on request, and is not requested", task);
+      return task + " starts only on request, and is not requested: request it first";
     case Reason::Kind::requires_task:
       return fmt::format("{} requires {}", behavior, task) + place(catalog, reason);
     case Reason::Kind::performance:
       return fmt::format("{} requires {} with at least {} %",
                          reason.behavior == none ? "the catalog" : behavior, task,
                          format_decimal(reason.minimum_performance, 4)) +
-             place(catalog, reason);
+             place(catalog, reason) + describe_best(catalog, reason);
     case Reason::Kind::unavailable:
       return fmt::format("{} is unavailable", behavior);
     case Reason::Kind::situation:
@@ -315,16 +395,111 @@ std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& r
     case Reason::Kind::faulty:
       return fmt::format("{} is faulty", behavior);
     case Reason::Kind::finished:
-      return fmt::format("{} has just finished ({})", behavior, name_of(record.cause));
+      return describe_end(catalog, record, reason.behavior);
     case Reason::Kind::stopped:
       return fmt::format("{} is stopped by this event", task);
   }
   return {};
 }
 
+namespace {
+
+/// A reason among others, and what is said of it.
+struct Told {
+  std::string text;
+  const Reason* reason = nullptr;
+  std::size_t depth = 0;  ///< how many others it helps to explain, one by one
+  bool is_told = false;
+};
+
+/// Orders reasons so that one explains another: what is said of a required task stands below the
+/// requirement.
+class Chain {
+ public:
+  Chain(const CompiledCatalog& catalog, std::vector<Told> reasons)
+      : catalog_(catalog), reasons_(std::move(reasons)) {}
+
+  /// `root`: the task that all is about, or none.
+  std::vector<Told> take(TaskId root) && {
+    for (const Told& told : reasons_) {
+      if (told.reason->kind == Reason::Kind::is_protected || leads_on(*told.reason)) {
+        reachable_.insert(told.reason->task);
+      }
+    }
+    if (root != none) {
+      reachable_.insert(root);
+      tell_about(root, 0);
+    }
+    for (const bool is_first : {true, false}) {
+      for (Told& told : reasons_) {
+        const bool is_beginning = told.reason->kind == Reason::Kind::is_protected;
+        if (!told.is_told && (is_beginning || !is_first)) tell(told, 0);
+      }
+    }
+    return std::move(ordered_);
+  }
+
+ private:
+  static bool leads_on(const Reason& reason) {
+    return reason.behavior != none && reason.task != none;
+  }
+
+  [[nodiscard]] bool is_about(const Reason& reason, TaskId task) const {
+    if (reason.kind == Reason::Kind::exclusive) {
+      if (reason.task != task && reason.other_task != task) return false;
+      const TaskId other = reason.task == task ? reason.other_task : reason.task;
+      return visited_.contains(other) || !reachable_.contains(other);
+    }
+    if (reason.behavior == none) return reason.task == task;
+    const auto values = catalog_.performs[reason.behavior];
+    return std::any_of(values.begin(), values.end(),
+                       [&](ValueId value) { return catalog_.task_of(value) == task; });
+  }
+
+  void tell_about(TaskId task, std::size_t depth) {
+    if (!visited_.insert(task).second) return;
+    // What leads to other tasks comes last: a behavior may perform these, too.
+    for (const bool leads : {false, true}) {
+      for (Told& told : reasons_) {
+        if (told.is_told || leads_on(*told.reason) != leads) continue;
+        if (is_about(*told.reason, task)) tell(told, depth);
+      }
+    }
+  }
+
+  void tell(Told& told, std::size_t depth) {
+    add(told, depth);
+    const Reason& reason = *told.reason;
+    if (leads_on(reason)) {
+      // The requirement, and the minimum of it.
+      for (Told& other : reasons_) {
+        const bool is_same =
+            other.reason->behavior == reason.behavior && other.reason->task == reason.task;
+        if (!other.is_told && is_same) add(other, depth);
+      }
+    }
+    if (leads_on(reason) || reason.kind == Reason::Kind::is_protected) {
+      tell_about(reason.task, depth + 1);
+    }
+  }
+
+  void add(Told& told, std::size_t depth) {
+    told.is_told = true;
+    ordered_.push_back({std::move(told.text), told.reason, depth});
+  }
+
+  const CompiledCatalog& catalog_;
+  std::vector<Told> reasons_;
+  std::set<TaskId> reachable_;
+  std::set<TaskId> visited_;
+  std::vector<Told> ordered_;
+};
+
+}  // namespace
+
 std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const EventRecord& record,
                                           std::span<const Reason> reasons, TaskId it) {
-  std::vector<std::string> sentences;
+  std::vector<Told> sentences;
   std::vector<TaskId> told;  // protected tasks that another sentence mentions already
   const auto protection_of = [&](TaskId task) -> const Reason* {
     const auto found = std::find_if(reasons.begin(), reasons.end(), [&](const Reason& reason) {
@@ -350,8 +525,9 @@ std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const 
           fmt::format(", {} {}", is_it ? "and" : "which", describe_protection(record, *protection));
       told.push_back(guarded);
     }
-    sentences.push_back(std::move(sentence));
+    sentences.push_back({std::move(sentence), &reason});
   }
+  std::vector<TaskId> on_request;
   for (const Reason& reason : reasons) {
     if (reason.kind == Reason::Kind::exclusive) continue;
     if (reason.kind == Reason::Kind::is_protected && protection_of(reason.task) == nullptr)
@@ -364,9 +540,40 @@ std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const 
         })) {
       continue;
     }
-    sentences.push_back(describe_reason(catalog, record, reason));
+    if (reason.kind == Reason::Kind::on_request) on_request.push_back(reason.task);
+    sentences.push_back({describe_reason(catalog, record, reason), &reason});
   }
-  return sentences;
+  const bool has_several = on_request.size() > 1;
+  if (has_several) {
+    std::erase_if(sentences, [](const Told& sentence) {
+      return sentence.reason->kind == Reason::Kind::on_request;
+    });
+  }
+  constexpr std::size_t deepest = 8;  // deeper chains would leave no room for words
+  std::vector<std::string> lines;
+  for (const Told& sentence :
+       Chain(catalog, std::move(sentences)).take(it != none ? it : record.task)) {
+    lines.push_back(std::string(2 * std::min(sentence.depth, deepest), ' ') + sentence.text);
+  }
+  if (has_several) lines.push_back(describe_missing_requests(catalog, on_request));
+  return lines;
+}
+
+std::vector<const Reason*> order_reasons(const CompiledCatalog& catalog, const EventRecord& record,
+                                         std::span<const Reason> reasons) {
+  // That the event stops its tasks comes last.
+  const bool is_event_last = !reasons.empty() && (reasons.back().kind == Reason::Kind::stopped ||
+                                                  reasons.back().kind == Reason::Kind::finished);
+  std::vector<Told> all;
+  for (const Reason& reason : reasons.first(reasons.size() - (is_event_last ? 1 : 0))) {
+    all.push_back({{}, &reason});
+  }
+  std::vector<const Reason*> ordered;
+  for (const Told& told : Chain(catalog, std::move(all)).take(record.task)) {
+    ordered.push_back(told.reason);
+  }
+  if (is_event_last) ordered.push_back(&reasons.back());
+  return ordered;
 }
 
 std::vector<std::string> describe_rejection(const CompiledCatalog& catalog,

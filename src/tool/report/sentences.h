@@ -48,6 +48,13 @@ namespace cbc {
 [[nodiscard]] std::string describe_event(const CompiledCatalog& catalog, const EventRecord& record,
                                          const Step* step);
 
+/// Why a task stopped, in the words for changes of behaviors where it was not by the finish of its
+/// own behavior: "requested" by this event, "displaced" or "released".
+[[nodiscard]] std::string_view stop_word(const EventRecord& record, const StoppedTask& stopped);
+
+/// That a behavior, which is active, became faulty only after it was activated.
+[[nodiscard]] std::string describe_late_fault(const CompiledCatalog& catalog, BehaviorId behavior);
+
 /// What may surprise about an event: a fault of an active behavior, or a finish of an inactive one.
 /// Empty for most. `state`: after the event.
 [[nodiscard]] std::string describe_note(const CompiledCatalog& catalog, const EventRecord& record,
@@ -74,12 +81,22 @@ namespace cbc {
 [[nodiscard]] std::string describe_reason(const CompiledCatalog& catalog, const EventRecord& record,
                                           const Reason& reason);
 
-/// A set of reasons for people. An exclusion and the protection of the excluding task make one
-/// sentence. `it`: the task that the sentences are about, or none.
+/// A set of reasons for people, one sentence in each line. An exclusion and the protection of the
+/// excluding task make one sentence, as do several tasks that nobody requested. What is said of a
+/// required task follows the requirement, indented by two blanks. `it`: the task that the sentences
+/// are about, or none.
 [[nodiscard]] std::vector<std::string> describe_reasons(const CompiledCatalog& catalog,
                                                         const EventRecord& record,
                                                         std::span<const Reason> reasons,
                                                         TaskId it = none);
+
+/// The same order for reasons that are told one by one.
+[[nodiscard]] std::vector<const Reason*> order_reasons(const CompiledCatalog& catalog,
+                                                       const EventRecord& record,
+                                                       std::span<const Reason> reasons);
+
+/// For places where lines become one text.
+[[nodiscard]] std::string_view without_indentation(std::string_view line);
 
 /// Two decimal numbers, shortened as far as one can still see which is the larger one.
 [[nodiscard]] std::pair<std::string, std::string> shorten_both(const std::string& a,
@@ -88,7 +105,7 @@ namespace cbc {
 /// How many of the supporting tasks run: "4 of 7".
 [[nodiscard]] std::string supporting_text(const ObjectiveValues& objective);
 
-/// Why an event was rejected, in one sentence or more.
+/// Why an event was rejected, in one line or more: see describe_reasons.
 [[nodiscard]] std::vector<std::string> describe_rejection(const CompiledCatalog& catalog,
                                                           const EventRecord& record);
 

@@ -145,6 +145,7 @@ namespace {
 
 constexpr std::size_t widest_column = 48;
 constexpr const char* change_indent = "          ";
+constexpr const char* change_columns = "    priority   ok ";  ///< the sign needs no name
 constexpr const char* text_indent = "           ";
 constexpr std::size_t event_column = 12;
 constexpr std::size_t text_column = 11;
@@ -170,7 +171,7 @@ std::string join_tasks(const CompiledCatalog& catalog, std::span<const TaskId> t
 void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
   catalog_ = &catalog;
   story_.begin_run(catalog);
-  summary_.begin_run(script);
+  summary_.begin_run(catalog, script);
   script_file_ = printable(script.file);
   behavior_width_ = column_width(catalog.behavior_names, 8);
   task_width_ = column_width(catalog.task_names, 4);
@@ -179,8 +180,8 @@ void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script)
              printable(catalog.file));
   fmt::print(out_, "{}  time [s]  event{}\n", style_.faint, style_.reset);
   if (!layout_.is_brief) {
-    write_line(fmt::format("{}{} P T S  {:<{}}  {:<{}}  cause{}", style_.faint, change_indent,
-                           "behavior", behavior_width_, "task", task_width_, style_.reset),
+    write_line(fmt::format("{}{}{:<{}}  {:<{}}  cause{}", style_.faint, change_columns, "behavior",
+                           behavior_width_, "task", task_width_, style_.reset),
                behavior_column);
   }
   if (!script.situation.is_empty()) {
@@ -192,7 +193,7 @@ void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script)
 
 void TextReport::on_event(const EventRecord& record, const Step* step, const State& state) {
   story_.add(record, step, state);
-  summary_.add(*catalog_, record, step);
+  summary_.add(record, step);
   const std::string note = describe_note(*catalog_, record, state);
   std::string line = fmt::format("{:>10}  {}{}{}{}", format_time(record.time), style_.strong,
                                  describe_event(*catalog_, record, step), style_.reset,
@@ -213,7 +214,8 @@ std::string TextReport::describe_briefly(const EventRecord& record) const {
   std::string text;
   if (record.outcome == Outcome::rejected) {
     for (const std::string& sentence : describe_rejection(*catalog_, record)) {
-      text += (text.empty() ? ": " : "; ") + sentence;
+      text += text.empty() ? ": " : "; ";
+      text += without_indentation(sentence);
     }
   }
   for (const Change& change : record.changes) {
@@ -280,8 +282,9 @@ void TextReport::write_stopped(const EventRecord& record) {
   if (record.stopped_tasks.empty()) return;
   std::string text;
   for (const StoppedTask& stopped : record.stopped_tasks) {
-    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ",
-                        printable(catalog_->name_of_task(stopped.task)), name_of(stopped.cause));
+    text +=
+        fmt::format("{}{} ({})", text.empty() ? "" : ", ",
+                    printable(catalog_->name_of_task(stopped.task)), stop_word(record, stopped));
   }
   write({"stopped: " + text, {}});
 }
@@ -309,10 +312,11 @@ void TextReport::write_alternatives(const EventRecord& record, const State& stat
 }
 
 void TextReport::write(const Sentences& sentences) {
-  write_line(text_indent + sentences.first, text_column + 2);
-  for (const std::string& sentence : sentences.more) {
-    write_line(fmt::format("{}  {}", text_indent, sentence), text_column + 4);
-  }
+  const auto write_one = [&](const std::string& line) {
+    write_line(text_indent + line, text_column + line.find_first_not_of(' ') + 2);
+  };
+  write_one(sentences.first);
+  for (const std::string& sentence : sentences.more) write_one("  " + sentence);
 }
 
 void TextReport::write(const std::vector<SummaryLine>& lines) {

@@ -40,7 +40,9 @@ class ReplayListener final : public RunListener {
     conflict_.clear();
     JsonWriter json(conflict_);
     json.open('[');
-    for (const Reason& reason : record.conflict) write_reason(json, catalog_, record, reason);
+    for (const Reason* reason : order_reasons(catalog_, record, record.conflict)) {
+      write_reason(json, catalog_, record, *reason);
+    }
     json.close(']');
   }
   void on_failure(const Failure& failure) override { text_.on_failure(failure); }

@@ -233,8 +233,10 @@ class ConditionReader {
 
   void doubt(const Range& range, const std::string& why, std::vector<Note> notes = {}) {
     const Severity severity = checks_.is_denied ? Severity::note : Severity::warning;
-    reporter_.report_as({severity}, rule::impossible_expectation, range,
-                        "this can never hold: " + why, std::move(notes));
+    const char* const what =
+        checks_.is_denied ? "this is ruled out already: " : "this can never hold: ";
+    reporter_.report_as({severity}, rule::impossible_expectation, range, what + why,
+                        std::move(notes));
   }
 
   void check_fitting() {

@@ -576,8 +576,12 @@ void check_characters(std::string_view text, const PositionMap& positions) {
                   "this escape is no character; write the character itself, or \\U and 8 digits");
   }
   // The parser comes upon an unclosed bracket only where the next lines do not fit into it.
-  if (const auto bracket = builder.open_bracket();
-      bracket && exception.msg != YAML::ErrorMsg::FLOW_END && !is_closed(text, *bracket)) {
+  auto bracket = builder.open_bracket();
+  // There are no events yet of a collection that may be a key.
+  if (exception.msg == YAML::ErrorMsg::BLOCK_ENTRY) {
+    bracket = find_open_bracket(text, bracket.value_or(builder.last_end()), offset);
+  }
+  if (bracket && exception.msg != YAML::ErrorMsg::FLOW_END && !is_closed(text, *bracket)) {
     const bool is_list = text[*bracket] == '[';
     throw Refusal(
         builder.range_at(*bracket, *bracket + 1),

@@ -115,8 +115,12 @@ std::size_t find_quote(std::string_view text, std::size_t offset) {
   return offset;
 }
 
-bool is_closed(std::string_view text, std::size_t offset) {
-  std::size_t open = 0;
+namespace {
+
+bool opens(char byte) { return byte == '[' || byte == '{'; }
+
+/// The first bracket or brace at or after `offset`, or the end of the text.
+std::size_t find_bracket(std::string_view text, std::size_t offset) {
   for (offset = find_content(text, offset); offset < text.size();
        offset = find_content(text, offset)) {
     const char byte = text[offset];
@@ -126,11 +130,39 @@ bool is_closed(std::string_view text, std::size_t offset) {
       offset = end_of_quoted(text, offset).value_or(text.size());
       continue;
     }
-    if (byte == '[' || byte == '{') ++open;
-    if ((byte == ']' || byte == '}') && --open == 0) return true;
+    if (opens(byte) || byte == ']' || byte == '}') return offset;
     ++offset;
   }
+  return text.size();
+}
+
+}  // namespace
+
+bool is_closed(std::string_view text, std::size_t offset) {
+  std::size_t open = 0;
+  for (offset = find_bracket(text, offset); offset < text.size();
+       offset = find_bracket(text, offset + 1)) {
+    if (opens(text[offset])) {
+      ++open;
+    } else if (--open == 0) {
+      return true;
+    }
+  }
   return false;
+}
+
+std::optional<std::size_t> find_open_bracket(std::string_view text, std::size_t begin,
+                                             std::size_t end) {
+  std::vector<std::size_t> open;
+  for (std::size_t offset = find_bracket(text, begin); offset < end;
+       offset = find_bracket(text, offset + 1)) {
+    if (opens(text[offset])) {
+      open.push_back(offset);
+    } else if (!open.empty()) {
+      open.pop_back();
+    }
+  }
+  return open.empty() ? std::nullopt : std::optional(open.back());
 }
 
 std::size_t find_indenting_tab(std::string_view text, std::size_t offset) {

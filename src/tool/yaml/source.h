@@ -65,6 +65,10 @@ struct SourceLine {
 /// as it takes to explain an error.
 [[nodiscard]] bool is_closed(std::string_view text, std::size_t offset);
 
+/// The innermost bracket or brace from `begin` on that is open at `end`, understood as well.
+[[nodiscard]] std::optional<std::size_t> find_open_bracket(std::string_view text, std::size_t begin,
+                                                           std::size_t end);
+
 /// The first tab that indents the line of `offset`, or `offset` if there is none before it.
 [[nodiscard]] std::size_t find_indenting_tab(std::string_view text, std::size_t offset);
 

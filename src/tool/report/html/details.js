@@ -38,7 +38,7 @@ function changeRow(run, number, change) {
 }
 
 function changeTable(run, number) {
-  const head = headRow('P', 'T', 'S', 'behavior', 'task', 'cause');
+  const head = headRow('priority', '\u00b1', 'ok', 'behavior', 'task', 'cause');
   const titles = ['priority of the request behind it', '+ activation, \u2212 deactivation', 'success: Y or N'];
   titles.forEach((title, place) => {
     head.rows[0].cells[place].title = title;
@@ -75,10 +75,11 @@ function differenceTable(differences, loses) {
 }
 
 /** The explanation of a choice: its message, which says what decided, and where the alternative differs. */
-function whyElements({ message, differences = [], loses }, catalog) {
+function whyElements({ message, differences = [], loses, notes = [] }, catalog) {
   if (differences.length === 0) return [html('p', 'message', breakable(message))];
   const [decision] = message.split(` ${catalog.task(differences[0].task)}: `); // the table has the rest
-  return [html('p', 'message', breakable(decision)), differenceTable(differences, loses)];
+  return [html('p', 'message', breakable(decision)), differenceTable(differences, loses),
+          ...notes.map((note) => html('p', 'message', breakable(note)))];
 }
 
 function alternativeElement({ running, objective }) {
@@ -137,7 +138,7 @@ function fillDetail(elements, run, number, onChoose) {
   if (event.changes.length > 0) add('Changes, in order', changeTable(run, number));
   if (event.stopped_tasks.length > 0) {
     add('Stopped tasks', html('p', '', event.stopped_tasks
-      .map((stopped) => `${stopped.task} (${words(stopped.cause)})`).join(', ')));
+      .map((stopped) => `${stopped.task} (${run.story.stopWord(number, stopped)})`).join(', ')));
   }
   const numbers = html('div', 'numbers');
   if (event.objective !== null) {

@@ -13,9 +13,10 @@ class Run {
   /** `data`: a run of the report; `begin`: the situation before it, and the state, if there is one. Events
    * can be added later; `leftOut`: how many the page does not have. Their numbers count from 1; the index of an event is that of the report, which
    * may count events that are not here. */
-  constructor(data, catalog, begin, leftOut = 0) {
+  constructor(data, catalog, begin, leftOut = 0, opensAtEnd = false) {
     this.data = data;
     this.leftOut = leftOut;
+    this.opensAtEnd = opensAtEnd;
     this.catalog = catalog;
     this.begin = { ...newState, time: Math.min(0, data.events[0]?.time ?? 0), ...begin };
     this.events = [];
@@ -68,10 +69,10 @@ class Run {
     return this.failures.has(number);
   }
 
-  /** The event to look at first: the first failure, or the first event. */
+  /** The event to look at first: the first failure, or what the script leads to, or the first event. */
   get firstOfInterest() {
     if (this.failures.size > 0) return Math.max(1, Math.min(...this.failures.keys()));
-    return this.data.error === undefined ? 1 : Math.max(1, this.size);
+    return this.data.error === undefined && !this.opensAtEnd ? 1 : Math.max(1, this.size);
   }
 
   get size() {
@@ -322,7 +323,7 @@ class Run {
 function readRuns(data) {
   const catalogs = data.catalogs.map((catalog) => new Catalog(catalog));
   return data.report.runs.map((run, place) => {
-    const { catalog, situation, state, left_out: leftOut } = data.runs[place];
-    return new Run(run, catalogs[catalog], { situation, ...state }, leftOut);
+    const { catalog, situation, state, left_out: leftOut, opens_at_end: opensAtEnd } = data.runs[place];
+    return new Run(run, catalogs[catalog], { situation, ...state }, leftOut, opensAtEnd);
   });
 }

@@ -123,6 +123,15 @@ class Story {
     }
   }
 
+  /** How a task stopped, as in the text: by its own finish, or as the behaviors that changes are about. */
+  stopWord(number, { task, cause }) {
+    const event = this.run.event(number);
+    const behavior = get(this.run.running(number - 1), task);
+    if (cause !== 'interrupted' || (event.verb === 'finish' && event.name === behavior)) return words(cause);
+    if (event.verb === 'stop' && event.name === task) return 'requested';
+    return get(this.run.requests(number - 1), task) === undefined ? 'released' : 'displaced';
+  }
+
   whyStopped(number, task, cause) {
     const event = this.run.event(number);
     if (cause !== undefined && cause !== 'interrupted') return words(cause);
