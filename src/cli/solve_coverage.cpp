@@ -146,7 +146,7 @@ bool prove(CatalogCoverage& coverage, const Assumptions& assumptions, const std:
   Progress progress("proving", catalog.group_count());
   std::optional<std::uint32_t> begun;
   GoalProofOptions options;
-  options.on_progress = [&](std::uint32_t group, std::uint64_t states) {
+  options.walk.on_progress = [&](std::uint32_t group, std::uint64_t states) {
     if (begun != group) progress.begin(fmt::format("group {}", group));
     begun = group;
     progress.show(fmt::format(" ({} states)", states));

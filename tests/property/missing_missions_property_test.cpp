@@ -79,10 +79,10 @@ void check(const VerifyCase& sample, oracle::Statistics& statistics) {
   const Assumptions& assumptions = sample.question.assumptions;
   const std::vector<Goal> goals = find_goals(catalog);
   GoalProofOptions of_proof;
-  of_proof.max_states = most_states;
+  of_proof.walk.max_states = most_states;
   const GoalProof proof = prove_unreachable(catalog, goals, assumptions, of_proof);
   if (proof.error) return statistics.count("excluded");
-  for (const GoalProof::Group& group : proof.groups) {
+  for (const GroupWalkResult& group : proof.groups) {
     if (!group.is_complete) return statistics.count("too many states");
   }
   std::vector<std::uint8_t> met(goals.size(), 0);

@@ -1,23 +1,17 @@
 #include "coverage/goal_graph.h"
 
 #include <algorithm>
-#include <string_view>
-#include <unordered_map>
 
 #include "coverage/goal_watch.h"
-#include "coverage/state_replay.h"
-#include "coverage/timeout_race.h"
-#include "verify/model.h"
-#include "verify/stepper.h"
 
 namespace cbc {
 namespace {
 
-class GraphBuilder {
+class GraphBuilder final : private GroupWalk::Listener {
  public:
   GraphBuilder(const CompiledCatalog& catalog, std::span<const Goal> goals,
                const std::vector<std::uint8_t>& wanted, const Assumptions& assumptions,
-               const GoalGraphOptions& options)
+               const GroupWalkOptions& options)
       : catalog_(catalog),
         goals_(goals),
         assumptions_(assumptions),
@@ -39,13 +33,18 @@ class GraphBuilder {
 
   GoalGraph build() {
     for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) {
-      const Model model(catalog_, {group}, assumptions_);
-      if (model.is_excluded(model.first_state().data())) {
+      GroupWalk walk(catalog_, group, assumptions_, watch_, options_);
+      if (walk.begins_excluded()) {
         graph_.error = "the first state is in a situation that 'never' excludes";
         break;
       }
-      graph_.parts.push_back({group, static_cast<std::uint32_t>(graph_.state_count()), false});
-      graph_.parts.back().is_complete = explore(model, graph_.parts.back());
+      first_state_ = static_cast<std::uint32_t>(graph_.state_count());
+      if (group == 0) add_free_variables();
+      const GroupWalkResult result = walk.run(*this);
+      graph_.parts.push_back({group, first_state_, result.is_complete});
+      graph_.moves += result.moves;
+      end_states_before(first_state_ + static_cast<std::uint32_t>(result.states));
+      if (result.is_complete) walk.race().tell(forestalled_by_);
     }
     graph_.facts = watch_.facts();
     graph_.facts.forestalled_by = std::move(forestalled_by_);
@@ -53,53 +52,10 @@ class GraphBuilder {
   }
 
  private:
-  /// False: a limit came first. Then the moves of the states that are left are missing.
-  bool explore(const Model& model, const GoalGraph::Part& part) {
-    Stepper stepper(model, {.reduce = true});
-    StateReplay replay(model, watch_);
-    TimeoutRace race(catalog_, part.group);
-    numbers_.clear();
-    states_.clear();
-    std::vector<std::uint32_t> packed(model.packed_words());
-    model.pack(model.first_state().data(), packed.data());
-    find(packed);
-    bool goes_on = true;
-    for (std::size_t state = 0; state < states_.size(); ++state) {
-      goes_on = goes_on && states_.size() <= options_.max_states &&
-                (!options_.on_progress || options_.on_progress(part.group, states_.size()));
-      if (goes_on) {
-        stepper.load(states_[state].data());
-        replay.load(stepper);
-        for (const Model::Choice& choice : model.moves()) {
-          if (!stepper.has_move(choice)) continue;
-          const Move move = stepper.move_of(choice);
-          if (!stepper.take(choice)) continue;
-          ++graph_.moves;
-          stepper.pack(packed.data());
-          watch_.restart(unwanted_);
-          replay.take(move);
-          race.note(replay, move);
-          add_edge(part.first_state + static_cast<std::uint32_t>(state),
-                   part.first_state + find(packed), move, replay);
-        }
-        if (state == 0 && part.group == 0) add_free_variables(part.first_state);
-      }
-      graph_.begin.push_back(static_cast<std::uint32_t>(graph_.edges.size()));
-    }
-    if (goes_on) race.tell(forestalled_by_);
-    return goes_on;
-  }
+  void before_move() override { watch_.restart(unwanted_); }
 
-  std::uint32_t find(const std::vector<std::uint32_t>& packed) {
-    const std::string_view bytes(reinterpret_cast<const char*>(packed.data()),
-                                 packed.size() * sizeof(packed.front()));
-    const auto [entry, is_new] =
-        numbers_.try_emplace(std::string(bytes), static_cast<std::uint32_t>(states_.size()));
-    if (is_new) states_.push_back(packed);
-    return entry->second;
-  }
-
-  void add_edge(std::uint32_t from, std::uint32_t to, const Move& move, const StateReplay& replay) {
+  void on_move(GroupWalk::Number from, GroupWalk::Number to, const Move& move,
+               const StateReplay& replay) override {
     items_.clear();
     for (std::uint32_t goal = 0; goal < goals_.size(); ++goal) {
       if (watch_.met()[goal] != 0 && unwanted_[goal] == 0 && is_shown_by(goals_[goal], move)) {
@@ -108,7 +64,13 @@ class GraphBuilder {
     }
     for (const TaskId task : replay.started()) add_return(task, 0);
     for (const TaskId task : replay.gave_way()) add_return(task, graph_.goal_count);
-    add_edge(from, to, move);
+    end_states_before(first_state_ + from);
+    add_edge(first_state_ + from, first_state_ + to, move);
+  }
+
+  /// The edges of the states before this one are complete.
+  void end_states_before(std::uint32_t state) {
+    graph_.begin.resize(state + 1, static_cast<std::uint32_t>(graph_.edges.size()));
   }
 
   /// A watch notes the values in each state. A path shows those at its beginning anyway.
@@ -140,7 +102,7 @@ class GraphBuilder {
   }
 
   /// Variables that no behavior names are no part of any state.
-  void add_free_variables(std::uint32_t state) {
+  void add_free_variables() {
     for (std::uint32_t goal = 0; goal < goals_.size(); ++goal) {
       const std::uint32_t variable = goals_[goal].variable;
       const auto& may_change = assumptions_.variables;
@@ -151,7 +113,7 @@ class GraphBuilder {
         continue;
       }
       items_ = {goal};
-      add_edge(state, state,
+      add_edge(first_state_, first_state_,
                {Move::Kind::variable, variable, static_cast<std::int32_t>(goals_[goal].value)});
     }
   }
@@ -159,22 +121,21 @@ class GraphBuilder {
   const CompiledCatalog& catalog_;
   const std::span<const Goal> goals_;
   const Assumptions& assumptions_;
-  const GoalGraphOptions& options_;
+  const GroupWalkOptions& options_;
   GoalWatch watch_;
   GoalGraph graph_;
   std::vector<ValueId> forestalled_by_;  ///< see GoalFacts
   std::vector<std::uint8_t> unwanted_;   ///< by goal: not asked about
   std::vector<std::uint32_t> returns_;   ///< by task: its goal of returning, if it is wanted
-  std::unordered_map<std::string, std::uint32_t> numbers_;  ///< of the states of the group
-  std::vector<std::vector<std::uint32_t>> states_;          ///< packed
-  std::vector<std::uint32_t> items_;                        ///< of the present edge
+  std::uint32_t first_state_ = 0;        ///< of the present group
+  std::vector<std::uint32_t> items_;     ///< of the present edge
 };
 
 }  // namespace
 
 GoalGraph explore_goals(const CompiledCatalog& catalog, std::span<const Goal> goals,
                         const std::vector<std::uint8_t>& wanted, const Assumptions& assumptions,
-                        const GoalGraphOptions& options) {
+                        const GroupWalkOptions& options) {
   return GraphBuilder(catalog, goals, wanted, assumptions, options).build();
 }
 

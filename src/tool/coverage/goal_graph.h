@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +11,7 @@
 #include "compiled/compiled_catalog.h"
 #include "coverage/goal_facts.h"
 #include "coverage/goals.h"
+#include "coverage/group_walk.h"
 #include "verify/explore.h"
 #include "verify/properties.h"
 
@@ -52,18 +52,12 @@ struct GoalGraph {
   }
 };
 
-struct GoalGraphOptions {
-  std::uint64_t max_states = 1'000'000;  ///< of each group
-  /// Called for each state; false ends the exploration of the group as a limit does. May be empty.
-  std::function<bool(std::uint32_t group, std::uint64_t states)> on_progress;
-};
-
 /// Visits all reachable states of each group, and notes for each move which of the wanted goals it
 /// meets. Failures meet the goals of timeouts, too. `wanted`: by goal. Catalog, goals and
 /// assumptions need not outlive the graph.
 [[nodiscard]] GoalGraph explore_goals(const CompiledCatalog& catalog, std::span<const Goal> goals,
                                       const std::vector<std::uint8_t>& wanted,
                                       const Assumptions& assumptions,
-                                      const GoalGraphOptions& options);
+                                      const GroupWalkOptions& options);
 
 }  // namespace cbc

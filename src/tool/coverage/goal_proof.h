@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,19 +9,14 @@
 #include "compiled/compiled_catalog.h"
 #include "coverage/goal_facts.h"
 #include "coverage/goals.h"
+#include "coverage/group_walk.h"
 #include "verify/properties.h"
 
 namespace cbc {
 
 /// Which goals no mission can meet, whatever its events, as far as the assumptions allow them.
 struct GoalProof {
-  /// What was visited of a group.
-  struct Group {
-    std::uint64_t states = 0;
-    std::uint64_t moves = 0;
-    bool is_complete = false;  ///< false: a limit came first, and nothing is proven
-  };
-  std::vector<Group> groups;  ///< by group
+  std::vector<GroupWalkResult> groups;  ///< by group
   /// By goal: why no move meets it, if that is proven; otherwise empty. See why_unreachable.
   std::vector<std::string> unreachable;
   GoalFacts facts;  ///< of the groups that are complete
@@ -31,10 +25,8 @@ struct GoalProof {
 };
 
 struct GoalProofOptions {
-  std::optional<std::uint32_t> group;    ///< the only one to visit; empty: all
-  std::uint64_t max_states = 1'000'000;  ///< of each group
-  /// Called now and then; false ends the exploration as a limit does. May be empty.
-  std::function<bool(std::uint32_t group, std::uint64_t states)> on_progress;
+  std::optional<std::uint32_t> group;  ///< the only one to visit; empty: all
+  GroupWalkOptions walk;
 };
 
 /// What holds without a property file: that of `cbc verify`, but requests have the priorities 1 and

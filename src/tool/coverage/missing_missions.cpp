@@ -37,7 +37,7 @@ class MissionFinder {
       missing_[goal] = met[goal] == 0 ? 1 : 0;
       result_.wanted += missing_[goal];
     }
-    GoalGraphOptions of_exploration = options_.exploration;
+    GroupWalkOptions of_exploration = options_.exploration;
     of_exploration.on_progress = [&](std::uint32_t group, std::uint64_t states) {
       const auto& on_progress = options_.exploration.on_progress;
       return !is_stopped() && (!on_progress || on_progress(group, states));

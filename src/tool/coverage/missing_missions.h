@@ -50,7 +50,7 @@ struct MissingMissions {
 };
 
 struct MissingMissionOptions {
-  GoalGraphOptions exploration;
+  GroupWalkOptions exploration;
   std::string catalog;       ///< see Script
   std::uint32_t events = 8;  ///< of a script, if no goal takes more
   /// Called now and then after the exploration, with the number of scripts so far. May be empty.

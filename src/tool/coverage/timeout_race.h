@@ -14,10 +14,10 @@ namespace cbc {
 /// states of a group, although these have no times.
 ///
 /// Take a task x with behavior b, and a task y with c, whose timeout is shorter, or the same and y
-/// comes first in the catalog. Where x begins to
-/// run with b, y runs with c; and as long as the one goes on, so does the other. So c has been
-/// there for as long as b at least, and its timeout comes first. It is a failure of c, and as
-/// after no failure of c x goes on with b, the timeout of b does not come.
+/// comes first in the catalog. Where x begins to run with b, y runs with c; and as long as the one
+/// goes on, so does the other. So c has been there for as long as b at least, and its timeout comes
+/// first. It is a failure of c, and as after no failure of c x goes on with b, the timeout of b
+/// does not come.
 class TimeoutRace {
  public:
   /// The catalog must outlive this object.

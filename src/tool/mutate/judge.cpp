@@ -244,8 +244,8 @@ bool MutantJudge::never_time_out(const CompiledCatalog& catalog,
   const std::uint32_t group = catalog.tasks[catalog.task_ids[differences.front().task]].group;
   GoalProofOptions options;
   options.group = group;
-  options.max_states = options_.limits.max_states;
-  options.on_progress = [this](std::uint32_t, std::uint64_t) { return !is_stopped(); };
+  options.walk.max_states = options_.limits.max_states;
+  options.walk.on_progress = [this](std::uint32_t, std::uint64_t) { return !is_stopped(); };
   const GoalProof proof = prove_unreachable(catalog, {}, assumptions_, options);
   if (proof.error || !proof.groups[group].is_complete) return false;
   return std::all_of(differences.begin(), differences.end(), [&](const TimeDifference& difference) {

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "compiled/compiled_catalog.h"
+#include "coverage/goal_watch.h"
+#include "coverage/state_replay.h"
+#include "coverage/timeout_race.h"
+#include "verify/explore.h"
+#include "verify/model.h"
+#include "verify/properties.h"
+#include "verify/stepper.h"
+
+namespace cbc {
+
+struct GroupWalkOptions {
+  std::uint64_t max_states = 1'000'000;  ///< of each group
+  /// Called for each state; false ends the walk as a limit does. May be empty.
+  std::function<bool(std::uint32_t group, std::uint64_t states)> on_progress;
+};
+
+/// What a walk visited.
+struct GroupWalkResult {
+  std::uint64_t states = 0;
+  std::uint64_t moves = 0;
+  bool is_complete = false;  ///< false: a limit came first, and nothing is proven
+};
+
+/// Visits the reachable states of a group (docs/verify.md, "States"), numbered by the least number
+/// of moves to them, and makes each move from each of them on a coordinator that is watched for
+/// goals.
+class GroupWalk {
+ public:
+  using Number = std::uint32_t;
+
+  /// Sees the moves of the states, one state after the other.
+  class Listener {
+   public:
+    /// Before the watched coordinator makes a move.
+    virtual void before_move() {}
+    /// After it. What the replay tells is that of this move.
+    virtual void on_move(Number from, Number to, const Move& move, const StateReplay& replay) = 0;
+
+   protected:
+    ~Listener() = default;
+  };
+
+  /// All must outlive this object.
+  GroupWalk(const CompiledCatalog& catalog, std::uint32_t group, const Assumptions& assumptions,
+            GoalWatch& watch, const GroupWalkOptions& options);
+
+  /// The first state contradicts `never`.
+  [[nodiscard]] bool begins_excluded() const;
+  /// Unless it begins excluded, once.
+  [[nodiscard]] GroupWalkResult run(Listener& listener);
+  /// After a complete run: which timeouts always come first.
+  [[nodiscard]] const TimeoutRace& race() const { return race_; }
+
+ private:
+  Number find(const std::vector<std::uint32_t>& packed);
+  void leave(Number state, Listener& listener);
+
+  const std::uint32_t group_;
+  const GroupWalkOptions& options_;
+  const Model model_;
+  Stepper stepper_;
+  StateReplay replay_;
+  TimeoutRace race_;
+  GroupWalkResult result_;
+  std::unordered_map<std::string, Number> numbers_;
+  std::vector<std::vector<std::uint32_t>> states_;  ///< packed
+  std::vector<std::uint32_t> packed_;               ///< kept for its memory
+};
+
+}  // namespace cbc
