@@ -1,0 +1,266 @@
+// The parts of the search that learns, on random branches: each inference and each no-good against
+// all solutions, and what is inferred against the propagator of branch and bound.
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "compile/compile.h"
+#include "solver/conflict_analysis.h"
+#include "solver/domains.h"
+#include "solver/performance_reasons.h"
+#include "solver/propagator.h"
+#include "solver/reason_trail.h"
+#include "support/rounds.h"
+#include "unit/brute_force.h"
+#include "unit/random_problems.h"
+
+namespace cbc {
+namespace {
+
+using test::Random;
+
+/// Decisions and inferences in the group of a problem, and all its solutions.
+class Branch {
+ public:
+  Branch(const CompiledCatalog& catalog, const Problem& problem)
+      : catalog_(catalog),
+        domains_(catalog),
+        trail_(catalog, domains_),
+        performance_(catalog, domains_, trail_),
+        brute_force_(catalog, problem) {
+    domains_.load(problem);
+    performance_.load();
+    is_consistent_ = trail_.load(problem) && propagate();
+    analysis_.resize(trail_.variable_count());
+  }
+
+  [[nodiscard]] bool is_consistent() const { return is_consistent_; }
+  [[nodiscard]] const Domains& domains() const { return domains_; }
+  [[nodiscard]] const ReasonTrail& trail() const { return trail_; }
+  [[nodiscard]] const std::vector<Assignment>& solutions() const {
+    return brute_force_.solutions();
+  }
+
+  /// A literal to decide: that a task runs, or a value of one that does. None is left: `none`.
+  [[nodiscard]] Literal choose(Random& random) const {
+    std::vector<Literal> choices;
+    for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
+      const Literal runs = ReasonTrail::runs(task);
+      if (!trail_.is_true(runs) && !trail_.is_false(runs)) choices.push_back(runs);
+      if (!domains_.needed(task) || domains_.count(task) < 2) continue;
+      for (std::uint32_t index = 0; index < domains_.values(task).size(); ++index) {
+        if (domains_.has(task, index)) choices.push_back(trail_.has_value(task, index));
+      }
+    }
+    return choices.empty() ? none : choices[random.below(choices.size())];
+  }
+  void decide(Literal literal) {
+    trail_.decide(literal);
+    is_consistent_ = propagate();
+  }
+  void restart() { trail_.backtrack_to(0); }
+  /// Nobody asks for reasons of facts then, as they may be gone.
+  void forget_half_of_the_nogoods() {
+    if (trail_.nogoods().size() == 0) return;
+    trail_.nogoods().forget_half();
+    has_forgotten_ = true;
+  }
+
+  /// After a conflict: learns a no-good from it, and goes on. False if there is no solution.
+  bool learn() {
+    const std::uint32_t level = ConflictAnalysis::level_of(trail_.conflict(), trail_);
+    if (level == 0) return false;
+    trail_.backtrack_to(level);
+    analysis_.analyze(trail_.conflict(), trail_);
+    expect_learned_is_right(level);
+    trail_.backtrack_to(analysis_.back_level());
+    is_consistent_ = trail_.learn(analysis_.learned(), analysis_.level_count()) && propagate();
+    return true;
+  }
+
+  /// Of each inference: its reason held before, and leaves nothing else.
+  void expect_reasons_suffice() const {
+    std::vector<Literal> reason;
+    for (const Literal literal : trail_.literals()) {
+      if (trail_.is_given(literal) || (has_forgotten_ && trail_.level_of(literal) == 0)) continue;
+      reason.clear();
+      trail_.append_reason(literal, reason);
+      for (const Literal other : reason) {
+        EXPECT_TRUE(trail_.is_true(other));
+        EXPECT_LT(trail_.place_of(other), trail_.place_of(literal));
+      }
+      for (const Assignment& solution : solutions()) {
+        EXPECT_TRUE(!holds_all(solution, reason) || holds(solution, literal));
+      }
+    }
+  }
+  /// What does not hold together is no part of a solution.
+  void expect_conflict_is_right() const {
+    for (const Literal literal : trail_.conflict()) EXPECT_TRUE(trail_.is_true(literal));
+    for (const Assignment& solution : solutions()) {
+      EXPECT_FALSE(holds_all(solution, trail_.conflict()));
+    }
+  }
+
+ private:
+  bool propagate() {
+    for (;;) {
+      if (!trail_.propagate()) return false;
+      const std::size_t before = trail_.literals().size();
+      if (!performance_.propagate()) return false;
+      if (trail_.literals().size() == before) return true;
+    }
+  }
+
+  void expect_learned_is_right(std::uint32_t conflict_level) const {
+    const std::span<const Literal> learned = analysis_.learned();
+    std::vector<std::uint32_t> levels;
+    for (const Literal literal : learned) {
+      EXPECT_TRUE(trail_.is_false(literal));
+      levels.push_back(trail_.level_of(literal));
+    }
+    // One literal of the conflict level, the first; the second is of the level to go back to.
+    EXPECT_EQ(levels.front(), conflict_level);
+    EXPECT_EQ(std::count(levels.begin(), levels.end(), conflict_level), 1);
+    EXPECT_EQ(std::count(levels.begin(), levels.end(), 0U), 0);
+    const std::uint32_t back_level =
+        learned.size() == 1 ? 0 : *std::max_element(levels.begin() + 1, levels.end());
+    EXPECT_EQ(analysis_.back_level(), back_level);
+    EXPECT_TRUE(learned.size() == 1 || levels[1] == back_level);
+    std::sort(levels.begin(), levels.end());
+    levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+    EXPECT_EQ(analysis_.level_count(), levels.size());
+    for (const Assignment& solution : solutions()) {
+      EXPECT_TRUE(std::any_of(learned.begin(), learned.end(),
+                              [&](Literal literal) { return holds(solution, literal); }));
+    }
+  }
+
+  [[nodiscard]] bool holds(const Assignment& solution, Literal literal) const {
+    const std::uint32_t task = trail_.task_of(variable_of(literal));
+    const bool is_about_running = trail_.is_about_running(literal);
+    bool is_true = solution[task] != none;
+    if (!is_about_running) {
+      is_true = is_true && trail_.has_value(task, solution[task]) == (literal & ~Literal{1});
+    }
+    return is_true != is_negated(literal);
+  }
+  [[nodiscard]] bool holds_all(const Assignment& solution,
+                               std::span<const Literal> literals) const {
+    return std::all_of(literals.begin(), literals.end(),
+                       [&](Literal literal) { return holds(solution, literal); });
+  }
+
+  const CompiledCatalog& catalog_;
+  Domains domains_;
+  ReasonTrail trail_;
+  PerformanceReasons performance_;
+  ConflictAnalysis analysis_;
+  const test::BruteForce brute_force_;
+  bool is_consistent_ = false;
+  bool has_forgotten_ = false;
+};
+
+test::Shape random_shape(Random& random) {
+  test::Shape shape;
+  shape.tasks = 6 + static_cast<std::uint32_t>(random.below(3));
+  shape.exclusivity_lists = 2 + static_cast<std::uint32_t>(random.below(3));
+  shape.most_exclusive = 4;
+  shape.minimum = random.below(2) == 0 ? 0 : 60;
+  shape.is_deep = random.below(4) != 0;
+  shape.on_request = 10;
+  return shape;
+}
+
+TEST(Reasons, LeaveNoOtherSolutionOnRandomBranches) {
+  Random random(1);
+  int conflicts = 0;
+  int inferences = 0;
+  int without_solution = 0;
+  for (int round = 0; round < test::rounds(1'000); ++round) {
+    SCOPED_TRACE(round);
+    const CompiledCatalog catalog = compile(test::random_catalog(random, random_shape(random)));
+    const Problem problem = test::random_problem(random, catalog, test::largest_group(catalog));
+    Branch branch(catalog, problem);
+    bool goes_on = true;
+    for (int move = 0; move < 60 && goes_on; ++move) {
+      branch.expect_reasons_suffice();
+      inferences += static_cast<int>(branch.trail().literals().size());
+      if (!branch.is_consistent()) {
+        ++conflicts;
+        branch.expect_conflict_is_right();
+        goes_on = branch.learn();
+        if (goes_on) continue;
+        ++without_solution;
+        EXPECT_TRUE(branch.solutions().empty());
+      } else if (const Literal literal = branch.choose(random); literal != none) {
+        branch.decide(literal);
+      } else {
+        branch.restart();
+        if (random.below(3) == 0) branch.forget_half_of_the_nogoods();
+      }
+    }
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_GE(conflicts, test::rounds(400));
+  EXPECT_GE(inferences, test::rounds(50'000));
+  EXPECT_GE(without_solution, test::rounds(20));
+}
+
+std::string describe(const Domains& domains) {
+  std::string text;
+  for (std::uint32_t task = 0; task < domains.task_count(); ++task) {
+    text += domains.needed(task) ? " " : " ?";
+    for (std::uint32_t index = 0; index < domains.values(task).size(); ++index) {
+      if (domains.has(task, index)) text += std::to_string(index) + ",";
+    }
+  }
+  return text;
+}
+
+TEST(Reasons, ComeWithAllThatThePropagatorInfers) {
+  Random random(2);
+  int nodes = 0;
+  int conflicts = 0;
+  for (int round = 0; round < test::rounds(1'000); ++round) {
+    SCOPED_TRACE(round);
+    const CompiledCatalog catalog = compile(test::random_catalog(random, random_shape(random)));
+    const Problem problem = test::random_problem(random, catalog, test::largest_group(catalog));
+    Branch branch(catalog, problem);
+    Domains domains(catalog);
+    Propagator propagator(catalog, domains);
+    domains.load(problem);
+    propagator.load(problem);
+    bool is_consistent = true;
+    for (std::uint32_t task = 0; task < domains.task_count() && is_consistent; ++task) {
+      if (problem.may_stop[task] == 0) is_consistent = domains.need(task);
+    }
+    is_consistent = is_consistent && propagator.propagate();
+    for (;;) {
+      ++nodes;
+      ASSERT_EQ(branch.is_consistent(), is_consistent);
+      if (!is_consistent) break;
+      ASSERT_EQ(describe(branch.domains()), describe(domains));
+      const Literal literal = branch.choose(random);
+      if (literal == none) break;
+      const std::uint32_t task = branch.trail().task_of(variable_of(literal));
+      is_consistent = domains.need(task);
+      for (std::uint32_t index = 0; index < domains.values(task).size(); ++index) {
+        if (literal != branch.trail().has_value(task, index)) continue;
+        is_consistent = is_consistent && domains.keep_only(task, index);
+      }
+      is_consistent = is_consistent && propagator.propagate();
+      branch.decide(literal);
+    }
+    conflicts += is_consistent ? 0 : 1;
+  }
+  EXPECT_GE(nodes, test::rounds(1'000));
+  EXPECT_GE(conflicts, test::rounds(50));
+}
+
+}  // namespace
+}  // namespace cbc
