@@ -62,6 +62,10 @@ struct VerifyQuestions {
 /// one, or the same as in `cbc solve --prove`.
 [[nodiscard]] Assumptions goal_assumptions(const VerifyQuestions& questions);
 
+/// The path by which a script in the folder names the catalog. Empty if that is standard input.
+[[nodiscard]] std::string catalog_from(const std::string& folder, const VerifyOptions& options,
+                                       const VerifyQuestions& questions);
+
 /// Reads the files of a command line. Findings and other problems go to standard error.
 class QuestionLoader {
  public:

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <fmt/core.h>
@@ -17,6 +19,17 @@ namespace cbc::cli {
 Assumptions goal_assumptions(const VerifyQuestions& questions) {
   return questions.files.empty() ? assumptions_of_goals(*questions.catalog)
                                  : questions.files.front()->assumptions;
+}
+
+std::string catalog_from(const std::string& folder, const VerifyOptions& options,
+                         const VerifyQuestions& questions) {
+  const std::string catalog = questions.named_catalog.value_or(options.paths.front());
+  if (catalog == "-") return {};
+  // Of a folder that does not exist yet, a relative path would stay one.
+  std::error_code error;
+  const std::filesystem::path path = std::filesystem::proximate(
+      std::filesystem::absolute(catalog), std::filesystem::absolute(folder), error);
+  return error ? std::string{} : path.generic_string();
 }
 
 std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::string>& paths,

@@ -19,6 +19,7 @@
 #include "mutate/judge.h"
 #include "mutate/mutants.h"
 #include "report/mutants_report.h"
+#include "script/writer.h"
 #include "verify/verification.h"
 
 namespace cbc::cli {
@@ -67,9 +68,13 @@ void judge_all(const VerifyOptions& options, const MutantJudge& judge,
   }
 }
 
-/// Writes the scripts of survivors. The name says what each is about:
-/// "robot.320.exclusion_removed.mission.yaml".
-int write_scripts(const std::string& folder, const MutantsResult& result) {
+/// Writes the scripts of survivors, which name the catalog by its path from the folder, if it has
+/// one. The name says what each is about: "robot.320.exclusion_removed.mission.yaml".
+int write_scripts(const std::string& folder, const std::string& path_of_catalog,
+                  const MutantsResult& result) {
+  const std::string first_key = path_of_catalog.empty()
+                                    ? "# Run it with: cbc solve CATALOG FILE"
+                                    : fmt::format("catalog: {}", in_quotes(path_of_catalog));
   const fs::path catalog = result.catalog->file;
   const std::string stem =
       result.catalog->file == display_name("-") ? "stdin" : catalog.stem().string();
@@ -83,9 +88,9 @@ int write_scripts(const std::string& folder, const MutantsResult& result) {
     for (int number = 2; !taken.insert(name).second; ++number) {
       name = fmt::format("{}-{}", first, number);
     }
-    const std::string text = fmt::format(
-        "# Notices this change in line {}: {}\n# Run it with: cbc solve CATALOG FILE\n{}",
-        mutant.lines.front(), describe(*result.catalog, mutant), *result.verdicts[place].script);
+    const std::string text =
+        fmt::format("# Notices this change in line {}: {}\n{}\n{}", mutant.lines.front(),
+                    describe(*result.catalog, mutant), first_key, *result.verdicts[place].script);
     const int status = write_output((fs::path(folder) / (name + ".mission.yaml")).string(), text);
     if (status != exit_ok) return status;
   }
@@ -153,7 +158,9 @@ int verify_mutants(const VerifyOptions& options, const VerifyQuestions& question
   judge_all(options, judge, of_judge.is_stopped, result);
 
   if (options.scripts) {
-    if (const int status = write_scripts(*options.scripts, result); status != exit_ok)
+    if (const int status = write_scripts(
+            *options.scripts, catalog_from(*options.scripts, options, questions), result);
+        status != exit_ok)
       return status;
   }
   const MutantsFormat& format = *find_named(mutants_formats(), options.format);

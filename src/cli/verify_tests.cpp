@@ -3,11 +3,9 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -73,14 +71,6 @@ std::optional<std::vector<std::uint8_t>> goals_met_by(const std::vector<Mission>
   return met;
 }
 
-/// The path by which a script in the folder names the catalog. Empty if it has none.
-std::string path_from(const std::string& folder, const std::string& catalog) {
-  if (catalog == "-") return {};
-  std::error_code error;
-  const std::filesystem::path path = std::filesystem::proximate(catalog, folder, error);
-  return error ? std::string{} : path.generic_string();
-}
-
 /// Finds the scripts, and shows the progress.
 MissingMissions find_tests(const VerifyOptions& options, const VerifyQuestions& questions,
                            const std::vector<Goal>& goals, const std::vector<std::uint8_t>& met,
@@ -88,8 +78,7 @@ MissingMissions find_tests(const VerifyOptions& options, const VerifyQuestions& 
   const CompiledCatalog& catalog = *questions.catalog;
   Progress progress("exploring", catalog.group_count());
   MissingMissionOptions of_search;
-  of_search.catalog =
-      path_from(*options.write_tests, questions.named_catalog.value_or(options.paths.front()));
+  of_search.catalog = catalog_from(*options.write_tests, options, questions);
   if (options.max_states > 0) of_search.exploration.max_states = options.max_states;
   std::optional<std::uint32_t> begun;
   of_search.exploration.on_progress = [&](std::uint32_t group, std::uint64_t states) {

@@ -50,4 +50,8 @@ done
 cd build
 bash -c "$(step SHA256SUMS)"
 (($(wc -l <SHA256SUMS) == 2)) || fail "SHA256SUMS: $(<SHA256SUMS)"
+# Users have all files in one folder.
+mkdir download
+cp -- *.deb cbc-*-linux-* SHA256SUMS download
+(cd download && sha256sum --check --quiet SHA256SUMS) || fail "SHA256SUMS is not for the files of a release"
 echo "check_release.sh: all is well"

@@ -98,7 +98,7 @@ TEST_F(WriteTests, MeetsWhatTheMissionOfTheQuadrotorDoesNot) {
   const std::string shown = result.out.substr(0, result.out.find(" each\n") + 6);
   const std::string page = test::read_file(CBC_SOURCE_DIR "/docs/coverage.md");
   EXPECT_NE(page.find("```text\n" + shown + "```\n"), std::string::npos) << shown;
-  const std::string bound = "no fewer than ";
+  const std::string bound = "; at least ";
   const int least = std::stoi(shown.substr(shown.find(bound) + bound.size()));
   EXPECT_LE(2 * files().size(), 3 * static_cast<std::size_t>(least));
 }
@@ -112,6 +112,24 @@ TEST_F(WriteTests, WritesTheSameAgain) {
   const Result second = write_tests(scratch / "robot.yaml", {"--beside", folder});
   EXPECT_EQ(second.out, with_heading(first.out, " beside no mission"));
   EXPECT_EQ(files(), before);
+}
+
+/// Wherever the folder is made, and whether it was there before.
+TEST_F(WriteTests, NamesTheCatalogByItsPathFromTheFolder) {
+  scratch.write("robot.yaml", robot);
+  for (int time = 0; time < 2; ++time) {
+    EXPECT_EQ(run({{"verify", "robot.yaml", "--write-tests", "tests"}, scratch / ""}).status, 0);
+    for (const auto& [name, text] : files()) {
+      EXPECT_NE(text.find("\ncatalog: \"../robot.yaml\"\n"), std::string::npos) << text;
+    }
+  }
+  scratch.write("start.yaml", "[{start: FOLLOW_PATH}]\n");
+  const Result mutants =
+      run({{"verify", "robot.yaml", "--mutants", "--beside", "start.yaml", "--scripts", "a/more"},
+           scratch / ""});
+  EXPECT_EQ(mutants.status, 0) << mutants.err;
+  const Result all = run({{"solve", "a/more"}, scratch / ""});
+  EXPECT_EQ(all.status, 0) << all.out << all.err;
 }
 
 TEST_F(WriteTests, RemovesScriptsThatAreNotNeededAnyMore) {
@@ -253,7 +271,7 @@ TEST_F(WriteTests, SaysWhatALimitLeavesOpen) {
   const Result result = write_tests("catalogs/quadrotor.yaml", {"--max-states", "10"});
   EXPECT_EQ(result.status, 1);
   EXPECT_NE(result.out.find("a limit ended the exploration"), std::string::npos) << result.out;
-  EXPECT_EQ(result.out.find("no fewer than"), std::string::npos);
+  EXPECT_EQ(result.out.find("are needed"), std::string::npos);
   for (const auto& [name, text] : files()) {
     EXPECT_EQ(cbc({"solve", "catalogs/quadrotor.yaml", folder + "/" + name}).status, 0) << name;
   }

@@ -229,7 +229,7 @@ tasks:
 - {task: LOCALIZE, start_on_request: false, timeout: 10}
 )";
   EXPECT_EQ(reasons(text).at("task DRIVE ran into its timeout"),
-            "task LOCALIZE always runs into its timeout of 10 s before");
+            "the timeout of task LOCALIZE (10 s) always comes first");
   EXPECT_EQ(reasons(text).count("task LOCALIZE ran into its timeout"), 0U);
   const auto quiet = [](const CompiledCatalog&, Assumptions& assumptions) {
     assumptions.failures = false;
@@ -244,7 +244,7 @@ tasks:
   };
   EXPECT_EQ(reasons(replaced("timeout: 20", "timeout: 10")),
             (Reasons{{"task LOCALIZE ran into its timeout",
-                      "task DRIVE always runs into its timeout of 10 s before"}}));
+                      "the timeout of task DRIVE (10 s) always comes first"}}));
   const std::string turned = R"(
 behaviors:
 - {behavior: GPS, task: LOCALIZE}
@@ -254,7 +254,7 @@ tasks:
 - {task: DRIVE, timeout: 10}
 )";
   EXPECT_EQ(reasons(turned).at("task DRIVE ran into its timeout"),
-            "task LOCALIZE always runs into its timeout of 10 s before");
+            "the timeout of task LOCALIZE (10 s) always comes first");
   EXPECT_EQ(reasons(replaced("timeout: 20", "timeout: 9")).count("task DRIVE ran into its timeout"),
             0U);
   // Another behavior takes over, and DRIVE goes on.

@@ -183,7 +183,11 @@ class ReasonFinder {
                            behavior_name(behavior));
       }
     }
-    return fmt::format("the tasks of {} never run with another behavior", behavior_name(behavior));
+    const auto values = catalog_.performs[behavior];
+    return values.size() == 1 ? fmt::format("task {} never runs with another behavior",
+                                            task_name(catalog_.task_of(values.front())))
+                              : fmt::format("the tasks of {} never run with other behaviors",
+                                            behavior_name(behavior));
   }
 
   [[nodiscard]] std::string why_never_decided(const Goal& goal, bool was_asked) const {
@@ -208,6 +212,11 @@ class ReasonFinder {
     }
     if (goal.behavior == none) {
       return fmt::format("even without it no event would run {} below it", task);
+    }
+    if (!was_active(goal.behavior)) {
+      return fmt::format("even without {}, {} would never be active",
+                         goal.kind == Goal::Kind::requirement_decided ? "that" : "it",
+                         behavior_name(goal.behavior));
     }
     return fmt::format("even without {}, wherever {} is active, {} would {}",
                        goal.kind == Goal::Kind::requirement_decided ? "that" : "it",
@@ -237,7 +246,7 @@ class ReasonFinder {
     const TaskId task = catalog_.task_of(first);
     const BehaviorId behavior = catalog_.values.items[first].behavior;
     const bool is_own = catalog_.behaviors[behavior].timeout > 0;
-    return fmt::format("{} always runs into its timeout of {} s before",
+    return fmt::format("the timeout of {} ({} s) always comes first",
                        is_own ? behavior_name(behavior) : "task " + task_name(task),
                        format_decimal(timeout_of(catalog_, task, behavior), 6));
   }

@@ -55,7 +55,7 @@ std::string written_tests_to_text(const WrittenTests& tests) {
     text += fmt::format("\n{} with {}", quantity(missing.missions.size(), "test"),
                         quantity(events, "event"));
     if (missing.lower_bound) {
-      text += fmt::format("; no fewer than {} can do, with at most {} each", *missing.lower_bound,
+      text += fmt::format("; at least {} are needed, with at most {} each", *missing.lower_bound,
                           quantity(missing.most_events, "event"));
     }
     text += "\n";

@@ -219,7 +219,10 @@ std::string TextReport::describe_briefly(const EventRecord& record) const {
     }
   }
   for (const Change& change : record.changes) {
-    if (change.cause == ChangeCause::undone) continue;
+    // Of a rejected event all changes are undone.
+    const bool is_undone =
+        change.cause == ChangeCause::undone || record.outcome == Outcome::rejected;
+    if (is_undone && change.success) continue;
     const std::string_view color =
         change.is_activation && change.success ? style_.good : style_.bad;
     text += fmt::format("  {}{}{}{}{}", color, change.is_activation ? '+' : '-',

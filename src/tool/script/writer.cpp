@@ -12,14 +12,13 @@
 
 namespace cbc {
 
-namespace {
-
-/// Names are quoted as in JSON, so that none is taken for another type.
 std::string in_quotes(std::string_view text) {
   std::string json;
   append_text(json, text);
   return json;
 }
+
+namespace {
 
 std::string describe(const CompiledCatalog& catalog, const Situation& situation) {
   std::string text;

@@ -2,11 +2,15 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "compiled/compiled_catalog.h"
 #include "script/script.h"
 
 namespace cbc {
+
+/// A name or a path in a script: quoted as in JSON, so that it is not taken for another type.
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// A script as text for `cbc solve`, below the lines of `comment`. `comments`: by step, lines to
 /// write before it; it may be empty.
