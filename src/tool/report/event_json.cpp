@@ -58,7 +58,9 @@ namespace {
 /// A set of reasons, as a member. `tasks`: those in question.
 void write_conflict(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
                     std::span<const Reason> reasons, std::span<const TaskId> tasks) {
-  json.write_list("conflict", order_reasons(catalog, reasons, tasks),
+  std::vector<TaskId> roots(tasks.begin(), tasks.end());
+  if (record.task != none) roots.push_back(record.task);
+  json.write_list("conflict", order_reasons(catalog, reasons, roots),
                   [&](const Reason* reason) { write_reason(json, catalog, record, *reason); });
 }
 
@@ -253,7 +255,7 @@ class EventText {
     write_running(json_, catalog_, state_);
     write_objective();
     write_search();
-    write_conflict(json_, catalog_, record_, record_.conflict, std::span(&record_.task, 1));
+    write_conflict(json_, catalog_, record_, record_.conflict, {});
     if (adds.why) {
       json_.write_list("why", record_.explanation.why,
                        [&](const Why& why) { write_why(json_, catalog_, record_, why, state_); });
@@ -381,7 +383,7 @@ void write_surprise(JsonWriter& json, const CompiledCatalog& catalog, const Surp
     const bool is_rejected = look_back.kind == LookBack::Kind::rejected;
     const EventRecord nothing{};
     const EventRecord& event = is_rejected ? *look_back.event : nothing;
-    write_conflict(json, catalog, event, event.conflict, std::span(&event.task, 1));
+    write_conflict(json, catalog, event, event.conflict, {});
   }
   const std::vector<std::string> notes = notes_of(catalog, surprise, state);
   if (!notes.empty()) json.write_list("notes", notes);

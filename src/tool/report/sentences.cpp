@@ -557,7 +557,9 @@ std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const 
   }
   constexpr std::size_t deepest = 8;  // deeper chains would leave no room for words
   std::vector<std::string> lines;
-  for (const Told& sentence : Chain(catalog, std::move(sentences)).take(tasks)) {
+  std::vector<TaskId> roots(tasks.begin(), tasks.end());
+  if (record.task != none) roots.push_back(record.task);  // the event says that it runs, or not
+  for (const Told& sentence : Chain(catalog, std::move(sentences)).take(roots)) {
     lines.push_back(std::string(2 * std::min(sentence.depth, deepest), ' ') + sentence.text);
   }
   if (has_several) lines.push_back(describe_missing_requests(catalog, on_request));
