@@ -346,7 +346,8 @@ InputFiles::CheckedFile InputFiles::check_catalog(const std::string& path,
 InputFiles::CheckedFile InputFiles::check_by_rules(const std::string& path,
                                                    const yaml::Document& document, Purpose purpose,
                                                    const SeveritySettings& settings) {
-  if (purpose == Purpose::drawing || (purpose == Purpose::use && !settings.add_failures())) {
+  if (purpose == Purpose::drawing ||
+      (purpose == Purpose::use && (!keeps_findings_ || !settings.add_failures()))) {
     Diagnostics diagnostics;
     CatalogReading reading = understand_catalog(document, diagnostics);
     return {std::move(reading), take_findings(path, document, std::move(diagnostics), false)};
@@ -385,13 +386,14 @@ bool InputFiles::check_settings(const SeveritySettings& settings, const Catalog&
   return false;
 }
 
-/// Returns whether there are no errors.
+/// Returns whether there are no errors. Warnings that are dropped are none, however strict the
+/// settings.
 bool InputFiles::keep(std::vector<Diagnostic> findings, const SeveritySettings& settings) {
   bool has_errors = false;
   for (Diagnostic& finding : findings) {
-    if (settings.is_failure(finding.severity)) {
-      const bool is_warning = finding.severity != Severity::error;
-      if (is_warning && keeps_findings_) ++strict_[settings.strict_file()];
+    const bool is_warning = finding.severity != Severity::error;
+    if (!is_warning || (keeps_findings_ && settings.is_failure(finding.severity))) {
+      if (is_warning) ++strict_[settings.strict_file()];
       finding.severity = Severity::error;
       has_errors = true;
     }

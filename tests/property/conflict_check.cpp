@@ -516,7 +516,8 @@ class Checker {
     }
   }
 
-  // All reasons that there may be in the group, in this state.
+  // All reasons that there may be in the group, in this state, and the faults of behaviors that the
+  // event has not tried.
   std::vector<Reason> all_reasons(const Rejection& rejection) const {
     std::vector<Reason> all;
     const auto add = [&all](Kind kind, std::size_t task, std::size_t behavior = none,
@@ -552,8 +553,10 @@ class Checker {
           add(Kind::performance, requirement.task, behavior, requirement.minimum);
         }
       }
-      if (has_failed(rejection, behavior, Failed::before_rejection))
+      if (has_failed(rejection, behavior, Failed::before_rejection) ||
+          (before.faulty[behavior] && !contains(before.values, behavior))) {
         add(Kind::faulty, none, behavior);
+      }
       if (!before.own[behavior]) add(Kind::unavailable, none, behavior);
       if (!facts_.fits(behavior, before.variables)) add(Kind::situation, none, behavior);
     }

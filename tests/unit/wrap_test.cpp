@@ -28,6 +28,17 @@ TEST(WrapLine, DoesNotBreakWords) {
   EXPECT_EQ(wrap_line("    " + word, 30, 2), "    " + word) << "no line for blanks alone";
 }
 
+TEST(WrapLine, KeepsNumbersAndUnitsTogether) {
+  EXPECT_EQ(wrap_line("requires MOVE with at least 60 %, but", 30, 2),
+            "requires MOVE with at least\n  60 %, but");
+  EXPECT_EQ(wrap_line("(DRIVE_PLANNED 95 %, SONAR 60 %)", 30, 2),
+            "(DRIVE_PLANNED 95 %, SONAR\n  60 %)");
+  EXPECT_EQ(wrap_line("it is due to start by itself at 10.5 s", 36, 2),
+            "it is due to start by itself at\n  10.5 s");
+  EXPECT_EQ(wrap_line("TARGET is seen at place 10 south of it", 28, 2),
+            "TARGET is seen at place 10\n  south of it");
+}
+
 TEST(WrapLine, DoesNotCountColors) {
   const std::string painted = "\x1b[31mone\x1b[0m two three four five six";
   EXPECT_EQ(wrap_line(painted, 27, 2), painted);

@@ -41,7 +41,7 @@ class Candidates {
         failed_(circumstances.failed),
         relevant_(catalog, trigger_.group) {}
 
-  std::vector<Reason> collect(std::span<const Demands> ways) && {
+  std::vector<Reason> collect(std::span<const Demands> ways) {
     find_relevant_tasks(ways);
     for (const TaskId task : relevant_.tasks()) {
       add_exclusions(catalog_, task, relevant_, most_candidates + 1, reasons_);
@@ -55,7 +55,24 @@ class Candidates {
     return std::move(reasons_);
   }
 
+  /// Faults that are known, but no reasons: the event has not tried these behaviors. To be called
+  /// after collect().
+  [[nodiscard]] std::vector<Reason> untried_faults() const {
+    std::vector<Reason> faults;
+    for (const BehaviorId behavior : relevant_.behaviors()) {
+      if (!state_.is_faulty(behavior) || has_failed(behavior) || was_active(behavior)) continue;
+      Reason& fault = faults.emplace_back();
+      fault.kind = Reason::Kind::faulty;
+      fault.behavior = behavior;
+    }
+    return faults;
+  }
+
  private:
+  [[nodiscard]] bool has_failed(BehaviorId behavior) const {
+    return std::find(failed_.begin(), failed_.end(), behavior) != failed_.end();
+  }
+
   [[nodiscard]] bool is_protected(TaskId task) const {
     return task != trigger_.task && !has_finished(state_, trigger_, task) &&
            cbc::is_protected(state_, trigger_, task, protection_);
@@ -100,13 +117,13 @@ class Candidates {
   void add_condition(BehaviorId behavior) {
     Reason reason;
     reason.behavior = behavior;
-    if (std::find(failed_.begin(), failed_.end(), behavior) != failed_.end()) {
+    if (has_failed(behavior)) {
       // The behavior of a finish event is in this list from the start if it finished by a failure;
       // otherwise it was chosen again, for another task, and its activation failed.
-      const bool has_failed = trigger_.cause != FinishCause::goal_achieved &&
-                              trigger_.cause != FinishCause::situation_change;
-      reason.kind = behavior == trigger_.behavior && has_failed ? Reason::Kind::finished
-                                                                : Reason::Kind::faulty;
+      const bool ended_by_failure = trigger_.cause != FinishCause::goal_achieved &&
+                                    trigger_.cause != FinishCause::situation_change;
+      reason.kind = behavior == trigger_.behavior && ended_by_failure ? Reason::Kind::finished
+                                                                      : Reason::Kind::faulty;
       reasons_.push_back(reason);
     } else if (!state_.is_available(behavior)) {
       // An active behavior that does not fit may not be kept, unlike one that is unavailable.
@@ -253,7 +270,8 @@ std::optional<std::vector<ValueId>> find_best(const CompiledCatalog& catalog,
 }
 
 /// Tells of each minimum performance of a conflict set how near to it one can come: where all else
-/// holds, or, if something else leaves no solution either, with the behaviors that can be chosen.
+/// holds, also the faults that are known but were not tried, or, if something else leaves no
+/// solution either, with the behaviors that can be chosen.
 void add_best(const CompiledCatalog& catalog, ConflictSearches& searches,
               std::span<const Reason> candidates, std::vector<Reason>& conflict_set) {
   const std::vector<Reason> plain = conflict_set;
@@ -308,7 +326,8 @@ std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
                                                 const Circumstances& circumstances,
                                                 std::span<const Demands> ways) {
   const Trigger& trigger = circumstances.trigger;
-  const std::vector<Reason> candidates = Candidates(catalog, circumstances).collect(ways);
+  Candidates collector(catalog, circumstances);
+  std::vector<Reason> candidates = collector.collect(ways);
   if (candidates.size() > most_candidates) return std::nullopt;
 
   const std::vector<std::uint32_t> present = present_values(catalog, circumstances);
@@ -326,6 +345,8 @@ std::optional<std::vector<Reason>> find_reasons(const CompiledCatalog& catalog,
   std::vector<Reason> reasons = minimal_conflict_set(
       used, [&all](std::span<const Reason> some) { return all.has_solution(some); });
   if (all.is_exhausted()) return std::nullopt;
+  const std::vector<Reason> faults = collector.untried_faults();
+  candidates.insert(candidates.end(), faults.begin(), faults.end());
   add_best(catalog, all, candidates, reasons);
   return reasons;
 }

@@ -55,10 +55,12 @@ void write_reason(JsonWriter& json, const CompiledCatalog& catalog, const EventR
 
 namespace {
 
-/// A set of reasons, as a member.
+/// A set of reasons, as a member. `tasks`: those in question.
 void write_conflict(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
-                    std::span<const Reason> reasons) {
-  json.write_list("conflict", order_reasons(catalog, record, reasons),
+                    std::span<const Reason> reasons, std::span<const TaskId> tasks) {
+  std::vector<TaskId> roots(tasks.begin(), tasks.end());
+  if (record.task != none) roots.push_back(record.task);
+  json.write_list("conflict", order_reasons(catalog, reasons, roots),
                   [&](const Reason* reason) { write_reason(json, catalog, record, *reason); });
 }
 
@@ -206,7 +208,7 @@ void write_why(JsonWriter& json, const CompiledCatalog& catalog, const EventReco
   }
   if (why.due) json.write_seconds("due", *why.due);
   write_why_not(json, catalog, record, why_not, state);
-  write_conflict(json, catalog, record, why_not.conflict);
+  write_conflict(json, catalog, record, why_not.conflict, tasks_of(catalog, why));
   json.write("message", message_of(describe_why(catalog, record, why, state)));
   json.close('}');
 }
@@ -253,7 +255,7 @@ class EventText {
     write_running(json_, catalog_, state_);
     write_objective();
     write_search();
-    write_conflict(json_, catalog_, record_, record_.conflict);
+    write_conflict(json_, catalog_, record_, record_.conflict, {});
     if (adds.why) {
       json_.write_list("why", record_.explanation.why,
                        [&](const Why& why) { write_why(json_, catalog_, record_, why, state_); });
@@ -374,13 +376,14 @@ void write_surprise(JsonWriter& json, const CompiledCatalog& catalog, const Surp
   if (look_back.kind == LookBack::Kind::due) json.write_seconds("due", look_back.due);
   if (look_back.kind == LookBack::Kind::decided) {
     write_why_not(json, catalog, *look_back.event, look_back.why_not, *look_back.before);
-    write_conflict(json, catalog, *look_back.event, look_back.why_not.conflict);
+    write_conflict(json, catalog, *look_back.event, look_back.why_not.conflict, surprise.tasks);
   } else {
     json.write_members({{"limit_reached", false}, {"alternative", nullptr}, {"loses", nullptr}});
     json.write_list("differences", std::span<const TaskId>(), [](TaskId) {});
     const bool is_rejected = look_back.kind == LookBack::Kind::rejected;
-    write_conflict(json, catalog, is_rejected ? *look_back.event : EventRecord(),
-                   is_rejected ? look_back.event->conflict : std::vector<Reason>());
+    const EventRecord nothing{};
+    const EventRecord& event = is_rejected ? *look_back.event : nothing;
+    write_conflict(json, catalog, event, event.conflict, {});
   }
   const std::vector<std::string> notes = notes_of(catalog, surprise, state);
   if (!notes.empty()) json.write_list("notes", notes);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "explain/reasons.h"
 #include "support/wording.h"
 
 namespace cbc {
@@ -78,7 +79,7 @@ Sentences describe_decided(const CompiledCatalog& catalog, const Surprise& surpr
     return text;
   }
   if (!why_not.alternative) {
-    text.more = describe_reasons(catalog, event, why_not.conflict);
+    text.more = describe_reasons(catalog, event, why_not.conflict, surprise.tasks);
     text.first = fmt::format("decided at {}: no answer meets the expectation{}",
                              describe_place(catalog, event),
                              text.more.empty() ? ", since the event leaves no other choice" : ":");
@@ -156,6 +157,27 @@ void add_lines(const Sentences& sentences, std::vector<std::string>& lines) {
   for (const std::string& sentence : sentences.more) lines.push_back("  " + sentence);
 }
 
+std::vector<std::string_view> sorted_reasons(const Sentences& sentences) {
+  std::vector<std::string_view> reasons;
+  for (const std::string& line : sentences.more) reasons.push_back(without_indentation(line));
+  std::sort(reasons.begin(), reasons.end());
+  return reasons;
+}
+
+/// Adds an explanation; if another one has the same reasons, without these.
+void add_once(Sentences sentences, std::vector<Sentences>& all) {
+  const std::vector<std::string_view> reasons = sorted_reasons(sentences);
+  const bool is_known = std::any_of(all.begin(), all.end(), [&reasons](const Sentences& other) {
+    return sorted_reasons(other) == reasons;
+  });
+  if (!reasons.empty() && is_known) {
+    sentences.first.back() = ',';
+    sentences.first += reasons.size() == 1 ? " for the same reason" : " for the same reasons";
+    sentences.more.clear();
+  }
+  all.push_back(std::move(sentences));
+}
+
 /// The event whose rejection explains why tasks are not as expected, or 0.
 std::uint64_t rejection_of(const LookBack& look_back) {
   return look_back.kind == LookBack::Kind::rejected ? look_back.event->index : 0;
@@ -197,10 +219,19 @@ std::vector<std::string> notes_of(const CompiledCatalog& catalog, const Surprise
   return notes;
 }
 
+namespace {
+
+void add_notes(const CompiledCatalog& catalog, const Surprise& surprise, const State& state,
+               Sentences& text) {
+  for (std::string& note : notes_of(catalog, surprise, state)) text.more.push_back(std::move(note));
+}
+
+}  // namespace
+
 Sentences describe_surprise(const CompiledCatalog& catalog, const Surprise& surprise,
                             const State& state) {
   Sentences text = describe_look_back(catalog, surprise);
-  for (std::string& note : notes_of(catalog, surprise, state)) text.more.push_back(std::move(note));
+  add_notes(catalog, surprise, state, text);
   return text;
 }
 
@@ -224,6 +255,8 @@ void FailureStory::add(const EventRecord& record, const Step* step, const State&
   if (record.outcome != Outcome::rejected) return;
   rejected_ = describe(record, step);
   rejected_index_ = record.index;
+  rejected_task_ = record.task;
+  is_start_rejected_ = record.verb == Verb::start;
   reasons_ = describe_rejection(*catalog_, record);
 }
 
@@ -244,13 +277,13 @@ void FailureStory::note_waits(const EventRecord& record, const State& state) {
   if (!state.is_waiting(record.task)) return;
   waits_[record.task] = {
       record.index,
-      {fmt::format("{} waits since event {} at {} s, which was rejected:",
+      {fmt::format("{} has waited since event {} at {} s, a start that was rejected:",
                    task_name(*catalog_, record.task), record.index, format_time(record.time)),
        describe_rejection(*catalog_, record)}};
 }
 
 std::vector<std::string> FailureStory::tell(const Expectation& failed) const {
-  std::vector<std::string> lines = tell_events(0);
+  std::vector<std::string> lines = tell_events(true);
   std::vector<Sentences> more;
   for (const Expectation::Running& expected : failed.running) {
     const TaskId task = catalog_->task_ids[expected.task];
@@ -262,12 +295,7 @@ std::vector<std::string> FailureStory::tell(const Expectation& failed) const {
 }
 
 std::vector<std::string> FailureStory::tell(const Failure& failure) const {
-  std::uint64_t told = 0;
-  for (const Surprise& surprise : failure.surprises) {
-    const std::uint64_t rejection = rejection_of(surprise.look_back);
-    if (rejection != 0 && rejection == rejected_index_) told = rejection;
-  }
-  std::vector<std::string> lines = tell_events(told);
+  std::vector<std::string> lines = tell_events(is_rejection_of_interest(failure));
   for (const Sentences& sentences : explain(failure)) add_lines(sentences, lines);
   return lines;
 }
@@ -303,24 +331,47 @@ std::vector<Sentences> FailureStory::explain(const Failure& failure) const {
         })) {
       continue;
     }
-    lines.push_back(describe_surprise(*catalog_, surprise, *failure.state));
+    add_once(describe_look_back(*catalog_, surprise), lines);
+    add_notes(*catalog_, surprise, *failure.state, lines.back());
   }
   return lines;
 }
 
-std::vector<std::string> FailureStory::tell_events(std::uint64_t told) const {
+bool FailureStory::is_rejection_of_interest(const Failure& failure) const {
+  if (rejected_.empty()) return false;
+  for (const Surprise& surprise : failure.surprises) {
+    // Told with the tasks.
+    if (rejection_of(surprise.look_back) == rejected_index_) return false;
+  }
+  const Expectation& expected = *failure.step->expect;
+  if (expected.outcome || failure.surprises.empty()) return true;
+  // A rejected start does not explain why something runs, nor a rejected stop why it does not.
+  RelevantTasks relevant(*catalog_, catalog_->tasks[rejected_task_].group);
+  relevant.add(rejected_task_);
+  relevant.close();
+  return std::any_of(
+      failure.surprises.begin(), failure.surprises.end(), [&](const Surprise& surprise) {
+        return surprise.group == catalog_->tasks[rejected_task_].group &&
+               std::any_of(surprise.tasks.begin(), surprise.tasks.end(), [&](TaskId task) {
+                 return relevant.contains(task) &&
+                        failure.state->is_running(task) != is_start_rejected_;
+               });
+      });
+}
+
+std::vector<std::string> FailureStory::tell_events(bool tells_rejection) const {
   if (last_ == nullptr) return {"before the first event"};
   const std::string last = describe(*last_, last_step_);
   std::vector<std::string> lines{"after " + last};
-  if (rejected_.empty() || (told != 0 && told == rejected_index_)) return lines;
+  if (!tells_rejection || rejected_.empty()) return lines;
   if (rejected_ != last) lines.push_back("and after " + rejected_);
-  for (const std::string& reason : reasons_) lines.push_back("rejected: " + reason);
+  add_lines({"rejected:", reasons_}, lines);
   return lines;
 }
 
 void FailureStory::tell_wait(TaskId task, std::vector<Sentences>& lines) const {
   const auto wait = waits_.find(task);
-  if (wait != waits_.end()) lines.push_back(wait->second.why);
+  if (wait != waits_.end()) add_once(wait->second.why, lines);
 }
 
 bool FailureStory::tell_stop(TaskId task, std::uint64_t told, std::vector<Sentences>& lines) const {
@@ -330,7 +381,7 @@ bool FailureStory::tell_stop(TaskId task, std::uint64_t told, std::vector<Senten
   if (stop.event != last_->index) {
     lines.push_back({task_name(*catalog_, task) + " stopped with " + stop.what, {}});
   }
-  if (stop.why) lines.push_back(*stop.why);
+  if (stop.why) add_once(*stop.why, lines);
   return true;
 }
 

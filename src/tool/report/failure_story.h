@@ -61,8 +61,9 @@ class FailureStory {
 
   void note_stops(const EventRecord& record, const Step* step, const State& state);
   void note_waits(const EventRecord& record, const State& state);
-  /// `told`: the event of a rejection whose reasons are told elsewhere, or 0.
-  [[nodiscard]] std::vector<std::string> tell_events(std::uint64_t told) const;
+  /// Whether the last rejection may be why an expectation fails.
+  [[nodiscard]] bool is_rejection_of_interest(const Failure& failure) const;
+  [[nodiscard]] std::vector<std::string> tell_events(bool tells_rejection) const;
   void tell_wait(TaskId task, std::vector<Sentences>& lines) const;
   /// `told`: the event whose reasons are told elsewhere, or 0. False if there is no stop to tell.
   bool tell_stop(TaskId task, std::uint64_t told, std::vector<Sentences>& lines) const;
@@ -73,6 +74,8 @@ class FailureStory {
   const Step* last_step_ = nullptr;
   std::string rejected_;  ///< the last scripted start, stop or finish, if it was rejected
   std::uint64_t rejected_index_ = 0;
+  TaskId rejected_task_ = none;
+  bool is_start_rejected_ = false;  ///< or a stop
   std::vector<std::string> reasons_;
   std::map<TaskId, Stop> stops_;
   struct Wait {

@@ -234,6 +234,9 @@ std::string describe_late_fault(const CompiledCatalog& catalog, BehaviorId behav
 
 std::string describe_note(const CompiledCatalog& catalog, const EventRecord& record,
                           const State& state) {
+  if (record.verb == Verb::stop && record.outcome == Outcome::unchanged) {
+    return task_name(catalog, record.task) + " does not run";
+  }
   const BehaviorId behavior = record.behavior;
   if (behavior == none) return {};
   const std::string name = behavior_name(catalog, behavior);
@@ -316,10 +319,14 @@ std::string describe_protection(const EventRecord& record, const Reason& reason)
     return "runs on request, and a reactive start never stops such a task";
   }
   const std::int32_t level = record.search != nullptr ? record.search->protection : record.priority;
-  if (level == 0 && record.verb != Verb::start && record.verb != Verb::stop) {
-    return fmt::format("runs with priority {}, and this event has none", reason.priority);
+  if (record.verb == Verb::start || record.verb == Verb::stop) {
+    return fmt::format("runs with priority {}, higher than {}", reason.priority, level);
   }
-  return fmt::format("runs with priority {}, higher than {}", reason.priority, level);
+  // A finish has no priority of its own: see docs/semantics.md, "Finish".
+  if (level == 0)
+    return fmt::format("runs with priority {}, and goes on if it can", reason.priority);
+  return fmt::format("runs with priority {}, and goes on before tasks of priority {} do",
+                     reason.priority, level);
 }
 
 /// How a behavior ended that this event therefore does not choose.
@@ -419,17 +426,15 @@ class Chain {
   Chain(const CompiledCatalog& catalog, std::vector<Told> reasons)
       : catalog_(catalog), reasons_(std::move(reasons)) {}
 
-  /// `root`: the task that all is about, or none.
-  std::vector<Told> take(TaskId root) && {
+  /// `roots`: the tasks that all is about.
+  std::vector<Told> take(std::span<const TaskId> roots) && {
     for (const Told& told : reasons_) {
       if (told.reason->kind == Reason::Kind::is_protected || leads_on(*told.reason)) {
         reachable_.insert(told.reason->task);
       }
     }
-    if (root != none) {
-      reachable_.insert(root);
-      tell_about(root, 0);
-    }
+    reachable_.insert(roots.begin(), roots.end());
+    for (const TaskId root : roots) tell_about(root, 0);
     for (const bool is_first : {true, false}) {
       for (Told& told : reasons_) {
         const bool is_beginning = told.reason->kind == Reason::Kind::is_protected;
@@ -498,7 +503,8 @@ class Chain {
 }  // namespace
 
 std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const EventRecord& record,
-                                          std::span<const Reason> reasons, TaskId it) {
+                                          std::span<const Reason> reasons,
+                                          std::span<const TaskId> tasks, TaskId it) {
   std::vector<Told> sentences;
   std::vector<TaskId> told;  // protected tasks that another sentence mentions already
   const auto protection_of = [&](TaskId task) -> const Reason* {
@@ -551,16 +557,18 @@ std::vector<std::string> describe_reasons(const CompiledCatalog& catalog, const 
   }
   constexpr std::size_t deepest = 8;  // deeper chains would leave no room for words
   std::vector<std::string> lines;
-  for (const Told& sentence :
-       Chain(catalog, std::move(sentences)).take(it != none ? it : record.task)) {
+  std::vector<TaskId> roots(tasks.begin(), tasks.end());
+  if (record.task != none) roots.push_back(record.task);  // the event says that it runs, or not
+  for (const Told& sentence : Chain(catalog, std::move(sentences)).take(roots)) {
     lines.push_back(std::string(2 * std::min(sentence.depth, deepest), ' ') + sentence.text);
   }
   if (has_several) lines.push_back(describe_missing_requests(catalog, on_request));
   return lines;
 }
 
-std::vector<const Reason*> order_reasons(const CompiledCatalog& catalog, const EventRecord& record,
-                                         std::span<const Reason> reasons) {
+std::vector<const Reason*> order_reasons(const CompiledCatalog& catalog,
+                                         std::span<const Reason> reasons,
+                                         std::span<const TaskId> tasks) {
   // That the event stops its tasks comes last.
   const bool is_event_last = !reasons.empty() && (reasons.back().kind == Reason::Kind::stopped ||
                                                   reasons.back().kind == Reason::Kind::finished);
@@ -569,7 +577,7 @@ std::vector<const Reason*> order_reasons(const CompiledCatalog& catalog, const E
     all.push_back({{}, &reason});
   }
   std::vector<const Reason*> ordered;
-  for (const Told& told : Chain(catalog, std::move(all)).take(record.task)) {
+  for (const Told& told : Chain(catalog, std::move(all)).take(tasks)) {
     ordered.push_back(told.reason);
   }
   if (is_event_last) ordered.push_back(&reasons.back());
@@ -581,7 +589,8 @@ std::vector<std::string> describe_rejection(const CompiledCatalog& catalog,
   if (record.search != nullptr && record.search->result.status == SearchStatus::unknown) {
     return {"a search limit was reached before the first solution"};
   }
-  std::vector<std::string> sentences = describe_reasons(catalog, record, record.conflict);
+  std::vector<std::string> sentences =
+      describe_reasons(catalog, record, record.conflict, std::span(&record.task, 1));
   if (sentences.empty()) {
     sentences.emplace_back(
         "no consistent set of behaviors; finding the reasons would have taken too long");
@@ -667,7 +676,7 @@ std::string describe_loss(const CompiledCatalog& catalog, const EventRecord& rec
 /// `condition`: what would differ in the alternative ("if it ran").
 Sentences describe(const CompiledCatalog& catalog, const EventRecord& record,
                    const std::string& subject, const std::string& condition, const WhyNot& why_not,
-                   TaskId it, const State& state) {
+                   std::span<const TaskId> tasks, TaskId it, const State& state) {
   if (why_not.is_cut) {
     return {subject + ": a search limit was reached before the reason was found", {}};
   }
@@ -676,7 +685,7 @@ Sentences describe(const CompiledCatalog& catalog, const EventRecord& record,
                         describe_loss(catalog, record, why_not, state)),
             {}};
   }
-  std::vector<std::string> reasons = describe_reasons(catalog, record, why_not.conflict, it);
+  std::vector<std::string> reasons = describe_reasons(catalog, record, why_not.conflict, tasks, it);
   if (reasons.empty()) return {subject + ": the event leaves no other choice", {}};
   if (reasons.size() == 1) return {fmt::format("{}: {}", subject, reasons.front()), {}};
   return {subject + ":", std::move(reasons)};
@@ -687,7 +696,17 @@ Sentences describe(const CompiledCatalog& catalog, const EventRecord& record,
 Sentences describe_displacement(const CompiledCatalog& catalog, const EventRecord& record,
                                 const Displacement& displaced, const State& state) {
   return describe(catalog, record, task_name(catalog, displaced.task) + " stops", "if it ran",
-                  displaced.why_not, displaced.task, state);
+                  displaced.why_not, std::span(&displaced.task, 1), displaced.task, state);
+}
+
+std::vector<TaskId> tasks_of(const CompiledCatalog& catalog, const Why& why) {
+  if (why.queued_task != none) return {why.queued_task};
+  if (why.behavior == none) return {why.task};
+  std::vector<TaskId> tasks;
+  for (const ValueId value : catalog.performs[why.behavior]) {
+    tasks.push_back(catalog.task_of(value));
+  }
+  return tasks;
 }
 
 namespace {
@@ -704,7 +723,7 @@ Sentences describe_due(const CompiledCatalog& catalog, const EventRecord& record
     return {fmt::format("{} starts by itself at {} s", subject, time), {}};
   }
   return {fmt::format("{} tries to start at {} s, but", subject, time),
-          describe_reasons(catalog, record, why.why_not.conflict, none)};
+          describe_reasons(catalog, record, why.why_not.conflict, tasks_of(catalog, why))};
 }
 
 }  // namespace
@@ -712,11 +731,12 @@ Sentences describe_due(const CompiledCatalog& catalog, const EventRecord& record
 Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record, const Why& why,
                        const State& state) {
   if (why.due) return describe_due(catalog, record, why);
+  const std::vector<TaskId> tasks = tasks_of(catalog, why);
   if (why.behavior != none) {
     return describe(catalog, record,
                     fmt::format("why {} is {}active", behavior_name(catalog, why.behavior),
                                 why.is_active ? "" : "not "),
-                    why.is_active ? "without it" : "with it", why.why_not, none, state);
+                    why.is_active ? "without it" : "with it", why.why_not, tasks, none, state);
   }
   const std::string name = task_name(catalog, why.task);
   std::string condition;
@@ -730,7 +750,7 @@ Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record
       why.chosen == none
           ? fmt::format("why {} does not run", name)
           : fmt::format("why {} has {}", name, printable(catalog.name_of_behavior(why.chosen)));
-  return describe(catalog, record, subject, condition, why.why_not, none, state);
+  return describe(catalog, record, subject, condition, why.why_not, tasks, none, state);
 }
 
 std::string describe_alternative(const CompiledCatalog& catalog, const EventRecord& record,

@@ -55,8 +55,8 @@ namespace cbc {
 /// That a behavior, which is active, became faulty only after it was activated.
 [[nodiscard]] std::string describe_late_fault(const CompiledCatalog& catalog, BehaviorId behavior);
 
-/// What may surprise about an event: a fault of an active behavior, or a finish of an inactive one.
-/// Empty for most. `state`: after the event.
+/// What may surprise about an event: a fault of an active behavior, a finish of an inactive one, or
+/// a stop of a task that does not run. Empty for most. `state`: after the event.
 [[nodiscard]] std::string describe_note(const CompiledCatalog& catalog, const EventRecord& record,
                                         const State& state);
 
@@ -83,17 +83,21 @@ namespace cbc {
 
 /// A set of reasons for people, one sentence in each line. An exclusion and the protection of the
 /// excluding task make one sentence, as do several tasks that nobody requested. What is said of a
-/// required task follows the requirement, indented by two blanks. `it`: the task that the sentences
-/// are about, or none.
+/// required task follows the requirement, indented by two blanks. `tasks`: those in question, with
+/// which the reasons begin. `it`: the task that the sentences call so, or none.
 [[nodiscard]] std::vector<std::string> describe_reasons(const CompiledCatalog& catalog,
                                                         const EventRecord& record,
                                                         std::span<const Reason> reasons,
+                                                        std::span<const TaskId> tasks,
                                                         TaskId it = none);
 
 /// The same order for reasons that are told one by one.
 [[nodiscard]] std::vector<const Reason*> order_reasons(const CompiledCatalog& catalog,
-                                                       const EventRecord& record,
-                                                       std::span<const Reason> reasons);
+                                                       std::span<const Reason> reasons,
+                                                       std::span<const TaskId> tasks);
+
+/// The tasks that an explanation is about: those of the behavior, or the task.
+[[nodiscard]] std::vector<TaskId> tasks_of(const CompiledCatalog& catalog, const Why& why);
 
 /// For places where lines become one text.
 [[nodiscard]] std::string_view without_indentation(std::string_view line);

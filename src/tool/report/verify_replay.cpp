@@ -40,7 +40,8 @@ class ReplayListener final : public RunListener {
     conflict_.clear();
     JsonWriter json(conflict_);
     json.open('[');
-    for (const Reason* reason : order_reasons(catalog_, record, record.conflict)) {
+    for (const Reason* reason :
+         order_reasons(catalog_, record.conflict, std::span(&record.task, 1))) {
       write_reason(json, catalog_, record, *reason);
     }
     json.close(']');

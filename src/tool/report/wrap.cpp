@@ -22,6 +22,24 @@ std::size_t visible_width(std::string_view text) {
   return width;
 }
 
+/// Whether two words must not be torn apart: a number and its unit.
+bool belong_together(std::string_view word, std::string_view next) {
+  if (word.empty() || word.back() < '0' || word.back() > '9') return false;
+  const std::string_view unit = next.substr(0, next.find_first_of(",.;:)"));
+  return unit == "%" || unit == "s";
+}
+
+/// Where the word at `begin` ends, with the unit that follows it.
+std::size_t end_of_word(std::string_view line, std::size_t begin) {
+  const std::size_t end = std::min(line.find(' ', begin), line.size());
+  if (end == line.size()) return end;
+  const std::size_t end_of_next = std::min(line.find(' ', end + 1), line.size());
+  return belong_together(line.substr(begin, end - begin),
+                         line.substr(end + 1, end_of_next - end - 1))
+             ? end_of_next
+             : end;
+}
+
 }  // namespace
 
 std::string wrap_line(std::string_view line, std::size_t columns, std::size_t indent) {
@@ -31,7 +49,7 @@ std::string wrap_line(std::string_view line, std::size_t columns, std::size_t in
   bool has_word = false;  // on the present line
   while (!line.empty()) {
     const std::size_t blanks = std::min(line.find_first_not_of(' '), line.size());
-    const std::size_t end = std::min(line.find(' ', blanks), line.size());
+    const std::size_t end = end_of_word(line, blanks);
     const std::string_view word = line.substr(blanks, end - blanks);
     const std::size_t word_width = visible_width(word);
     if (has_word && width + blanks + word_width > columns) {
