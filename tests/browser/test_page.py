@@ -328,6 +328,35 @@ class Page(PageCase):
         self.assertEqual(self.number(), self.browser.ask("page.run.size"))
         self.assertIn("SONAR_GUARD", self.text("#state-body"))
 
+    def test_violated_properties_are_not_told_as_passed(self):
+        page = OUT / "violated.html"
+        properties = write("violated.properties.yaml", {
+            "catalog": str(ROOT / "catalogs/warehouse.yaml"),
+            "properties": [{"reachable": {"active": ["SONAR_GUARD"]}},
+                           {"never": {"active": ["SONAR_GUARD"]}},
+                           {"always": {"stopped": ["NAVIGATE"]}, "name": "it stays"}]})
+        result = subprocess.run([PROGRAM, "verify", properties, "--html", str(page), "--format", "json"],
+                                cwd=ROOT, stdout=subprocess.PIPE, check=False)
+        self.assertEqual(result.returncode, 1)
+        answers = [one["result"] for one in json.loads(result.stdout)["properties"]]
+        self.assertEqual(answers, ["proved", "violated", "violated"])
+        self.url = page.as_uri()
+        self.browser.load(self.url)
+        self.assertIn("3 properties: 2 violated", self.text("#overview-summary"))
+        cells = "[...document.querySelectorAll('#missions tbody tr')].map((row) => [row.cells[1].textContent," \
+                "getComputedStyle(row.cells[1]).color === getComputedStyle(document.querySelector('.alarm')).color])"
+        self.assertEqual(self.browser.ask(cells), [["\u2713 proved (witness)", False],
+                                                   ["\u00d7 violated", True], ["\u00d7 violated", True]])
+        # It opens at the first violated one, and says what that is.
+        self.assertEqual(self.browser.ask("page.place"), 1)
+        self.assertIn("SONAR_GUARD", self.text("#alarms .alarm"))
+        self.assertEqual(self.browser.ask("document.title[0]"), "\u00d7")
+        self.assertTrue(self.browser.ask("document.title").endswith("cbc verify"))
+        self.choose_run(2)
+        self.assertIn("NAVIGATE", self.text("#alarms .alarm"))  # what it states, not only its name
+        self.choose_run(0)
+        self.assertTrue(self.browser.ask("document.querySelector('#alarms').hidden"))
+
     def test_why_of_events_and_of_failed_expectations(self):
         fast = "<i>FAST</i>"
         catalog = write("why.yaml", {"behaviors": [
