@@ -32,13 +32,21 @@ class Overview {
     const { failed } = run.data.expectations;
     const button = buttonElement(run.data.script.slice(this.folder.length), () => {}); // the row takes the click
     button.title = run.data.script;
+    const count = (value, unit, isBad) => {
+      const cell = html('td', isBad && value > 0 ? 'number failed' : 'number', `${value}`);
+      cell.dataset.unit = unit; // shown where there is no room for a head
+      return cell;
+    };
     const row = html('tr', run.hasFailed ? 'is-failed' : '',
       html('td', '', button),
       html('td', `outcome ${run.hasFailed ? 'rejected' : 'accepted'}`, `${run.hasFailed ? '\u00d7' : '\u2713'} ${verdictOf(run)}`),
-      html('td', 'number', `${run.size}`),
-      html('td', rejected > 0 ? 'number failed' : 'number', `${rejected}`),
-      html('td', failed > 0 ? 'number failed' : 'number', `${failed}`),
+      count(run.size, 'events', false),
+      count(rejected, 'rejected', true),
+      count(failed, 'failed', true),
       html('td', 'strip', outcomeStrip(run)));
+    // A row is no row of a table to a screen reader where the style sheet lays it out by itself.
+    row.setAttribute('role', 'row');
+    for (const cell of row.cells) cell.setAttribute('role', 'cell');
     row.dataset.run = place;
     return row;
   }

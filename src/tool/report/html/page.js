@@ -263,7 +263,9 @@ class Page {
     const event = run.event(number);
     const outcome = isAsked(event) ? ` \u00b7 ${event.outcome}` : '';
     const failed = run.isFailed(number) ? ' \u00b7 failed expectation' : '';
-    this.tell(`Event ${run.indexOf(number)} of ${run.indexOf(run.size)} \u00b7 ${formatTime(event.time)} s \u00b7 ` +
+    // The end of the line is cut off where there is little room.
+    const sign = run.isFailed(number) ? ' !' : isAsked(event) ? ` ${outcomeSigns[event.outcome]}` : '';
+    this.tell(`Event ${run.indexOf(number)} of ${run.indexOf(run.size)}${sign} \u00b7 ${formatTime(event.time)} s \u00b7 ` +
       `${describeEvent(event, run.catalog)}${outcome}${failed}`);
     this.slider.value = number;
     this.slider.setAttribute('aria-valuetext', byId('status').textContent);
