@@ -74,7 +74,7 @@ std::string help_of(const Program& program, const Command& command) {
   }
   for (const Command& subcommand : program.commands()) {
     if (&command != &program.itself()) break;
-    add("Subcommands", entry(subcommand.name(), subcommand.description()));
+    add("Commands", entry(subcommand.name(), subcommand.description()));
   }
   return help + "\n" + wrap_lines(text.footer);
 }

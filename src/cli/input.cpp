@@ -405,8 +405,8 @@ void InputFiles::print_findings() {
                    [](const Diagnostic& a, const Diagnostic& b) { return a.file < b.file; });
   cli::print_findings(findings_, texts_);
   for (const auto& [file, count] : strict_) {
-    complain("{} above {}: 'strict: true' in {} makes warnings errors", quantity(count, "error"),
-             count == 1 ? "is a warning otherwise" : "are warnings otherwise", quote(file));
+    complain("{} above would be {} without 'strict: true' in {}", quantity(count, "error"),
+             count == 1 ? "a warning" : "warnings", quote(file));
   }
 }
 

@@ -111,7 +111,7 @@ def statuses_in_page(verb):
 
 
 def commands_in_help():
-    section = help_of("").partition("\nSubcommands:\n")[2].partition("\n\n")[0]
+    section = help_of("").partition("\nCommands:\n")[2].partition("\n\n")[0]
     return re.findall(r"^  (\S+)", section, re.MULTILINE)
 
 

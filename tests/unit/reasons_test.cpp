@@ -27,8 +27,7 @@ using test::Random;
 class Branch {
  public:
   Branch(const CompiledCatalog& catalog, const Problem& problem)
-      : catalog_(catalog),
-        domains_(catalog),
+      : domains_(catalog),
         trail_(catalog, domains_),
         performance_(catalog, domains_, trail_),
         brute_force_(catalog, problem) {
@@ -155,7 +154,6 @@ class Branch {
                        [&](Literal literal) { return holds(solution, literal); });
   }
 
-  const CompiledCatalog& catalog_;
   Domains domains_;
   ReasonTrail trail_;
   PerformanceReasons performance_;

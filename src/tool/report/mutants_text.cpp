@@ -84,7 +84,7 @@ std::string summary_to_text(const MutantCount& count) {
   if (count.without_script > 0) {
     text += fmt::format(
         "undecided: {} may differ from the catalog, but no mission was found that shows it, as "
-        "times matter\n",
+        "it may take a timeout that comes at the right time\n",
         quantity(count.without_script, "mutant"));
   }
   return text;
