@@ -422,6 +422,8 @@ class Page(PageCase):
             {"start": "ROTATE"}, {"expect": {"stopped": ["ROTATE"]}}]})
         other = write("other-alike.mission.yaml", {"events": [{"start": "ROTATE"}]})
         self.open(solve("alike", catalog, mission, other))
+        self.browser.ask("document.querySelector('#all-rows').click()")
+        self.browser.settle()
         shown = self.browser.ask("[...document.querySelectorAll('#labels .behavior')].map((one) => one.textContent)")
         self.assertEqual(len(shown), 3)
         self.assertEqual(len(set(shown)), 3, shown)

@@ -138,7 +138,8 @@ class EventsTable {
     const [outer, inner] = [view.getBoundingClientRect(), row.getBoundingClientRect()];
     const head = this.table.tHead.offsetHeight;
     if (inner.top < outer.top + head || inner.bottom > outer.bottom) {
-      view.scrollTop += inner.top - outer.top - head - view.clientHeight / 3;
+      const room = Math.max(0, view.clientHeight - head - inner.height);
+      view.scrollTop += inner.top - outer.top - head - Math.min(room, view.clientHeight / 3);
     }
     if (left > 0) requestAnimationFrame(() => this.scrollTo(row, left - 1));
   }
