@@ -22,6 +22,8 @@ namespace {
 using test::Random;
 using Measure = LandmarkBound::Measure;
 
+constexpr std::int64_t one_nat = std::int64_t{1} << 40;  // -log of f2 = 1/e
+
 /// Random decisions in a random group.
 class Branch {
  public:
@@ -103,22 +105,33 @@ class Branch {
     }
     return sum;
   }
-  /// The costliest chain of requirements that a task cannot avoid, without needed tasks below it:
-  /// h^max in planning.
-  [[nodiscard]] std::int64_t height(std::uint32_t task, Measure measure) const {
+  /// By task: the costliest chain of requirements that it cannot avoid, without needed tasks below
+  /// it: h^max in planning.
+  [[nodiscard]] std::vector<std::int64_t> heights(Measure measure) const {
+    std::vector<std::int64_t> heights(domains_.task_count(), unknown);
+    for (std::uint32_t task = 0; task < heights.size(); ++task) find_height(task, measure, heights);
+    return heights;
+  }
+
+ private:
+  static constexpr std::int64_t unknown = -1;
+
+  std::int64_t find_height(std::uint32_t task, Measure measure,
+                           std::vector<std::int64_t>& heights) const {
+    if (heights[task] != unknown) return heights[task];
     std::int64_t least = prohibitive_cost;
     for (std::uint32_t index = 0; index < domains_.values(task).size(); ++index) {
       if (!domains_.has(task, index)) continue;
       std::int64_t highest = 0;
       for (const std::uint32_t required : required_by(task, index)) {
-        if (!domains_.needed(required)) highest = std::max(highest, height(required, measure));
+        if (domains_.needed(required)) continue;
+        highest = std::max(highest, find_height(required, measure, heights));
       }
       least = std::min(least, cost(task, index, measure) + highest);
     }
-    return least;
+    return heights[task] = least;
   }
 
- private:
   void remember_root() {
     for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
       std::vector<std::uint32_t>& values = root_.emplace_back();
@@ -174,17 +187,23 @@ struct Tally {
   int prohibitive = 0;
 };
 
-/// What a raised bound says must hold for each assignment.
-void check_bound(const Branch& branch, LandmarkBound& bound, Measure measure, Tally& tally) {
+/// A raised bound reaches the heights.
+void check_heights(const Branch& branch, LandmarkBound& bound, Measure measure, Tally& tally) {
   const std::int64_t value = bound.raise(INT64_MAX);
+  const std::vector<std::int64_t> heights = branch.heights(measure);
   std::int64_t highest = 0;
   for (const std::uint32_t task : branch.domains().needed_tasks()) {
-    highest = std::max(highest, branch.height(task, measure));
+    highest = std::max(highest, heights[task]);
   }
   ++tally.bounds;
   if (highest >= prohibitive_cost) ++tally.prohibitive;
   if (value > highest) ++tally.above_heights;
   EXPECT_GE(value, std::min(highest, prohibitive_cost));
+}
+
+/// What a raised bound says must hold for each assignment.
+void check_bound(const Branch& branch, LandmarkBound& bound, Measure measure) {
+  const std::int64_t value = bound.raise(INT64_MAX);
   branch.for_each_assignment([&](const Assignment& assignment) {
     const std::int64_t cost = branch.cost(assignment, measure);
     if (cost >= prohibitive_cost || !branch.is_possible_now(assignment)) return;
@@ -220,11 +239,12 @@ class LandmarkBoundTest : public testing::Test {
     bound.load();
     bound.set_measure(measure);
     for (int move = 0; move < 8; ++move) {
-      check_bound(branch, bound, measure, tally_);
+      check_heights(branch, bound, measure, tally_);
+      check_bound(branch, bound, measure);
       const std::int64_t value = bound.raise(INT64_MAX);
       if (branch.trail().level() > 0) {
-        const std::int64_t slack =
-            random.below(2) == 0 ? 0 : static_cast<std::int64_t>(random.below(400'000'000));
+        const std::int64_t most = std::min(value, 8 * one_nat);
+        const std::int64_t slack = random.below(2) == 0 ? 0 : random.between(0, most);
         std::vector<Literal> grounds;
         bound.append_grounds(slack, grounds);
         check_grounds(branch, grounds, value - slack, measure, tally_);
@@ -279,6 +299,33 @@ TEST_F(LandmarkBoundTest, LiesBetweenHeightsAndCostsOnRandomBranches) {
   EXPECT_GE(tally_.above_heights, test::rounds(300));
   EXPECT_GE(tally_.grounds, test::rounds(500));
   EXPECT_GE(tally_.prohibitive, test::rounds(10));
+}
+
+TEST_F(LandmarkBoundTest, ReachesTheHeightsInLargeGroups) {
+  Random random(2);
+  for (int round = 0; round < test::rounds(60); ++round) {
+    SCOPED_TRACE(round);
+    test::Shape shape;
+    shape.tasks = 150;
+    shape.exclusivity_lists = 0;
+    shape.minimum = 0;
+    shape.is_deep = true;
+    shape.on_request = 0;
+    shape.zero = 0;
+    shape.any_percent = 80;
+    const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
+    const Problem problem = test::random_problem(random, catalog, test::largest_group(catalog));
+    Branch branch(catalog, problem);
+    if (!branch.is_consistent()) continue;
+    LandmarkBound bound(catalog, branch.domains(), branch.trail());
+    bound.load();
+    for (int level = 0; level < 5; ++level) {
+      check_heights(branch, bound, Measure::log, tally_);
+      expect_same_as_anew(catalog, branch, bound, Measure::log);
+      if (!branch.decide(random, bound)) break;
+    }
+  }
+  EXPECT_GE(tally_.bounds, test::rounds(100));
 }
 
 }  // namespace
