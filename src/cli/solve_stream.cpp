@@ -151,6 +151,13 @@ class Stream {
     runner_.restart_count();
     if (!has_real_clock()) return runner_.take(*reading.step);
     Step step = *reading.step;
+    if (const Microseconds now = clock_time(); step.time && *step.time > now) {
+      refuse(fmt::format("the time is {} s, but the real clock is at {} s",
+                         format_decimal(*step.time, 6), format_decimal(now, 6)),
+             number);
+      lines.resume(runner_.coordinator().now(), runner_.coordinator().state());
+      return true;
+    }
     step.time = std::max(
         {step.time ? *step.time : clock_time(), settled_ + 1, runner_.coordinator().now()});
     const bool goes_on = runner_.take(step);

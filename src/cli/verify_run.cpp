@@ -368,12 +368,14 @@ class Call {
 
   int draw() {
     HtmlReport picture;
-    picture.open_at_end();
     for (const VerifyPart& part : result_.parts) {
       for (const ReportedAnswer& reported : part.answers) {
         if (!reported.replay) continue;
-        const Script& script = reported.answer->witness->script;
+        const Answer& answer = *reported.answer;
+        const Script& script = answer.witness->script;
         picture.begin_run(catalog_, script);
+        picture.begin_property(name_of(answer.verdict.result),
+                               describe(catalog_, *answer.property));
         picture.end_run(run_script(catalog_, script, {}, picture), {});
       }
     }

@@ -7,6 +7,7 @@ somebody who has never seen the page should find out from one of them.
 """
 
 import json
+import random
 import re
 import subprocess
 import time
@@ -328,6 +329,112 @@ class Page(PageCase):
         self.assertEqual(self.number(), self.browser.ask("page.run.size"))
         self.assertIn("SONAR_GUARD", self.text("#state-body"))
 
+    def test_violated_properties_are_not_told_as_passed(self):
+        page = OUT / "violated.html"
+        properties = write("violated.properties.yaml", {
+            "catalog": str(ROOT / "catalogs/warehouse.yaml"),
+            "properties": [{"reachable": {"active": ["SONAR_GUARD"]}},
+                           {"never": {"active": ["SONAR_GUARD"]}},
+                           {"always": {"stopped": ["NAVIGATE"]}, "name": "it stays"}]})
+        result = subprocess.run([PROGRAM, "verify", properties, "--html", str(page), "--format", "json"],
+                                cwd=ROOT, stdout=subprocess.PIPE, check=False)
+        self.assertEqual(result.returncode, 1)
+        answers = [one["result"] for one in json.loads(result.stdout)["properties"]]
+        self.assertEqual(answers, ["proved", "violated", "violated"])
+        self.url = page.as_uri()
+        self.browser.load(self.url)
+        self.assertIn("3 properties: 2 violated", self.text("#overview-summary"))
+        cells = "[...document.querySelectorAll('#missions tbody tr')].map((row) => [row.cells[1].textContent," \
+                "getComputedStyle(row.cells[1]).color === getComputedStyle(document.querySelector('.alarm')).color])"
+        self.assertEqual(self.browser.ask(cells), [["\u2713 proved (witness)", False],
+                                                   ["\u00d7 violated", True], ["\u00d7 violated", True]])
+        # It opens at the first violated one, and says what that is.
+        self.assertEqual(self.browser.ask("page.place"), 1)
+        self.assertIn("SONAR_GUARD", self.text("#alarms .alarm"))
+        self.assertEqual(self.browser.ask("document.title[0]"), "\u00d7")
+        self.assertTrue(self.browser.ask("document.title").endswith("cbc verify"))
+        self.choose_run(2)
+        self.assertIn("NAVIGATE", self.text("#alarms .alarm"))  # what it states, not only its name
+        self.choose_run(0)
+        self.assertTrue(self.browser.ask("document.querySelector('#alarms').hidden"))
+
+    def test_events_that_change_nothing_say_why(self):
+        mission = write("quiet.mission.yaml", {"events": [
+            {"start": "HOVER"}, {"start": "HOVER"}, {"fault": "FOLLOW_PATH_WITH_PID_CONTROL"},
+            {"finish": "FOLLOW_PATH_WITH_PID_CONTROL"}]})
+        made = solve("quiet", QUADROTOR, mission)
+        self.open(made)
+        hover = self.run_of(made)["events"][0]["running"]["HOVER"]
+        texts = []
+        for _ in range(4):
+            texts.append(self.text("#detail-body"))
+            self.browser.key("ArrowRight")
+        self.assertIn(f"HOVER runs already, with {hover}; nothing changes", texts[1])
+        self.assertIn("FOLLOW_PATH_WITH_PID_CONTROL is faulty: it cannot be activated", texts[2])
+        self.assertIn("FOLLOW_PATH_WITH_PID_CONTROL is not active: nothing performs FOLLOW_PATH", texts[3])
+
+    def test_heads_of_changes_fit(self):
+        self.browser.click(*self.mark(6))
+        heads = self.browser.ask("[...document.querySelectorAll('.changes th')]"
+                                 ".map((one) => [one.textContent, one.scrollWidth - one.clientWidth, one.clientHeight])")
+        self.assertEqual(heads[0][0], "priority")
+        for name, excess, height in heads:
+            with self.subTest(head=name):
+                self.assertLessEqual(excess, 0)
+                self.assertLess(height, 30)  # one line
+
+    def test_chosen_event_of_a_long_run_is_in_view(self):
+        self.open(solve("far", QUADROTOR, long_script(5000)))
+        choose = random.Random(7)
+        size = self.browser.ask("page.run.size")
+        self.assertGreaterEqual(size, 5000)
+        for _ in range(50):
+            number = choose.randint(1, size)
+            self.browser.ask(f"page.choose({number})")
+            for _ in range(8):
+                self.browser.settle()
+            top, bottom, head, low = self.browser.ask(
+                "(() => { const row = document.querySelector('#events tr[aria-current]').getBoundingClientRect(),"
+                "head = document.querySelector('#events thead').getBoundingClientRect(),"
+                "view = document.querySelector('#log-scroll').getBoundingClientRect();"
+                "return [row.top, row.bottom, head.bottom, view.bottom]; })()")
+            with self.subTest(number=number):
+                self.assertGreaterEqual(top, head - 1)
+                self.assertLessEqual(bottom, low + 1)
+
+    def test_paper_says_why_expectations_failed(self):
+        self.open(solve("late-fault", "tests/golden/cases/fault_of_active_expected/mission.yaml"))
+        self.browser.call("Emulation.setEmulatedMedia", media="print")
+        self.browser.ask("dispatchEvent(new Event('beforeprint'))")
+        printed = self.browser.ask("[...document.querySelectorAll('.for-print')].map((one) => one.innerText).join()")
+        self.assertIn("Why not as expected", printed)
+        self.assertIn("the fault takes effect at its next activation", printed)
+        self.browser.ask("dispatchEvent(new Event('afterprint'))")
+        self.browser.call("Emulation.setEmulatedMedia", media="")
+
+    def test_phone(self):
+        self.browser.set_size(390, 844)
+        names = [f"ROTATE_WITH_{kind}_MOTION_CONTROL" for kind in ("PID", "MPC", "GEOMETRIC")]
+        catalog = write("alike.yaml", {"behaviors": [
+            {"behavior": name, "task": "ROTATE", "suitability": 90 - place} for place, name in enumerate(names)]})
+        mission = write("alike.mission.yaml", {"events": [
+            {"start": "ROTATE"}, {"situation": {names[0]: False}}, {"situation": {names[1]: False}},
+            {"start": "ROTATE"}, {"expect": {"stopped": ["ROTATE"]}}]})
+        other = write("other-alike.mission.yaml", {"events": [{"start": "ROTATE"}]})
+        self.open(solve("alike", catalog, mission, other))
+        self.browser.ask("document.querySelector('#all-rows').click()")
+        self.browser.settle()
+        shown = self.browser.ask("[...document.querySelectorAll('#labels .behavior')].map((one) => one.textContent)")
+        self.assertEqual(len(shown), 3)
+        self.assertEqual(len(set(shown)), 3, shown)
+        for text, kind in zip(sorted(shown), sorted(["PID", "MPC", "GEOMETRIC"])):
+            self.assertIn(kind[:3], text)
+        self.assertRegex(self.status(), r"^Event \d+ of \d+ ! ")
+        self.browser.screenshot(OUT / "alike.png")
+        widths = self.browser.ask("[document.querySelector('#missions').scrollWidth,"
+                                  " document.querySelector('#overview .scroll').clientWidth]")
+        self.assertLessEqual(widths[0], widths[1])
+
     def test_why_of_events_and_of_failed_expectations(self):
         fast = "<i>FAST</i>"
         catalog = write("why.yaml", {"behaviors": [
@@ -348,7 +455,7 @@ class Page(PageCase):
                                 ".map((row) => [...row.cells].map((cell) => cell.textContent))")
         self.assertEqual(rows, [["DRIVE", "SLOW, 80 %", f"{fast}, 90 %"],
                                 ["LOCALIZE", "does not run", "SLAM, 70 %"],
-                                ["product of all that runs", "0.8", "0.63"]])
+                                ["product of all that runs", "80 %", "63 %"]])
         self.browser.screenshot(OUT / "why.png")
         self.click("#detail-body button")
         self.assertEqual(self.number(), 1)

@@ -113,7 +113,7 @@ class ServeTest : public testing::Test {
 
 constexpr const char* events =
     "{\"start\":\"TAKE_OFF\",\"priority\":2}\n"
-    "{\"start\":\"HOVER\",\"wait\":1}\n"
+    "{\"start\":\"HOVER\",\"wait\":0}\n"
     "no event\n"
     "{\"expect\":{\"stopped\":[\"TAKE_OFF\"]}}\n";
 

@@ -288,6 +288,32 @@ TEST_F(StreamTest, PutsLinesAfterWhatTheRealClockHasDone) {
   EXPECT_EQ(replayed.status, 0) << replayed.err;
 }
 
+TEST_F(StreamTest, RefusesTimesThatTheRealClockHasNotReached) {
+  folder_.write("quadrotor.yaml",
+                "behaviors:\n- {behavior: SCAN_AREA, task: SCAN, timeout: 0.1}\n");
+  const std::string lines =
+      "(echo '{start: SCAN, at: 100}'; echo '{start: SCAN, wait: 200}'; echo '{start: SCAN}';"
+      " sleep 0.5; echo '{start: SCAN}')";
+  const std::string command = "cd '" + folder_.path() + "' && " + lines +
+                              " | '" CBC_PROGRAM_PATH
+                              "' solve quadrotor.yaml - --format jsonl --clock real >log";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  std::vector<json> found;
+  for (const std::string& line : lines_of(test::read_file(folder_ / "log"))) {
+    found.push_back(json::parse(line));
+  }
+  ASSERT_EQ(found.size(), 6U);
+  for (const std::size_t place : {1U, 2U}) {
+    EXPECT_EQ(found[place]["line"], place);
+    const std::string error = found[place]["error"];
+    EXPECT_NE(error.find("but the real clock is at"), std::string::npos) << error;
+  }
+  EXPECT_EQ(found[3]["name"], "SCAN");  // the clock has not moved on
+  EXPECT_LT(found[3]["time"], 50);
+  EXPECT_EQ(found[4]["origin"], "timeout");
+  EXPECT_EQ(found[5]["name"], "SCAN");
+}
+
 TEST_F(StreamTest, AnswersEachEventBeforeTheNextOneComes) {
   const int in = open_pipe("in");
   const int out = open_pipe("out");

@@ -87,6 +87,7 @@ function isOptional(object, name) {
     'best',
     'complete_order',
     'due',
+    'note',
     'parameters',
     'priority',
     'state',

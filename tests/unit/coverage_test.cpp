@@ -293,7 +293,7 @@ TEST(CoverageCount, RoundsDown) {
   EXPECT_EQ(describe_percent({3, 2}), "66.6 %");
   EXPECT_EQ(describe_percent({100'000, 99'999}), "99.9 %");
   EXPECT_EQ(describe_percent({7, 7}), "100.0 %");
-  EXPECT_EQ(describe_percent({}), "100.0 %");
+  EXPECT_EQ(describe_percent({}), "\u2013");
 }
 
 CatalogCoverage coverage_of(std::string_view text) {

@@ -110,7 +110,7 @@ exclusivity_constraints: [{mutually_exclusive: [DRIVE, COUNT]}]
   EXPECT_EQ(found.at("ODOMETRY was active with COUNT, which it requires"),
             "ODOMETRY requires task COUNT, which never runs");
   EXPECT_EQ(found.at("behavior GPS was replaced"),
-            "the tasks of GPS never run with another behavior");
+            "task LOCALIZE never runs with another behavior");
 }
 
 TEST(UnreachableGoals, OfWhatIsNeverChosen) {

@@ -10,6 +10,7 @@
 namespace cbc {
 
 std::string describe_percent(const GoalCount& count) {
+  if (count.goals == 0) return "\u2013";
   return fmt::format("{}.{} %", count.tenths() / 10, count.tenths() % 10);
 }
 

@@ -39,7 +39,7 @@ struct GoalCount {
   [[nodiscard]] std::uint64_t tenths() const { return goals == 0 ? 1000 : met * 1000 / goals; }
 };
 
-/// "92.5 %"
+/// "92.5 %"; of no goals a dash.
 [[nodiscard]] std::string describe_percent(const GoalCount& count);
 
 /// Which goals of a catalog some missions meet.

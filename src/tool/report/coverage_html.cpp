@@ -16,10 +16,12 @@
 namespace cbc {
 namespace {
 
-std::string counts_row(std::string_view what, const GoalCount& count) {
+/// `is_proved`: what is unreachable has a column.
+std::string counts_row(std::string_view what, const GoalCount& count, bool is_proved) {
   return fmt::format(
-      "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", what,
-      count.goals, count.met, count.goals - count.met, describe_percent(count));
+      "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td>{}</tr>\n", what,
+      count.goals, count.met, count.goals - count.met, describe_percent(count),
+      is_proved ? fmt::format("<td>{}</td>", count.unreachable) : std::string());
 }
 
 class CatalogPage {
@@ -40,16 +42,19 @@ class CatalogPage {
 
  private:
   void write_counts() {
-    html_ +=
+    const bool is_proved = !coverage_.assumptions().empty();
+    html_ += fmt::format(
         "<table class=\"counts\">\n<tr><th></th><th scope=\"col\">goals</th>"
         "<th scope=\"col\">met</th><th scope=\"col\">missed</th>"
-        "<th scope=\"col\">covered</th></tr>\n";
+        "<th scope=\"col\">covered</th>{}</tr>\n",
+        is_proved ? "<th scope=\"col\">unreachable</th>" : "");
     const auto sections = coverage_.by_section();
     for (std::size_t section = 0; section < goal_sections; ++section) {
       if (sections.at(section).goals + sections.at(section).unreachable == 0) continue;
-      html_ += counts_row(name_of(static_cast<GoalSection>(section)), sections.at(section));
+      html_ +=
+          counts_row(name_of(static_cast<GoalSection>(section)), sections.at(section), is_proved);
     }
-    html_ += counts_row("total", coverage_.total()) + "</table>\n";
+    html_ += counts_row("total", coverage_.total(), is_proved) + "</table>\n";
   }
 
   void write_missions() {

@@ -19,9 +19,11 @@
 namespace cbc {
 namespace {
 
-std::string table_row(std::string_view what, const GoalCount& count) {
-  return fmt::format("  {:<14} {:>7} {:>7} {:>7} {:>9}\n", what, count.goals, count.met,
-                     count.goals - count.met, describe_percent(count));
+/// `is_proved`: what is unreachable has a column.
+std::string table_row(std::string_view what, const GoalCount& count, bool is_proved) {
+  return fmt::format("  {:<14} {:>7} {:>7} {:>7} {:>9}{}\n", what, count.goals, count.met,
+                     count.goals - count.met, describe_percent(count),
+                     is_proved ? fmt::format(" {:>12}", count.unreachable) : std::string());
 }
 
 std::string place_of(const CatalogCoverage& coverage, const Goal& goal) {
@@ -48,15 +50,16 @@ std::string catalog_to_text(const CatalogCoverage& coverage, const Style& style)
   std::string text = fmt::format("{}{}{}, {}\n", style.strong, printable(coverage.catalog().file),
                                  style.reset, quantity(coverage.missions().size(), "mission"));
   if (!coverage.assumptions().empty()) text += assumptions_to_text(coverage.assumptions());
-  text +=
-      fmt::format("\n  {:<14} {:>7} {:>7} {:>7} {:>9}\n", "", "goals", "met", "missed", "covered");
+  const bool is_proved = !coverage.assumptions().empty();
+  text += fmt::format("\n  {:<14} {:>7} {:>7} {:>7} {:>9}{}\n", "", "goals", "met", "missed",
+                      "covered", is_proved ? "  unreachable" : "");
   const auto sections = coverage.by_section();
   for (std::size_t section = 0; section < goal_sections; ++section) {
     if (sections.at(section).goals + sections.at(section).unreachable == 0) continue;
-    text += table_row(name_of(static_cast<GoalSection>(section)), sections.at(section));
+    text += table_row(name_of(static_cast<GoalSection>(section)), sections.at(section), is_proved);
   }
   const GoalCount total = coverage.total();
-  text += table_row("total", total);
+  text += table_row("total", total, is_proved);
   add_list(coverage, "no mission shows that", &CatalogCoverage::is_missed, text);
   add_list(coverage, "under these assumptions no mission can show, and so it does not count, that",
            &CatalogCoverage::is_unreachable, text);

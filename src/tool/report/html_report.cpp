@@ -98,6 +98,12 @@ void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   failures_left_ = most_later_failures;
 }
 
+void HtmlReport::begin_property(std::string_view result, std::string_view statement) {
+  JsonWriter json(runs_json_);
+  json.write_object("property", {{"result", result}, {"statement", statement}});
+  json.flush();
+}
+
 void HtmlReport::on_event(const EventRecord& record, const Step* step, const State& state) {
   if (is_full()) {
     ++left_out_of_run_;
@@ -119,7 +125,6 @@ void HtmlReport::end_run(const RunResult& result, const std::string& error) {
   json_.end_run(result, error);
   JsonWriter json(runs_json_);
   json.write("left_out", left_out_of_run_);
-  if (opens_at_end_) json.write("opens_at_end", true);
   json.close('}');
   left_out_ += left_out_of_run_;
 }

@@ -361,8 +361,10 @@ class HtmlReport final : public SolveReport {
   void end_run(const RunResult& result, const std::string& error) override;
   void end() override;
 
-  /// Lets the page show the last event of each run first: that is what its script leads to.
-  void open_at_end() { opens_at_end_ = true; }
+  /// Says that the run that was begun is the counterexample or witness of a property. The page then
+  /// shows its last event first: that is what its script leads to. `result`: the word for it.
+  /// `statement`: what the property says.
+  void begin_property(std::string_view result, std::string_view statement);
 
   /// The page; call it after end().
   [[nodiscard]] std::string page();
@@ -376,7 +378,6 @@ class HtmlReport final : public SolveReport {
   MemoryFile memory_;
   JsonReport json_;
   const std::size_t limit_;
-  bool opens_at_end_ = false;
   std::uint64_t left_out_ = 0;
   std::uint64_t left_out_of_run_ = 0;
   std::uint64_t failures_left_ = 0;  ///< of the run, that are taken although the page is full

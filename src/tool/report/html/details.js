@@ -61,6 +61,13 @@ function objectivePairs(objective, { supporting }) {
 
 const performerOf = (one) => (one === null ? 'does not run' : `${one.behavior}, ${one.suitability} %`);
 
+/** A share as the report writes it, an exact decimal, with all of its digits: "0.625" is "62.5 %". */
+function percentOfDecimal(text) {
+  const [whole, digits = ''] = text.split('.');
+  const shifted = `${whole}${digits.slice(0, 2).padEnd(2, '0')}`.replace(/^0+(?=\d)/, '');
+  return `${shifted}${digits.length > 2 ? `.${digits.slice(2)}` : ''} %`;
+}
+
 /** The tasks that have another behavior in an answer that was not chosen, factor by factor, and the
  * products if these decided. */
 function differenceTable(differences, loses) {
@@ -69,7 +76,7 @@ function differenceTable(differences, loses) {
     html('td', '', breakable(performerOf(alternative)))));
   if (loses?.objective === 'suitability') {
     rows.push(html('tr', 'product', html('td', '', 'product of all that runs'),
-      html('td', '', loses.chosen), html('td', '', loses.alternative)));
+      html('td', '', percentOfDecimal(loses.chosen)), html('td', '', percentOfDecimal(loses.alternative))));
   }
   return html('table', 'differences', headRow('task', 'chosen', 'instead'), html('tbody', '', ...rows));
 }

@@ -1,6 +1,7 @@
 // The table of events.
 
 const chunkSize = 50; // rows that the browser lays out together
+const mostFrames = 12; // in which the chosen row may move
 
 /** A row for each event, in chunks. What happened is written into a chunk when it comes near the part in
  * view. */
@@ -127,13 +128,20 @@ class EventsTable {
     if (!isChosen) return row.removeAttribute('aria-current');
     row.setAttribute('aria-current', 'true');
     this.fill(row.parentElement);
+    this.scrollTo(row, mostFrames);
+  }
+
+  /** Chunks that come into view get their real height, which may move the row out of view again. */
+  scrollTo(row, left) {
     const { view } = this;
-    if (getComputedStyle(view).overflowY === 'visible') return;
+    if (getComputedStyle(view).overflowY === 'visible' || this.rows[this.chosen - 1] !== row) return;
     const [outer, inner] = [view.getBoundingClientRect(), row.getBoundingClientRect()];
     const head = this.table.tHead.offsetHeight;
     if (inner.top < outer.top + head || inner.bottom > outer.bottom) {
-      view.scrollTop += inner.top - outer.top - head - view.clientHeight / 3;
+      const room = Math.max(0, view.clientHeight - head - inner.height);
+      view.scrollTop += inner.top - outer.top - head - Math.min(room, view.clientHeight / 3);
     }
+    if (left > 0) requestAnimationFrame(() => this.scrollTo(row, left - 1));
   }
 
   /** Hides the events that a search has not found; null shows all. */
@@ -142,15 +150,17 @@ class EventsTable {
     for (const body of this.table.tBodies) body.hidden = [...body.rows].every((row) => row.hidden);
   }
 
-  /** All changes of all events, for paper. */
+  /** All changes of all events, and the explanations that are there, for paper. */
   addPrintedChanges() {
     this.fillAll();
     for (const row of this.rows) {
       const number = Number(row.dataset.event);
       const { changes } = this.run.event(number);
-      if (changes.length === 0) continue;
-      const table = html('table', '', html('tbody', '', ...changes.map((change) => changeRow(this.run, number, change))));
-      row.lastElementChild.append(html('div', 'for-print', table));
+      const parts = explanationElements(this.run, number, () => {});
+      if (changes.length > 0) {
+        parts.push(html('table', '', html('tbody', '', ...changes.map((change) => changeRow(this.run, number, change)))));
+      }
+      if (parts.length > 0) row.lastElementChild.append(html('div', 'for-print', ...parts));
     }
   }
 

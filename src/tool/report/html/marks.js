@@ -64,15 +64,21 @@ class Marks {
   }
 
   /** Places marks in lanes from `top` on. What is folded depends on the zoom only, not on what is in view. */
-  placeLane({ xs }, items, lanes, top) {
+  placeLane({ xs, whole, offset }, items, lanes, top) {
     const placed = [];
+    const end = padding + whole + endRoom - offset; // of the run
+    let edge = -Infinity; // of what is placed
+    const add = (mark) => {
+      placed.push(mark);
+      edge = Math.max(edge, mark.x + mark.width);
+    };
     const xOf = (place) => xs[items[place].numbers[0]];
     for (let place = 0; place < items.length;) {
       const chain = this.findChain(xOf, items, place, lanes);
       if (chain !== null) {
         chain.forEach((lane, index) => {
           const item = items[place + index];
-          placed.push({ ...item, lane: top + lane, x: xOf(place + index) - item.width / 2 });
+          add({ ...item, lane: top + lane, x: xOf(place + index) - item.width / 2 });
         });
         place += chain.length;
         continue;
@@ -80,7 +86,9 @@ class Marks {
       const begin = place;
       const x = xOf(place);
       while (place < items.length && xOf(place) < x + foldWidth + 20) ++place;
-      placed.push(this.fold(items.slice(begin, place), x, top, xOf(place - 1)));
+      const left = Math.min(x - 9, Math.max(edge + markGap, end - foldWidth));
+      const width = Math.min(foldWidth, end - left);
+      add(this.fold(items.slice(begin, place), { x, left, width, lane: top, last: xOf(place - 1) }));
     }
     return placed;
   }
@@ -105,15 +113,18 @@ class Marks {
     return chain;
   }
 
-  fold(items, x, lane, last) {
+  /** `left`, `width`: the room for the mark; `x`, `last`: where its first and its last event are. */
+  fold(items, { x, left, width, lane, last }) {
     const numbers = items.map((item) => item.numbers[0]);
     if (numbers.length === 1) return { ...items[0], lane, x: x - items[0].width / 2 };
     const failed = numbers.filter((number) => this.run.isFailed(number)).length;
+    const rejected = numbers.length - failed; // of problems
     const isBad = this.run.isRejected(numbers[0]) || failed > 0;
     const texts = !isBad ? [`${numbers.length} events`, `${numbers.length}`]
-      : failed === 0 ? [`${numbers.length} rejected`, `${numbers.length} rej.`, `${numbers.length}`]
-        : [`${failed} failed, ${numbers.length - failed} rej.`, `${failed} failed`, `! ${failed}`];
-    const text = fitting(texts, foldWidth - 6);
-    return { numbers, text, lane, look: isBad ? 'fold-bad' : 'fold', x: x - 9, width: foldWidth, from: x, to: last };
+      : failed === 0 ? [`${rejected} rejected`, `${rejected} rej.`, `${rejected}`]
+        : rejected === 0 ? [`${failed} failed`, `! ${failed}`]
+          : [`${failed} failed, ${rejected} rej.`, `${failed} failed +${rejected}`, `! ${failed} +${rejected}`];
+    const text = fitting(texts, width - 6) ?? texts.at(-1);
+    return { numbers, text, lane, look: isBad ? 'fold-bad' : 'fold', x: left, width, from: x, to: last };
   }
 }

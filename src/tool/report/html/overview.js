@@ -1,4 +1,4 @@
-// All missions of the page: how many events each has, how many were rejected or failed, and a strip of
+// All missions of the page, or what breaks or shows properties: how many events each has, how many were rejected or failed, and a strip of
 // its outcomes.
 
 const stripWidth = 240;
@@ -15,7 +15,10 @@ class Overview {
     this.body.replaceChildren(...runs.map((run, place) => this.row(run, place)));
     const failed = runs.filter((run) => run.hasFailed).length;
     const rejected = runs.reduce((sum, run) => sum + run.events.filter((event) => event.outcome === 'rejected').length, 0);
-    this.summary.textContent = `${runs.length} missions: ` + (failed > 0 ? `${failed} failed` : 'none failed') +
+    const areProperties = runs.every((run) => run.property !== null);
+    const [what, bad] = areProperties ? ['properties', 'violated'] : ['missions', 'failed'];
+    if (areProperties) this.body.parentElement.tHead.rows[0].cells[0].textContent = 'property';
+    this.summary.textContent = `${runs.length} ${what}: ` + (failed > 0 ? `${failed} ${bad}` : `none ${bad}`) +
       ` \u00b7 ${quantity(runs.reduce((sum, run) => sum + run.size, 0), 'event')}, ${rejected} rejected`;
     this.summary.className = failed > 0 ? 'failed' : '';
     this.body.addEventListener('click', (event) => {
@@ -29,14 +32,21 @@ class Overview {
     const { failed } = run.data.expectations;
     const button = buttonElement(run.data.script.slice(this.folder.length), () => {}); // the row takes the click
     button.title = run.data.script;
-    const verdict = run.data.error !== undefined ? 'ended early' : failed > 0 ? 'failed' : 'passed';
+    const count = (value, unit, isBad) => {
+      const cell = html('td', isBad && value > 0 ? 'number failed' : 'number', `${value}`);
+      cell.dataset.unit = unit; // shown where there is no room for a head
+      return cell;
+    };
     const row = html('tr', run.hasFailed ? 'is-failed' : '',
       html('td', '', button),
-      html('td', `outcome ${run.hasFailed ? 'rejected' : 'accepted'}`, `${run.hasFailed ? '\u00d7' : '\u2713'} ${verdict}`),
-      html('td', 'number', `${run.size}`),
-      html('td', rejected > 0 ? 'number failed' : 'number', `${rejected}`),
-      html('td', failed > 0 ? 'number failed' : 'number', `${failed}`),
+      html('td', `outcome ${run.hasFailed ? 'rejected' : 'accepted'}`, `${run.hasFailed ? '\u00d7' : '\u2713'} ${verdictOf(run)}`),
+      count(run.size, 'events', false),
+      count(rejected, 'rejected', true),
+      count(failed, 'failed', true),
       html('td', 'strip', outcomeStrip(run)));
+    // A row is no row of a table to a screen reader where the style sheet lays it out by itself.
+    row.setAttribute('role', 'row');
+    for (const cell of row.cells) cell.setAttribute('role', 'cell');
     row.dataset.run = place;
     return row;
   }
@@ -54,6 +64,13 @@ class Overview {
       view.scrollTop = row.offsetTop - head - view.clientHeight / 2;
     }
   }
+}
+
+/** How a mission ended, or what it shows of a property. */
+function verdictOf(run) {
+  if (run.data.error !== undefined) return 'ended early';
+  if (run.property !== null) return run.isViolation ? 'violated' : `${run.property.result} (witness)`;
+  return run.data.expectations.failed > 0 ? 'failed' : 'passed';
 }
 
 /** The folder that all paths are in, with its slash. */

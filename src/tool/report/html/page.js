@@ -151,7 +151,7 @@ class Page {
   fillCounts() {
     const { run } = this;
     const { script, expectations, error } = run.data;
-    document.title = `${run.hasFailed ? '\u00d7 ' : ''}${script} \u2013 cbc solve`;
+    document.title = `${run.hasFailed ? '\u00d7 ' : ''}${script} \u2013 cbc ${run.property === null ? 'solve' : 'verify'}`;
     const count = (outcome) => run.events.filter((event) => isAsked(event) && event.outcome === outcome).length;
     const [accepted, rejected] = [count('accepted'), count('rejected')];
     const others = run.size - accepted - rejected;
@@ -160,6 +160,7 @@ class Page {
       (this.live !== undefined && expectations.passed + expectations.failed === 0 ? ''
         : ` \u00b7 expectations: ${expectations.passed} passed, ${expectations.failed} failed`);
     const alarms = [...(run.leftOut === 0 ? [] : [html('p', 'alarm', this.limit(run))]),
+                    ...(run.isViolation ? [html('p', 'alarm', `violated property: ${run.property.statement}`)] : []),
                     ...expectations.failures.map((failure) => this.alarm(failure)),
                     ...(this.live?.refusalTexts() ?? []).map((text) => html('p', 'alarm', text)),
                     ...(error === undefined ? [] : [html('p', 'alarm', `the run ended early: ${error}`)])];
@@ -262,7 +263,9 @@ class Page {
     const event = run.event(number);
     const outcome = isAsked(event) ? ` \u00b7 ${event.outcome}` : '';
     const failed = run.isFailed(number) ? ' \u00b7 failed expectation' : '';
-    this.tell(`Event ${run.indexOf(number)} of ${run.indexOf(run.size)} \u00b7 ${formatTime(event.time)} s \u00b7 ` +
+    // The end of the line is cut off where there is little room.
+    const sign = run.isFailed(number) ? ' !' : isAsked(event) ? ` ${outcomeSigns[event.outcome]}` : '';
+    this.tell(`Event ${run.indexOf(number)} of ${run.indexOf(run.size)}${sign} \u00b7 ${formatTime(event.time)} s \u00b7 ` +
       `${describeEvent(event, run.catalog)}${outcome}${failed}`);
     this.slider.value = number;
     this.slider.setAttribute('aria-valuetext', byId('status').textContent);

@@ -73,6 +73,28 @@ class Rows {
     return Rows.kindOf(row) === 'behavior' ? 24 : 10;
   }
 
+  /** The names in order, shortened to a width. Behaviors of a task whose names would be the same then
+   * show what tells them apart. */
+  fittingNames(width, size) {
+    const texts = this.list.map((row) =>
+      shortenMiddle(Rows.nameOf(row), width - Rows.indentOf(row), looks[Rows.kindOf(row)].style, size));
+    const places = new Map(); // of each text
+    this.list.forEach((row, place) => {
+      if (row.behavior === undefined) return;
+      const key = rowKey(row.task, texts[place]);
+      places.set(key, [...(places.get(key) ?? []), place]);
+    });
+    for (const same of places.values()) {
+      if (same.length === 1) continue;
+      const parts = distinctParts(same.map((place) => this.list[place].behavior));
+      same.forEach((place, index) => {
+        const room = width - Rows.indentOf(this.list[place]);
+        if (parts[index] !== null) texts[place] = shortenMiddle(parts[index], room, looks.behavior.style, size);
+      });
+    }
+    return texts;
+  }
+
   /** The width that the names take, at most `most`. */
   nameWidth(most) {
     const widths = this.list.map((row) =>

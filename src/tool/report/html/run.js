@@ -12,11 +12,12 @@ const newState = { index: 0, time: 0, running: {}, requests: {}, queue: {}, faul
 class Run {
   /** `data`: a run of the report; `begin`: the situation before it, and the state, if there is one. Events
    * can be added later; `leftOut`: how many the page does not have. Their numbers count from 1; the index of an event is that of the report, which
-   * may count events that are not here. */
-  constructor(data, catalog, begin, leftOut = 0, opensAtEnd = false) {
+   * may count events that are not here. `property`: {result, statement} of what the run is a counterexample
+   * or witness of. */
+  constructor(data, catalog, begin, leftOut = 0, property = null) {
     this.data = data;
     this.leftOut = leftOut;
-    this.opensAtEnd = opensAtEnd;
+    this.property = property;
     this.catalog = catalog;
     this.begin = { ...newState, time: Math.min(0, data.events[0]?.time ?? 0), ...begin };
     this.events = [];
@@ -55,9 +56,13 @@ class Run {
     if (number >= 1 && number <= this.size && this.problems.at(-1) !== number) this.problems.push(number);
   }
 
-  /** Whether the mission failed: an expectation did, or the run ended early. */
+  /** Whether the mission failed: an expectation did, or the run ended early, or it violates a property. */
   get hasFailed() {
-    return this.data.expectations.failed > 0 || this.data.error !== undefined;
+    return this.data.expectations.failed > 0 || this.data.error !== undefined || this.isViolation;
+  }
+
+  get isViolation() {
+    return this.property?.result === 'violated';
   }
 
   isRejected(number) {
@@ -72,7 +77,7 @@ class Run {
   /** The event to look at first: the first failure, or what the script leads to, or the first event. */
   get firstOfInterest() {
     if (this.failures.size > 0) return Math.max(1, Math.min(...this.failures.keys()));
-    return this.data.error === undefined && !this.opensAtEnd ? 1 : Math.max(1, this.size);
+    return this.data.error === undefined && this.property === null ? 1 : Math.max(1, this.size);
   }
 
   get size() {
@@ -323,7 +328,7 @@ class Run {
 function readRuns(data) {
   const catalogs = data.catalogs.map((catalog) => new Catalog(catalog));
   return data.report.runs.map((run, place) => {
-    const { catalog, situation, state, left_out: leftOut, opens_at_end: opensAtEnd } = data.runs[place];
-    return new Run(run, catalogs[catalog], { situation, ...state }, leftOut, opensAtEnd);
+    const { catalog, situation, state, left_out: leftOut, property } = data.runs[place];
+    return new Run(run, catalogs[catalog], { situation, ...state }, leftOut, property);
   });
 }

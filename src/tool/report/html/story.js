@@ -51,6 +51,8 @@ class Story {
     const nameOf = (behavior) => this.catalog.behavior(behavior);
     const say = (text, why = '', isBad = false) => list.push({ text, why, isBad });
     if (event.verb === 'situation') say(situationOf(event));
+    if (event.note !== undefined) say(event.note);
+    if (event.verb === 'fault' && event.note === undefined) say(`${nameOf(event.name)} is faulty: it cannot be activated`);
     if (event.origin === 'situation') say(this.describeMisfit(number, event.name));
     if (event.search?.status === 'unknown') {
       say('a search limit was reached before the first solution', '', true);
@@ -94,6 +96,11 @@ class Story {
       if (change.cause === 'restarted' && change.op === 'activate' && change.success) {
         say(`${nameOf(change.behavior)} restarts`, 'its parameters changed');
       }
+    }
+    if (list.length === 0 && event.outcome === 'accepted') {
+      const behavior = get(after, event.name);
+      say(event.verb === 'start' && behavior !== undefined
+        ? `${this.catalog.task(event.name)} runs already, with ${nameOf(behavior)}; nothing changes` : 'nothing changes');
     }
     return list;
   }

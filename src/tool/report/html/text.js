@@ -97,5 +97,18 @@ function shortenMiddle(name, width, style = '', size = 11) {
   return joinEnds(letters, least);
 }
 
+/** What different names do not begin or end with together, with an ellipsis for what they do; null for a
+ * name of which nothing is left. */
+function distinctParts(names) {
+  const [first] = names;
+  let begin = 0;
+  while (names.every((name) => name.length > begin && name[begin] === first[begin])) ++begin;
+  const rests = names.map((name) => name.slice(begin));
+  let end = 0;
+  while (rests.every((rest) => rest.length > end && rest.at(-1 - end) === rests[0].at(-1 - end))) ++end;
+  const cut = (rest) => `${begin > 0 ? '\u2026' : ''}${rest.slice(0, rest.length - end)}${end > 0 ? '\u2026' : ''}`;
+  return rests.map((rest) => (rest.length > end ? cut(rest) : null));
+}
+
 const joinEnds = (letters, kept) =>
   `${letters.slice(0, Math.ceil(kept / 2)).join('')}\u2026${kept > 1 ? letters.slice(-Math.floor(kept / 2)).join('') : ''}`;

@@ -128,11 +128,11 @@ class Timeline {
     if (this.marker.problems.length > 0) head.append(item(this.problemTitle(), 'lane has-bad', laneHeight));
     head.style.height = `${this.head}px`;
     let y = 0;
-    const rows = this.rows.list.map((row) => {
+    const texts = this.rows.fittingNames(width - 10, 12);
+    const rows = this.rows.list.map((row, place) => {
       const name = Rows.nameOf(row);
       const kind = Rows.kindOf(row);
-      const room = width - Rows.indentOf(row) - 10;
-      const text = shortenMiddle(name, room, looks[kind].style, 12);
+      const text = texts[place];
       const element = item(text, kind, row.height, row.y - y);
       y = row.y + row.height;
       element.title = kind === 'variable' ? `situation variable ${name}` : `${kind} ${name}`;
@@ -259,10 +259,8 @@ class Timeline {
     if (this.marker.problems.length > 0) {
       ink.text('bad-lane-name', width - 10, axisHeight + lanes * laneHeight + 14, this.problemTitle(), 'end');
     }
-    for (const row of this.rows.list) {
-      const kind = Rows.kindOf(row);
-      const name = shortenMiddle(Rows.nameOf(row), width - Rows.indentOf(row) - 6, looks[kind].style);
-      ink.text(kind, Rows.indentOf(row), this.head + row.y + row.height / 2 + 4, name);
-    }
+    const names = this.rows.fittingNames(width - 6, 11);
+    this.rows.list.forEach((row, place) =>
+      ink.text(Rows.kindOf(row), Rows.indentOf(row), this.head + row.y + row.height / 2 + 4, names[place]));
   }
 }
