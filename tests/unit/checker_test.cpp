@@ -51,6 +51,20 @@ TEST(Checker, AcceptsRightAnswers) {
   EXPECT_EQ(check(catalog, problem, "A=a2 C=c D=d2"), "right");
 }
 
+TEST(Checker, RefusesAValueThatTheTaskDoesNotHave) {
+  const CompiledCatalog catalog = compile_text(catalog_text);
+  Problem anything = open_problem(catalog);
+  std::fill(anything.domains.begin(), anything.domains.end(), ~std::uint64_t{0});
+  Assignment answer = test::answer_of(catalog, "D=d1");
+  const auto values =
+      static_cast<std::uint32_t>(catalog.values[test::task_id(catalog, "D")].size());
+  Checker checker(catalog);
+  for (const std::uint32_t index : {values - 1, values}) {
+    answer[test::local_task(catalog, "D")] = index;
+    EXPECT_EQ(checker.find_violation(anything, answer).has_value(), index == values);
+  }
+}
+
 TEST(Checker, AcceptsAPerformanceOnTheExactBoundary) {
   const CompiledCatalog catalog = compile_text(catalog_text);
   const Problem problem = open_problem(catalog);

@@ -250,6 +250,21 @@ TEST(Verify, RefusesArraysThatDoNotFit) {
   });
 }
 
+TEST(Verify, RefusesWhatIsNotUtf8AnywhereInTheTexts) {
+  const CompiledCatalog catalog = compile_text(
+      "behaviors:\n- {behavior: FOLLOW_PATH_WITH_PID_CONTROL, task: FOLLOW_PATH, package: "
+      "quadrotor_motion_with_pid_control}\n");
+  const std::size_t size = EditableCatalog(catalog).arrays.texts.items.size();
+  std::size_t refused = 0;
+  for (std::size_t place = 0; place < size; ++place) {
+    EditableCatalog edited(catalog);
+    edited.arrays.texts.items[place] = '\xFF';
+    if (fault_of(edited.catalog()).ends_with(", is not UTF-8")) ++refused;
+  }
+  EXPECT_GT(size, 70U);
+  EXPECT_EQ(refused, size - catalog.file.size()) << "only the name of the source may have any byte";
+}
+
 TEST(Verify, RefusesTexts) {
   expect_faults({
       {"text 0, '\\xff', is not UTF-8", [](auto& c) { c.arrays.texts.items[0] = '\xFF'; }},
