@@ -43,19 +43,6 @@ bool is_same(const yaml::Node& left, const yaml::Node& right) {
                     right.entries.end(), same_entry);
 }
 
-/// The line without its note, which logs of older versions do not have.
-std::string without_note(std::string_view line) {
-  constexpr std::string_view before = R"("outcome":"unchanged")";
-  constexpr std::string_view key = R"(,"note":")";
-  const std::size_t outcome = line.find(before);
-  if (outcome == std::string_view::npos) return std::string(line);
-  const std::size_t begin = outcome + before.size();
-  if (!line.substr(begin).starts_with(key)) return std::string(line);
-  std::size_t end = begin + key.size();
-  while (line[end] != '"') end += line[end] == '\\' ? 2U : 1U;
-  return std::string(line.substr(0, begin)).append(line.substr(end + 1));
-}
-
 /// The names of the members that differ, "'running', 'changes'".
 std::string find_differences(std::string_view logged, std::string_view found) {
   yaml::JsonReader left_reader;
@@ -242,7 +229,7 @@ class Replay {
                                    "instant; replay a log made with --state-out with the same "
                                    "option"
                                  : "the log ends here");
-    } else if (expected_.front().text != line && expected_.front().text != without_note(line)) {
+    } else if (expected_.front().text != line) {
       std::string names = find_differences(expected_.front().text, line);
       if (!options_.stream.state_in && names.starts_with("'index'")) {
         names += "; replay a log that continues from a saved state with --state-in";

@@ -116,7 +116,6 @@ const lies = {
     ['a start by a fault', origin('reactive'), {origin: 'fault'}],
     ['a reactive finish', origin('timeout'), {origin: 'reactive'}],
 
-    ['an accepted event with a note', outcome('accepted'), {note: 'GPS is not active'}],
     ['an accepted event without an objective', outcome('accepted'), {objective: null}],
     ['an accepted event without a search', outcome('accepted'), {search: null}],
     ['an accepted event that is infeasible', search('accepted'), {status: 'infeasible'}],

@@ -87,7 +87,6 @@ function isOptional(object, name) {
     'best',
     'complete_order',
     'due',
-    'note',
     'parameters',
     'priority',
     'state',

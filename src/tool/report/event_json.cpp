@@ -250,8 +250,9 @@ class EventText {
     json_.open('{');
     write_what_happened(step);
     json_.write("outcome", name_of(record_.outcome));
-    if (const std::string note = describe_note(catalog_, record_, state_); !note.empty()) {
-      json_.write("note", note);
+    if (adds.note) {
+      const std::string note = describe_note(catalog_, record_, state_);
+      if (!note.empty()) json_.write("note", note);
     }
     write_changes();
     write_stopped();

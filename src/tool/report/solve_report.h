@@ -108,6 +108,7 @@ void write_process(JsonWriter& json, const ProcessUsage& usage);
 struct EventAdditions {
   bool why = false;
   bool alternatives = false;
+  bool note = false;  ///< for the page alone: see describe_note
 };
 
 /// Appends an expectation that failed, as an object.
@@ -352,7 +353,7 @@ class HtmlReport final : public SolveReport {
   static constexpr std::size_t most_data = std::size_t{32} << 20;  ///< in bytes of the report
 
   explicit HtmlReport(const EventAdditions& adds = {}, std::size_t limit = most_data)
-      : json_(memory_.stream(), adds), limit_(limit) {}
+      : json_(memory_.stream(), {adds.why, adds.alternatives, true}), limit_(limit) {}
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
