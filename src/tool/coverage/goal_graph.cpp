@@ -17,7 +17,6 @@ class GraphBuilder final : private GroupWalk::Listener {
         assumptions_(assumptions),
         options_(options),
         watch_(catalog, goals, {}),
-        forestalled_by_(catalog.values.items.size(), none),
         returns_(catalog.tasks.size(), none) {
     watch_.take_failures_for_timeouts();
     graph_.goal_count = goals.size();
@@ -44,10 +43,8 @@ class GraphBuilder final : private GroupWalk::Listener {
       graph_.parts.push_back({group, first_state_, result.is_complete});
       graph_.moves += result.moves;
       end_states_before(first_state_ + static_cast<std::uint32_t>(result.states));
-      if (result.is_complete) walk.race().tell(forestalled_by_);
     }
     graph_.facts = watch_.facts();
-    graph_.facts.forestalled_by = std::move(forestalled_by_);
     return std::move(graph_);
   }
 
@@ -124,11 +121,10 @@ class GraphBuilder final : private GroupWalk::Listener {
   const GroupWalkOptions& options_;
   GoalWatch watch_;
   GoalGraph graph_;
-  std::vector<ValueId> forestalled_by_;  ///< see GoalFacts
-  std::vector<std::uint8_t> unwanted_;   ///< by goal: not asked about
-  std::vector<std::uint32_t> returns_;   ///< by task: its goal of returning, if it is wanted
-  std::uint32_t first_state_ = 0;        ///< of the present group
-  std::vector<std::uint32_t> items_;     ///< of the present edge
+  std::vector<std::uint8_t> unwanted_;  ///< by goal: not asked about
+  std::vector<std::uint32_t> returns_;  ///< by task: its goal of returning, if it is wanted
+  std::uint32_t first_state_ = 0;       ///< of the present group
+  std::vector<std::uint32_t> items_;    ///< of the present edge
 };
 
 }  // namespace

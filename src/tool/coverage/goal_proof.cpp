@@ -104,7 +104,6 @@ GoalProof prove_unreachable(const CompiledCatalog& catalog, std::span<const Goal
   GoalProof proof;
   proof.unreachable.resize(goals.size());
   proof.groups.resize(catalog.group_count());
-  std::vector<ValueId> forestalled_by(catalog.values.items.size(), none);
   GoalWatch watch(catalog, goals, {});
   watch.take_failures_for_timeouts();
   for (std::uint32_t group = 0; group < catalog.group_count(); ++group) {
@@ -116,11 +115,9 @@ GoalProof prove_unreachable(const CompiledCatalog& catalog, std::span<const Goal
     }
     Returns returns;
     proof.groups[group] = returns.run(walk);
-    if (proof.groups[group].is_complete) walk.race().tell(forestalled_by);
     for (const TaskId task : returns.find()) watch.note_return(task);
   }
   proof.facts = watch.facts();
-  proof.facts.forestalled_by = std::move(forestalled_by);
   for (std::size_t number = 0; number < goals.size(); ++number) {
     const Goal& goal = goals[number];
     const std::vector<std::uint32_t> groups = groups_of(catalog, goal);

@@ -45,10 +45,12 @@ class GoalWatch {
   }
   /// Notes that the reactive task started by itself after it had given way.
   void note_return(TaskId task) { meet(Kind::reactive_returned, task); }
+  /// Notes that another value always times out before this one.
+  void note_forestalled(ValueId value, ValueId by) { facts_.forestalled_by[value] = by; }
   /// Whether the reactive task has given way since begin().
   [[nodiscard]] bool has_given_way(TaskId task) const { return has_given_way_[task] != 0; }
 
-  /// What was seen since the object was made. Nothing is known of timeouts.
+  /// What was seen since the object was made; of timeouts what was noted.
   [[nodiscard]] const GoalFacts& facts() const { return facts_; }
   /// By goal: whether an event has met it.
   [[nodiscard]] const std::vector<std::uint8_t>& met() const { return met_; }

@@ -12,6 +12,7 @@ GroupWalk::GroupWalk(const CompiledCatalog& catalog, std::uint32_t group,
       model_(catalog, {group}, assumptions),
       stepper_(model_, {.reduce = true}),
       replay_(model_, watch),
+      watch_(watch),
       race_(catalog, group),
       packed_(model_.packed_words()) {}
 
@@ -29,6 +30,7 @@ GroupWalkResult GroupWalk::run(Listener& listener) {
       leave(state, listener);
     }
   }
+  if (result_.is_complete) race_.tell(watch_);
   result_.states = states_.size();
   return result_;
 }

@@ -55,10 +55,9 @@ class GroupWalk {
 
   /// The first state contradicts `never`.
   [[nodiscard]] bool begins_excluded() const;
-  /// Unless it begins excluded, once.
+  /// Unless it begins excluded, once. A complete run also tells the watch which timeouts always
+  /// come before others.
   [[nodiscard]] GroupWalkResult run(Listener& listener);
-  /// After a complete run: which timeouts always come first.
-  [[nodiscard]] const TimeoutRace& race() const { return race_; }
 
  private:
   Number find(const std::vector<std::uint32_t>& packed);
@@ -69,6 +68,7 @@ class GroupWalk {
   const Model model_;
   Stepper stepper_;
   StateReplay replay_;
+  GoalWatch& watch_;
   TimeoutRace race_;
   GroupWalkResult result_;
   std::unordered_map<std::string, Number> numbers_;

@@ -43,9 +43,9 @@ void TimeoutRace::note(const StateReplay& replay, const Move& move) {
   }
 }
 
-void TimeoutRace::tell(std::vector<ValueId>& forestalled_by) const {
+void TimeoutRace::tell(GoalWatch& watch) const {
   for (const auto& [value, sooner] : sooner_) {
-    if (!sooner.empty()) forestalled_by[value] = sooner.front();
+    if (!sooner.empty()) watch.note_forestalled(value, sooner.front());
   }
 }
 

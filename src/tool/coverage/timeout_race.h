@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
+#include "coverage/goal_watch.h"
 #include "coverage/state_replay.h"
 #include "verify/explore.h"
 
@@ -27,9 +28,9 @@ class TimeoutRace {
   /// Notes a move, which the replay has just made.
   void note(const StateReplay& replay, const Move& move);
 
-  /// After all moves of the group: notes by value one that always times out before it, if there is
-  /// any.
-  void tell(std::vector<ValueId>& forestalled_by) const;
+  /// After all moves of the group: tells of each value one that always times out before it, if
+  /// there is any.
+  void tell(GoalWatch& watch) const;
 
  private:
   const CompiledCatalog& catalog_;
