@@ -434,9 +434,99 @@ class Page(PageCase):
             self.assertIn(kind[:3], text)
         self.assertRegex(self.status(), r"^Event \d+ of \d+ ! ")
         self.browser.screenshot(OUT / "alike.png")
+        self.browser.ask("document.querySelector('#overview').open = true")
         widths = self.browser.ask("[document.querySelector('#missions').scrollWidth,"
                                   " document.querySelector('#overview .scroll').clientWidth]")
         self.assertLessEqual(widths[0], widths[1])
+
+    def emulate_phone(self):
+        self.browser.call("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=2, mobile=True)
+        self.browser.call("Emulation.setTouchEmulationEnabled", enabled=True)
+        self.addCleanup(self.browser.call, "Emulation.setTouchEmulationEnabled", enabled=False)
+
+    def test_phone_has_room_for_fingers(self):
+        self.emulate_phone()
+        self.open(solve("phone", QUADROTOR, "catalogs/quadrotor.mission.yaml", long_script(60)))
+        self.assertTrue(self.browser.ask("matchMedia('(pointer: coarse)').matches"))
+        self.click("#more")
+        self.browser.ask("document.querySelectorAll('details').forEach((one) => (one.open = true))")
+        self.browser.settle()
+        small = self.browser.ask(
+            "[...document.querySelectorAll('button, select, input:not([type=checkbox]), label, summary')]"
+            ".map((one) => [one, one.getBoundingClientRect()]).filter(([, box]) => box.width > 0 && (box.height < 40 || box.width < 40))"
+            ".map(([one, box]) => [one.id || one.textContent, box.width, box.height])")
+        self.assertEqual(small, [])
+        self.assertEqual(self.browser.ask("document.documentElement.scrollWidth"), 390)
+        self.browser.screenshot(OUT / "fingers.png")
+
+    def test_phone_shows_all_of_the_table(self):
+        self.emulate_phone()
+        self.open(solve("phone", QUADROTOR, "catalogs/quadrotor.mission.yaml", long_script(60)))
+        self.browser.ask("document.querySelector('#log').scrollIntoView()")
+        self.browser.settle()
+        cells = self.browser.ask("[...document.querySelectorAll('#events > tbody > tr')].slice(0, 5).map((row) =>"
+                                 " [...row.cells].map((cell) => [cell.getBoundingClientRect(), cell.innerText])"
+                                 ".map(([box, text]) => [box.left, box.right, box.width, text]))")
+        self.assertEqual(len(cells), 5)
+        for row, event in zip(cells, self.run_of(self.quadrotor)["events"]):
+            self.assertEqual(len(row), 5)
+            self.assertIn(event["verb"], row[2][3])
+            for left, right, width, text in row:
+                self.assertGreaterEqual(left, 0)
+                self.assertLessEqual(right, 390)
+                if text:
+                    self.assertGreater(width, 20)
+            self.assertGreater(row[4][2], 200)  # what happened, and why
+        self.assertEqual(self.browser.ask("['#log-scroll', '#dock', 'body'].map((one) => document.querySelector(one))"
+                                          ".filter((one) => one.scrollWidth > one.clientWidth).length"), 0)
+        self.browser.screenshot(OUT / "phone-table.png")
+
+    def test_cut_stories_say_so(self):
+        self.browser.set_size(1300, 800)
+        self.open(self.target)
+        self.browser.ask("page.table.fillAll()")
+        for _ in range(8):
+            self.browser.settle()  # until the table no longer scrolls to the chosen row
+        cut = "[...document.querySelectorAll('#events tbody tr:not([aria-current]) .story')].filter((one) =>" \
+              " one.scrollHeight > one.clientHeight + 1)"
+        self.assertGreater(self.browser.ask(f"{cut}.length"), 0)
+        self.assertEqual(self.browser.ask(f"{cut}.filter((one) => getComputedStyle(one).webkitLineClamp !== '3').length"), 0)
+        number = self.browser.ask(f"Number({cut}[0].closest('tr').dataset.event)")
+        story = f"#events tr[data-event='{number}'] .story"
+        self.browser.ask(f"document.querySelector(\"{story}\").scrollIntoView({{ block: 'center' }})")
+        self.browser.settle()
+        self.browser.move(*self.place(story))
+        self.assertEqual(self.browser.ask(f"document.querySelector(\"{story}\").title"),
+                         self.browser.ask(f"document.querySelector(\"{story}\").innerText"))
+        self.focus(f"#events tr[data-event='{number}'] button")
+        self.assertTrue(self.browser.ask(f"(({{ scrollHeight, clientHeight }}) => scrollHeight <= clientHeight + 1)"
+                                         f"(document.querySelector(\"{story}\"))"))
+
+    def test_counts_say_what_they_count(self):
+        mission = write("counts.mission.yaml", {"events": [
+            {"start": "HOVER"}, {"stop": "LAND"}, {"wait": 1},
+            {"fault": "FOLLOW_PATH_WITH_PID_CONTROL"}, {"repair": "FOLLOW_PATH_WITH_PID_CONTROL"},
+            {"situation": {"FOLLOW_PATH_WITH_PID_CONTROL": False}}, {"situation": {"FOLLOW_PATH_WITH_PID_CONTROL": True}}]})
+        made = solve("counts", QUADROTOR, mission)
+        self.open(made)
+        outcomes = [event["outcome"] for event in self.run_of(made)["events"] if event["verb"] in ("start", "stop")]
+        self.assertEqual(outcomes, ["accepted", "unchanged"])
+        self.assertEqual(self.text("#counts"),
+                         "7 events: 1 accepted, 0 rejected, 1 without effect, 2 situation changes, 1 fault, 1 repair, 1 wait")
+
+    def test_placeholder_of_the_search_fits(self):
+        for size in ((1600, 1250), (1280, 800), (390, 844)):
+            self.browser.set_size(*size)
+            self.browser.ask("document.querySelector('#more').setAttribute('aria-expanded', 'true')")
+            self.browser.settle()
+            room, text = self.browser.ask(
+                "(() => { const one = document.querySelector('#search'), style = getComputedStyle(one),"
+                "context = document.createElement('canvas').getContext('2d'); context.font = style.font;"
+                "return [one.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight) - 20,"  # a sign
+                " context.measureText(one.placeholder).width]; })()")
+            self.assertGreater(room, text)
+        for word in ("tasks", "behaviors", "variables", "verbs"):
+            self.assertIn(word, self.browser.ask("document.querySelector('#search').title"))
 
     def test_why_of_events_and_of_failed_expectations(self):
         fast = "<i>FAST</i>"

@@ -167,6 +167,47 @@ class Timeline(PageCase):
         for text, failed, count in mixed:
             self.assertIn(f"+{count - failed}", text.replace(", ", " +"))
 
+    def test_nothing_is_cut_at_the_edges(self):
+        self.open(solve("folded", QUADROTOR, long_script(210)))
+        counts = {"marks": 0, "ticks": 0, "moved": 0}
+        for scale in ("time", "event"):
+            self.browser.ask(f"page.timeline.setScale('{scale}'); page.timeline.fit()")
+            for _ in range(9):
+                self.browser.ask("page.timeline.zoomBy(1.7, 400)")
+                for _ in range(12):
+                    self.browser.ask("page.timeline.panBy(37)")
+                    self.browser.settle()
+                    found = self.browser.ask(
+                        "(() => { const { width, xs } = page.timeline.view, svg = page.timeline.toSvg();"
+                        "const marks = page.timeline.targets.filter(({ mark }) => mark !== undefined);"
+                        "return { width, marks: marks.map(({ x, width, numbers }) => [x, x + width,"
+                        "   numbers.length === 1 ? x + width / 2 - xs[numbers[0]] : 0, numbers]),"
+                        " ticks: [...svg.querySelectorAll('.tick-text')].map((one) => [Number(one.getAttribute('x')),"
+                        "   measure(one.textContent) / 2]) }; })()")
+                    for left, right, shift, _ in found["marks"]:
+                        self.assertGreaterEqual(left, 0)
+                        self.assertLessEqual(right, found["width"])
+                        counts["marks"] += 1
+                        counts["moved"] += abs(shift) > 0.5
+                    for x, half in found["ticks"]:
+                        self.assertGreaterEqual(x - half, 0)
+                        self.assertLessEqual(x + half, found["width"])
+                        counts["ticks"] += 1
+                    lanes = self.browser.ask("page.timeline.targets.filter(({ mark }) => mark !== undefined).map(({ mark }) =>"
+                                             " [mark.x, mark.lane, mark.x + mark.width, mark.numbers])")
+                    self.assert_no_overlap(lanes)
+        for name, least in (("marks", 500), ("ticks", 500), ("moved", 10)):
+            self.assertGreater(counts[name], least)
+
+    def test_slider_takes_the_room_that_is_there(self):
+        width = "document.querySelector('#slider').offsetWidth"
+        wide = self.browser.ask(width)
+        self.assertGreater(wide, 240)
+        self.browser.set_size(2400, 1250)
+        self.assertGreater(self.browser.ask(width), wide + 600)
+        self.browser.set_size(390, 844)
+        self.assertGreater(self.browser.ask(width), 150)
+
     def test_arrows_are_those_of_the_chosen_event(self):
         self.assertEqual(self.drawn("link-end"), 0)
         self.browser.key("n")

@@ -214,6 +214,7 @@ function spanTip(run, span) {
     html('p', '', `performs ${span.task}, ${run.story.whyRuns(span.from, span.task) || span.cause}`),
     html('p', '', `from ${placeOf(span.from)} to ${end}`),
   ];
+  for (const { from } of span.faults) parts.push(html('p', 'failed', `faulty from ${placeOf(from)} on: it goes on until it ends`));
   const nameOf = { replaced: ['replaces', 'replaced by'], way: ['in place of', 'gives way to'] };
   for (const link of run.linksOf[span.from]) {
     if (link.to.task === span.task) parts.push(html('p', '', `begin: ${nameOf[link.kind][0]} ${link.from.behavior}`));

@@ -11,7 +11,8 @@ set(styles page.css timeline.css dock.css print.css)
 set(scripts
     text.js catalog.js run.js story.js # what is known
     ink.js view.js marks.js rows.js painter.js timeline.js gestures.js minimap.js # the timeline
-    state_graph.js details.js events_table.js search.js overview.js legend.js # beside it
+    graph_layout.js state_graph.js graph_pane.js # the graph of the state
+    details.js events_table.js search.js overview.js signs.js legend.js # beside it
     address.js live.js page.js)
 
 # The base64 form of a SHA-256 hash in hexadecimal.

@@ -16,6 +16,12 @@ class EventsTable {
       const row = event.target.closest('tr[data-event]');
       if (row !== null) onChoose(Number(row.dataset.event));
     });
+    table.addEventListener('mouseover', (event) => this.showCutText(event.target.closest('.story')));
+  }
+
+  /** What is cut off is shown at the pointer. */
+  showCutText(story) {
+    if (story !== null && story.scrollHeight > story.clientHeight + 1) story.title = story.innerText;
   }
 
   show(run) {

@@ -125,6 +125,6 @@ class Marks {
         : rejected === 0 ? [`${failed} failed`, `! ${failed}`]
           : [`${failed} failed, ${rejected} rej.`, `${failed} failed +${rejected}`, `! ${failed} +${rejected}`];
     const text = fitting(texts, width - 6) ?? texts.at(-1);
-    return { numbers, text, lane, look: isBad ? 'fold-bad' : 'fold', x: left, width, from: x, to: last };
+    return { numbers, text, texts, lane, look: isBad ? 'fold-bad' : 'fold', x: left, width, from: x, to: last };
   }
 }

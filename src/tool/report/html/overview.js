@@ -10,6 +10,7 @@ class Overview {
     Object.assign(this, elements);
     this.runs = runs;
     this.section.hidden = runs.length < 2;
+    this.section.open = innerWidth > 900; // a phone has no room to spare
     if (this.section.hidden) return;
     this.folder = commonFolder(runs.map((run) => run.data.script));
     this.body.replaceChildren(...runs.map((run, place) => this.row(run, place)));

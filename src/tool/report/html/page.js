@@ -7,7 +7,12 @@ class Page {
       picture: byId('picture'), sheet: byId('sheet'), names: byId('labels'), plot: byId('plot'), canvas: byId('canvas'),
     });
     this.minimap = new Minimap(byId('minimap'), this.timeline);
-    this.timeline.onDraw = () => this.minimap.draw();
+    this.timeline.onDraw = () => {
+      this.minimap.draw();
+      this.fillLegend();
+    };
+    this.legend = new Legend(byId('legend'));
+    this.graph = new GraphPane(byId('graph'), byId('graph-body'));
     this.gestures = new Gestures(this.timeline, {
       onChoose: (number) => this.choose(number),
       onHover: (event, target) => this.hover(event, target),
@@ -17,9 +22,9 @@ class Page {
       { section: byId('overview'), summary: byId('overview-summary'), body: byId('missions').tBodies[0] }, runs,
       (place) => this.show(place));
     this.address = new Address(runs, ({ place, index }) => this.show(place, this.numberAt(place, index)));
-    fillLegend(byId('legend'), runs);
     byId('legend-fold').open = innerWidth >= 900 && innerHeight >= 1100;
     byId('wants-graph').checked = innerWidth >= 1400;
+    this.graph.want(byId('wants-graph').checked);
     byId('help-choice').append(...choiceElement().querySelectorAll('p'));
     this.setUpControls();
     this.setUpPaper();
@@ -62,7 +67,10 @@ class Page {
       byId('more').setAttribute('aria-expanded', `${!isOpen}`);
     });
     on('scale', 'change', (event) => timeline.setScale(event.target.value));
-    on('wants-graph', 'change', () => this.fillGraph());
+    on('wants-graph', 'change', (event) => {
+      this.graph.want(event.target.checked);
+      this.fillLegend();
+    });
     on('all-links', 'change', (event) => {
       timeline.wantsLinks = event.target.checked;
       timeline.drawSoon();
@@ -72,7 +80,6 @@ class Page {
       timeline.setUpRows();
     });
     document.addEventListener('keydown', (event) => this.onKey(event));
-    new ResizeObserver(() => this.fillGraph()).observe(byId('graph-body'));
   }
 
   onKey(event) {
@@ -152,12 +159,8 @@ class Page {
     const { run } = this;
     const { script, expectations, error } = run.data;
     document.title = `${run.hasFailed ? '\u00d7 ' : ''}${script} \u2013 cbc ${run.property === null ? 'solve' : 'verify'}`;
-    const count = (outcome) => run.events.filter((event) => isAsked(event) && event.outcome === outcome).length;
-    const [accepted, rejected] = [count('accepted'), count('rejected')];
-    const others = run.size - accepted - rejected;
-    byId('counts').textContent = `${quantity(run.size, 'event')}: ${accepted} accepted, ${rejected} rejected` +
-      (others > 0 ? `, ${others} neither` : '') +
-      (this.live !== undefined && expectations.passed + expectations.failed === 0 ? ''
+    byId('counts').textContent = `${quantity(run.size, 'event')}: ${run.counts().join(', ')}` +
+      (expectations.passed + expectations.failed === 0 ? ''
         : ` \u00b7 expectations: ${expectations.passed} passed, ${expectations.failed} failed`);
     const alarms = [...(run.leftOut === 0 ? [] : [html('p', 'alarm', this.limit(run))]),
                     ...(run.isViolation ? [html('p', 'alarm', `violated property: ${run.property.statement}`)] : []),
@@ -176,7 +179,6 @@ class Page {
     this.live = new Live(this, this.run, token, {
       bar: byId('live'), state: byId('live-state'), note: byId('live-note'), newest: byId('newest'),
     }, this.address.read()?.index || null);
-    fillLegend(byId('legend'), this.runs, true);
     this.fillCounts();
   }
 
@@ -247,7 +249,8 @@ class Page {
     }
     if (run.size === 0) {
       this.tell('No events.');
-      for (const id of ['detail-body', 'state-body', 'graph-body']) byId(id).replaceChildren();
+      for (const id of ['detail-body', 'state-body']) byId(id).replaceChildren();
+      this.graph.show(run, 0);
       return;
     }
     if (number === this.number) return;
@@ -276,7 +279,7 @@ class Page {
     this.tellEvent();
     fillDetail({ title: byId('detail-title'), body: byId('detail-body') }, run, number, (other) => this.choose(other));
     fillState(byId('state-body'), run, number);
-    this.fillGraph();
+    this.graph.show(run, number);
   }
 
   tell(text) {
@@ -284,9 +287,10 @@ class Page {
     byId('status').title = text;
   }
 
-  fillGraph() {
-    byId('graph').hidden = !byId('wants-graph').checked;
-    if (!byId('graph').hidden && this.run !== undefined && this.number > 0) fillGraph(byId('graph-body'), this.run, this.number);
+  fillLegend() {
+    this.legend.show(this.run, {
+      hasFolds: this.timeline.hasFolds, hasMinimap: !byId('minimap').hidden, hasGraph: byId('wants-graph').checked,
+    });
   }
 
   /** Chooses the next event of a list of numbers, or the previous one; at its end, the first again. */

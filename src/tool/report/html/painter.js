@@ -6,12 +6,14 @@ const laneHeight = 20;
 const tickHeight = 9;
 const spanHeight = 14;
 const mostLinks = 300; // in view; more than these would hide the rest
+const signRadius = 6.5; // with its line
 const boldness = 1.12; // how much wider bold texts are than measured
 
 const glyphs = {
   good: 'M-2.6 0.2 L-0.7 2.2 L2.7 -2.1',
   bad: 'M-2.1 -2.1 L2.1 2.1 M2.1 -2.1 L-2.1 2.1',
   clock: 'M0 -2.8 V0.2 H2.2',
+  fault: 'M0.8 -3.2 L-1.8 0.5 H1.6 L-0.8 3.2',
   change: 'M-2.8 0.8 C-1.6 -2.4 -0.6 -0.6 0 0 S1.6 2.4 2.8 -0.8',
 };
 
@@ -21,6 +23,9 @@ function glyphOf(cause) {
   if (cause === 'situation_change') return [glyphs.change, ''];
   return [cause === 'time_out' ? glyphs.clock : glyphs.bad, '-bad'];
 }
+
+/** How the stretches in which a behavior cannot be activated look, by the kind of their outage. */
+const outageLooks = { unavailable: 'unavailable', 'does not fit': 'misfit', faulty: 'faulty' };
 
 function drawGlyph(ink, x, y, shape, look) {
   ink.circle(`glyph-ground${look}`, x, y, 5.6);
@@ -102,7 +107,8 @@ class Painter {
   drawAxis() {
     for (const { x, text } of this.view.ticks()) {
       if (this.view.scale === 'time') this.ink.line('grid', crisp(x), axisHeight - 4, crisp(x), this.height);
-      this.ink.text('tick-text', x, axisHeight - 7, text, 'middle');
+      const half = measure(text) / 2 + 2;
+      if (x >= half && x <= this.width - half) this.ink.text('tick-text', x, axisHeight - 7, text, 'middle');
     }
   }
 
@@ -129,6 +135,7 @@ class Painter {
   }
 
   drawOutages() {
+    const labels = new Map(); // of each row: the right edge of what was written last
     for (const outage of this.run.outages) {
       const x = this.view.xs[outage.from];
       const end = this.view.endOf(outage);
@@ -137,12 +144,12 @@ class Painter {
         if (!this.isRowInView(row)) continue;
         const y = this.top + row.y;
         const from = Math.max(x, -10);
-        this.ink.rect('off', from, y + 7, Math.max(1, Math.min(end, this.width + 10) - from), 6);
-        const begin = Math.max(x, 0) + 16;
+        this.ink.rect(outageLooks[outage.kind], from, y + 7, Math.max(1, Math.min(end, this.width + 10) - from), 6);
+        const begin = Math.max(x + 16, 16, (labels.get(row) ?? 0) + 8);
         const width = measure(outage.kind, 'italic');
-        if (width + 12 < end - begin && !this.isBusy(row, begin, begin + width)) {
-          this.ink.text('off-text', begin, y + 14, outage.kind);
-        }
+        if (begin + width + 12 > Math.min(end, this.width) || this.isBusy(row, begin, begin + width)) continue;
+        this.ink.text('off-text', begin, y + 14, outage.kind);
+        labels.set(row, begin + width);
       }
     }
   }
@@ -216,6 +223,11 @@ class Painter {
       this.ink.rect(span.cause, from, y, to - from, spanHeight);
     }
     this.addTarget(from, y, to - from + (span.to === null ? 8 : 0), spanHeight, { span });
+    for (const fault of span.faults) {
+      const begin = Math.max(this.view.xs[fault.from], from);
+      const limit = Math.min(fault.to === null ? to : this.view.xs[fault.to], to);
+      if (limit > begin) this.ink.rect('faulty-bar', begin, y + spanHeight - 4, limit - begin, 4);
+    }
     this.drawSpanTexts(span, y, end);
   }
 
@@ -223,7 +235,9 @@ class Painter {
     const parts = span.cause === 'required' ? span.requirers : [{ from: span.from }];
     parts.forEach(({ from, names }, place) => {
       const next = parts[place + 1];
-      const limit = Math.min(next === undefined ? end : this.view.xs[next.from], this.width);
+      const fault = span.faults.find((one) => one.from > from); // whose sign would hide the text
+      const limit = Math.min(next === undefined ? end : this.view.xs[next.from], this.width,
+                             fault === undefined ? Infinity : this.view.xs[fault.from] - 4);
       const begin = Math.max(this.view.xs[from] + (place === 0 && this.hasSignAt(span) ? 14 : 8), 6);
       if (limit - begin < 16) return;
       const text = fitting(this.spanTexts(span, names), limit - begin - 10);
@@ -287,8 +301,11 @@ class Painter {
     this.ink.circle('link-end', x - 2, begin, 2.4);
   }
 
-  sign(x, row, number, [shape, look]) {
+  /** At the edges it is moved in, so that all of it can be seen. */
+  sign(at, row, number, [shape, look]) {
     const y = this.middleOf(row);
+    const isNear = at >= 0 && at <= this.width;
+    const x = isNear ? Math.min(Math.max(at, signRadius), this.width - signRadius) : at;
     drawGlyph(this.ink, x, y, shape, look);
     this.addTarget(x - 6, y - 6, 12, 12, { numbers: [number] });
   }
@@ -310,6 +327,11 @@ class Painter {
       if (event.verb === 'finish' && event.outcome === 'accepted') {
         for (const [task, behavior] of Object.entries(this.run.running(number - 1))) {
           if (behavior === event.name) signAt(x, this.rows.find(task, behavior), number, glyphOf(event.cause));
+        }
+      }
+      if (event.verb === 'fault') {
+        for (const [task, behavior] of Object.entries(event.running)) {
+          if (behavior === event.name) signAt(x, this.rows.find(task, behavior), number, [glyphs.fault, '-bad']);
         }
       }
       for (const change of event.changes) {
@@ -398,21 +420,50 @@ class Painter {
   }
 
   drawMarks() {
-    const { ink } = this;
-    const limits = new Map(); // of each lane: where the mark on the right begins
-    for (const mark of [...this.marks].reverse()) {
-      const limit = limits.get(mark.lane) ?? Infinity;
-      limits.set(mark.lane, mark.x);
-      if (!this.view.isInView(mark.x, mark.numbers.length > 1 ? mark.x + mark.width : limit)) continue;
-      const y = axisHeight + mark.lane * laneHeight + 1;
-      if (mark.numbers.length === 1) this.drawMarkText(mark, limit, y);
-      const found = this.filter === null ? null : mark.numbers.filter((number) => this.filter.has(number)).length;
-      const isPart = found > 0 && mark.numbers.length > 1;
-      drawMark(ink, isPart ? { ...mark, text: `${found} of ${mark.numbers.length}` } : mark, y);
-      if (found === 0) ink.rect('dimmed', mark.x - 1, y - 1, mark.width + 5, 19);
-      this.addTarget(mark.x, y, mark.width, 16, { numbers: mark.numbers, mark });
-      if (mark.numbers.includes(this.chosen)) ink.rect('ring', mark.x - 2, y - 2, mark.width + 4, 20, 9);
+    const lanes = new Map();
+    for (const mark of this.marks) {
+      if (!lanes.has(mark.lane)) lanes.set(mark.lane, []);
+      lanes.get(mark.lane).push(mark);
     }
+    for (const lane of lanes.values()) {
+      for (let place = lane.length - 1; place >= 0; --place) this.drawMarkOf(lane, place);
+    }
+  }
+
+  drawMarkOf(lane, place) {
+    const [before, after] = [lane[place - 1], lane[place + 1]];
+    const limit = after === undefined ? Infinity : after.x;
+    const whole = lane[place];
+    const isSingle = whole.numbers.length === 1;
+    if (!this.view.isInView(whole.x, isSingle ? limit : whole.x + whole.width)) return;
+    const mark = this.fitMark(whole, before === undefined ? -Infinity : before.x + before.width, limit);
+    const y = axisHeight + whole.lane * laneHeight + 1;
+    if (isSingle) this.drawMarkText(mark ?? whole, limit, y); // even if its mark is left of the picture
+    if (mark === null) return;
+    const { ink } = this;
+    const found = this.filter === null ? null : mark.numbers.filter((number) => this.filter.has(number)).length;
+    const isPart = found > 0 && !isSingle;
+    drawMark(ink, isPart ? { ...mark, text: `${found} of ${mark.numbers.length}` } : mark, y);
+    if (found === 0) ink.rect('dimmed', mark.x - 1, y - 1, mark.width + 5, 19);
+    this.addTarget(mark.x, y, mark.width, 16, { numbers: mark.numbers, mark });
+    if (mark.numbers.includes(this.chosen)) ink.rect('ring', mark.x - 2, y - 2, mark.width + 4, 20, 9);
+  }
+
+  /** A mark that the edge of the picture would cut is moved in if there is room beside it, or left out: half a
+   * number is another number. Of a fold the part in view is drawn. */
+  fitMark(mark, least, most) {
+    const [left, right] = [2, this.width - 2];
+    if (mark.x >= left && mark.x + mark.width <= right) return mark;
+    if (mark.numbers.length > 1) {
+      const x = Math.max(mark.x, left);
+      const width = Math.min(mark.x + mark.width, right) - x;
+      const text = fitting(mark.texts, width - 6);
+      return text === null ? null : { ...mark, x, width, text };
+    }
+    const at = this.view.xs[mark.numbers[0]];
+    const x = Math.min(Math.max(mark.x, left), right - mark.width);
+    const isFree = x > least && x + mark.width < most;
+    return at >= 0 && at <= this.width && isFree ? { ...mark, x } : null;
   }
 
   /** The event in words, between its mark and the next one beside it. */

@@ -74,6 +74,20 @@ class Run {
     return this.failures.has(number);
   }
 
+  /** How many events of each kind there are, in words: by their outcomes; those that ask for nothing by what
+   * they are. */
+  counts() {
+    const kinds = [['accepted', 'accepted'], ['rejected', 'rejected'], ['unchanged', 'without effect'],
+                   ['situation', 'situation change'], ['fault', 'fault'], ['repair', 'repair'], ['wait', 'wait']];
+    const counts = new Map(kinds.map(([kind]) => [kind, 0]));
+    for (const event of this.events) {
+      const kind = isAsked(event) ? event.outcome : event.verb;
+      counts.set(kind, counts.get(kind) + 1);
+    }
+    return kinds.filter(([kind], place) => place < 2 || counts.get(kind) > 0).map(([kind, name], place) =>
+      (place < 2 || kind === 'unchanged' ? `${counts.get(kind)} ${name}` : quantity(counts.get(kind), name)));
+  }
+
   /** The event to look at first: the first failure, or what the script leads to, or the first event. */
   get firstOfInterest() {
     if (this.failures.size > 0) return Math.max(1, Math.min(...this.failures.keys()));
@@ -231,6 +245,7 @@ class Run {
     for (const [task, span] of this.openSpans) {
       if (span.behavior === get(running, task) && span.priority === get(requests, task) && !restarted(task)) {
         this.noteRequirers(span, number);
+        this.noteFaults(span, number);
         continue;
       }
       span.to = number;
@@ -241,7 +256,9 @@ class Run {
       const priority = get(requests, task);
       const span = { task, behavior, priority, cause: causeOf(priority), from: number, to: null };
       span.requirers = []; // {from, names}: each from an event on
+      span.faults = []; // {from, to}: while its behavior was faulty; `to` null until the span ends
       this.noteRequirers(span, number);
+      this.noteFaults(span, number);
       span.isRestart = restarted(task);
       this.openSpans.set(task, span);
       this.spans.push(span);
@@ -252,6 +269,14 @@ class Run {
     const names = this.requirers(number, span.task);
     const last = span.requirers.at(-1);
     if (last === undefined || last.names.join('\0') !== names.join('\0')) span.requirers.push({ from: number, names });
+  }
+
+  /** An active behavior that becomes faulty goes on. */
+  noteFaults(span, number) {
+    const isFaulty = this.openOutages.faulty.has(span.behavior);
+    const last = span.faults.at(-1);
+    if (isFaulty && last?.to !== null) span.faults.push({ from: number, to: null });
+    if (!isFaulty && last?.to === null) last.to = number;
   }
 
   /** Running tasks whose behaviors require a task, after an event. */

@@ -167,7 +167,9 @@ class Timeline {
     this.canvas.style.width = `${width}px`;
     this.canvas.style.height = `${height}px`;
     this.ink.begin(width, height);
-    const painter = new Painter(this.scene(), this.ink);
+    const scene = this.scene();
+    this.hasFolds = scene.marks.some((mark) => mark.numbers.length > 1);
+    const painter = new Painter(scene, this.ink);
     painter.paint(width, height, scroll);
     this.targets = painter.targets;
     this.nameRows.style.transform = `translateY(${-scroll}px)`;
