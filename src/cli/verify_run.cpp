@@ -19,7 +19,6 @@
 #include "cli/output.h"
 #include "cli/verify.h"
 #include "report/open_psa.h"
-#include "report/solve_report.h"
 #include "report/verify_report.h"
 #include "support/system.h"
 #include "support/wording.h"
@@ -351,7 +350,7 @@ class Call {
         if (status != exit_ok) return status;
       }
     }
-    return options_.html ? draw() : exit_ok;
+    return options_.html ? write_output(*options_.html, verify_to_html(result_)) : exit_ok;
   }
 
   static int check_replay(const Answer& answer, const Replay& replayed) {
@@ -364,23 +363,6 @@ class Call {
         "this script:");
     fmt::print(stderr, "{}", answer.witness->text);
     return exit_internal;
-  }
-
-  int draw() {
-    HtmlReport picture;
-    for (const VerifyPart& part : result_.parts) {
-      for (const ReportedAnswer& reported : part.answers) {
-        if (!reported.replay) continue;
-        const Answer& answer = *reported.answer;
-        const Script& script = answer.witness->script;
-        picture.begin_run(catalog_, script);
-        picture.begin_property(name_of(answer.verdict.result),
-                               describe(catalog_, *answer.property));
-        picture.end_run(run_script(catalog_, script, {}, picture), {});
-      }
-    }
-    picture.end();
-    return write_output(*options_.html, picture.page());
   }
 
   int report() {

@@ -318,49 +318,6 @@ class Page(PageCase):
         self.assertIn("LOCALIZE", self.text("#detail-body table.differences"))
         self.assertIn("the fault takes effect at its next activation", detail)
 
-    def test_what_breaks_a_property_is_shown_at_its_end(self):
-        page = OUT / "broken.html"
-        properties = write("broken.properties.yaml", {
-            "catalog": str(ROOT / "catalogs/warehouse.yaml"),
-            "properties": [{"never": {"active": ["SONAR_GUARD"]}}]})
-        result = subprocess.run([PROGRAM, "verify", properties, "--html", str(page)], cwd=ROOT,
-                                stdout=subprocess.DEVNULL, check=False)
-        self.assertEqual(result.returncode, 1)
-        self.url = page.as_uri()
-        self.browser.load(self.url)
-        self.assertGreater(self.browser.ask("page.run.size"), 1)
-        self.assertEqual(self.number(), self.browser.ask("page.run.size"))
-        self.assertIn("SONAR_GUARD", self.text("#state-body"))
-
-    def test_violated_properties_are_not_told_as_passed(self):
-        page = OUT / "violated.html"
-        properties = write("violated.properties.yaml", {
-            "catalog": str(ROOT / "catalogs/warehouse.yaml"),
-            "properties": [{"reachable": {"active": ["SONAR_GUARD"]}},
-                           {"never": {"active": ["SONAR_GUARD"]}},
-                           {"always": {"stopped": ["NAVIGATE"]}, "name": "it stays"}]})
-        result = subprocess.run([PROGRAM, "verify", properties, "--html", str(page), "--format", "json"],
-                                cwd=ROOT, stdout=subprocess.PIPE, check=False)
-        self.assertEqual(result.returncode, 1)
-        answers = [one["result"] for one in json.loads(result.stdout)["properties"]]
-        self.assertEqual(answers, ["proved", "violated", "violated"])
-        self.url = page.as_uri()
-        self.browser.load(self.url)
-        self.assertIn("3 properties: 2 violated", self.text("#overview-summary"))
-        cells = "[...document.querySelectorAll('#missions tbody tr')].map((row) => [row.cells[1].textContent," \
-                "getComputedStyle(row.cells[1]).color === getComputedStyle(document.querySelector('.alarm')).color])"
-        self.assertEqual(self.browser.ask(cells), [["\u2713 proved (witness)", False],
-                                                   ["\u00d7 violated", True], ["\u00d7 violated", True]])
-        # It opens at the first violated one, and says what that is.
-        self.assertEqual(self.browser.ask("page.place"), 1)
-        self.assertIn("SONAR_GUARD", self.text("#alarms .alarm"))
-        self.assertEqual(self.browser.ask("document.title[0]"), "\u00d7")
-        self.assertTrue(self.browser.ask("document.title").endswith("cbc verify"))
-        self.choose_run(2)
-        self.assertIn("NAVIGATE", self.text("#alarms .alarm"))  # what it states, not only its name
-        self.choose_run(0)
-        self.assertTrue(self.browser.ask("document.querySelector('#alarms').hidden"))
-
     def test_events_that_change_nothing_say_why(self):
         mission = write("quiet.mission.yaml", {"events": [
             {"start": "HOVER"}, {"start": "HOVER"}, {"fault": "FOLLOW_PATH_WITH_PID_CONTROL"},

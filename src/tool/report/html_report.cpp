@@ -2,8 +2,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "catalog/situation.h"
 #include "page_files.h"
@@ -98,12 +100,6 @@ void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   failures_left_ = most_later_failures;
 }
 
-void HtmlReport::begin_property(std::string_view result, std::string_view statement) {
-  JsonWriter json(runs_json_);
-  json.write_object("property", {{"result", result}, {"statement", statement}});
-  json.flush();
-}
-
 void HtmlReport::on_event(const EventRecord& record, const Step* step, const State& state) {
   if (is_full()) {
     ++left_out_of_run_;
@@ -129,11 +125,29 @@ void HtmlReport::end_run(const RunResult& result, const std::string& error) {
   left_out_ += left_out_of_run_;
 }
 
+void HtmlReport::list_properties(const std::vector<PropertyOfPage>& properties) {
+  std::string list;
+  JsonWriter json(list);
+  std::int64_t runs = 0;
+  json.open('[');
+  for (const PropertyOfPage& property : properties) {
+    json.open('{');
+    json.write_members({{"title", property.title},
+                        {"statement", property.statement},
+                        {"result", property.result},
+                        {"description", property.description}});
+    json.write("run", property.has_run ? std::optional(runs++) : std::nullopt);
+    json.close('}');
+  }
+  json.close(']');
+  properties_json_ = R"(,"properties":)" + list;
+}
+
 void HtmlReport::end() { json_.end(); }
 
 std::string HtmlReport::page() {
   return make_page({R"({"catalogs":)", catalogs_json_, R"(],"runs":)", runs_json_, R"(],"report":)",
-                    memory_.text(), "}"},
+                    memory_.text(), properties_json_, "}"},
                    "'none'");
 }
 

@@ -344,6 +344,15 @@ class JsonReport final : public SolveReport {
   std::string failures_;                ///< of the run, as JSON
 };
 
+/// A property, as a page lists it.
+struct PropertyOfPage {
+  std::string title;        ///< where it is, and its name: "robot.yaml:5: landing is possible"
+  std::string statement;    ///< what it says
+  std::string_view result;  ///< the word for it: "proved"
+  std::string description;  ///< the result in a sentence, with how far it reaches
+  bool has_run = false;     ///< whether the page has its counterexample or witness
+};
+
 /// Makes a self-contained HTML page of all runs: a timeline to step through or to print. Its data
 /// are the JSON report and what the picture needs of each catalog beyond that. Events that no
 /// longer fit are left out, which the page says: no browser shows it otherwise, and memory stays
@@ -362,10 +371,9 @@ class HtmlReport final : public SolveReport {
   void end_run(const RunResult& result, const std::string& error) override;
   void end() override;
 
-  /// Says that the run that was begun is the counterexample or witness of a property. The page then
-  /// shows its last event first: that is what its script leads to. `result`: the word for it.
-  /// `statement`: what the property says.
-  void begin_property(std::string_view result, std::string_view statement);
+  /// Makes it a page of properties: the runs are those of the properties that have one, in their
+  /// order. The page shows the last event of a run first: that is what its script leads to.
+  void list_properties(const std::vector<PropertyOfPage>& properties);
 
   /// The page; call it after end().
   [[nodiscard]] std::string page();
@@ -385,6 +393,7 @@ class HtmlReport final : public SolveReport {
   std::vector<const CompiledCatalog*> catalogs_;
   std::string catalogs_json_ = "[";
   std::string runs_json_ = "[";
+  std::string properties_json_;  ///< a member of the data, if it is a page of properties
 };
 
 /// Writes failed expectations and runs that ended early as workflow commands of GitHub Actions:

@@ -16,19 +16,6 @@ namespace {
 
 constexpr std::string_view command = "cbc verify";
 
-const Exploration& exploration_of(const VerifyPart& part, const Answer& answer) {
-  return part.verification.explorations[answer.exploration];
-}
-
-/// "violated after 4 events", "undecided: ended by --max-states 1000; …".
-std::string describe_fault(const VerifyResult& result, const VerifyPart& part,
-                           const Answer& answer) {
-  if (answer.verdict.result == Verdict::Result::undecided) {
-    return "undecided: " + describe_limit(result, exploration_of(part, answer));
-  }
-  return describe_violation(answer, exploration_of(part, answer));
-}
-
 std::string file_of(const VerifyPart& part) { return part.file->path; }
 
 std::size_t count(const VerifyPart& part, Verdict::Result result) {
@@ -66,7 +53,7 @@ std::string test_case(const VerifyResult& result, const VerifyPart& part,
   return broken_case(
       name, file_of(part),
       junit_problem(is_violated ? "failure" : "error", is_violated ? "property" : "limit",
-                    describe_fault(result, part, answer), details));
+                    describe_answer(result, part, answer), details));
 }
 
 }  // namespace
@@ -93,7 +80,7 @@ std::string verify_to_github(const VerifyResult& result) {
       const Property& property = *answer.property;
       std::string message = title_of(*result.catalog, property) + "\n";
       if (!property.name.empty()) message += describe(*result.catalog, property) + "\n";
-      message += describe_fault(result, part, answer);
+      message += describe_answer(result, part, answer);
       if (reported.replay) {
         for (const std::string& line : reported.replay->story) message += "\n" + line;
       }

@@ -100,6 +100,11 @@ struct VerifyResult {
 [[nodiscard]] std::string describe_limit(const VerifyResult& result,
                                          const Exploration& exploration);
 
+/// What was found out about a property of a part, with how far that reaches: "violated after 4
+/// events", "proved for 61 reachable states", "undecided: ended by --max-states 1000; …".
+[[nodiscard]] std::string describe_answer(const VerifyResult& result, const VerifyPart& part,
+                                          const Answer& answer);
+
 /// The result for people.
 [[nodiscard]] std::string verify_to_text(const VerifyResult& result, const Style& style);
 
@@ -141,6 +146,9 @@ struct VerifyResult {
 /// Violated and undecided properties as workflow commands of GitHub Actions: each becomes an
 /// annotation of its line.
 [[nodiscard]] std::string verify_to_github(const VerifyResult& result);
+
+/// A page of all properties, with a timeline of each counterexample and witness.
+[[nodiscard]] std::string verify_to_html(const VerifyResult& result);
 
 /// A format of `cbc verify`.
 struct VerifyFormat {

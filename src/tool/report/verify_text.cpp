@@ -107,6 +107,24 @@ std::string describe_limit(const VerifyResult& result, const Exploration& explor
                      has_higher_limit(end) ? " (a higher limit goes on)" : "", counts);
 }
 
+std::string describe_answer(const VerifyResult& result, const VerifyPart& part,
+                            const Answer& answer) {
+  const Exploration& exploration = part.verification.explorations[answer.exploration];
+  switch (answer.verdict.result) {
+    case Verdict::Result::undecided:
+      return "undecided: " + describe_limit(result, exploration);
+    case Verdict::Result::violated:
+      return describe_violation(answer, exploration);
+    case Verdict::Result::proved:
+      break;
+  }
+  if (!answer.witness) {
+    return fmt::format("proved for {}", quantity(exploration.states, "reachable state"));
+  }
+  const std::size_t events = answer.verdict.script.size();
+  return events == 0 ? "proved in the first state" : "proved after " + quantity(events, "event");
+}
+
 namespace {
 
 constexpr std::size_t text_width = 80;

@@ -1,7 +1,8 @@
 // Puts the parts of the page together: which run and which event are shown, keys, files and paper.
 
 class Page {
-  constructor(runs) {
+  /** `properties`: of a page of properties; null on one of missions. */
+  constructor(runs, properties) {
     this.runs = runs;
     this.timeline = new Timeline({
       picture: byId('picture'), sheet: byId('sheet'), names: byId('labels'), plot: byId('plot'), canvas: byId('canvas'),
@@ -20,7 +21,7 @@ class Page {
     this.table = new EventsTable(byId('events'), byId('log-scroll'), (number) => this.choose(number));
     this.overview = new Overview(
       { section: byId('overview'), summary: byId('overview-summary'), body: byId('missions').tBodies[0] }, runs,
-      (place) => this.show(place));
+      properties, (place) => this.show(place));
     this.address = new Address(runs, ({ place, index }) => this.show(place, this.numberAt(place, index)));
     byId('legend-fold').open = innerWidth >= 900 && innerHeight >= 1100;
     byId('wants-graph').checked = innerWidth >= 1400;
@@ -29,6 +30,14 @@ class Page {
     this.setUpControls();
     this.setUpPaper();
     if (runs.length > 0) this.showFirst();
+    else this.showList();
+  }
+
+  /** There are properties, but none of them has a script to step through. */
+  showList() {
+    document.body.classList.add('is-list');
+    byId('title').textContent = 'Properties';
+    document.title = 'Properties \u2013 cbc verify';
   }
 
   /** Opens at what the address asks for, or at the first failure. */
@@ -354,5 +363,5 @@ class Page {
 }
 
 const pageData = JSON.parse(showEscapes(byId('data').textContent));
-const page = new Page(readRuns(pageData));
+const page = new Page(readRuns(pageData), pageData.properties ?? null);
 if (pageData.live !== undefined) page.follow(pageData.live);

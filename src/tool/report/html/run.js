@@ -353,7 +353,8 @@ class Run {
 function readRuns(data) {
   const catalogs = data.catalogs.map((catalog) => new Catalog(catalog));
   return data.report.runs.map((run, place) => {
-    const { catalog, situation, state, left_out: leftOut, property } = data.runs[place];
+    const { catalog, situation, state, left_out: leftOut } = data.runs[place];
+    const property = data.properties?.find((one) => one.run === place);
     return new Run(run, catalogs[catalog], { situation, ...state }, leftOut, property);
   });
 }
