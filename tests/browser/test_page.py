@@ -479,7 +479,7 @@ class Page(PageCase):
             room, text = self.browser.ask(
                 "(() => { const one = document.querySelector('#search'), style = getComputedStyle(one),"
                 "context = document.createElement('canvas').getContext('2d'); context.font = style.font;"
-                "return [one.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight) - 20,"  # a sign
+                "return [one.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight) - 34,"  # the arrow of the list
                 " context.measureText(one.placeholder).width]; })()")
             self.assertGreater(room, text)
         for word in ("tasks", "behaviors", "variables", "verbs"):

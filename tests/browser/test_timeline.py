@@ -205,8 +205,9 @@ class Timeline(PageCase):
         self.assertGreater(wide, 240)
         self.browser.set_size(2400, 1250)
         self.assertGreater(self.browser.ask(width), wide + 600)
-        self.browser.set_size(390, 844)
-        self.assertGreater(self.browser.ask(width), 150)
+        for narrow in ((1440, 900), (1280, 800), (1000, 700), (390, 844)):
+            self.browser.set_size(*narrow)
+            self.assertGreater(self.browser.ask(width), 150)
 
     def test_arrows_are_those_of_the_chosen_event(self):
         self.assertEqual(self.drawn("link-end"), 0)

@@ -108,7 +108,7 @@ TEST_F(Verify, JudgesMutantsAlikeWithAnyNumberOfJobs) {
   EXPECT_EQ(verify(arguments).out, one.out);
 }
 
-TEST_F(Verify, DrawsCounterexamplesAndWitnesses) {
+TEST_F(Verify, ListsAllPropertiesAndDrawsCounterexamplesAndWitnesses) {
   const Result alone = verify({properties});
   const Result result = verify({properties, "--html", scratch / "page.html"});
   EXPECT_EQ(result.status, 1);
@@ -117,14 +117,19 @@ TEST_F(Verify, DrawsCounterexamplesAndWitnesses) {
   EXPECT_EQ(page.rfind("<!DOCTYPE html>", 0), 0U);
   EXPECT_NE(page.find(properties + ":5: landing is always possible"), std::string::npos);
   EXPECT_NE(page.find(properties + ":14: dead reckoning helps out"), std::string::npos);
-  EXPECT_EQ(page.find(properties + ":7:"), std::string::npos);
+  EXPECT_NE(page.find(properties + ":7:"), std::string::npos);
+  EXPECT_EQ(page.find(R"("script":")" + properties + ":7:"), std::string::npos);
 }
 
 TEST_F(Verify, DrawsAPageWithoutCounterexamples) {
   scratch.write("x.yaml", "properties: [{can_start: PING}]\n");
   const Result result = verify({catalog, scratch / "x.yaml", "--html", scratch / "page.html"});
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(scratch.read("page.html").rfind("<!DOCTYPE html>", 0), 0U);
+  const std::string page = scratch.read("page.html");
+  EXPECT_EQ(page.rfind("<!DOCTYPE html>", 0), 0U);
+  EXPECT_NE(page.find(R"("statement":"PING can always start with priority 1","result":"proved",)"),
+            std::string::npos);
+  EXPECT_NE(page.find(R"(,"run":null}])"), std::string::npos);
 }
 
 TEST_F(Verify, WritesAFaultTree) {

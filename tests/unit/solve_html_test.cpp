@@ -219,6 +219,22 @@ TEST(SolveHtml, LeavesOutWhatNoLongerFits) {
   EXPECT_EQ(html.left_out(), events - shown + 3);
 }
 
+TEST(SolveHtml, ListsPropertiesWithTheirRuns) {
+  const CompiledCatalog catalog = test::compile_text(plain_catalog);
+  HtmlReport html;
+  run(catalog, read(catalog, plain_script), html);
+  html.list_properties({{"p.yaml:1: one", "never <GO>", "proved", "proved for 3 reachable states"},
+                        {"p.yaml:2: two", "GO runs", "violated", "violated after 1 event", true}});
+  html.end();
+  const json data = json::parse(data_text(html.page()));
+  EXPECT_EQ(
+      data["properties"],
+      json::parse(R"([{"title": "p.yaml:1: one", "statement": "never <GO>", "result": "proved",
+                             "description": "proved for 3 reachable states", "run": null},
+                            {"title": "p.yaml:2: two", "statement": "GO runs", "result": "violated",
+                             "description": "violated after 1 event", "run": 0}])"));
+}
+
 TEST(SolveHtml, WithoutRunsIsAPageStill) {
   HtmlReport html;
   html.end();
