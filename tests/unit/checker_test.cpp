@@ -180,6 +180,31 @@ behaviors:
             "task 'A' with 'a' requires task 'B', which does not run");
 }
 
+TEST(Checker, StopsOneTaskAfterAnotherUntilNothingIsViolated) {
+  const CompiledCatalog catalog = compile_text(R"(
+behaviors:
+- {behavior: x, task: X}
+- {behavior: a, task: A, requires: [{task: B}]}
+- {behavior: b, task: B, requires: [{task: C, minimum_performance: 70}]}
+- {behavior: c1, task: C, suitability: 60}
+- {behavior: c2, task: C, suitability: 80}
+- {behavior: d, task: D}
+exclusivity_constraints:
+- mutually_exclusive: [C, D]
+)");
+  const Problem problem = open_problem(catalog, 1);
+  Checker checker(catalog);
+  const auto what_is_left = [&](std::string_view text) {
+    Assignment answer = test::answer_of(catalog, text, 1);
+    checker.stop_violating_tasks(problem, answer);
+    return test::show(catalog, answer, 1);
+  };
+  EXPECT_EQ(what_is_left("A=a B=b C=c2"), "A=a B=b C=c2");
+  EXPECT_EQ(what_is_left("A=a B=b C=c1"), "C=c1");
+  EXPECT_EQ(what_is_left("A=a B=b C=c2 D=d"), "A=a B=b C=c2");
+  EXPECT_EQ(what_is_left("A=a B=b D=d"), "D=d");
+}
+
 TEST(Checker, AgreesWithBruteForceOnChangedAnswers) {
   test::Random random(7);
   test::Shape shape;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "unit/compiled_fixture.h"
@@ -50,6 +51,26 @@ TEST(Start, IsRejectedByAHigherRequestOfTheTaskItself) {
   EXPECT_EQ(stage.start("A", 5), "accepted");
   EXPECT_EQ(stage.start("A", 6), "accepted");
   EXPECT_EQ(stage.requests(), "A:6");
+}
+
+TEST(Start, ChoosesAmongMoreThanSixtyFourBehaviors) {
+  constexpr int behaviors = 130;
+  std::string catalog = "behaviors:\n";
+  for (int i = 0; i < behaviors; ++i) {
+    catalog += fmt::format("- {{behavior: b{0}, task: A, suitability: {1}}}\n", i, 100 - i * 0.5);
+  }
+  Stage stage(catalog);
+  for (int i = 0; i + 1 < behaviors; ++i) {
+    stage.fault(fmt::format("b{}", i));
+    EXPECT_EQ(stage.start("A"), "accepted");
+    EXPECT_EQ(stage.running(), fmt::format("A=b{}", i + 1));
+    stage.stop("A");
+    stage.set({{fmt::format("b{}", i), false}});
+    EXPECT_EQ(stage.start("A"), "accepted");
+    EXPECT_EQ(stage.running(), fmt::format("A=b{}", i + 1));
+    EXPECT_EQ(stage.changes(), fmt::format("+b{} requested 1", i + 1));
+    stage.stop("A");
+  }
 }
 
 TEST(Start, TakesTheFieldFromAnEqualPriorityNotFromAHigherOne) {

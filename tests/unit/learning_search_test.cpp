@@ -1,12 +1,14 @@
 // The search that learns: problems that branch and bound alone does not finish.
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "solver/checker.h"
 #include "solver/nogoods.h"
 #include "solver/solver.h"
 #include "unit/compiled_fixture.h"
@@ -83,6 +85,23 @@ TEST(LearningSearch, DropsTheRequestThatHasNoPlace) {
   for (const char* task : {"P0=", "C=", "A=", "P1="}) {
     EXPECT_NE(learned.text.find(task), std::string::npos) << learned.text;
   }
+}
+
+TEST(LearningSearch, EndsWithTheFirstSolutionIfAnyWillDo) {
+  const CompiledCatalog catalog = catalog_with_holes(3);
+  Problem problem = test::open_problem(catalog);
+  test::demand(problem, catalog, "ALL");
+  SearchOptions options;
+  options.any_solution = true;
+  options.easy_nodes = 0;
+  options.bounded_nodes = 0;
+  const std::vector<std::uint32_t> ranks;
+  Solver solver(catalog, options, ranks);
+  Assignment solution;
+  const SearchResult result = solver.solve(problem, solution);
+  EXPECT_TRUE(has_solution(result.status));
+  EXPECT_EQ(result.solutions, 1U);
+  EXPECT_EQ(Checker(catalog).find_violation(problem, solution), std::nullopt);
 }
 
 TEST(Nogoods, ForgetThoseUsedLeast) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "compile/compile.h"
@@ -16,6 +17,7 @@
 #include "solver/reason_trail.h"
 #include "support/rounds.h"
 #include "unit/brute_force.h"
+#include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
 
 namespace cbc {
@@ -174,39 +176,69 @@ test::Shape random_shape(Random& random) {
   return shape;
 }
 
-TEST(Reasons, LeaveNoOtherSolutionOnRandomBranches) {
-  Random random(1);
+/// What happened on branches.
+struct Counts {
   int conflicts = 0;
   int inferences = 0;
   int without_solution = 0;
-  for (int round = 0; round < test::rounds(1'000); ++round) {
-    SCOPED_TRACE(round);
-    const CompiledCatalog catalog = compile(test::random_catalog(random, random_shape(random)));
-    const Problem problem = test::random_problem(random, catalog, test::largest_group(catalog));
-    Branch branch(catalog, problem);
-    bool goes_on = true;
-    for (int move = 0; move < 60 && goes_on; ++move) {
-      branch.expect_reasons_suffice();
-      inferences += static_cast<int>(branch.trail().literals().size());
-      if (!branch.is_consistent()) {
-        ++conflicts;
-        branch.expect_conflict_is_right();
-        goes_on = branch.learn();
-        if (goes_on) continue;
-        ++without_solution;
-        EXPECT_TRUE(branch.solutions().empty());
-      } else if (const Literal literal = branch.choose(random); literal != none) {
-        branch.decide(literal);
-      } else {
-        branch.restart();
-        if (random.below(3) == 0) branch.forget_half_of_the_nogoods();
-      }
+};
+
+/// Decides, infers and learns at random, and compares each step with all solutions.
+void follow_random_branch(Random& random, const test::Shape& shape, int moves, Counts& counts) {
+  const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
+  const Problem problem = test::random_problem(random, catalog, test::largest_group(catalog));
+  Branch branch(catalog, problem);
+  for (int move = 0; move < moves; ++move) {
+    branch.expect_reasons_suffice();
+    counts.inferences += static_cast<int>(branch.trail().literals().size());
+    if (!branch.is_consistent()) {
+      ++counts.conflicts;
+      branch.expect_conflict_is_right();
+      if (branch.learn()) continue;
+      ++counts.without_solution;
+      EXPECT_TRUE(branch.solutions().empty());
+      return;
     }
-    if (testing::Test::HasFailure()) return;
+    if (const Literal literal = branch.choose(random); literal != none) {
+      branch.decide(literal);
+    } else {
+      branch.restart();
+      if (random.below(3) == 0) branch.forget_half_of_the_nogoods();
+    }
   }
-  EXPECT_GE(conflicts, test::rounds(400));
-  EXPECT_GE(inferences, test::rounds(50'000));
-  EXPECT_GE(without_solution, test::rounds(20));
+}
+
+TEST(Reasons, LeaveNoOtherSolutionOnRandomBranches) {
+  Random random(1);
+  Counts counts;
+  for (int round = 0; round < test::rounds(1'000) && !HasFailure(); ++round) {
+    SCOPED_TRACE(round);
+    follow_random_branch(random, random_shape(random), 60, counts);
+  }
+  EXPECT_GE(counts.conflicts, test::rounds(400));
+  EXPECT_GE(counts.inferences, test::rounds(50'000));
+  EXPECT_GE(counts.without_solution, test::rounds(20));
+}
+
+TEST(Reasons, NameEachRemovalOfMoreThanSixtyFourValues) {
+  constexpr int behaviors = 129;
+  std::string text = "behaviors:\n- {behavior: b, task: B}\n";
+  for (int i = 0; i < behaviors; ++i) {
+    const char* const requirement = i % 3 == 0 ? ", requires: [{task: B}]" : "";
+    text += fmt::format("- {{behavior: a{}, task: A{}}}\n", i, requirement);
+  }
+  const CompiledCatalog catalog = test::compile_text(text);
+  const Problem problem = test::open_problem(catalog);
+  const std::uint32_t task = test::local_task(catalog, "A");
+  Branch branch(catalog, problem);
+  const std::uint32_t required = test::local_task(catalog, "B");
+  branch.decide(ReasonTrail::runs(task));
+  for (std::uint32_t index = 0; index < behaviors; ++index) {
+    EXPECT_FALSE(branch.domains().needed(required));
+    if (index % 3 != 0) branch.decide(negate(branch.trail().has_value(task, index)));
+  }
+  EXPECT_TRUE(branch.domains().needed(required));
+  branch.expect_reasons_suffice();
 }
 
 std::string describe(const Domains& domains) {

@@ -81,6 +81,38 @@ TEST(SearchBound, OfAnAnswerThatServesAllRequests) {
   EXPECT_LT(bound.suitability, 0.8100001);
 }
 
+TEST(SearchBound, OfAnAnswerThatNoSearchFound) {
+  const CompiledCatalog catalog = test::compile_text(std::string("tasks: [{task: X}]") + pairs);
+  const std::uint32_t group = catalog.tasks[test::task_id(catalog, "A")].group;
+  ASSERT_EQ(group, 1U);
+  const std::vector<std::uint32_t> ranks;
+  Solver solver(catalog, {}, ranks);
+  const auto bound = [&](const Problem& problem) {
+    // Other searches before leave nothing behind.
+    Assignment solution;
+    Problem before = test::open_problem(catalog, group);
+    test::demand(before, catalog, "B");
+    EXPECT_EQ(solver.solve(before, solution).status, SearchStatus::optimal);
+    EXPECT_EQ(solver.solve(test::open_problem(catalog, 0), solution).status, SearchStatus::optimal);
+    return solver.bound(problem, Assignment(problem.may_stop.size(), none));
+  };
+
+  Problem exclusive = test::open_problem(catalog, group);
+  for (const char* task : {"A", "B", "C"}) test::request(exclusive, catalog, task);
+  test::demand(exclusive, catalog, "A");
+  test::demand(exclusive, catalog, "C");
+  const SearchBound without_b = bound(exclusive);
+  EXPECT_EQ(without_b.more_requests, 2U);
+  EXPECT_FALSE(without_b.same_requests);
+  EXPECT_GE(without_b.suitability, 0.81);
+  EXPECT_LT(without_b.suitability, 0.8100001);
+
+  Problem unavailable = test::open_problem(catalog, group);
+  for (const char* task : {"A", "B", "C"}) test::request(unavailable, catalog, task);
+  test::leave_out_all(unavailable, catalog, "S");
+  EXPECT_EQ(bound(unavailable).more_requests, 2U) << "R requires S, and B requires R";
+}
+
 TEST(HighestProduct, IsJustAboveTheProduct) {
   oracle::Random random(3);
   for (int round = 0; round < 2'000; ++round) {

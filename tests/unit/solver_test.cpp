@@ -173,6 +173,41 @@ exclusivity_constraints:
   EXPECT_EQ(text_of(catalog, problem), "infeasible");
 }
 
+TEST(Solver, AProductOfZeroTiesAllComponents) {
+  // P, Q and Z have nothing to do with one another, but behind Z the product is 0 in any case, and
+  // then the fewest supporting tasks decide.
+  const CompiledCatalog catalog = compile_text(R"(
+default_values: {tasks: {start_on_request: false}}
+behaviors:
+- {behavior: x1, task: X, suitability: 80}
+- {behavior: x2, task: X}
+- {behavior: all, task: ALL, requires: [{task: P}, {task: Q}, {task: Z}]}
+- {behavior: p1, task: P, requires: [{task: S}]}
+- {behavior: p2, task: P, suitability: 90}
+- {behavior: q1, task: Q, requires: [{task: T}]}
+- {behavior: q2, task: Q, suitability: 90}
+- {behavior: z1, task: Z, requires: [{task: Y}]}
+- {behavior: z2, task: Z, requires: [{task: W}]}
+- {behavior: s, task: S}
+- {behavior: t, task: T}
+- {behavior: y, task: Y, suitability: 0}
+- {behavior: w, task: W, suitability: 0}
+)");
+  Problem without_zero = open_problem(catalog, 0);
+  test::demand(without_zero, catalog, "X");
+  Problem with_zero = open_problem(catalog, 1);
+  test::demand(with_zero, catalog, "ALL");
+  for (const std::uint64_t easy_nodes : {std::uint64_t{0}, never}) {
+    const std::vector<std::uint32_t> ranks;
+    Solver solver(catalog, restarting_after(easy_nodes), ranks);
+    Assignment answer;
+    EXPECT_EQ(solver.solve(without_zero, answer).status, SearchStatus::optimal);
+    EXPECT_EQ(test::show(catalog, answer, 0), "X=x2");
+    EXPECT_EQ(solver.solve(with_zero, answer).status, SearchStatus::optimal);
+    EXPECT_EQ(test::show(catalog, answer, 1), "ALL=all P=p2 Q=q2 Z=z1 Y=y");
+  }
+}
+
 TEST(Solver, CanBeUsedAgainForOtherGroups) {
   const CompiledCatalog catalog = compile_text(R"(
 behaviors:

@@ -507,7 +507,8 @@ Circumstances Coordinator::circumstances_of(const Trigger& trigger) const {
   return {state_, trigger, search_.protection, problem_builder_.excluded(), solver_.deadline()};
 }
 
-/// Rolls back. Behaviors that cannot be activated again are lost.
+/// Rolls back. Behaviors that cannot be activated again are lost. A finish always has an answer:
+/// where nothing is protected, all tasks may stop.
 Coordinator::Status Coordinator::reject(const Trigger& trigger) {
   record_.outcome = Outcome::rejected;
   if (options_.find_conflicts && search_.result.status == SearchStatus::infeasible) {
@@ -515,13 +516,10 @@ Coordinator::Status Coordinator::reject(const Trigger& trigger) {
   }
   const bool is_silent = note_waiting(trigger);
   if (!is_silent) listener_.on_decision(record_, circumstances_of(trigger), nullptr);
-  if (hindsight_ && !is_silent && trigger.kind != Trigger::Kind::finish) {
-    hindsight_->note_rejection(record_, trigger);
-  }
+  if (hindsight_ && !is_silent) hindsight_->note_rejection(record_, trigger);
   // In reverse, as the last one finishes next.
   const std::vector<BehaviorId>& lost = transition_.roll_back(now_);
   lost_.insert(lost_.end(), lost.rbegin(), lost.rend());
-  if (trigger.kind == Trigger::Kind::finish) state_.leave_active(trigger.behavior);
   update_timeouts(trigger.group);
   if (!is_silent) return report();
   --record_.index;

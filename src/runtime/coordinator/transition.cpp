@@ -34,11 +34,6 @@ std::optional<BehaviorId> Transition::apply(const Assignment& solution, Behavior
 
 const std::vector<BehaviorId>& Transition::roll_back(Microseconds now) {
   wanted_ = was_active_;
-  // A behavior whose finish is rejected (only at a search limit) counts as active again in any
-  // case.
-  if (trigger_.kind == Trigger::Kind::finish && state_.is_active(trigger_.behavior)) {
-    wanted_[trigger_.behavior - first_behavior_] = 1;
-  }
   plan();
   lost_.clear();
   for (const BehaviorId behavior : to_deactivate_) deactivate(behavior, nullptr, false);
