@@ -87,21 +87,23 @@ TEST(LearningSearch, DropsTheRequestThatHasNoPlace) {
   }
 }
 
-TEST(LearningSearch, EndsWithTheFirstSolutionIfAnyWillDo) {
+TEST(LearningSearch, EndsLikeBranchAndBoundWithTheFirstSolutionIfAnyWillDo) {
   const CompiledCatalog catalog = catalog_with_holes(3);
   Problem problem = test::open_problem(catalog);
   test::demand(problem, catalog, "ALL");
-  SearchOptions options;
-  options.any_solution = true;
-  options.easy_nodes = 0;
-  options.bounded_nodes = 0;
-  const std::vector<std::uint32_t> ranks;
-  Solver solver(catalog, options, ranks);
-  Assignment solution;
-  const SearchResult result = solver.solve(problem, solution);
-  EXPECT_TRUE(has_solution(result.status));
-  EXPECT_EQ(result.solutions, 1U);
-  EXPECT_EQ(Checker(catalog).find_violation(problem, solution), std::nullopt);
+  for (const std::uint64_t bounded_nodes : {std::uint64_t{0}, UINT64_MAX}) {
+    SearchOptions options;
+    options.any_solution = true;
+    options.easy_nodes = 0;
+    options.bounded_nodes = bounded_nodes;
+    const std::vector<std::uint32_t> ranks;
+    Solver solver(catalog, options, ranks);
+    Assignment solution;
+    const SearchResult result = solver.solve(problem, solution);
+    EXPECT_TRUE(has_solution(result.status));
+    EXPECT_EQ(result.solutions, 1U);
+    EXPECT_EQ(Checker(catalog).find_violation(problem, solution), std::nullopt);
+  }
 }
 
 TEST(Nogoods, ForgetThoseUsedLeast) {

@@ -208,6 +208,39 @@ behaviors:
   }
 }
 
+TEST(Solver, EachComponentHasCostsOutsideOfItsOwn) {
+  // P, Q and R are decided one after the other. q1 looks best, but Y and Z exclude one another, so
+  // that it needs u1 or w1.
+  const CompiledCatalog catalog = compile_text(R"(
+default_values: {tasks: {start_on_request: false}}
+behaviors:
+- {behavior: all, task: ALL, suitability: 50, requires: [{task: P}, {task: Q}, {task: R}]}
+- {behavior: p1, task: P, requires: [{task: A}]}
+- {behavior: p2, task: P, suitability: 90}
+- {behavior: a, task: A, requires: [{task: B}]}
+- {behavior: b, task: B, requires: [{task: C}]}
+- {behavior: c, task: C, requires: [{task: D}]}
+- {behavior: d, task: D}
+- {behavior: q1, task: Q, requires: [{task: U}, {task: W}]}
+- {behavior: q2, task: Q, suitability: 80}
+- {behavior: u1, task: U, suitability: 50}
+- {behavior: u2, task: U, requires: [{task: Y}]}
+- {behavior: w1, task: W, suitability: 50}
+- {behavior: w2, task: W, requires: [{task: Z}]}
+- {behavior: y, task: Y}
+- {behavior: z, task: Z}
+- {behavior: r1, task: R, requires: [{task: S}]}
+- {behavior: r2, task: R, suitability: 90}
+- {behavior: s, task: S}
+exclusivity_constraints:
+- mutually_exclusive: [Y, Z]
+)");
+  Problem problem = open_problem(catalog);
+  test::demand(problem, catalog, "ALL");
+  EXPECT_EQ(text_of(catalog, problem, restarting_after(0)),
+            "ALL=all P=p1 A=a B=b C=c D=d Q=q2 R=r1 S=s");
+}
+
 TEST(Solver, CanBeUsedAgainForOtherGroups) {
   const CompiledCatalog catalog = compile_text(R"(
 behaviors:
