@@ -448,6 +448,18 @@ TEST(Conditions, MayBeRuledOutByTheCatalog) {
   EXPECT_EQ(findings_of_property("reachable: {active: [SLAM], situation: {LIGHT: dusk}}"), "");
 }
 
+TEST(Conditions, MayBeRuledOutByRequirements) {
+  EXPECT_EQ(findings_of_property("reachable: {active: [HOVER_MPC], stopped: [LOCALIZE]}"),
+            "3:24-33 warning impossible-expectation: this can never hold: behavior 'HOVER_MPC' "
+            "requires task 'LOCALIZE' (a.yaml:10)\n"
+            "  3:46-54 expected to be stopped here\n");
+  EXPECT_EQ(findings_of_property("reachable: {running: [HOVER], stopped: [LOCALIZE]}"), "");
+  // That it is ruled out is what the property is there to prove.
+  EXPECT_EQ(findings_of_property("never: {active: [HOVER_MPC], stopped: [LOCALIZE]}"), "");
+  // Other behaviors may be active.
+  EXPECT_EQ(findings_of_property("reachable: {active: [HOVER_MPC]}"), "");
+}
+
 TEST(Conditions, MayBeRuledOutByTheAssumptions) {
   constexpr const char* assume = "{start: {LAND: [1, 2]}, situation: [SIGNAL, SLAM], faults: 1}";
   EXPECT_EQ(findings_of_property("reachable: {faulty: [GPS]}", assume), "");

@@ -629,6 +629,112 @@ TEST(ScriptReader, ATaskThatIsToRunAndNotToRun) {
             "1:57-62 error undefined-task: there is no task 'LANDD'; did you mean 'LAND'?\n");
 }
 
+/// The range of the finding in an expectation, and why it can never hold; then the notes.
+std::string contradictions(const std::string& expectation) {
+  return findings("- expect: {" + expectation + "}\n");
+}
+
+TEST(ScriptReader, ActiveBehaviorsNeedATask) {
+  EXPECT_EQ(contradictions("stopped: [HOVER], active: [HOVER_MPC]"),
+            "1:39-48 warning impossible-expectation: this can never hold: no task is left for "
+            "behavior 'HOVER_MPC'\n"
+            "  1:22-27 'HOVER' is expected to be stopped here\n");
+  EXPECT_EQ(contradictions("running: {HOVER: HOVER_PID}, active: [HOVER_PID, HOVER_MPC]"),
+            "1:61-70 warning impossible-expectation: this can never hold: no task is left for "
+            "behavior 'HOVER_MPC'\n"
+            "  1:29-38 'HOVER' is expected to run with another behavior here\n");
+  // It performs several tasks, of which one is left.
+  EXPECT_EQ(contradictions("stopped: [TAKE_OFF, HOVER, LAND], active: [BOTH]"), "");
+  EXPECT_EQ(contradictions("active: [HOVER_PID, BOTH], stopped: [TAKE_OFF, BOTH]"), "");
+  // The behavior of one task only takes the last task of the other, which is named first.
+  EXPECT_EQ(contradictions("active: [BOTH, HOVER_PID], stopped: [TAKE_OFF, LAND, BOTH]"),
+            "1:27-36 warning impossible-expectation: this can never hold: no task is left for "
+            "behavior 'HOVER_PID'\n"
+            "  1:21-25 'HOVER' is expected to run with another behavior here\n");
+}
+
+TEST(ScriptReader, OnlyTheActiveBehaviorsPerformTasks) {
+  EXPECT_EQ(contradictions("running: {HOVER: HOVER_PID}, active: []"),
+            "1:29-38 warning impossible-expectation: this can never hold: behavior 'HOVER_PID' is "
+            "not among those that are to be active\n"
+            "  1:41-47 no other behavior is to be active\n");
+  EXPECT_EQ(contradictions("running: {LAND: any}, active: [HOVER_PID]"),
+            "1:22-26 warning impossible-expectation: this can never hold: no behavior that "
+            "performs task 'LAND' is among those that are to be active\n"
+            "  1:34-40 no other behavior is to be active\n");
+  EXPECT_EQ(contradictions("running: {LAND: any, HOVER: HOVER_PID}, active: [BOTH, HOVER_PID]"),
+            "");
+  EXPECT_EQ(contradictions("running: {LAND: any}"), "");
+  EXPECT_EQ(contradictions("active: [], stopped: [LAND]"), "");
+}
+
+/// What lint says of an expectation, with a catalog of requirements and exclusions.
+std::string ruled_out(const std::string& expectation) {
+  static const CompiledCatalog chain = test::compile_text(R"(
+tasks:
+- task: DRIVE
+- task: PARK
+- {task: LOCALIZE, start_on_request: false, execution_goal: keep_running}
+- {task: SENSE, start_on_request: false, execution_goal: keep_running}
+- task: CHARGE
+behaviors:
+- {behavior: DRIVE_BY_MAP, task: DRIVE, requires: [{task: LOCALIZE}]}
+- {behavior: DRIVE_BLIND, task: DRIVE}
+- {behavior: PARK, task: PARK, requires: [{task: LOCALIZE}]}
+- {behavior: LIDAR, task: LOCALIZE, requires: [{task: SENSE}]}
+- {behavior: CAMERA, task: LOCALIZE, requires: [{task: SENSE}]}
+- {behavior: SCANNER, task: SENSE}
+- {behavior: CHARGE, task: CHARGE}
+exclusivity_constraints:
+- mutually_exclusive: [DRIVE, PARK]
+- mutually_exclusive: [SENSE, CHARGE]
+)");
+  Diagnostics diagnostics;
+  const auto document = yaml::parse("- expect: {" + expectation + "}\n", "s.yaml", diagnostics);
+  EXPECT_TRUE(read_script(*document, chain, Severity::warning, diagnostics).has_value());
+  return show(diagnostics);
+}
+
+TEST(ScriptReader, ExclusionsRuleOutExpectations) {
+  EXPECT_EQ(ruled_out("running: {DRIVE: any, PARK: any}"),
+            "1:34-38 warning impossible-expectation: this can never hold: 'DRIVE' excludes 'PARK' "
+            "(a.yaml:17)\n");
+  EXPECT_EQ(ruled_out("running: {DRIVE: any}, stopped: [PARK]"), "");
+  EXPECT_EQ(ruled_out("active: [DRIVE_BLIND, CHARGE]"), "");
+}
+
+TEST(ScriptReader, RequirementsRuleOutExpectations) {
+  EXPECT_EQ(ruled_out("running: {DRIVE: DRIVE_BY_MAP}, stopped: [LOCALIZE]"),
+            "1:29-41 warning impossible-expectation: this can never hold: behavior 'DRIVE_BY_MAP' "
+            "requires task 'LOCALIZE' (a.yaml:9)\n"
+            "  1:54-62 expected to be stopped here\n");
+  // It may run with the other behavior.
+  EXPECT_EQ(ruled_out("running: {DRIVE: any}, stopped: [LOCALIZE]"), "");
+  EXPECT_EQ(ruled_out("active: [DRIVE_BY_MAP, SCANNER]"),
+            "1:21-33 warning impossible-expectation: this can never hold: behavior 'DRIVE_BY_MAP' "
+            "requires task 'LOCALIZE' (a.yaml:9), and no behavior that performs it is to be "
+            "active\n"
+            "  1:12-18 no other behavior is to be active\n");
+  EXPECT_EQ(ruled_out("active: [DRIVE_BY_MAP, CAMERA, SCANNER]"), "");
+}
+
+TEST(ScriptReader, WhatIsRequiredHasRequirementsToo) {
+  const std::string through_park =
+      "1:34-38 warning impossible-expectation: this can never hold: behavior 'PARK' requires task "
+      "'LOCALIZE' (a.yaml:11), each behavior left for it, such as 'LIDAR', requires task 'SENSE' "
+      "(a.yaml:12)";
+  EXPECT_EQ(ruled_out("running: {PARK:       PARK}, stopped: [SENSE]"),
+            through_park + "\n  1:51-56 expected to be stopped here\n");
+  EXPECT_EQ(
+      ruled_out("running: {CHARGE: any, LOCALIZE: LIDAR}"),
+      "1:45-50 warning impossible-expectation: this can never hold: behavior 'LIDAR' requires "
+      "task 'SENSE' (a.yaml:12), and 'CHARGE' excludes 'SENSE' (a.yaml:18)\n");
+  EXPECT_EQ(ruled_out("running: {LOCALIZE: any}, stopped: [SENSE]"),
+            "1:22-30 warning impossible-expectation: this can never hold: each behavior left for "
+            "it, such as 'LIDAR', requires task 'SENSE' (a.yaml:12)\n"
+            "  1:48-53 expected to be stopped here\n");
+}
+
 // Time -----------------------------------------------------------------------------------------
 
 TEST(ScriptReader, TimeNeverGoesBack) {

@@ -491,20 +491,23 @@ const Rule impossible_expectation = {
     .is_of_scripts = true,
     .summary = "A script or a property file names a state that can never be.",
     .explanation =
-        "A behavior is expected to run a task that it does not perform, or a task is expected both "
-        "to run and to be stopped. Whatever happens before, the expectation of a script fails.\n\n"
+        "A behavior is expected to run a task that it does not perform; a task is expected both to "
+        "run and to be stopped; an active behavior has no task left, or a task that runs no active "
+        "behavior; or requirements and exclusions of the catalog do not allow all of it together. "
+        "Whatever happens before, the expectation of a script fails.\n\n"
         "In a condition of a property file such a contradiction is an error, which settings cannot "
         "change: 'never' with that condition would be proved, and say nothing. It is a warning if "
-        "the catalog rules the condition out, as with two tasks that exclude each other or a "
-        "behavior that does not fit the situation, or if the assumptions do, as with a faulty "
-        "behavior where 'faults' is 0. Under 'never' it is a note, since that is what the property "
-        "says.",
+        "the catalog rules the condition out, as with two tasks that exclude each other, a "
+        "required task that is stopped or a behavior that does not fit the situation, or if the "
+        "assumptions do, as with a faulty behavior where 'faults' is 0. Under 'never' it is a note, "
+        "since that is what the property says.",
     .example = R"(events:
 - start: ROTATE
 - expect: {running: {ROTATE: GPS}}
 )",
     .mending =
-        "Name a behavior that performs the task, or leave the task out of one of the two lists.",
+        "Name a behavior that performs the task, or leave out one of the things that contradict "
+        "each other.",
     .mended = R"(events:
 - start: ROTATE
 - expect: {running: {ROTATE: ROTATE_WITH_PID}}

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnostic/diagnostic.h"
+#include "script/contradictions.h"
 #include "script/names.h"
 #include "script/script.h"
 #include "yaml/document.h"
@@ -14,7 +15,7 @@ namespace cbc {
 // What is expected of a state: the reader of an `expect`, and the parts that conditions of property
 // files share with it.
 
-/// Reads the value of an `expect`, and warns of expectations that can never hold. Mistakes are
+/// Reads the value of an `expect`, and warns of what can never hold together. Mistakes are
 /// reported; the result may be used only if there was no error.
 [[nodiscard]] Expectation read_expectation(const yaml::Node& node, NameIndex& names,
                                            Reporter& reporter);
@@ -26,6 +27,10 @@ struct RunningEntry {
   Range task_range;
   Range behavior_range;  ///< of `task_range`, if a list names the task alone
 };
+
+/// The same for checks of what is claimed together.
+[[nodiscard]] StateClaims::Running claim_of(const RunningEntry& entry,
+                                            const CompiledCatalog& catalog);
 
 /// Reads a mapping of tasks to behaviors or 'any'. Entries with mistakes are left out. `of_misfit`:
 /// how a behavior counts that does not perform its task.

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "compiled/compiled_catalog.h"
 #include "diagnostic/rules.h"
+#include "script/contradictions.h"
 #include "script/expectation.h"
 #include "verify/property_reader.h"
 #include "yaml/values.h"
@@ -23,11 +24,7 @@ using yaml::Node;
 /// What contradicts itself has no meaning.
 constexpr Standing of_contradiction{Severity::error, true};
 
-/// A task or a behavior, and where it is named.
-struct Named {
-  std::uint32_t id = 0;
-  Range range;
-};
+using Named = StateClaims::Named;
 
 /// The place of a key in a mapping that has it.
 const Range& range_of(const Node& mapping, std::string_view key) {
@@ -57,12 +54,12 @@ class ConditionReader {
     if (const Node* part = fields.find("situation")) read_situation_part(*part);
     fields.report_unknown(yaml::UnknownKeys::refused);
     if (reporter_.errors() > errors) return {};
-    check_active();
+    check_values();
     check_requested();
     check_available();
     if (reporter_.errors() > errors) return {};
     check_fitting();
-    check_exclusions();
+    check_constraints();
     check_assumptions();
     StateCondition condition = take();
     if (is_empty(condition)) {
@@ -159,48 +156,21 @@ class ConditionReader {
                         "this can never hold: " + why, std::move(notes));
   }
 
-  /// An active behavior performs a task, which neither is stopped nor has another behavior.
-  void check_active() {
-    struct Performed {
-      TaskId task;
-      Named behavior;
-    };
-    std::vector<Performed> performed;
+  /// What is said of the values of tasks.
+  [[nodiscard]] StateClaims claims() const {
+    StateClaims claims;
     for (const RunningEntry& entry : running_) {
-      if (!entry.behavior) continue;
-      performed.push_back({catalog_.task_ids[entry.task],
-                           {catalog_.behavior_ids[*entry.behavior], entry.behavior_range}});
+      claims.running.push_back(claim_of(entry, catalog_));
     }
-    for (const Named& active : active_) {
-      const auto values = catalog_.performs[active.id];
-      std::vector<Note> notes;
-      bool is_possible = false;
-      for (const ValueId value : values) {
-        const TaskId task = catalog_.task_of(value);
-        const auto other =
-            std::find_if(performed.begin(), performed.end(), [&](const Performed& entry) {
-              return entry.task == task && entry.behavior.id != active.id;
-            });
-        const auto stop = std::find_if(stopped_.begin(), stopped_.end(),
-                                       [task](const Named& entry) { return entry.id == task; });
-        const std::string name = quote(catalog_.name_of_task(task));
-        if (other != performed.end()) {
-          notes.push_back(reporter_.note(other->behavior.range,
-                                         name + " is expected to run with another behavior here"));
-        } else if (stop != stopped_.end()) {
-          notes.push_back(reporter_.note(stop->range, name + " is expected to be stopped here"));
-        } else {
-          is_possible = true;
-        }
-      }
-      if (!is_possible) {
-        refuse(active.range,
-               "no task is left for behavior " + quote(catalog_.name_of_behavior(active.id)),
-               std::move(notes));
-      } else if (values.size() == 1) {
-        performed.push_back({catalog_.task_of(values.front()), active});
-      }
-    }
+    claims.stopped = stopped_;
+    claims.active = active_;
+    return claims;
+  }
+
+  void check_values() {
+    find_contradictions(claims(), catalog_, reporter_,
+                        [this](const Range& range, const std::string& why,
+                               std::vector<Note> notes) { refuse(range, why, std::move(notes)); });
   }
 
   void check_requested() {
@@ -266,41 +236,16 @@ class ConditionReader {
           {reporter_.note(range_of(*situation_node_, variable), "expected here")});
   }
 
-  /// Of the tasks that run if the condition holds, no two may exclude each other.
-  void check_exclusions() {
-    std::vector<Named> running;
-    const auto add = [&running](const Named& task) {
-      if (std::none_of(running.begin(), running.end(),
-                       [&task](const Named& known) { return known.id == task.id; })) {
-        running.push_back(task);
-      }
-    };
-    for (const RunningEntry& entry : running_) {
-      add({catalog_.task_ids[entry.task], entry.task_range});
-    }
-    for (const Requested& requested : requested_) add(requested.task);
-    for (const Named& active : active_) {
-      const auto values = catalog_.performs[active.id];
-      if (values.size() == 1) add({catalog_.task_of(values.front()), active.range});
-    }
-    for (std::size_t later = 1; later < running.size(); ++later) {
-      for (std::size_t earlier = 0; earlier < later; ++earlier) {
-        if (const auto clique = shared_clique(running[earlier].id, running[later].id)) {
-          doubt(running[later].range,
-                concat(quote(catalog_.name_of_task(running[earlier].id)), " excludes ",
-                       quote(catalog_.name_of_task(running[later].id)), " (",
-                       printable(catalog_.file), ":", catalog_.clique_lines[*clique], ")"));
-        }
-      }
-    }
-  }
-
-  [[nodiscard]] std::optional<std::uint32_t> shared_clique(TaskId a, TaskId b) const {
-    for (const std::uint32_t clique : catalog_.task_cliques[a]) {
-      const auto others = catalog_.task_cliques[b];
-      if (std::find(others.begin(), others.end(), clique) != others.end()) return clique;
-    }
-    return std::nullopt;
+  /// Exclusions of the tasks that run if the condition holds, and their requirements; but what
+  /// follows from requirements may well be what a property denies.
+  void check_constraints() {
+    StateClaims all = claims();
+    for (const Requested& requested : requested_) all.running.push_back({requested.task, {}});
+    const auto find = checks_.is_denied ? find_excluded : find_ruled_out;
+    find(all, catalog_, reporter_,
+         [this](const Range& range, const std::string& why, std::vector<Note> notes) {
+           doubt(range, why, std::move(notes));
+         });
   }
 
   void check_assumptions() {
