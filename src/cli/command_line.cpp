@@ -54,7 +54,7 @@ std::string join(const std::vector<std::string>& words, std::string_view separat
 std::string join_with_or(const std::vector<std::string>& words) {
   std::vector<std::string> quoted;
   for (const std::string& word : words) quoted.push_back(quote_if_split(word));
-  return list_alternatives(quoted);
+  return list_words(quoted, "or");
 }
 
 Values name_of(std::string placeholder, ValueKind kind) {

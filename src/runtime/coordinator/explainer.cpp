@@ -369,6 +369,30 @@ bool needs_event(const CompiledCatalog& catalog, const Circumstances& circumstan
   });
 }
 
+/// Whether each of the ways needs a task that nobody has requested, and that starts on request
+/// only: the simplest conflict set of all. Empty if not.
+std::vector<Reason> missing_requests(const CompiledCatalog& catalog,
+                                     const Circumstances& circumstances,
+                                     std::span<const Demands> ways) {
+  std::vector<Reason> reasons;
+  for (const Demands& way : ways) {
+    const auto missing = std::find_if(way.begin(), way.end(), [&](const Demand& demand) {
+      return demands_run(demand, demand.task) && demand.task != circumstances.trigger.task &&
+             !circumstances.state.is_running(demand.task) &&
+             catalog.tasks[demand.task].start_on_request != 0;
+    });
+    if (missing == way.end()) return {};
+    const bool is_known = std::any_of(reasons.begin(), reasons.end(), [&](const Reason& reason) {
+      return reason.task == missing->task;
+    });
+    if (is_known) continue;
+    Reason& reason = reasons.emplace_back();
+    reason.kind = Reason::Kind::on_request;
+    reason.task = missing->task;
+  }
+  return reasons;
+}
+
 Reason reason_of(const Trigger& trigger) {
   Reason reason;
   reason.kind =
@@ -537,6 +561,8 @@ void Explainer::explain_behavior(const Circumstances& circumstances, BehaviorId 
 WhyNot Explainer::why_not(const Circumstances& circumstances, const Configuration& chosen,
                           std::span<const Demands> ways) {
   WhyNot answer;
+  answer.conflict = missing_requests(catalog_, circumstances, ways);
+  if (!answer.conflict.empty()) return answer;
   answer.alternative = search_.find_best(ways);
   if (search_.is_cut()) {
     answer.is_cut = true;

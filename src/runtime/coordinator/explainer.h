@@ -26,6 +26,12 @@ struct Circumstances {
   std::optional<std::chrono::steady_clock::time_point> deadline = std::nullopt;
 };
 
+/// Whether a demand says that the task runs.
+[[nodiscard]] constexpr bool demands_run(const Demand& demand, TaskId task) {
+  return demand.task == task &&
+         (demand.kind == Demand::Kind::run || demand.kind == Demand::Kind::has);
+}
+
 /// A minimal conflict set of a start or stop that has no solution. Empty where that takes too long
 /// (a group with very many constraints, a proof of very many conflicts, or the deadline).
 [[nodiscard]] std::vector<Reason> find_conflict(const CompiledCatalog& catalog,

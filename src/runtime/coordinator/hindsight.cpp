@@ -22,11 +22,6 @@ void copy_event(const EventRecord& record, EventRecord& copy, SearchRecord& sear
   copy.search = &search;
 }
 
-bool demands_run(const Demand& demand, TaskId task) {
-  return demand.task == task &&
-         (demand.kind == Demand::Kind::run || demand.kind == Demand::Kind::has);
-}
-
 bool demands_stop(const Demand& demand, TaskId task) {
   return demand.task == task && demand.kind == Demand::Kind::stop;
 }
@@ -128,36 +123,12 @@ const Hindsight::Rejection* Hindsight::find_rejection(std::uint32_t group,
   return is_demanded ? &found->second : nullptr;
 }
 
-/// Whether each of the ways needs a task that nobody had requested, and that starts on request
-/// only: the simplest conflict set of all. Empty if not.
-std::vector<Reason> Hindsight::missing_requests(const State& before, const Trigger& trigger,
-                                                std::span<const Demands> ways) const {
-  std::vector<Reason> reasons;
-  for (const Demands& way : ways) {
-    const auto missing = std::find_if(way.begin(), way.end(), [&](const Demand& demand) {
-      return demands_run(demand, demand.task) && demand.task != trigger.task &&
-             !before.is_running(demand.task) && catalog_.tasks[demand.task].start_on_request != 0;
-    });
-    if (missing == way.end()) return {};
-    const bool is_known = std::any_of(reasons.begin(), reasons.end(), [&](const Reason& reason) {
-      return reason.task == missing->task;
-    });
-    if (is_known) continue;
-    Reason& reason = reasons.emplace_back();
-    reason.kind = Reason::Kind::on_request;
-    reason.task = missing->task;
-  }
-  return reasons;
-}
-
 WhyNot Hindsight::explain(Decision& decision, const State& before, std::span<const Demands> ways) {
   WhyNot answer;
   if (decision.search.result.status != SearchStatus::optimal) {
     answer.is_cut = true;
     return answer;
   }
-  answer.conflict = missing_requests(before, decision.trigger, ways);
-  if (!answer.conflict.empty()) return answer;
   ProblemBuilder builder(catalog_, before);
   builder.load(decision.trigger, decision.event.index);
   for (const BehaviorId behavior : decision.failed) builder.exclude(behavior);

@@ -75,8 +75,6 @@ class Hindsight {
   void save_state(const Circumstances& circumstances, Snapshot& before) const;
   [[nodiscard]] const Rejection* find_rejection(std::uint32_t group,
                                                 std::span<const Demands> ways) const;
-  [[nodiscard]] std::vector<Reason> missing_requests(const State& before, const Trigger& trigger,
-                                                     std::span<const Demands> ways) const;
   [[nodiscard]] WhyNot explain(Decision& decision, const State& before,
                                std::span<const Demands> ways);
 

@@ -44,17 +44,15 @@ void report_unknown_value(const Node& node, std::string_view variable,
     return;
   }
   const auto suggestion = nearest(node.text, values);
-  std::string known;
+  std::vector<std::string> known;
   constexpr std::size_t most = 8;
   const std::size_t listed = values.size() <= most ? values.size() : most - 1;
-  for (std::size_t place = 0; place < listed; ++place) {
-    if (place > 0) known += place + 1 < values.size() ? ", " : " and ";
-    known += quote(values[place]);
-  }
-  if (listed < values.size()) known += concat(" and ", values.size() - listed, " more");
+  for (const std::string_view value : values.first(listed)) known.push_back(quote(value));
+  if (listed < values.size()) known.push_back(concat(values.size() - listed, " more"));
   reporter.report(rule::situation_value, node.range,
                   concat("situation variable ", quote(variable), " has no value ", quote(node.text),
-                         suggestion ? did_you_mean(suggestion) : "; its values are " + known),
+                         suggestion ? did_you_mean(suggestion)
+                                    : "; its values are " + list_words(known, "and")),
                   std::move(notes));
 }
 

@@ -446,7 +446,7 @@ Note ProofContext::note_of_condition(const Reason& reason) const {
   }
   return reporter_.note(condition->range, "behavior " + quote(fitting.name) + " fits only where " +
                                               quote(variable.name) + " is " +
-                                              list_alternatives(values));
+                                              list_words(values, "or"));
 }
 
 Note ProofContext::note_of(const Reason& reason) const {

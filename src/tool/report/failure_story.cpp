@@ -85,7 +85,11 @@ Sentences describe_decided(const CompiledCatalog& catalog, const Surprise& surpr
                              text.more.empty() ? ", since the event leaves no other choice" : ":");
     return text;
   }
-  text.first = fmt::format("decided at {} {}:", describe_place(catalog, event),
+  const std::vector<TaskId> unneeded = unneeded_tasks(catalog, event, why_not, surprise.tasks);
+  text.first = fmt::format("decided at {}{} {}:", describe_place(catalog, event),
+                           unneeded.empty() ? std::string()
+                                            : fmt::format(", where nothing that ran required {},",
+                                                          list_tasks(catalog, unneeded, "or")),
                            describe_decision(catalog, surprise));
   std::size_t count = 0;
   for (const TaskId task :
@@ -102,12 +106,6 @@ Sentences describe_decided(const CompiledCatalog& catalog, const Surprise& surpr
     text.more.push_back(fmt::format("and {} more", count - most_differences));
   }
   return text;
-}
-
-std::string join_names(const CompiledCatalog& catalog, const std::vector<TaskId>& tasks) {
-  std::vector<std::string> names;
-  for (const TaskId task : tasks) names.push_back(task_name(catalog, task));
-  return list_alternatives(names);
 }
 
 /// Whether all that is missing is a request for some tasks.
@@ -136,7 +134,7 @@ Sentences describe_look_back(const CompiledCatalog& catalog, const Surprise& sur
   const LookBack& look_back = surprise.look_back;
   switch (look_back.kind) {
     case LookBack::Kind::undecided:
-      return {"no event so far has started " + join_names(catalog, surprise.tasks) +
+      return {"no event so far has started " + list_tasks(catalog, surprise.tasks, "or") +
                   ", or what requires it",
               {}};
     case LookBack::Kind::due:

@@ -121,6 +121,13 @@ std::string task_name(const CompiledCatalog& catalog, TaskId task) {
   return (catalog.find_behavior(name) ? "task " : "") + printable(name);
 }
 
+std::string list_tasks(const CompiledCatalog& catalog, std::span<const TaskId> tasks,
+                       std::string_view last) {
+  std::vector<std::string> names;
+  for (const TaskId task : tasks) names.push_back(task_name(catalog, task));
+  return list_words(names, last);
+}
+
 std::string behavior_name(const CompiledCatalog& catalog, BehaviorId behavior) {
   const std::string_view name = catalog.name_of_behavior(behavior);
   return (catalog.find_task(name) ? "behavior " : "") + printable(name);
@@ -299,7 +306,7 @@ std::string fitting_values(const CompiledCatalog& catalog, const Reason& conditi
     if (fitting.variable != condition.variable) continue;
     names.push_back(printable(catalog.name_of_value({fitting.variable, fitting.value})));
   }
-  return list_alternatives(names);
+  return list_words(names, "or");
 }
 
 std::string describe_misfit(const CompiledCatalog& catalog, const Reason& reason,
@@ -360,12 +367,8 @@ std::string describe_end(const CompiledCatalog& catalog, const EventRecord& reco
 /// Of several tasks that start only on request.
 std::string describe_missing_requests(const CompiledCatalog& catalog,
                                       const std::vector<TaskId>& tasks) {
-  std::string names;
-  for (std::size_t place = 0; place < tasks.size(); ++place) {
-    names += place == 0 ? "" : place + 1 < tasks.size() ? ", " : " and ";
-    names += task_name(catalog, tasks[place]);
-  }
-  return names + " start only on request, and are not requested: request them first";
+  return list_tasks(catalog, tasks, "and") +
+         " start only on request, and are not requested: request them first";
 }
 
 }  // namespace
@@ -728,22 +731,45 @@ Sentences describe_due(const CompiledCatalog& catalog, const EventRecord& record
 
 }  // namespace
 
+std::vector<TaskId> unneeded_tasks(const CompiledCatalog& catalog, const EventRecord& record,
+                                   const WhyNot& why_not, std::span<const TaskId> tasks) {
+  std::vector<TaskId> unneeded;
+  if (!why_not.alternative) return unneeded;
+  const TaskId first = catalog.group_tasks[record.search->group];
+  for (const TaskId task : tasks) {
+    if (catalog.tasks[task].start_on_request != 0 ||
+        record.explanation.chosen.assignment[task - first] != none ||
+        why_not.alternative->assignment[task - first] == none) {
+      continue;
+    }
+    unneeded.push_back(task);
+  }
+  return unneeded;
+}
+
 Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record, const Why& why,
                        const State& state) {
   if (why.due) return describe_due(catalog, record, why);
   const std::vector<TaskId> tasks = tasks_of(catalog, why);
+  const std::vector<TaskId> unneeded = unneeded_tasks(catalog, record, why.why_not, tasks);
   if (why.behavior != none) {
+    const std::string condition =
+        unneeded.empty()
+            ? std::string()
+            : fmt::format("nothing that runs requires {}; ", list_tasks(catalog, unneeded, "or"));
     return describe(catalog, record,
                     fmt::format("why {} is {}active", behavior_name(catalog, why.behavior),
                                 why.is_active ? "" : "not "),
-                    why.is_active ? "without it" : "with it", why.why_not, tasks, none, state);
+                    condition + (why.is_active ? "without it" : "with it"), why.why_not, tasks,
+                    none, state);
   }
   const std::string name = task_name(catalog, why.task);
   std::string condition;
   if (why.why_not.alternative) {
     const TaskId first = catalog.group_tasks[record.search->group];
     const std::uint32_t place = why.why_not.alternative->assignment[why.task - first];
-    condition =
+    if (!unneeded.empty()) condition = "nothing that runs requires it; ";
+    condition +=
         place == none ? "if it did not run" : "with " + value_name(catalog, why.task, place);
   }
   const std::string subject =

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -43,6 +44,10 @@ namespace cbc {
 /// Names in sentences: "task LAND" and "behavior LAND" if the catalog has both, otherwise "LAND".
 [[nodiscard]] std::string task_name(const CompiledCatalog& catalog, TaskId task);
 [[nodiscard]] std::string behavior_name(const CompiledCatalog& catalog, BehaviorId behavior);
+
+/// "LAND, HOVER or TAKE_OFF"; there is one task at least. `last`: "or" or "and".
+[[nodiscard]] std::string list_tasks(const CompiledCatalog& catalog, std::span<const TaskId> tasks,
+                                     std::string_view last);
 
 /// What happened: "start HOVER, priority 2". `step` is the scripted one, or null.
 [[nodiscard]] std::string describe_event(const CompiledCatalog& catalog, const EventRecord& record,
@@ -123,6 +128,12 @@ struct Sentences {
 [[nodiscard]] Sentences describe_displacement(const CompiledCatalog& catalog,
                                               const EventRecord& record,
                                               const Displacement& displaced, const State& state);
+
+/// Of some tasks those that can start without a request, and run in the alternative of an answer,
+/// but not in the answer that the event chose: nothing that runs requires them.
+[[nodiscard]] std::vector<TaskId> unneeded_tasks(const CompiledCatalog& catalog,
+                                                 const EventRecord& record, const WhyNot& why_not,
+                                                 std::span<const TaskId> tasks);
 
 /// Why a task has its value, or why a behavior is active or not.
 [[nodiscard]] Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record,

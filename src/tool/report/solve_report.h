@@ -289,6 +289,7 @@ class TextReport final : public SolveReport {
   [[nodiscard]] std::string describe_briefly(const EventRecord& record) const;
   void write_details(const EventRecord& record, const State& state);
   void write_change(const EventRecord& record, const Change& change);
+  void write_failed(const EventRecord& record);
   void write_stopped(const EventRecord& record);
   void write_explanation(const EventRecord& record, const State& state);
   void write_alternatives(const EventRecord& record, const State& state);

@@ -243,6 +243,7 @@ void TextReport::write_details(const EventRecord& record, const State& state) {
     }
   }
   for (const Change& change : record.changes) write_change(record, change);
+  if (record.outcome == Outcome::accepted) write_failed(record);
   write_stopped(record);
   write_explanation(record, state);
   if (record.search != nullptr && record.search->elapsed) {
@@ -279,6 +280,20 @@ void TextReport::write_change(const EventRecord& record, const Change& change) {
                   join_tasks(*catalog_, record.tasks_of(change)), task_width_,
                   name_of(change.cause), color.empty() ? std::string_view() : style_.reset),
       behavior_column);
+}
+
+/// What the changes above and below a failed activation are.
+void TextReport::write_failed(const EventRecord& record) {
+  std::vector<std::string> names;
+  for (const Change& change : record.changes) {
+    if (!change.success) names.push_back(behavior_name(*catalog_, change.behavior));
+  }
+  if (names.empty()) return;
+  const char* const it = names.size() == 1 ? "it" : "them";
+  write({fmt::format("{} failed (N), and the event was decided anew without {}: the changes above "
+                     "{} are of an answer that was given up",
+                     list_words(names, "and"), it, it),
+         {}});
 }
 
 void TextReport::write_stopped(const EventRecord& record) {

@@ -458,10 +458,11 @@ bool stands_for_itself(char byte) {
 
 }  // namespace
 
-std::string list_alternatives(std::span<const std::string> words) {
+std::string list_words(std::span<const std::string> words, std::string_view last) {
   std::string list = words.front();
   for (std::size_t i = 1; i < words.size(); ++i) {
-    list += (i + 1 < words.size() ? ", " : " or ") + words[i];
+    list += i + 1 < words.size() ? std::string(", ") : concat(" ", last, " ");
+    list += words[i];
   }
   return list;
 }

@@ -84,8 +84,8 @@ class LookAlikes {
   return std::to_string(number) + " " + std::string(noun) + (number == 1 ? "" : "s");
 }
 
-/// "day, dusk or night"; there is one word at least.
-[[nodiscard]] std::string list_alternatives(std::span<const std::string> words);
+/// "day, dusk or night"; there is one word at least. `last`: "or" or "and".
+[[nodiscard]] std::string list_words(std::span<const std::string> words, std::string_view last);
 
 /// Breaks a long name into lines of about equal length, after a blank or one of "_-./" and before
 /// the capitals of CamelCase. A line may be longer than `width` characters if it has no such place.
