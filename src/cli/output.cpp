@@ -24,6 +24,7 @@
 #include "base/text.h"
 #include "cli/read_files.h"
 #include "support/system.h"
+#include "support/wording.h"
 
 namespace cbc::cli {
 
@@ -48,6 +49,8 @@ std::size_t columns_of(std::FILE* stream) {
   winsize size{};
   return ::ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
+
+std::size_t columns_for(std::FILE* stream) { return is_terminal(stream) ? columns_of(stream) : 0; }
 
 bool wants_color(std::FILE* stream) {
   const char* const no_color = std::getenv("NO_COLOR");
@@ -99,6 +102,12 @@ void Progress::clear() {
   if (!is_shown_) return;
   fmt::print(stderr, "\r\x1b[K");
   is_shown_ = false;
+}
+
+void GroupProgress::show(std::uint32_t group, std::uint64_t states) {
+  if (group_ != group) progress_.begin(fmt::format("group {}", group));
+  group_ = group;
+  progress_.show(fmt::format(" ({})", quantity(states, "state")));
 }
 
 namespace {

@@ -2,8 +2,10 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -56,6 +58,10 @@ int usage_error(std::string_view command, fmt::format_string<Arguments...> forma
 /// The width of a terminal in characters; 80 if it is unknown.
 [[nodiscard]] std::size_t columns_of(std::FILE* stream);
 
+/// To how many columns texts for people are wrapped: the width of a terminal; 0 (not at all) if it
+/// is none.
+[[nodiscard]] std::size_t columns_for(std::FILE* stream);
+
 /// Whether to write colors to a stream: it is such a terminal, and NO_COLOR (https://no-color.org)
 /// is not set.
 [[nodiscard]] bool wants_color(std::FILE* stream);
@@ -90,6 +96,23 @@ class Progress {
   std::string name_;  ///< of the thing that was begun last
   bool is_shown_ = false;
   std::chrono::steady_clock::time_point shown_;  ///< last
+};
+
+/// The progress of an exploration of groups, one after the other.
+class GroupProgress {
+ public:
+  /// `what` is being done to the groups: "exploring".
+  GroupProgress(std::string what, std::size_t groups) : progress_(std::move(what), groups) {}
+
+  /// How many states of this group have been visited. May be called often.
+  void show(std::uint32_t group, std::uint64_t states);
+
+  /// For what follows the exploration.
+  [[nodiscard]] Progress& line() { return progress_; }
+
+ private:
+  Progress progress_;
+  std::optional<std::uint32_t> group_;
 };
 
 /// While it exists, SIGINT, SIGTERM and SIGHUP ask the program to stop instead of ending it. GNU

@@ -209,7 +209,9 @@ int solve(const SolveOptions& options) {
 }  // namespace
 
 void add_solve_command(Program& program) {
-  constexpr const char* reports_no_runs = "that reports no runs";
+  constexpr const char* reports_no_runs =
+      "without a FILE, --coverage stands in place of the runs; --coverage FILE writes it beside "
+      "them";
   constexpr std::uint32_t most_alternatives = 1000;
   const auto options = std::make_shared<SolveOptions>();
   const std::vector<std::string> formats = all_formats();

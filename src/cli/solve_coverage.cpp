@@ -143,17 +143,14 @@ std::optional<Assumptions> read_assumptions(const std::string& path,
 bool prove(CatalogCoverage& coverage, const Assumptions& assumptions, const std::string& file,
            const StopSignals& signals) {
   const CompiledCatalog& catalog = coverage.catalog();
-  Progress progress("proving", catalog.group_count());
-  std::optional<std::uint32_t> begun;
+  GroupProgress progress("proving", catalog.group_count());
   GoalProofOptions options;
   options.walk.on_progress = [&](std::uint32_t group, std::uint64_t states) {
-    if (begun != group) progress.begin(fmt::format("group {}", group));
-    begun = group;
-    progress.show(fmt::format(" ({} states)", states));
+    progress.show(group, states);
     return !signals.have_come();
   };
   GoalProof proof = prove_unreachable(catalog, coverage.goals(), assumptions, options);
-  progress.clear();
+  progress.line().clear();
   if (proof.error) {
     complain("--prove: {}", *proof.error);
     return false;
@@ -163,8 +160,7 @@ bool prove(CatalogCoverage& coverage, const Assumptions& assumptions, const std:
     complain("--prove: not all states of group {} of {} were visited; nothing is proven about it",
              group, quote(catalog.file));
   }
-  coverage.set_unreachable(std::move(proof.unreachable),
-                           describe_assumptions(catalog, assumptions, file));
+  coverage.set_unreachable(std::move(proof.unreachable), {assumptions, file});
   return true;
 }
 
@@ -204,10 +200,10 @@ int report_coverage(Coverage coverage, const std::vector<Assumptions>& assumptio
   int status = exit_ok;
   if (options.coverage.replaces_runs()) {
     const CoverageFormat& format = *find_named(coverage_formats(), options.format);
-    fmt::print("{}", format.write(coverage, style_for(stdout)));
+    fmt::print("{}", format.write(coverage, style_for(stdout), columns_for(stdout)));
   } else {
     const std::string& file = *options.coverage.file;
-    status = write_output(file, coverage_format_of(file).write(coverage, plain_style()));
+    status = write_output(file, coverage_format_of(file).write(coverage, plain_style(), 0));
   }
   if (options.coverage.fail_under.empty()) return status;
   const std::uint64_t least = tenths_in(options.coverage.fail_under);

@@ -356,7 +356,7 @@ int solve_missions(const SolveOptions& options) {
                            style_for(stdout),
                            event_additions(options),
                            // Lines in files and pipes stay whole, for programs such as grep.
-                           {is_terminal(stdout) ? columns_of(stdout) : 0, options.brief}});
+                           {columns_for(stdout), options.brief}});
   }
   const int status = options.html ? draw_missions(*missions, options, *report, collector.get())
                                   : run_missions(*missions, options, *report, collector.get());

@@ -60,7 +60,7 @@ struct VerifyQuestions {
 
 /// What is assumed where goals of coverage count: by the property file, of which there is at most
 /// one, or the same as in `cbc solve --prove`.
-[[nodiscard]] Assumptions goal_assumptions(const VerifyQuestions& questions);
+[[nodiscard]] StatedAssumptions goal_assumptions(const VerifyQuestions& questions);
 
 /// The path by which a script in the folder names the catalog. Empty if that is standard input.
 [[nodiscard]] std::string catalog_from(const std::string& folder, const VerifyOptions& options,

@@ -16,9 +16,9 @@
 
 namespace cbc::cli {
 
-Assumptions goal_assumptions(const VerifyQuestions& questions) {
-  return questions.files.empty() ? assumptions_of_goals(*questions.catalog)
-                                 : questions.files.front()->assumptions;
+StatedAssumptions goal_assumptions(const VerifyQuestions& questions) {
+  if (questions.files.empty()) return {assumptions_of_goals(*questions.catalog), {}};
+  return {questions.files.front()->assumptions, questions.files.front()->path};
 }
 
 std::string catalog_from(const std::string& folder, const VerifyOptions& options,

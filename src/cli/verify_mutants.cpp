@@ -126,7 +126,7 @@ int verify_mutants(const VerifyOptions& options, const VerifyQuestions& question
   if (questions.beside.empty()) {
     return complain("--beside: found no event script in {}", quote(options.beside.back()));
   }
-  const Assumptions assumptions = goal_assumptions(questions);
+  const StatedAssumptions stated = goal_assumptions(questions);
   if (const int status = prepare_outputs(options); status != exit_ok) return status;
   std::vector<Script> missions;
   MutantsResult result;
@@ -136,8 +136,8 @@ int verify_mutants(const VerifyOptions& options, const VerifyQuestions& question
   }
   if (!all_pass(catalog, missions)) return exit_unusable;
   result.catalog = &questions.source->catalog;
-  result.assumptions = describe_assumptions(
-      catalog, assumptions, questions.files.empty() ? "" : questions.files.front()->path);
+  result.compiled = &catalog;
+  result.assumptions = stated;
   result.writes_scripts = options.scripts.has_value();
   result.mutants = find_mutants(*result.catalog);
 
@@ -154,7 +154,7 @@ int verify_mutants(const VerifyOptions& options, const VerifyQuestions& question
     const std::chrono::duration<double> elapsed = Clock::now() - begin;
     return signals.have_come() || (seconds > 0 && elapsed.count() >= seconds);
   };
-  const MutantJudge judge(*result.catalog, catalog, missions, assumptions, of_judge);
+  const MutantJudge judge(*result.catalog, catalog, missions, stated.assumptions, of_judge);
   judge_all(options, judge, of_judge.is_stopped, result);
 
   if (options.scripts) {
@@ -164,8 +164,10 @@ int verify_mutants(const VerifyOptions& options, const VerifyQuestions& question
       return status;
   }
   const MutantsFormat& format = *find_named(mutants_formats(), options.format);
-  const Style style = options.output == "-" ? style_for(stdout) : plain_style();
-  const int status = write_output(options.output, format.write(result, style));
+  const bool is_on_stdout = options.output == "-";
+  const Style style = is_on_stdout ? style_for(stdout) : plain_style();
+  const std::size_t columns = is_on_stdout ? columns_for(stdout) : 0;
+  const int status = write_output(options.output, format.write(result, style, columns));
   return status == exit_ok ? status_of(options, result.count()) : status;
 }
 

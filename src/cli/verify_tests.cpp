@@ -76,19 +76,16 @@ MissingMissions find_tests(const VerifyOptions& options, const VerifyQuestions& 
                            const std::vector<Goal>& goals, const std::vector<std::uint8_t>& met,
                            const Assumptions& assumptions, const Deadline& deadline) {
   const CompiledCatalog& catalog = *questions.catalog;
-  Progress progress("exploring", catalog.group_count());
+  GroupProgress progress("exploring", catalog.group_count());
   MissingMissionOptions of_search;
   of_search.catalog = catalog_from(*options.write_tests, options, questions);
   if (options.max_states > 0) of_search.exploration.max_states = options.max_states;
-  std::optional<std::uint32_t> begun;
   of_search.exploration.on_progress = [&](std::uint32_t group, std::uint64_t states) {
-    if (begun != group) progress.begin(fmt::format("group {}", group));
-    begun = group;
-    progress.show(fmt::format(" ({} states)", states));
+    progress.show(group, states);
     return true;
   };
   of_search.on_mission = [&](std::size_t number) {
-    progress.show(fmt::format(" ({})", quantity(number, "test")));
+    progress.line().show(fmt::format(" ({})", quantity(number, "test")));
   };
   of_search.is_stopped = [&] { return deadline.has_come(); };
   return find_missing_missions(catalog, goals, met, assumptions, of_search);
@@ -160,9 +157,9 @@ int write_tests(const VerifyOptions& options, const VerifyQuestions& questions) 
     return deadline.has_come() ? complain_of_end(options, deadline, "in the missions that exist")
                                : exit_unusable;
   }
-  const Assumptions assumptions = goal_assumptions(questions);
+  const StatedAssumptions stated = goal_assumptions(questions);
   const MissingMissions missing =
-      find_tests(options, questions, goals, *met, assumptions, deadline);
+      find_tests(options, questions, goals, *met, stated.assumptions, deadline);
   if (missing.error) return complain("--write-tests: {}", *missing.error);
   if (missing.reached != MissingMissions::Phase::done) {
     return complain_of_end(options, deadline, describe_progress(missing, catalog.group_count()));
@@ -180,8 +177,7 @@ int write_tests(const VerifyOptions& options, const VerifyQuestions& questions) 
   }
   WrittenTests tests;
   tests.catalog = &catalog;
-  tests.assumptions = describe_assumptions(
-      catalog, assumptions, questions.files.empty() ? "" : questions.files.front()->path);
+  tests.assumptions = stated;
   tests.goals = goals;
   if (!options.beside.empty()) tests.missions = questions.beside.size();
   tests.missing = &missing;
@@ -192,7 +188,8 @@ int write_tests(const VerifyOptions& options, const VerifyQuestions& questions) 
     tests.paths.push_back(folder.path_of(files.back().name));
   }
   if (const int status = folder.replace(files); status != exit_ok) return status;
-  const int status = write_output(options.output, written_tests_to_text(tests));
+  const std::size_t columns = options.output == "-" ? columns_for(stdout) : 0;
+  const int status = write_output(options.output, written_tests_to_text(tests, columns));
   if (status != exit_ok) return status;
   return missing.unmet.empty() && missing.partial.empty() ? exit_ok : exit_no;
 }

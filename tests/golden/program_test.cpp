@@ -107,9 +107,38 @@ std::size_t longest_line(const std::string& text) {
 }
 
 TEST_F(Terminal, WrapsTheTextOfARun) {
-  const Call call{{"solve", "catalog.yaml", "script.yaml"}, folder_of("failure_why")};
+  const Call call{{"solve", "catalog.yaml", "script.yaml", "--why", "PARK"},
+                  folder_of("why_nobody_requested")};
   EXPECT_LE(longest_line(plain(run_on_terminal(call).out)), 80U) << "nobody said how wide it is";
   EXPECT_GT(longest_line(run(call).out), 100U) << "grep would miss what is on two lines";
+}
+
+TEST_F(Terminal, WrapsTheTextsOfCoverageMutantsAndTests) {
+  const test::ScratchFolder scratch;
+  scratch.write("robot.yaml", R"(
+behaviors:
+- {behavior: CARRY_PARCEL_WITH_A_VERY_CAREFUL_DRIVER, task: CARRY_PARCEL_TO_THE_OFFICE, requires: [{task: LOCALIZE_IN_BUILDING}]}
+- {behavior: LOCALIZE_WITH_CEILING_CAMERA, task: LOCALIZE_IN_BUILDING}
+tasks:
+- {task: CARRY_PARCEL_TO_THE_OFFICE}
+- {task: LOCALIZE_IN_BUILDING, start_on_request: false, execution_goal: keep_running, timeout: 5}
+- {task: WAIT_AT_THE_CHARGING_STATION_ON_THE_GROUND_FLOOR_NOW}
+)");
+  scratch.write("mission.yaml", "- start: CARRY_PARCEL_TO_THE_OFFICE\n");
+  const std::vector<std::vector<std::string>> calls{
+      {"solve", "robot.yaml", "mission.yaml", "--coverage", "--prove"},
+      {"verify", "robot.yaml", "--mutants", "--beside", "mission.yaml"},
+      {"verify", "robot.yaml", "--write-tests", "tests"}};
+  for (const std::vector<std::string>& arguments : calls) {
+    const Call call{arguments, scratch.path()};
+    const Result written = run(call);
+    const Result shown = run_on_terminal(call);
+    // Lines of scripts are there to be copied.
+    const std::regex of_scripts("\n *- \\{[^\n]*");
+    EXPECT_GT(longest_line(std::regex_replace(written.out, of_scripts, "")), 80U) << written.out;
+    EXPECT_LE(longest_line(std::regex_replace(plain(shown.out), of_scripts, "")), 80U) << shown.out;
+    EXPECT_EQ(words(plain(shown.out)), words(written.out + written.err));
+  }
 }
 
 TEST_F(Terminal, ShowsTheSignsOfChangesInColor) {

@@ -267,6 +267,38 @@ exclusivity_constraints: [{mutually_exclusive: ["a/b", "A/B", "\u0001"]}]
   expect_complete(scratch / "odd.yaml", {folder});
 }
 
+/// Two reactive tasks take turns, with more timeouts than a script may have, before the timeout of
+/// the survey comes.
+TEST_F(WriteTests, ListsATimeoutThatWaitingDoesNotShow) {
+  scratch.write("late.yaml", R"(
+tasks:
+- {task: SURVEY, timeout: 100}
+- {task: LOOK_LEFT, reactive_start: true, timeout: 5}
+- {task: LOOK_RIGHT, reactive_start: true, timeout: 5}
+- {task: SEE, start_on_request: false, execution_goal: keep_running}
+behaviors:
+- {behavior: SCAN, task: SURVEY, requires: [{task: SEE}]}
+- {behavior: TURN_LEFT, task: LOOK_LEFT, requires: [{task: SEE}]}
+- {behavior: TURN_RIGHT, task: LOOK_RIGHT, requires: [{task: SEE}]}
+- {behavior: CAMERA, task: SEE}
+exclusivity_constraints:
+- mutually_exclusive: [LOOK_LEFT, LOOK_RIGHT]
+)");
+  const Result result = write_tests(scratch / "late.yaml");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.out.find("\nno test shows that\n  task SURVEY ran into its timeout\n"
+                            "    waiting in the states that were tried did not show it; events at "
+                            "other times were not tried\n"),
+            std::string::npos)
+      << result.out;
+  // A script by hand shows it, and is taken into account.
+  const std::string mission = scratch / "late.mission.yaml";
+  scratch.write(
+      "late.mission.yaml",
+      "- situation: {TURN_LEFT: false, TURN_RIGHT: false}\n- start: SURVEY\n- wait: 100\n");
+  EXPECT_EQ(write_tests(scratch / "late.yaml", {"--beside", mission}).status, 0);
+}
+
 TEST_F(WriteTests, SaysWhatALimitLeavesOpen) {
   const Result result = write_tests("catalogs/quadrotor.yaml", {"--max-states", "10"});
   EXPECT_EQ(result.status, 1);

@@ -4,8 +4,8 @@
 const {
   hasPattern,
   isFree,
+  isMapByName,
   isOptional,
-  mapsByName,
   mayBeEmpty,
   mayBeOfAnyType,
   mayBeTruth,
@@ -28,7 +28,7 @@ function wrongValues(name, value, isTruth) {
 function* damages(node, place = '') {
   const ownName = place.split('/').at(-1);
   const isTruth = mayBeTruth(place, node);
-  const hasFixedMembers = !Array.isArray(node) && !mapsByName.has(ownName);
+  const hasFixedMembers = !Array.isArray(node) && !isMapByName(place);
   for (const [name, value] of Object.entries(node)) {
     const here = `${place}/${name}`;
     if (hasFixedMembers && !isOptional(node, name)) {

@@ -1,7 +1,7 @@
 // The order of members, which no schema can demand: it is that of the properties in the schemas.
 'use strict';
 
-const {isFree, mapsByName} = require('./vocabulary');
+const {isFree, isMapByName} = require('./vocabulary');
 
 /**
  * The kinds of objects in a schema: what is required, and the names of members in order; where a
@@ -32,10 +32,10 @@ function fits(names, {required, orders}) {
 }
 
 /** The objects in a document whose members are not names of tasks or behaviors, nor free. */
-function* objectsIn(node, name = '') {
-  if (node === null || typeof node !== 'object' || isFree(name, node)) return;
-  if (!Array.isArray(node) && !mapsByName.has(name)) yield node;
-  for (const [key, value] of Object.entries(node)) yield* objectsIn(value, key);
+function* objectsIn(node, place = '') {
+  if (node === null || typeof node !== 'object' || isFree(place.split('/').at(-1), node)) return;
+  if (!Array.isArray(node) && !isMapByName(place)) yield node;
+  for (const [name, value] of Object.entries(node)) yield* objectsIn(value, `${place}/${name}`);
 }
 
 /** The first object in a document whose members are not in the order of any kind of object. */

@@ -1,11 +1,11 @@
 // Few documents that have all that there is.
 'use strict';
 
-const {isFree, mapsByName, words} = require('./vocabulary');
+const {isFree, isMapByName, words} = require('./vocabulary');
 
 /** What a document has: members, types of values, and words. */
 function* features(node, place = '') {
-  const isMap = mapsByName.has(place.split('/').at(-1));
+  const isMap = isMapByName(place);
   for (const [name, value] of Object.entries(node)) {
     const here = `${place}/${isMap || Array.isArray(node) ? '*' : name}`;
     const kind = node.kind ?? node.objective; // members of one name mean different things

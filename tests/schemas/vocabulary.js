@@ -4,14 +4,22 @@
 /** Objects whose members have the names of tasks, behaviors or situation variables. */
 const mapsByName = new Set([
   'active',
+  'initially',
   'queue',
   'requests',
   'running',
   'runs',
   'situation',
+  'start',
   'start_refused',
   'variables',
 ]);
+
+/** Whether the object at a place is one of them; those in the list `never` have no name. */
+function isMapByName(place) {
+  const names = place.split('/');
+  return mapsByName.has(names.at(-1)) || names.at(-2) === 'never';
+}
 
 /** Texts of which there are few. */
 const words = new Set([
@@ -67,7 +75,9 @@ function isFree(name, value) {
 
 /** Whether what lies there is a text or a boolean, as values of situation variables are. */
 function mayBeTruth(place, object) {
-  const isInSituation = place.split('/').some((name) => name === 'situation' || name === 'variables');
+  const isInSituation = place
+    .split('/')
+    .some((name) => ['initially', 'never', 'situation', 'variables'].includes(name));
   return isInSituation || (object.name ?? '').toString().startsWith('situation ');
 }
 
@@ -84,6 +94,7 @@ function isOptional(object, name) {
   if (name === 'notes') return 'conflict' in object; // of a failed expectation; not of a report of lint
   const others = [
     'alternatives',
+    'assumptions',
     'best',
     'complete_order',
     'due',
@@ -98,4 +109,13 @@ function isOptional(object, name) {
   return others.includes(name);
 }
 
-module.exports = {hasPattern, isFree, isOptional, mapsByName, mayBeEmpty, mayBeOfAnyType, mayBeTruth, words};
+module.exports = {
+  hasPattern,
+  isFree,
+  isMapByName,
+  isOptional,
+  mayBeEmpty,
+  mayBeOfAnyType,
+  mayBeTruth,
+  words,
+};

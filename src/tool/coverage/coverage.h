@@ -12,6 +12,7 @@
 
 #include "compiled/compiled_catalog.h"
 #include "coverage/goals.h"
+#include "verify/properties.h"
 
 namespace cbc {
 
@@ -53,8 +54,8 @@ class CatalogCoverage {
   void add(const std::string& mission, const std::vector<std::uint8_t>& met);
 
   /// Sets goals apart that are proven unreachable: by goal why, or nothing. Those that a mission
-  /// meets all the same stay, as missions need not keep to assumptions, which are given in words.
-  void set_unreachable(std::vector<std::string> reasons, std::string assumptions) {
+  /// meets all the same stay, as missions need not keep to the assumptions.
+  void set_unreachable(std::vector<std::string> reasons, StatedAssumptions assumptions) {
     reasons_ = std::move(reasons);
     assumptions_ = std::move(assumptions);
   }
@@ -64,7 +65,7 @@ class CatalogCoverage {
   /// Of an unreachable goal.
   [[nodiscard]] const std::string& reason_of(std::size_t goal) const { return reasons_[goal]; }
   /// Of the proof; empty if nothing was to be proven.
-  [[nodiscard]] const std::string& assumptions() const { return assumptions_; }
+  [[nodiscard]] const std::optional<StatedAssumptions>& assumptions() const { return assumptions_; }
   [[nodiscard]] bool is_missed(std::size_t goal) const {
     return !is_met(goal) && !is_unreachable(goal);
   }
@@ -95,7 +96,7 @@ class CatalogCoverage {
   std::vector<std::string> missions_;
   std::vector<std::vector<std::uint32_t>> met_by_;  ///< by goal
   std::vector<std::string> reasons_;                ///< by goal; empty: nothing is proven
-  std::string assumptions_;
+  std::optional<StatedAssumptions> assumptions_;
 };
 
 /// The coverage of several catalogs, each by the missions that run on it.

@@ -52,7 +52,10 @@ class MissionFinder {
     for (const GoalGraph::Part& part : graph_.parts) {
       if (!part.is_complete) result_.partial.push_back(part.group);
     }
-    const auto stop = [this] { return is_stopped(); };
+    const auto stop = [this] {
+      show_progress();
+      return is_stopped();
+    };
     MissionPlanner planner(graph_, options_.events, stop);
     if (is_stopped()) return std::move(result_);
     set_apart(planner);
@@ -126,6 +129,7 @@ class MissionFinder {
   /// Adds scripts that meet these goals. Where other timeouts come first, those do not fire.
   void perform(MissionPlanner& planner, const Goals& wanted) {
     for (const MissionPlanner::Path& path : planner.plan(wanted)) {
+      show_progress();
       if (is_stopped()) return;
       result_.reached = Phase::rehearsal;
       std::vector<std::uint8_t> is_timeout;
@@ -178,6 +182,7 @@ class MissionFinder {
     std::optional<Rehearsal> best;
     std::size_t most = 0;
     for (const MissionPlanner::Path& path : planner.paths_toward(wanted, most_tries)) {
+      show_progress();
       if (is_stopped()) return false;
       const std::uint32_t limit = planner.most_events(path.part);
       if (path.edges.size() >= limit) continue;
@@ -196,11 +201,11 @@ class MissionFinder {
     return best.has_value();
   }
 
-  [[nodiscard]] bool is_stopped() const {
-    if (options_.on_mission && result_.reached != Phase::exploration) {
-      options_.on_mission(result_.missions.size());
-    }
-    return options_.is_stopped && options_.is_stopped();
+  [[nodiscard]] bool is_stopped() const { return options_.is_stopped && options_.is_stopped(); }
+
+  /// After the exploration, which has a progress of its own.
+  void show_progress() const {
+    if (options_.on_mission) options_.on_mission(result_.missions.size());
   }
 
   /// Writes the script, if it meets anything that is missing.
@@ -265,8 +270,10 @@ class MissionFinder {
       if (missing_[goal] == 0 && first_values_[goal] == 0) continue;
       const bool is_timeout = goals_[goal].kind == Goal::Kind::timeout_fired;
       result_.unmet.push_back(
-          {goal, is_timeout ? "in every state that was tried, something else comes first"
-                            : "no script that was tried shows it"});
+          {goal, is_timeout
+                     ? "waiting in the states that were tried did not show it; events at other "
+                       "times were not tried"
+                     : "no script that was tried shows it"});
     }
     std::sort(result_.unmet.begin(), result_.unmet.end(),
               [](const auto& a, const auto& b) { return a.goal < b.goal; });

@@ -10,6 +10,7 @@
 #include "report/coverage_report.h"
 #include "report/solve_report.h"
 #include "support/wording.h"
+#include "verify/verification.h"
 
 // The page needs no script: what a line shows on demand is in elements that unfold.
 
@@ -31,8 +32,9 @@ class CatalogPage {
 
   std::string write() {
     html_ = fmt::format("<section>\n<h2>{}</h2>\n", xml_text(coverage_.catalog().file));
-    if (!coverage_.assumptions().empty()) {
-      html_ += fmt::format("<p>{}</p>\n", xml_text(coverage_.assumptions()));
+    if (coverage_.assumptions()) {
+      html_ += fmt::format("<p>{}</p>\n", xml_text(describe_assumptions(coverage_.catalog(),
+                                                                        *coverage_.assumptions())));
     }
     write_counts();
     write_missions();
@@ -42,7 +44,7 @@ class CatalogPage {
 
  private:
   void write_counts() {
-    const bool is_proved = !coverage_.assumptions().empty();
+    const bool is_proved = coverage_.assumptions().has_value();
     html_ += fmt::format(
         "<table class=\"counts\">\n<tr><th></th><th scope=\"col\">goals</th>"
         "<th scope=\"col\">met</th><th scope=\"col\">missed</th>"

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "report/assumptions_json.h"
 #include "report/coverage_report.h"
 #include "support/json.h"
 #include "yaml/document.h"
@@ -38,6 +39,10 @@ void write_catalog(JsonWriter& json, const CatalogCoverage& coverage) {
   json.on_new_line().open('{');
   json.write_members({{"catalog", coverage.catalog().file}, {"digest", coverage.digest()}});
   json.on_new_line().write_list("missions", coverage.missions());
+  if (coverage.assumptions()) {
+    json.on_new_line().key("assumptions");
+    write_assumptions(json, coverage.catalog(), *coverage.assumptions());
+  }
   json.on_new_line().open("total", '{');
   write_count(json, coverage.total());
   json.close('}');

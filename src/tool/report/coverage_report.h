@@ -12,8 +12,10 @@
 
 namespace cbc {
 
-/// A table of the goals of each section, and a list of those that are not met.
-[[nodiscard]] std::string coverage_to_text(const Coverage& coverage, const Style& style);
+/// A table of the goals of each section, and a list of those that are not met. `columns`: of the
+/// terminal, see wrap_line.
+[[nodiscard]] std::string coverage_to_text(const Coverage& coverage, const Style& style,
+                                           std::size_t columns = 0);
 
 /// Schema cbc.coverage/1.
 [[nodiscard]] std::string coverage_to_json(const Coverage& coverage);
@@ -34,7 +36,7 @@ namespace cbc {
 
 struct CoverageFormat {
   std::string_view name;
-  std::string (*write)(const Coverage& coverage, const Style& style);
+  std::string (*write)(const Coverage& coverage, const Style& style, std::size_t columns);
 };
 
 /// The first one is the default.

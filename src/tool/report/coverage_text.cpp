@@ -12,6 +12,7 @@
 #include "report/coverage_report.h"
 #include "report/lint_report.h"
 #include "report/table_parts.h"
+#include "report/wrap.h"
 #include "support/wording.h"
 
 // Coverage as text, as a tracefile of LCOV and as annotations.
@@ -32,25 +33,30 @@ std::string place_of(const CatalogCoverage& coverage, const Goal& goal) {
 }
 
 void add_list(const CatalogCoverage& coverage, std::string_view heading,
-              bool (CatalogCoverage::*is_listed)(std::size_t) const, std::string& text) {
+              bool (CatalogCoverage::*is_listed)(std::size_t) const, std::size_t columns,
+              std::string& text) {
   bool is_empty = true;
   for (std::size_t goal = 0; goal < coverage.goals().size(); ++goal) {
     if (!(coverage.*is_listed)(goal)) continue;
-    if (is_empty) text += fmt::format("\n{}\n", heading);
+    if (is_empty) text += "\n" + wrap_line(heading, columns, 2) + "\n";
     is_empty = false;
-    text += fmt::format("  {}: {}\n", place_of(coverage, coverage.goals()[goal]),
-                        describe(coverage.catalog(), coverage.goals()[goal]));
+    const std::string line = fmt::format("  {}: {}", place_of(coverage, coverage.goals()[goal]),
+                                         describe(coverage.catalog(), coverage.goals()[goal]));
+    text += wrap_line(line, columns, 6) + "\n";
     if (coverage.is_unreachable(goal)) {
-      text += fmt::format("    {}\n", coverage.reason_of(goal));
+      text += wrap_line("    " + coverage.reason_of(goal), columns, 6) + "\n";
     }
   }
 }
 
-std::string catalog_to_text(const CatalogCoverage& coverage, const Style& style) {
+std::string catalog_to_text(const CatalogCoverage& coverage, const Style& style,
+                            std::size_t columns) {
   std::string text = fmt::format("{}{}{}, {}\n", style.strong, printable(coverage.catalog().file),
                                  style.reset, quantity(coverage.missions().size(), "mission"));
-  if (!coverage.assumptions().empty()) text += assumptions_to_text(coverage.assumptions());
-  const bool is_proved = !coverage.assumptions().empty();
+  const bool is_proved = coverage.assumptions().has_value();
+  if (is_proved) {
+    text += assumptions_to_text(coverage.catalog(), *coverage.assumptions(), columns);
+  }
   text += fmt::format("\n  {:<14} {:>7} {:>7} {:>7} {:>9}{}\n", "", "goals", "met", "missed",
                       "covered", is_proved ? "  unreachable" : "");
   const auto sections = coverage.by_section();
@@ -60,9 +66,9 @@ std::string catalog_to_text(const CatalogCoverage& coverage, const Style& style)
   }
   const GoalCount total = coverage.total();
   text += table_row("total", total, is_proved);
-  add_list(coverage, "no mission shows that", &CatalogCoverage::is_missed, text);
+  add_list(coverage, "no mission shows that", &CatalogCoverage::is_missed, columns, text);
   add_list(coverage, "under these assumptions no mission can show, and so it does not count, that",
-           &CatalogCoverage::is_unreachable, text);
+           &CatalogCoverage::is_unreachable, columns, text);
   return text;
 }
 
@@ -105,11 +111,11 @@ std::string catalog_to_lcov(const CatalogCoverage& coverage) {
 
 }  // namespace
 
-std::string coverage_to_text(const Coverage& coverage, const Style& style) {
+std::string coverage_to_text(const Coverage& coverage, const Style& style, std::size_t columns) {
   std::string text;
   for (const CatalogCoverage& catalog : coverage.catalogs) {
     if (!text.empty()) text += '\n';
-    text += catalog_to_text(catalog, style);
+    text += catalog_to_text(catalog, style, columns);
   }
   if (coverage.catalogs.size() > 1) {
     const GoalCount total = coverage.total();
@@ -149,11 +155,14 @@ std::span<const CoverageFormat> coverage_formats() {
   using Given = const Coverage&;
   static constexpr CoverageFormat formats[] = {
       {"text", coverage_to_text},
-      {"json", [](Given coverage, const Style& /*style*/) { return coverage_to_json(coverage); }},
-      {"html", [](Given coverage, const Style& /*style*/) { return coverage_to_html(coverage); }},
-      {"lcov", [](Given coverage, const Style& /*style*/) { return coverage_to_lcov(coverage); }},
-      {"github",
-       [](Given coverage, const Style& /*style*/) { return coverage_to_github(coverage); }},
+      {"json", [](Given coverage, const Style& /*style*/,
+                  std::size_t /*columns*/) { return coverage_to_json(coverage); }},
+      {"html", [](Given coverage, const Style& /*style*/,
+                  std::size_t /*columns*/) { return coverage_to_html(coverage); }},
+      {"lcov", [](Given coverage, const Style& /*style*/,
+                  std::size_t /*columns*/) { return coverage_to_lcov(coverage); }},
+      {"github", [](Given coverage, const Style& /*style*/,
+                    std::size_t /*columns*/) { return coverage_to_github(coverage); }},
   };
   return formats;
 }

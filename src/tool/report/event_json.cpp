@@ -18,12 +18,6 @@
 #include "support/json.h"
 
 namespace cbc {
-namespace {
-
-constexpr double one_percent = one_million / 100.0;
-
-}  // namespace
-
 void write_reason(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
                   const Reason& reason) {
   json.open('{');
@@ -46,7 +40,7 @@ void write_reason(JsonWriter& json, const CompiledCatalog& catalog, const EventR
       const Value& value = catalog.values.items[id];
       json.write_object({{"task", catalog.name_of_task(catalog.task_of(id))},
                          {"behavior", catalog.name_of_behavior(value.behavior)},
-                         {"suitability", value.suitability / one_percent}});
+                         {"suitability", in_percent(value.suitability)}});
     });
   }
   json.write("message", describe_reason(catalog, record, reason));
@@ -113,7 +107,7 @@ void write_differences(JsonWriter& json, const CompiledCatalog& catalog, const E
     if (index == none) return json.write(name, nullptr);
     const Value& value = catalog.values[task][index];
     json.write_object(name, {{"behavior", catalog.name_of_behavior(value.behavior)},
-                             {"suitability", value.suitability / one_percent}});
+                             {"suitability", in_percent(value.suitability)}});
   };
   json.open("differences", '[');
   if (why_not.alternative) {

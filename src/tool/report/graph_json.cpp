@@ -164,7 +164,7 @@ namespace {
 
 JsonPlain to_json(const AttributeValue& value) {
   if (const bool* const truth = std::get_if<bool>(&value)) return *truth;
-  if (const auto* const degree = std::get_if<Millionths>(&value)) return *degree / 10'000.0;
+  if (const auto* const degree = std::get_if<Millionths>(&value)) return in_percent(*degree);
   if (const auto* const time = std::get_if<Microseconds>(&value)) return to_seconds(*time);
   if (const auto* const text = std::get_if<std::string>(&value)) return *text;
   return nullptr;

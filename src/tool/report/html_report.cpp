@@ -18,8 +18,6 @@
 namespace cbc {
 namespace {
 
-constexpr double one_percent = one_million / 100.0;
-
 /// What the picture needs of a catalog: tasks, situation variables and behaviors in catalog order,
 /// suitabilities in percent.
 void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
@@ -39,7 +37,7 @@ void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
     json.write("name", catalog.name_of_behavior(behavior));
     json.write_list("performs", catalog.performs[behavior], [&](ValueId value) {
       json.write_object({{"task", catalog.name_of_task(catalog.task_of(value))},
-                         {"suitability", catalog.values.items[value].suitability / one_percent}});
+                         {"suitability", in_percent(catalog.values.items[value].suitability)}});
     });
     json.write_list("requires", catalog.requirements[behavior],
                     [&](const CompiledRequirement& required) { write_task(required.task); });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -9,13 +10,14 @@
 #include "compiled/compiled_catalog.h"
 #include "coverage/goals.h"
 #include "coverage/missing_missions.h"
+#include "verify/properties.h"
 
 namespace cbc {
 
 /// What `cbc verify --write-tests` reports.
 struct WrittenTests {
   const CompiledCatalog* catalog = nullptr;
-  std::string assumptions;  ///< in words: see describe_assumptions
+  StatedAssumptions assumptions;
   std::span<const Goal> goals;
   std::optional<std::uint64_t> missions;  ///< that were there; empty: none were named
   const MissingMissions* missing = nullptr;
@@ -23,7 +25,7 @@ struct WrittenTests {
   std::string next;  ///< the command that looks at what the scripts leave; may be empty
 };
 
-/// The result for people.
-[[nodiscard]] std::string written_tests_to_text(const WrittenTests& tests);
+/// The result for people. `columns`: of the terminal, see wrap_line.
+[[nodiscard]] std::string written_tests_to_text(const WrittenTests& tests, std::size_t columns = 0);
 
 }  // namespace cbc

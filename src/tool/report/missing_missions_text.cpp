@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "report/missing_missions_report.h"
 #include "report/table_parts.h"
+#include "report/wrap.h"
 #include "support/wording.h"
 
 namespace cbc {
@@ -14,19 +15,19 @@ namespace cbc {
 namespace {
 
 std::string list_goals(const WrittenTests& tests, const char* heading,
-                       const std::vector<MissingMissions::Unmet>& goals) {
+                       const std::vector<MissingMissions::Unmet>& goals, std::size_t columns) {
   if (goals.empty()) return {};
-  std::string text = fmt::format("\n{}\n", heading);
+  std::string text = "\n" + wrap_line(heading, columns, 2) + "\n";
   for (const MissingMissions::Unmet& goal : goals) {
-    text += fmt::format("  {}\n    {}\n", describe(*tests.catalog, tests.goals[goal.goal]),
-                        goal.reason);
+    text += wrap_line("  " + describe(*tests.catalog, tests.goals[goal.goal]), columns, 4) + "\n";
+    text += wrap_line("    " + goal.reason, columns, 6) + "\n";
   }
   return text;
 }
 
 }  // namespace
 
-std::string written_tests_to_text(const WrittenTests& tests) {
+std::string written_tests_to_text(const WrittenTests& tests, std::size_t columns) {
   const MissingMissions& missing = *tests.missing;
   std::string text = printable(tests.catalog->file);
   if (tests.missions == 0U) {
@@ -34,7 +35,7 @@ std::string written_tests_to_text(const WrittenTests& tests) {
   } else if (tests.missions) {
     text += fmt::format(" beside {}", quantity(*tests.missions, "mission"));
   }
-  text += "\n" + assumptions_to_text(tests.assumptions) + "\n";
+  text += "\n" + assumptions_to_text(*tests.catalog, tests.assumptions, columns) + "\n";
   std::uint64_t met = 0;
   std::uint64_t events = 0;
   std::size_t width = 0;
@@ -52,13 +53,13 @@ std::string written_tests_to_text(const WrittenTests& tests) {
   row("met by tests", met);
   row("not met", missing.unmet.size());
   if (!missing.missions.empty()) {
-    text += fmt::format("\n{} with {}", quantity(missing.missions.size(), "test"),
-                        quantity(events, "event"));
+    std::string line = fmt::format("{} with {}", quantity(missing.missions.size(), "test"),
+                                   quantity(events, "event"));
     if (missing.lower_bound) {
-      text += fmt::format("; at least {} are needed, with at most {} each", *missing.lower_bound,
+      line += fmt::format("; at least {} are needed, with at most {} each", *missing.lower_bound,
                           quantity(missing.most_events, "event"));
     }
-    text += "\n";
+    text += "\n" + wrap_line(line, columns, 2) + "\n";
   } else {
     text += missing.unmet.empty() ? "\nnothing is missing\n" : "\nno test was found\n";
   }
@@ -68,16 +69,21 @@ std::string written_tests_to_text(const WrittenTests& tests) {
                         quantity(mission.events, "event"), quantity(mission.goals.size(), "goal"));
   }
   for (const std::uint32_t group : missing.partial) {
-    text += fmt::format(
-        "\na limit ended the exploration of group {}: what it has beyond is not known\n", group);
+    const std::string line = fmt::format(
+        "a limit ended the exploration of group {}: what it has beyond is not known", group);
+    text += "\n" + wrap_line(line, columns, 2) + "\n";
   }
-  text += list_goals(tests, "no test shows that", missing.unmet);
-  text += list_goals(tests, "under these assumptions no test can show that", missing.unreachable);
+  text += list_goals(tests, "no test shows that", missing.unmet, columns);
+  text += list_goals(tests, "under these assumptions no test can show that", missing.unreachable,
+                     columns);
   if (!tests.next.empty()) {
-    text += fmt::format(
-        "\nchanges of the catalog that all of these leave unnoticed, with a test for "
-        "each:\n  {}\n",
-        tests.next);
+    // The command is for a shell, and stays on one line.
+    text += "\n" +
+            wrap_line(
+                "changes of the catalog that all of these leave unnoticed, with a test for "
+                "each:",
+                columns, 2) +
+            "\n  " + tests.next + "\n";
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #include <cstddef>
 #include <string>
 
+#include "report/assumptions_json.h"
 #include "report/mutants_report.h"
 #include "support/json.h"
 
@@ -17,7 +18,7 @@ void write_identity(JsonWriter& json, const Catalog& catalog, const Mutant& muta
   if (mutant.task != Mutant::none) json.write("task", catalog.tasks[mutant.task].name);
   if (is_suitability) {
     json.write("below", catalog.behaviors[mutant.other].name);
-    json.write("suitability", static_cast<double>(mutant.suitability) / 10'000);
+    json.write("suitability", in_percent(mutant.suitability));
   } else if (mutant.other != Mutant::none) {
     json.write("other_task", catalog.tasks[mutant.other].name);
   }
@@ -44,6 +45,8 @@ std::string mutants_to_json(const MutantsResult& result) {
   return json_line([&](JsonWriter& json) {
     json.write_members({{"schema", "cbc.mutants/1"}, {"catalog", result.catalog->file}});
     json.on_new_line().write_list("missions", result.missions);
+    json.on_new_line().key("assumptions");
+    write_assumptions(json, *result.compiled, result.assumptions);
     json.on_new_line().write_members({{"noticed", count.noticed},
                                       {"survived", count.survived},
                                       {"equivalent", count.equivalent},

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "catalog/catalog.h"
+#include "compiled/compiled_catalog.h"
 #include "coverage/coverage.h"
 #include "diagnostic/diagnostic.h"
 #include "mutate/judge.h"
 #include "mutate/mutants.h"
+#include "verify/properties.h"
 
 // The reports of `cbc verify --mutants`.
 
@@ -37,7 +39,8 @@ struct MutantCount {
 /// The mutants of a catalog, and what its missions make of them.
 struct MutantsResult {
   const Catalog* catalog = nullptr;
-  std::string assumptions;              ///< in words: see describe_assumptions
+  const CompiledCatalog* compiled = nullptr;  ///< of the same
+  StatedAssumptions assumptions;
   std::vector<std::string> missions;    ///< their files
   std::vector<Mutant> mutants;          ///< by line
   std::vector<MutantVerdict> verdicts;  ///< by mutant
@@ -46,8 +49,10 @@ struct MutantsResult {
   [[nodiscard]] MutantCount count() const;
 };
 
-/// A table by line, then the survivors with a mission that would notice each.
-[[nodiscard]] std::string mutants_to_text(const MutantsResult& result, const Style& style);
+/// A table by line, then the survivors with a mission that would notice each. `columns`: of the
+/// terminal, see wrap_line.
+[[nodiscard]] std::string mutants_to_text(const MutantsResult& result, const Style& style,
+                                          std::size_t columns = 0);
 
 /// Schema cbc.mutants/1.
 [[nodiscard]] std::string mutants_to_json(const MutantsResult& result);
@@ -58,7 +63,7 @@ struct MutantsResult {
 /// A format of `cbc verify --mutants`.
 struct MutantsFormat {
   std::string_view name;
-  std::string (*write)(const MutantsResult& result, const Style& style);
+  std::string (*write)(const MutantsResult& result, const Style& style, std::size_t columns);
 };
 
 /// The first one is the default.

@@ -1,5 +1,6 @@
 #include "report/table_parts.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "draw/diagram.h"
 #include "report/catalog_report.h"
 #include "report/wrap.h"
+#include "verify/verification.h"
 
 namespace cbc {
 
@@ -38,8 +40,10 @@ std::string_view without_end_blanks(std::string_view text) {
   return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
-std::string assumptions_to_text(std::string_view assumptions) {
-  return wrap_line(assumptions, text_width, 2) + "\n";
+std::string assumptions_to_text(const CompiledCatalog& catalog, const StatedAssumptions& stated,
+                                std::size_t columns) {
+  const std::size_t width = columns == 0 ? text_width : std::min(columns, text_width);
+  return wrap_line(describe_assumptions(catalog, stated), width, 2) + "\n";
 }
 
 std::string escape_html(std::string_view text) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
+#include "verify/properties.h"
 
 /// What tables are made of, as text and in pictures.
 namespace cbc {
@@ -23,8 +24,11 @@ inline constexpr std::size_t longest_name = 28;
 /// The text without the blanks at its end.
 [[nodiscard]] std::string_view without_end_blanks(std::string_view text);
 
-/// The line that describe_assumptions gives, broken to the width of tables.
-[[nodiscard]] std::string assumptions_to_text(std::string_view assumptions);
+/// The line of describe_assumptions, broken to the width of tables, or of a terminal that is
+/// narrower. `columns`: of the terminal, 0 if there is none.
+[[nodiscard]] std::string assumptions_to_text(const CompiledCatalog& catalog,
+                                              const StatedAssumptions& stated,
+                                              std::size_t columns = 0);
 
 /// Escapes a text for the HTML-like labels of Graphviz.
 [[nodiscard]] std::string escape_html(std::string_view text);

@@ -87,6 +87,10 @@ struct VerifyResult {
   [[nodiscard]] bool is_answered() const;
 };
 
+/// What a part assumes.
+[[nodiscard]] StatedAssumptions assumptions_of(const CompiledCatalog& catalog,
+                                               const VerifyPart& part);
+
 /// The word for a result: "proved".
 [[nodiscard]] std::string_view name_of(Verdict::Result result);
 
@@ -112,6 +116,7 @@ struct VerifyResult {
 ///
 ///     {"schema": "cbc.verify/1",
 ///      "catalog": "robot.yaml",
+///      "assumptions": [{"file": …}],     of each property file; see write_assumptions
 ///      "groups": [                        those that were explored
 ///        {"group": 0,                     the first; "groups" has all that were explored together
 ///         "tasks": ["HOVER", "LAND"],     in catalog order

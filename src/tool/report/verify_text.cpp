@@ -38,6 +38,11 @@ bool VerifyResult::is_answered() const {
          (!same_as || same_as->comparison.result == Verdict::Result::proved);
 }
 
+StatedAssumptions assumptions_of(const CompiledCatalog& catalog, const VerifyPart& part) {
+  if (part.file == nullptr) return {default_assumptions(catalog), {}};
+  return {part.file->assumptions, part.file->path};
+}
+
 std::string_view name_of(Verdict::Result result) {
   constexpr std::array<std::string_view, 3> names = {"proved", "violated", "undecided"};
   return names[static_cast<std::size_t>(result)];
@@ -468,8 +473,7 @@ std::string comparison_text(const VerifyResult& result, const Style& style) {
   };
   if (result.parts.empty()) {
     const CompiledCatalog& catalog = *result.catalog;
-    text += assumptions_to_text(
-        describe_assumptions(catalog, common_assumptions(*reported.old_catalog, catalog), {}));
+    text += assumptions_to_text(catalog, {common_assumptions(*reported.old_catalog, catalog), {}});
   }
   add_names(old_name, comparison.names.only_old);
   add_names(new_name, comparison.names.only_new);
@@ -522,13 +526,10 @@ std::string verify_to_text(const VerifyResult& result, const Style& style) {
     text += style.reset;
     if (part.file != nullptr) text += " with " + printable(catalog.file);
     text += "\n";
-    const Assumptions assumptions =
-        part.file == nullptr ? default_assumptions(catalog) : part.file->assumptions;
-    const std::string_view file =
-        part.file == nullptr ? std::string_view() : std::string_view(part.file->path);
-    text += assumptions_to_text(describe_assumptions(catalog, assumptions, file));
+    const StatedAssumptions stated = assumptions_of(catalog, part);
+    text += assumptions_to_text(catalog, stated);
     if (part.is_about_groups()) {
-      text += GroupText(result, part, assumptions, style).write();
+      text += GroupText(result, part, stated.assumptions, style).write();
     } else {
       text += PropertyText(result, part, style).write();
     }

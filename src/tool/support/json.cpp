@@ -190,13 +190,12 @@ void append_shortest(std::string& json, std::string_view text) {
 }
 
 void JsonWriter::write_percent(std::string_view name, std::optional<Millionths> degree) {
-  constexpr Millionths percent = one_million / 100;
   if (!degree) {
     write(name, nullptr);
-  } else if (*degree % percent == 0) {
-    write(name, *degree / percent);
+  } else if (*degree % one_percent == 0) {
+    write(name, *degree / one_percent);
   } else {
-    write(name, static_cast<double>(*degree) / percent);
+    write(name, in_percent(*degree));
   }
 }
 

@@ -141,6 +141,13 @@ class JsonPlain {
   std::variant<std::nullptr_t, bool, std::int64_t, std::uint64_t, double, std::string_view> value_;
 };
 
+inline constexpr Millionths one_percent = one_million / 100;
+
+/// A degree as a number of percent.
+[[nodiscard]] constexpr double in_percent(Millionths degree) {
+  return static_cast<double>(degree) / one_percent;
+}
+
 /// Plain members of an object, in their order: {{"index", 1}, {"count", 2}}.
 struct JsonMember {
   std::string_view name;
@@ -232,7 +239,7 @@ class JsonWriter {
     static_assert(second == 1'000'000);
     json_.put_millionths(time);
   }
-  /// In percent: a whole number where it is one.
+  /// In percent: as a whole number where it is one.
   void write_percent(std::string_view name, std::optional<Millionths> degree);
   /// `json` is JSON already.
   void write_json(std::string_view json) {

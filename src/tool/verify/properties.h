@@ -45,6 +45,12 @@ struct Assumptions {
   SituationPart initially;               ///< what differs from initial values and own(b) true
 };
 
+/// Assumptions, and who states them.
+struct StatedAssumptions {
+  Assumptions assumptions;
+  std::string file;  ///< the property file; empty: none
+};
+
 /// What holds without a property file: every task with start_on_request may be requested with
 /// priority 1 and stopped, all variables may change, nothing is faulty.
 [[nodiscard]] Assumptions default_assumptions(const CompiledCatalog& catalog);

@@ -232,10 +232,11 @@ std::string describe_requests(const CompiledCatalog& catalog, const Assumptions&
 
 }  // namespace
 
-std::string describe_assumptions(const CompiledCatalog& catalog, const Assumptions& assumptions,
-                                 std::string_view file) {
-  std::string text = fmt::format("assumed ({}): {}", file.empty() ? "default" : printable(file),
-                                 describe_requests(catalog, assumptions));
+std::string describe_assumptions(const CompiledCatalog& catalog, const StatedAssumptions& stated) {
+  const Assumptions& assumptions = stated.assumptions;
+  std::string text =
+      fmt::format("assumed ({}): {}", stated.file.empty() ? "default" : printable(stated.file),
+                  describe_requests(catalog, assumptions));
   text += assumptions.successes && assumptions.failures ? "; behaviors succeed and fail"
           : assumptions.successes                       ? "; behaviors succeed, but do not fail"
           : assumptions.failures                        ? "; behaviors fail, but do not succeed"
