@@ -499,7 +499,8 @@ const Rule impossible_expectation = {
         "change: 'never' with that condition would be proved, and say nothing. It is a warning if "
         "the catalog rules the condition out, as with two tasks that exclude each other, a "
         "required task that is stopped or a behavior that does not fit the situation, or if the "
-        "assumptions do, as with a faulty behavior where 'faults' is 0. Under 'never' it is a note, "
+        "assumptions do, as with a faulty behavior where 'faults' is 0. Under 'never' it is a "
+        "note, "
         "since that is what the property says.",
     .example = R"(events:
 - start: ROTATE
