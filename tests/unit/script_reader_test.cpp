@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -733,6 +734,28 @@ TEST(ScriptReader, WhatIsRequiredHasRequirementsToo) {
             "1:22-30 warning impossible-expectation: this can never hold: each behavior left for "
             "it, such as 'LIDAR', requires task 'SENSE' (a.yaml:12)\n"
             "  1:48-53 expected to be stopped here\n");
+}
+
+TEST(ScriptReader, ReasonsOfLongChainsNameTheirEnds) {
+  constexpr int tasks = 20'000;
+  std::string catalog = "behaviors:\n";
+  for (int i = 0; i < tasks; ++i) {
+    catalog +=
+        fmt::format("- {{behavior: b{0}, task: T{0}, requires: [{{task: T{1}}}]}}\n", i, i + 1);
+  }
+  catalog += fmt::format("- {{behavior: b{0}, task: T{0}}}\n", tasks);
+  const CompiledCatalog chain = test::compile_text(catalog);
+  const std::string script =
+      fmt::format("- expect: {{running: {{T0: any}}, stopped: [T{}]}}\n", tasks);
+  Diagnostics diagnostics;
+  const auto document = yaml::parse(script, "s.yaml", diagnostics);
+  EXPECT_TRUE(read_script(*document, chain, Severity::warning, diagnostics).has_value());
+  EXPECT_EQ(diagnostics.all().front().message,
+            "this can never hold: behavior 'b0' requires task 'T1' (a.yaml:2), behavior 'b1' "
+            "requires task 'T2' (a.yaml:3), behavior 'b2' requires task 'T3' (a.yaml:4), and so "
+            "on, behavior 'b19997' requires task 'T19998' (a.yaml:19999), behavior 'b19998' "
+            "requires task 'T19999' (a.yaml:20000), behavior 'b19999' requires task 'T20000' "
+            "(a.yaml:20001)");
 }
 
 // Time -----------------------------------------------------------------------------------------

@@ -56,7 +56,9 @@ std::string written_tests_to_text(const WrittenTests& tests, std::size_t columns
     std::string line = fmt::format("{} with {}", quantity(missing.missions.size(), "test"),
                                    quantity(events, "event"));
     if (missing.lower_bound) {
-      line += fmt::format("; at least {} are needed, with at most {} each", *missing.lower_bound,
+      const std::uint64_t least = *missing.lower_bound;
+      line += fmt::format("; at least {} needed, with at most {} each",
+                          least == 1 ? "one is" : fmt::format("{} are", least),
                           quantity(missing.most_events, "event"));
     }
     text += "\n" + wrap_line(line, columns, 2) + "\n";
