@@ -16,8 +16,8 @@ struct ScriptRun {
 };
 
 /// Reads a script as `cbc solve` does, and runs it with its own header. Throws std::runtime_error
-/// if there is any finding about it, a timeout fires, or it has not exactly one expectation and
-/// `timeouts: false`.
+/// if there is any finding about it, other than that an expectation that fails can never hold, a
+/// timeout fires, or it has not exactly one expectation and `timeouts: false`.
 [[nodiscard]] ScriptRun run_text(const CompiledCatalog& catalog, const std::string& text,
                                  const std::vector<TaskId>& tasks);
 
