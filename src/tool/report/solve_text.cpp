@@ -282,18 +282,27 @@ void TextReport::write_change(const EventRecord& record, const Change& change) {
       behavior_column);
 }
 
-/// What the changes above and below a failed activation are.
+/// What the changes around a failed activation are.
 void TextReport::write_failed(const EventRecord& record) {
   std::vector<std::string> names;
+  bool has_changed = false;
+  bool has_changed_before = false;
   for (const Change& change : record.changes) {
-    if (!change.success) names.push_back(behavior_name(*catalog_, change.behavior));
+    if (change.success) {
+      has_changed = true;
+      continue;
+    }
+    names.push_back(behavior_name(*catalog_, change.behavior));
+    has_changed_before = has_changed;
   }
   if (names.empty()) return;
   const char* const it = names.size() == 1 ? "it" : "them";
-  write({fmt::format("{} failed (N), and the event was decided anew without {}: the changes above "
-                     "{} are of an answer that was given up",
-                     list_words(names, "and"), it, it),
-         {}});
+  std::string text = fmt::format("{} failed (N), and the event was decided anew without {}",
+                                 list_words(names, "and"), it);
+  if (has_changed_before) {
+    text += fmt::format(": the changes above {} are of an answer that was given up", it);
+  }
+  write({text, {}});
 }
 
 void TextReport::write_stopped(const EventRecord& record) {

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "report/assumptions_json.h"
 #include "report/verify_report.h"
 #include "support/json.h"
 
@@ -19,7 +18,6 @@ class Writer {
 
   void write() {
     json_.write_members({{"schema", "cbc.verify/1"}, {"catalog", catalog_.file}});
-    write_assumptions();
     json_.open("groups", '[');
     for (const VerifyPart& part : result_.parts) {
       for (const Exploration& exploration : part.verification.explorations) {
@@ -38,20 +36,6 @@ class Writer {
   }
 
  private:
-  /// Without property files, those of the comparison or of the groups; a search for cut sets has
-  /// none.
-  void write_assumptions() {
-    json_.open("assumptions", '[');
-    for (const VerifyPart& part : result_.parts) {
-      cbc::write_assumptions(json_, catalog_, assumptions_of(catalog_, part));
-    }
-    if (result_.parts.empty() && result_.same_as) {
-      cbc::write_assumptions(json_, catalog_,
-                             {common_assumptions(*result_.same_as->old_catalog, catalog_), {}});
-    }
-    json_.close(']');
-  }
-
   using Depths = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
   void write_depths(std::string_view name, const Depths& depths, const Texts& names) {
