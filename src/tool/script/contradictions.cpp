@@ -54,16 +54,29 @@ bool is_performed(const ClaimIndex& index, const CompiledCatalog& catalog, TaskI
                      [&index](const Value& value) { return index.may_be_active(value.behavior); });
 }
 
-/// Gives the active behaviors the tasks that are left for them.
-class Placement {
+/// What is examined, and who takes what is found.
+class Examination {
  public:
-  Placement(const StateClaims& claims, const CompiledCatalog& catalog, const Reporter& reporter,
-            const OnContradiction& on_contradiction)
+  Examination(const StateClaims& claims, const CompiledCatalog& catalog, const Reporter& reporter,
+              const OnContradiction& on_contradiction)
       : claims_(claims),
         catalog_(catalog),
         reporter_(reporter),
         on_contradiction_(on_contradiction),
         index_(claims) {}
+
+ protected:
+  const StateClaims& claims_;
+  const CompiledCatalog& catalog_;
+  const Reporter& reporter_;
+  const OnContradiction& on_contradiction_;
+  const ClaimIndex index_;
+};
+
+/// Gives the active behaviors the tasks that are left for them.
+class Placement : private Examination {
+ public:
+  using Examination::Examination;
 
   void find() && {
     for (const StateClaims::Running& entry : claims_.running) {
@@ -152,25 +165,14 @@ class Placement {
     }
   }
 
-  const StateClaims& claims_;
-  const CompiledCatalog& catalog_;
-  const Reporter& reporter_;
-  const OnContradiction& on_contradiction_;
-  const ClaimIndex index_;
   std::unordered_map<TaskId, std::vector<Named>> taken_;
   std::unordered_map<BehaviorId, const Named*> open_;  ///< active, with several tasks left
 };
 
 /// Follows from each claim which tasks run if it holds.
-class Consequences {
+class Consequences : private Examination {
  public:
-  Consequences(const StateClaims& claims, const CompiledCatalog& catalog, const Reporter& reporter,
-               const OnContradiction& on_contradiction)
-      : claims_(claims),
-        catalog_(catalog),
-        reporter_(reporter),
-        on_contradiction_(on_contradiction),
-        index_(claims) {}
+  using Examination::Examination;
 
   /// The tasks that the claims themselves say to run.
   void add_claimed() {
@@ -298,11 +300,6 @@ class Consequences {
     }
   }
 
-  const StateClaims& claims_;
-  const CompiledCatalog& catalog_;
-  const Reporter& reporter_;
-  const OnContradiction& on_contradiction_;
-  const ClaimIndex index_;
   std::vector<Running> running_;
   std::set<TaskId> tasks_;                          ///< of running_
   std::map<std::uint32_t, std::size_t> in_clique_;  ///< places in running_
