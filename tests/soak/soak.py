@@ -1,5 +1,5 @@
 """Hours of random cases against the brute force of tests/property, and a stream of ten million events, in which neither
-memory nor descriptors may grow. Prints what was covered.
+memory nor descriptors may grow. Prints what was covered, also of cases that an interrupt ends.
 
 The cases of a seed are the same everywhere, so the work can be shared out: each machine takes its own range of seeds.
 """
@@ -47,9 +47,14 @@ def compare(tests, seeds, hours):
     totals = collections.Counter()
     first, last = seeds
     seed = first
-    while seed <= last and time.monotonic() - begin < hours * 3600:
+    is_interrupted = False
+    while seed <= last and time.monotonic() - begin < hours * 3600 and not is_interrupted:
         count = min(CASES, last - seed + 1)
-        counts, report = run_cases(tests, seed, count)
+        try:
+            counts, report = run_cases(tests, seed, count)
+        except KeyboardInterrupt:
+            is_interrupted = True
+            continue
         if report:
             print(report)
             print(f"Seeds {seed} to {seed + count - 1} differ; CBC_SEED and CBC_PROPERTY_CASES repeat them.")
@@ -66,6 +71,8 @@ def compare(tests, seeds, hours):
         print(f"{times:14,}  {what}")
     if seed <= last:
         print(f"The next ones: --seeds {seed}")
+    if is_interrupted:
+        sys.exit(130)
     return True
 
 
