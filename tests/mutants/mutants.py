@@ -49,7 +49,7 @@ def read_options():
                         help="the I-th of N parts; concatenate their results.tsv")
     parser.add_argument("--again", action="store_true", help="try those that survived once more, after adding tests")
     parser.add_argument("--report", action="store_true", help="print the results that are there, and try nothing")
-    parser.add_argument("--jobs", type=read_count, metavar="N", default=os.cpu_count(),
+    parser.add_argument("--jobs", type=read_count, metavar="N", default=len(os.sched_getaffinity(0)),
                         help="compile N sources at a time")
     return parser.parse_args()
 

@@ -20,6 +20,7 @@
 #include "diagnostic/diagnostic.h"
 #include "diagnostic/rules.h"
 #include "lint/proofs.h"
+#include "support/json.h"
 #include "support/wording.h"
 
 namespace cbc {
@@ -39,10 +40,7 @@ std::size_t count(const std::vector<LintedFile>& files, Severity severity) {
 namespace {
 
 /// Whether a percentage is over 0 and at most 1, so that it is probably meant as a fraction.
-bool looks_like_fraction(Millionths degree) {
-  constexpr Millionths one_percent = one_million / 100;
-  return degree > 0 && degree <= one_percent;
-}
+bool looks_like_fraction(Millionths degree) { return degree > 0 && degree <= one_percent; }
 
 void check_suspicious_minimum(Millionths minimum, const Range& range, Reporter& reporter) {
   if (!looks_like_fraction(minimum)) return;

@@ -87,10 +87,6 @@ struct VerifyResult {
   [[nodiscard]] bool is_answered() const;
 };
 
-/// What a part assumes.
-[[nodiscard]] StatedAssumptions assumptions_of(const CompiledCatalog& catalog,
-                                               const VerifyPart& part);
-
 /// The word for a result: "proved".
 [[nodiscard]] std::string_view name_of(Verdict::Result result);
 
