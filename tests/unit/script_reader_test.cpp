@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "diagnostic/diagnostic.h"
 #include "script/reader.h"
 #include "unit/compiled_fixture.h"
@@ -248,6 +249,17 @@ TEST(ScriptReader, OneVerbForEachEvent) {
       "4:3-8 error missing-key: 'start' has no value\n"
       "5:3-4 error wrong-type: an event must be a mapping ('start: TASK'), found '7'\n"
       "6:3-4 error wrong-type: an event must be a mapping ('start: TASK'), found nothing\n");
+}
+
+TEST(ScriptReader, AForgottenColonOrSpaceIsNamed) {
+  const std::string_view start =
+      "error wrong-type: an event must be a mapping ('start: TASK'), found ";
+  EXPECT_EQ(findings("- stop LAND\n- stop:LAND\n- wait 5\n- go LAND\n- stop\n"),
+            concat("1:3-12 ", start, "'stop LAND'; write 'stop: LAND'\n",  //
+                   "2:3-12 ", start, "'stop:LAND'; write 'stop: LAND'\n",  //
+                   "3:3-9 ", start, "'wait 5'; write 'wait: 5'\n",         //
+                   "4:3-10 ", start, "'go LAND'\n",                        //
+                   "5:3-7 ", start, "'stop'\n"));
 }
 
 /// What a key without a value says is nothing.

@@ -38,11 +38,6 @@ bool VerifyResult::is_answered() const {
          (!same_as || same_as->comparison.result == Verdict::Result::proved);
 }
 
-StatedAssumptions assumptions_of(const CompiledCatalog& catalog, const VerifyPart& part) {
-  if (part.file == nullptr) return {default_assumptions(catalog), {}};
-  return {part.file->assumptions, part.file->path};
-}
-
 std::string_view name_of(Verdict::Result result) {
   constexpr std::array<std::string_view, 3> names = {"proved", "violated", "undecided"};
   return names[static_cast<std::size_t>(result)];
@@ -485,10 +480,8 @@ std::string comparison_text(const VerifyResult& result, const Style& style) {
       return text + fmt::format("  {}every reachable event is decided alike{}: {}\n", style.good,
                                 style.reset, counts);
     case Verdict::Result::undecided:
-      return text + fmt::format(
-                        "  {}undecided{}: a limit ended the search, or it was interrupted; "
-                        "no difference in {}\n",
-                        style.warning, style.reset, counts);
+      return text + fmt::format("  {}undecided{}: {}; no difference in {}\n", style.warning,
+                                style.reset, describe_end(*comparison.end, result.limits), counts);
     case Verdict::Result::violated:
       break;
   }
@@ -512,6 +505,11 @@ std::string total_of(const VerifyResult& result, const Style& style) {
   return fmt::format("\n{}properties: {} proved, {} violated, {} undecided{}\n",
                      counts[1] + counts[2] == 0 ? style.good : style.bad, counts[0], counts[1],
                      counts[2], style.reset);
+}
+
+StatedAssumptions assumptions_of(const CompiledCatalog& catalog, const VerifyPart& part) {
+  if (part.file == nullptr) return {default_assumptions(catalog), {}};
+  return {part.file->assumptions, part.file->path};
 }
 
 }  // namespace

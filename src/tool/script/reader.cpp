@@ -130,6 +130,17 @@ std::string_view find_verb(const Fields& fields, const Range& range, Reporter& r
   return {};
 }
 
+/// For a text such as "stop DELIVER": what was probably meant. Empty if nothing is known.
+std::string suggest_mapping(const Node& node) {
+  if (node.kind != Kind::scalar) return {};
+  const std::size_t end = node.text.find_first_of(" :");
+  if (end == std::string::npos || end + 1 == node.text.size()) return {};
+  const std::string_view word = std::string_view(node.text).substr(0, end);
+  const std::string_view rest = std::string_view(node.text).substr(end + 1);
+  if (word != "at" && !find_word<Verb>(word)) return {};
+  return concat("; write ", quote(concat(word, ": ", rest)));
+}
+
 }  // namespace
 
 Step StepReader::read(const Node& node, Reporter& reporter) {
@@ -137,7 +148,8 @@ Step StepReader::read(const Node& node, Reporter& reporter) {
   step.range = node.range;
   if (node.kind != Kind::mapping) {
     reporter.report(rule::wrong_type, node.range,
-                    "an event must be a mapping ('start: TASK'), found " + yaml::describe(node));
+                    "an event must be a mapping ('start: TASK'), found " + yaml::describe(node) +
+                        suggest_mapping(node));
     return step;
   }
   Fields fields(node, shape::event, reporter);

@@ -598,7 +598,6 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
   const Assumptions old_assumptions = translate(assumptions, to_old);
   // What only the new catalog has does not move.
   const Assumptions new_assumptions = translate(old_assumptions, to_new);
-  bool is_complete = true;
   for (const GroupPair& groups : join_groups(old_catalog, new_catalog, to_old)) {
     if (scope.group && std::find(groups.new_groups.begin(), groups.new_groups.end(),
                                  *scope.group) == groups.new_groups.end()) {
@@ -636,7 +635,7 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
     }
     BreadthFirst search(first, exploration);
     search.run(expanders);
-    is_complete = is_complete && search.is_complete();
+    if (!search.is_complete() && !result.end) result.end = search.end();
     result.states += search.store().size();
     result.transitions += search.transitions();
     result.depth = std::max(result.depth, search.expanded_depth());
@@ -660,7 +659,7 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
                                  printable(old_catalog.file), printable(new_catalog.file)));
     result.old_script = translate(result.witness->script, new_catalog, old_catalog, to_old);
   }
-  if (result.result != Verdict::Result::violated && is_complete) {
+  if (result.result != Verdict::Result::violated && !result.end) {
     result.result = Verdict::Result::proved;
   }
   return result;

@@ -25,9 +25,10 @@ struct CatalogNames {
 struct CatalogComparison {
   CatalogNames names;
   Verdict::Result result = Verdict::Result::undecided;
-  std::uint64_t states = 0;       ///< pairs of states
-  std::uint64_t transitions = 0;  ///< pairs of transitions
-  std::uint32_t depth = 0;        ///< see Exploration, of the deepest one
+  std::uint64_t states = 0;           ///< pairs of states
+  std::uint64_t transitions = 0;      ///< pairs of transitions
+  std::uint32_t depth = 0;            ///< see Exploration, of the deepest one
+  std::optional<ExplorationEnd> end;  ///< undecided: what ended the first search that was ended
   /// Violated: the shortest moves of which the last is decided differently, and their script, which
   /// expects at its end what the new catalog does.
   std::vector<Move> moves;
