@@ -402,7 +402,7 @@ TEST(Finish, RaisesTheProtectionLevelUntilThereIsASolution) {
   stage.start("C", 2);
   stage.start("D", 4);
   EXPECT_EQ(stage.finish("t", FinishCause::process_failure), "accepted");
-  EXPECT_EQ(stage.searches(), "optimal protection 4 sizes 2 2 1");
+  EXPECT_EQ(stage.searches(), "optimal protection 4 escalated sizes 2 2 1");
   EXPECT_EQ(stage.stopped(), "C interrupted, D interrupted, T process_failure");
 }
 
@@ -411,7 +411,7 @@ TEST(Finish, RaisesTheProtectionLevelNoFurtherThanNeeded) {
   stage.start("C", 2);
   stage.start("D", 4);
   EXPECT_EQ(stage.finish("t", FinishCause::process_failure), "accepted");
-  EXPECT_EQ(stage.searches(), "optimal protection 2 sizes 2 2 1");
+  EXPECT_EQ(stage.searches(), "optimal protection 2 escalated sizes 2 2 1");
   EXPECT_EQ(stage.running(), "D=d2");
   EXPECT_EQ(stage.requests(), "D:4");
 }
@@ -684,7 +684,7 @@ TEST(ActivationFailure, OfAFinishMayRaiseTheProtectionLevel) {
   stage.fault("t2");
   EXPECT_EQ(stage.finish("t1", FinishCause::process_failure), "accepted");
   EXPECT_EQ(stage.changes(), "+t2 required failed, -a displaced 3");
-  EXPECT_EQ(stage.searches(), "optimal protection 3 sizes 2 1 1");
+  EXPECT_EQ(stage.searches(), "optimal protection 3 escalated sizes 2 1 1");
 }
 
 TEST(Repair, LetsTheBehaviorBeActivatedAgain) {
@@ -1157,7 +1157,7 @@ TEST(SearchLimits, ThatLeaveAFinishWithoutSolutionEscalateIt) {
   EXPECT_EQ(stage.start("M", 1), "accepted");
   EXPECT_EQ(stage.running(), "B=b K=k M=m1");
   EXPECT_EQ(stage.finish("m1", FinishCause::wrong_progress), "accepted");
-  EXPECT_EQ(stage.searches().substr(0, 21), "feasible protection 3");
+  EXPECT_EQ(stage.searches().substr(0, 31), "feasible protection 3 escalated");
   EXPECT_EQ(stage.running(), "K=k");
   EXPECT_EQ(stage.stopped(), "B interrupted, M wrong_progress");
 }

@@ -1,6 +1,9 @@
 // The search that learns: problems that branch and bound alone does not finish.
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,13 +14,16 @@
 #include "solver/checker.h"
 #include "solver/nogoods.h"
 #include "solver/solver.h"
+#include "support/rounds.h"
 #include "unit/compiled_fixture.h"
+#include "unit/random_problems.h"
 
 namespace cbc {
 namespace {
 
 struct Answer {
   SearchResult result;
+  Assignment solution;
   std::string text;
 };
 
@@ -28,9 +34,8 @@ Answer solve(const CompiledCatalog& catalog, const Problem& problem, std::uint64
   const std::vector<std::uint32_t> ranks;
   Solver solver(catalog, options, ranks);
   Answer answer;
-  Assignment solution;
-  answer.result = solver.solve(problem, solution);
-  if (has_solution(answer.result.status)) answer.text = test::show(catalog, solution, 0);
+  answer.result = solver.solve(problem, answer.solution);
+  if (has_solution(answer.result.status)) answer.text = test::show(catalog, answer.solution, 0);
   return answer;
 }
 
@@ -106,6 +111,80 @@ TEST(LearningSearch, EndsLikeBranchAndBoundWithTheFirstSolutionIfAnyWillDo) {
   }
 }
 
+/// `tasks` that each need another one of `places`, for all of which `ALL` asks. `degrees`: their
+/// suitabilities by task and place, in percent.
+CompiledCatalog assignment_catalog(std::size_t tasks, std::size_t places,
+                                   const std::vector<std::vector<int>>& degrees) {
+  std::string required;
+  std::string behaviors;
+  for (std::size_t task = 0; task < tasks; ++task) {
+    required += fmt::format("{}{{task: T{}}}", task > 0 ? ", " : "", task);
+    for (std::size_t place = 0; place < places; ++place) {
+      behaviors += fmt::format(
+          "- {{behavior: t{0}_{1}, task: T{0}, suitability: {2}, requires: [{{task: P{0}_{1}}}]}}\n"
+          "- {{behavior: p{0}_{1}, task: P{0}_{1}}}\n",
+          task, place, degrees.empty() ? 100 : degrees[task][place]);
+    }
+  }
+  std::string lists;
+  for (std::size_t place = 0; place < places; ++place) {
+    std::string list;
+    for (std::size_t task = 0; task < tasks; ++task) {
+      list += fmt::format("{}P{}_{}", task > 0 ? ", " : "", task, place);
+    }
+    lists += fmt::format("- mutually_exclusive: [{}]\n", list);
+  }
+  return test::compile_text(
+      fmt::format("default_values: {{tasks: {{start_on_request: false}}}}\n"
+                  "behaviors:\n- {{behavior: all, task: ALL, requires: [{}]}}\n{}"
+                  "tasks: [{{task: ALL}}]\nexclusivity_constraints:\n{}",
+                  required, behaviors, lists));
+}
+
+/// Thousands of conflicts: it restarts, and forgets no-goods.
+TEST(LearningSearch, RefutesOneTaskMoreThanPlaces) {
+  for (std::size_t places = 2; places <= 7; ++places) {
+    const CompiledCatalog catalog = assignment_catalog(places + 1, places, {});
+    Problem problem = test::open_problem(catalog);
+    test::demand(problem, catalog, "ALL");
+    const Answer learned = solve(catalog, problem, 0);
+    EXPECT_EQ(learned.result.status, SearchStatus::infeasible) << places;
+  }
+}
+
+TEST(LearningSearch, FindsTheBestAssignment) {
+  test::Random random(1);
+  constexpr std::size_t size = 6;
+  for (int round = 0; round < test::rounds(10); ++round) {
+    std::vector<std::vector<int>> degrees(size, std::vector<int>(size));
+    for (std::vector<int>& of_task : degrees) {
+      for (int& degree : of_task) degree = 50 + static_cast<int>(random.below(51));
+    }
+    std::vector<std::size_t> places(size);
+    std::iota(places.begin(), places.end(), 0U);
+    std::int64_t best = 0;
+    do {
+      std::int64_t product = 1;
+      for (std::size_t task = 0; task < size; ++task) product *= degrees[task][places[task]];
+      best = std::max(best, product);
+    } while (std::next_permutation(places.begin(), places.end()));
+
+    const CompiledCatalog catalog = assignment_catalog(size, size, degrees);
+    Problem problem = test::open_problem(catalog);
+    test::demand(problem, catalog, "ALL");
+    const Answer learned = solve(catalog, problem, 0);
+    EXPECT_EQ(learned.result.status, SearchStatus::optimal);
+    std::int64_t product = 1;
+    for (std::size_t task = 0; task < size; ++task) {
+      const std::uint32_t local = test::local_task(catalog, fmt::format("T{}", task));
+      const Value& value =
+          catalog.values[catalog.group_tasks[problem.group] + local][learned.solution[local]];
+      product *= value.suitability / 10'000;
+    }
+    EXPECT_EQ(product, best);
+  }
+}
+
 TEST(Nogoods, ForgetThoseUsedLeast) {
   Nogoods nogoods;
   nogoods.clear(8);
@@ -129,6 +208,26 @@ TEST(Nogoods, ForgetThoseUsedLeast) {
   };
   EXPECT_EQ(count_implied_by(negate(0)), 0U);
   EXPECT_EQ(count_implied_by(negate(6)), 2U);
+}
+
+/// Also where the numbers would become too large: 1.001 to the power of 400,000 is about 10 to that
+/// of 174.
+TEST(Nogoods, CountLaterUsesMore) {
+  Nogoods nogoods;
+  nogoods.clear(8);
+  for (Literal literal = 0; literal < 8; literal += 2) {
+    const std::array<Literal, 3> clause{literal, literal + 2, literal + 4};
+    static_cast<void>(nogoods.add(clause, 3));
+  }
+  for (int conflict = 0; conflict < 400'000; ++conflict) {
+    nogoods.note_use(conflict % 3 == 0 ? 1 : 2);
+    nogoods.age();
+  }
+  nogoods.note_use(0);
+  nogoods.forget_half();
+  ASSERT_EQ(nogoods.size(), 2U);
+  EXPECT_EQ(nogoods.literals(0)[0], 2U) << "one late use is less than many";
+  EXPECT_EQ(nogoods.literals(1)[0], 4U);
 }
 
 }  // namespace

@@ -135,10 +135,24 @@ class Branch {
     std::sort(levels.begin(), levels.end());
     levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
     EXPECT_EQ(analysis_.level_count(), levels.size());
+    for (const Literal literal : learned.subspan(1)) EXPECT_FALSE(follows_from_others(literal));
     for (const Assignment& solution : solutions()) {
       EXPECT_TRUE(std::any_of(learned.begin(), learned.end(),
                               [&](Literal literal) { return holds(solution, literal); }));
     }
+  }
+
+  /// Whether a literal of the learned no-good is false because others are, so that it is not
+  /// needed.
+  [[nodiscard]] bool follows_from_others(Literal literal) const {
+    if (trail_.is_given(negate(literal))) return false;
+    std::vector<Literal> reason;
+    trail_.append_reason(negate(literal), reason);
+    const std::span<const Literal> learned = analysis_.learned();
+    return std::all_of(reason.begin(), reason.end(), [&](Literal other) {
+      return trail_.level_of(other) == 0 ||
+             std::find(learned.begin(), learned.end(), negate(other)) != learned.end();
+    });
   }
 
   [[nodiscard]] bool holds(const Assignment& solution, Literal literal) const {

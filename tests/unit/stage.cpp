@@ -178,7 +178,9 @@ void Stage::on_event(const EventRecord& record) {
   std::string search = "none";
   if (record.search) {
     search = std::string(name_of(record.search->result.status)) + " protection " +
-             std::to_string(record.search->protection) + " sizes";
+             std::to_string(record.search->protection);
+    if (record.search->is_escalated) search += " escalated";
+    search += " sizes";
     for (const std::uint32_t size : record.search->domain_sizes) {
       search += " " + std::to_string(size);
     }

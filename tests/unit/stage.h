@@ -51,7 +51,7 @@ class Stage final : private EventListener {
   [[nodiscard]] const std::string& changes() const { return changes_; }
   /// "A goal_achieved, B interrupted; …".
   [[nodiscard]] const std::string& stopped() const { return stopped_; }
-  /// "optimal protection 2 sizes 1 2 1; …"; "none" without a search.
+  /// "optimal protection 2 escalated sizes 1 2 1; …"; "none" without a search.
   [[nodiscard]] const std::string& searches() const { return searches_; }
   /// "1/2 idle 1/3 changes 2; …"; "none" without an objective.
   [[nodiscard]] const std::string& objectives() const { return objectives_; }

@@ -37,14 +37,15 @@ void Nogoods::note_use(std::uint32_t nogood) {
 
 void Nogoods::forget_half() {
   constexpr std::uint32_t levels_to_keep = 2;
+  std::size_t to_forget = nogoods_.size() / 2;
+  if (to_forget == 0) return;
   activities_.clear();
   for (const Nogood& nogood : nogoods_) activities_.push_back(nogood.activity);
-  const auto middle = activities_.begin() + static_cast<std::ptrdiff_t>(activities_.size() / 2);
-  std::nth_element(activities_.begin(), middle, activities_.end());
-  const double limit = *middle;
+  const auto last = activities_.begin() + static_cast<std::ptrdiff_t>(to_forget - 1);
+  std::nth_element(activities_.begin(), last, activities_.end());
+  const double limit = *last;
 
   for (std::vector<Watch>& watches : watches_) watches.clear();
-  std::size_t to_forget = nogoods_.size() / 2;
   std::uint32_t kept = 0;
   std::uint32_t end = 0;
   for (const Nogood nogood : std::span<const Nogood>(nogoods_)) {
