@@ -384,6 +384,7 @@ constexpr std::string_view text_format = "text";
 struct TableView {
   std::string_view name;
   std::string_view answer;  ///< what it shows, after "it is not known"
+  bool is_of_pairs = false;
   std::vector<std::string> (*formats)();
   /// `format` is one of these; of one by Graphviz, the input of `dot`.
   std::string (*write)(const CompiledCatalog& catalog, const SeveritySettings& settings,
@@ -405,9 +406,9 @@ std::string write_table_of_pairs(const CompiledCatalog& catalog, const SeverityS
 }
 
 constexpr TableView table_views[] = {
-    {"together", "which tasks can run together", [] { return names_in(together_formats()); },
+    {"together", "which tasks can run together", true, [] { return names_in(together_formats()); },
      write_table_of_pairs},
-    {"situation", "which behaviors fit", [] { return names_in(situation_formats()); },
+    {"situation", "which behaviors fit", false, [] { return names_in(situation_formats()); },
      write_situation_table},
 };
 
@@ -530,6 +531,12 @@ int write_table(const TableView& table, const GraphCommand& command) {
   if (drawable->compiled == nullptr) {
     complain("catalog {} has errors, so it is not known {}", quote(drawable->graph.file),
              table.answer);
+    return exit_unusable;
+  }
+  const std::size_t tasks = count_tasks_in_pairs(*drawable->compiled);
+  if (table.is_of_pairs && tasks > most_tasks_in_pairs) {
+    complain("catalog {} has too many tasks for a table of their pairs: {}; expected at most {}",
+             quote(drawable->graph.file), tasks, most_tasks_in_pairs);
     return exit_unusable;
   }
   const std::string format = format_of(command);

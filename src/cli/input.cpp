@@ -497,7 +497,9 @@ std::optional<std::string> path_of_catalog(const std::string& path,
   const std::optional<std::string> named = catalog_of_script(document);
   if (!named) return std::nullopt;
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  return (folder / *named).lexically_normal().string();
+  std::string found = (folder / *named).lexically_normal().string();
+  // In a file this is a name as any other: standard input is only what the command line names.
+  return found == "-" ? "./-" : found;
 }
 
 namespace {

@@ -124,6 +124,21 @@ TEST(TogetherText, OfNoTasks) {
             std::string(catalog.file) + "\n  0 tasks on request, 0 pairs\n");
 }
 
+/// Their pairs would take minutes and gigabytes.
+TEST(TogetherSummary, IsNotOfVeryManyTasks) {
+  const auto summary_of = [](std::size_t tasks) {
+    LintedFile file;
+    const CompiledCatalog catalog = many_tasks(tasks, "T");
+    file.summary = summarize(catalog);
+    file.together = summarize_together(catalog, LintOptions().max_nodes);
+    return lint_summary(file, plain_style());
+  };
+  EXPECT_NE(summary_of(10).find("pairs on request          45\n"), std::string::npos);
+  const std::string summary = summary_of(50'000);
+  EXPECT_TRUE(summary.ends_with("    pairs of more than 2000 tasks are not looked at\n"))
+      << summary;
+}
+
 /// Any task may be requested, so a catalog in which none waits for a request has its pairs, too.
 TEST(TogetherText, OfAllTasks) {
   const CompiledCatalog catalog = test::compile_text(R"(default_values:

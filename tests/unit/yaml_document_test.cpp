@@ -325,6 +325,11 @@ TEST(YamlDocument, RefusesBytesThatAreNoText) {
   EXPECT_EQ(tree("a: x\x1b[0m"), syntax_error("1:5-6", "a control character: '\\x1b'"));
   EXPECT_EQ(tree("a: x\x04z"), syntax_error("1:5-6", "a control character: '\\x04'"));
   EXPECT_EQ(tree("a: \xc2\x9b"), syntax_error("1:4-5", "a control character: '\\x9b'"));
+  // Other readers would see a second line here.
+  const std::string alone = "a carriage return without a line feed; end lines with a line feed";
+  EXPECT_EQ(tree("a: 1\r# b\rc: 2\n"), syntax_error("1:5-6", alone));
+  EXPECT_EQ(tree("a: 1\r\r\nb: 2\r\n"), syntax_error("1:5-6", alone));
+  EXPECT_EQ(tree("a: 1\r\nb: 'c\rd'"), syntax_error("2:6-7", alone));
   EXPECT_EQ(tree(std::string_view("\xff\xfe"
                                   "a\0:\0",
                                   6)),

@@ -32,11 +32,11 @@ class GraphBuilder final : private GroupWalk::Listener {
 
   GoalGraph build() {
     for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) {
+      // To begin the walks of very many groups takes long, too.
+      if (options_.on_progress && !options_.on_progress(group, 0)) break;
       GroupWalk walk(catalog_, group, assumptions_, watch_, options_);
-      if (walk.begins_excluded()) {
-        graph_.error = "the first state is in a situation that 'never' excludes";
-        break;
-      }
+      graph_.error = walk.find_obstacle();
+      if (graph_.error) break;
       first_state_ = static_cast<std::uint32_t>(graph_.state_count());
       if (group == 0) add_free_variables();
       const GroupWalkResult result = walk.run(*this);

@@ -41,10 +41,10 @@ struct GoalGraph {
   /// way before on the path: a number from `goal_count` on says that of goal number - goal_count.
   std::vector<std::uint32_t> items;
   std::vector<std::uint8_t> is_return;  ///< by goal
-  std::vector<Part> parts;              ///< by group
+  std::vector<Part> parts;              ///< by group; without those after a stop
   GoalFacts facts;
   std::uint64_t moves = 0;           ///< with those that are left out, as others do the same
-  std::optional<std::string> error;  ///< the first state contradicts `never`
+  std::optional<std::string> error;  ///< see Model::find_obstacle()
 
   [[nodiscard]] std::size_t state_count() const { return begin.size() - 1; }
   [[nodiscard]] std::span<const std::uint32_t> items_of(const Edge& edge) const {

@@ -108,11 +108,10 @@ GoalProof prove_unreachable(const CompiledCatalog& catalog, std::span<const Goal
   watch.take_failures_for_timeouts();
   for (std::uint32_t group = 0; group < catalog.group_count(); ++group) {
     if (options.group.value_or(group) != group) continue;
+    if (options.walk.on_progress && !options.walk.on_progress(group, 0)) break;
     GroupWalk walk(catalog, group, assumptions, watch, options.walk);
-    if (walk.begins_excluded()) {
-      proof.error = "the first state is in a situation that 'never' excludes";
-      return proof;
-    }
+    proof.error = walk.find_obstacle();
+    if (proof.error) return proof;
     Returns returns;
     proof.groups[group] = returns.run(walk);
     for (const TaskId task : returns.find()) watch.note_return(task);

@@ -20,7 +20,7 @@ struct GoalProof {
   /// By goal: why no move meets it, if that is proven; otherwise empty. See why_unreachable.
   std::vector<std::string> unreachable;
   GoalFacts facts;  ///< of the groups that are complete
-  /// The first state contradicts `never`; then nothing is proven.
+  /// See Model::find_obstacle(); then nothing is proven.
   std::optional<std::string> error;
 };
 

@@ -16,8 +16,6 @@ GroupWalk::GroupWalk(const CompiledCatalog& catalog, std::uint32_t group,
       race_(catalog, group),
       packed_(model_.packed_words()) {}
 
-bool GroupWalk::begins_excluded() const { return model_.is_excluded(model_.first_state().data()); }
-
 GroupWalkResult GroupWalk::run(Listener& listener) {
   model_.pack(model_.first_state().data(), packed_.data());
   find(packed_);

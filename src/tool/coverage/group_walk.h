@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -53,9 +54,9 @@ class GroupWalk {
   GroupWalk(const CompiledCatalog& catalog, std::uint32_t group, const Assumptions& assumptions,
             GoalWatch& watch, const GroupWalkOptions& options);
 
-  /// The first state contradicts `never`.
-  [[nodiscard]] bool begins_excluded() const;
-  /// Unless it begins excluded, once. A complete run also tells the watch which timeouts always
+  /// Why there is nothing to visit, if so.
+  [[nodiscard]] std::optional<std::string> find_obstacle() const { return model_.find_obstacle(); }
+  /// Unless there is an obstacle, once. A complete run also tells the watch which timeouts always
   /// come before others.
   [[nodiscard]] GroupWalkResult run(Listener& listener);
 

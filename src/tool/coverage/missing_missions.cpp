@@ -47,7 +47,8 @@ class MissionFinder {
     result_.error = graph_.error;
     result_.states = graph_.state_count();
     result_.moves = graph_.moves;
-    if (graph_.error || is_stopped()) return std::move(result_);
+    const bool has_all_groups = graph_.parts.size() == catalog_.group_count();
+    if (graph_.error || is_stopped() || !has_all_groups) return std::move(result_);
     result_.reached = Phase::planning;
     for (const GoalGraph::Part& part : graph_.parts) {
       if (!part.is_complete) result_.partial.push_back(part.group);

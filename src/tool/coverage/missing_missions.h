@@ -45,7 +45,7 @@ struct MissingMissions {
   std::uint64_t states = 0;
   std::uint64_t moves = 0;
   Phase reached = Phase::done;       ///< what is_stopped ended; then the rest means nothing
-  std::optional<std::string> error;  ///< the first state contradicts `never`
+  std::optional<std::string> error;  ///< see Model::find_obstacle()
   std::string fault;                 ///< of cbc: a script does not do what was proven
 };
 

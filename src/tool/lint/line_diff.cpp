@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/text.h"
 #include "lint/lint.h"
 
 namespace cbc {
@@ -196,9 +197,12 @@ void add_hunk(const Lines& before, const Lines& after, const std::vector<LineCha
 }
 
 /// A file name as git writes it: in quotes if necessary, and followed by a tab if it has blanks.
+/// In quotes are also names with characters that terminals obey or do not show.
 std::string name_in_head(std::string_view prefix, std::string_view file) {
-  const auto is_special = [](char byte) {
-    return static_cast<unsigned char>(byte) < 0x20 || byte == 0x7F || byte == '"' || byte == '\\';
+  const bool is_shown = printable(file) == file;
+  const auto is_special = [is_shown](char byte) {
+    const auto code = static_cast<unsigned char>(byte);
+    return code < 0x20 || code == 0x7F || (code > 0x7F && !is_shown) || byte == '"' || byte == '\\';
   };
   std::string name(prefix);
   if (std::none_of(file.begin(), file.end(), is_special)) {

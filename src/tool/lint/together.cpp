@@ -279,6 +279,13 @@ bool is_forbidden(const CompiledCatalog& catalog, const TaskPair& pair,
 
 }  // namespace
 
+std::size_t count_tasks_in_pairs(const CompiledCatalog& catalog) {
+  const auto on_request = static_cast<std::size_t>(
+      std::count_if(catalog.tasks.begin(), catalog.tasks.end(),
+                    [](const CompiledTask& task) { return task.start_on_request != 0; }));
+  return on_request > 0 ? on_request : catalog.tasks.size();
+}
+
 TogetherTable make_together_table(const CompiledCatalog& catalog, const TogetherOptions& options) {
   AssignmentSearch search(catalog, options.max_nodes);
   const Liveness liveness(search);
@@ -305,7 +312,9 @@ TogetherTable make_together_table(const CompiledCatalog& catalog, const Together
   return table;
 }
 
-TogetherSummary summarize_together(const CompiledCatalog& catalog, std::uint64_t max_nodes) {
+std::optional<TogetherSummary> summarize_together(const CompiledCatalog& catalog,
+                                                  std::uint64_t max_nodes) {
+  if (count_tasks_in_pairs(catalog) > most_tasks_in_pairs) return std::nullopt;
   const TogetherTable table = make_together_table(catalog, {max_nodes, false, {}});
   TogetherSummary summary;
   summary.is_of_all_tasks = table.is_of_all_tasks;

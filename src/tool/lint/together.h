@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -63,6 +64,13 @@ struct TogetherOptions {
   std::span<const NeverTogether> never_together = {};
 };
 
+/// The most tasks whose pairs are looked at: time and memory grow with the square of their number.
+inline constexpr std::size_t most_tasks_in_pairs = 2'000;
+
+/// The number of the tasks that the table would be about, those that never run included.
+[[nodiscard]] std::size_t count_tasks_in_pairs(const CompiledCatalog& catalog);
+
+/// Of a catalog with at most `most_tasks_in_pairs` of these tasks.
 [[nodiscard]] TogetherTable make_together_table(const CompiledCatalog& catalog,
                                                 const TogetherOptions& options);
 
@@ -79,7 +87,8 @@ struct TogetherSummary {
   std::size_t undecided = 0;
 };
 
-[[nodiscard]] TogetherSummary summarize_together(const CompiledCatalog& catalog,
-                                                 std::uint64_t max_nodes);
+/// Nothing if there are too many tasks.
+[[nodiscard]] std::optional<TogetherSummary> summarize_together(const CompiledCatalog& catalog,
+                                                                std::uint64_t max_nodes);
 
 }  // namespace cbc

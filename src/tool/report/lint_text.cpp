@@ -258,7 +258,12 @@ std::string lint_summary(const LintedFile& file, const Style& style) {
   table.add("  task minimums", total.constraints.task_minimums);
   add_groups(table, file.summary->groups);
   table.add("search space", describe_search_space(total.search_space));
-  if (file.together) add_together(table, *file.together);
+  if (file.together) {
+    add_together(table, *file.together);
+  } else if (total.tasks > most_tasks_in_pairs) {
+    table.add_line(
+        fmt::format("pairs of more than {} tasks are not looked at", most_tasks_in_pairs));
+  }
   return name + "\n" + table.text();
 }
 

@@ -349,9 +349,8 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint3
   std::set<std::uint32_t> variables;
   for (const Property* const property : properties) variables.merge(variables_of(*property));
   const Model model(catalog, groups, assumptions, variables);
-  const std::vector<std::uint16_t> cells = model.first_state();
-  if (model.is_excluded(cells.data())) {
-    result.error = "the first state is in a situation that 'never' excludes";
+  result.error = model.find_obstacle();
+  if (result.error) {
     result.verdicts.resize(properties.size());
     return result;
   }
@@ -359,6 +358,7 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint3
   goals.reserve(properties.size());
   for (const Property* const property : properties) goals.emplace_back(model, *property);
 
+  const std::vector<std::uint16_t> cells = model.first_state();
   std::vector<std::uint32_t> first(model.packed_words());
   model.pack(cells.data(), first.data());
   ExplorationOptions of_search = options;

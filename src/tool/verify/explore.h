@@ -110,7 +110,7 @@ struct Exploration {
   std::vector<Together> together;  ///< pairs of tasks, a before b
 
   std::vector<Verdict> verdicts;  ///< in the order of the properties
-  /// The first state contradicts `never`; then nothing was explored.
+  /// See Model::find_obstacle(); then nothing was explored.
   std::optional<std::string> error;
   /// Of start, stop and finish events: how many answers were looked up, how many computed.
   std::uint64_t decisions_remembered = 0;

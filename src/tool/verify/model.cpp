@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "base/disjoint_sets.h"
 
@@ -9,16 +12,11 @@ namespace cbc {
 
 namespace {
 
-/// The number of an item in a list, or none.
-template <typename List, typename Key>
-std::uint32_t find_number(const List& list, Key key) {
-  const auto found =
-      std::find_if(list.begin(), list.end(), [&](const auto& item) { return item.id == key; });
-  return found == list.end() ? none : static_cast<std::uint32_t>(found - list.begin());
-}
-
-bool contains(const std::vector<std::uint32_t>& list, std::uint32_t item) {
-  return std::find(list.begin(), list.end(), item) != list.end();
+/// By number below a count: whether a list has it.
+std::vector<bool> members_of(const std::vector<std::uint32_t>& list, std::size_t count) {
+  std::vector<bool> members(count, false);
+  for (const std::uint32_t number : list) members[number] = true;
+  return members;
 }
 
 }  // namespace
@@ -27,10 +25,12 @@ Model::Model(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& g
              const Assumptions& assumptions, const std::set<std::uint32_t>& variables)
     : catalog_(catalog), assumptions_(assumptions) {
   add_groups(groups);
-  add_rivals();
-  find_interactions();
   add_variables(variables);
   rank_priorities();
+  is_too_large_ = !fits_into_cells();
+  if (is_too_large_) return;
+  add_rivals();
+  find_interactions();
   lay_out();
   add_never();
   add_moves();
@@ -78,6 +78,14 @@ void Model::add_groups(const std::vector<std::uint32_t>& groups) {
             [&](auto a, auto b) { return index_of(a) < index_of(b); });
 }
 
+bool Model::fits_into_cells() const {
+  return tasks_.size() <= most_in_cell && priorities_.size() <= most_in_cell &&
+         std::all_of(variables_.begin(), variables_.end(),
+                     [](const Variable& variable) { return variable.values <= most_in_cell; }) &&
+         std::all_of(tasks_.begin(), tasks_.end(),
+                     [](const Task& task) { return task.values.size() <= most_in_cell; });
+}
+
 /// By level, so that the first of some behaviors is the one that is activated first.
 void Model::add_behaviors(Group& group) {
   group.behaviors.begin = static_cast<std::uint32_t>(behaviors_.size());
@@ -108,18 +116,20 @@ void Model::add_behaviors(Group& group) {
 }
 
 void Model::add_rivals() {
+  std::vector<std::uint32_t> last_rival_of(tasks_.size(), none);
   for (std::uint32_t place = 0; place < tasks_.size(); ++place) {
     Task& task = tasks_[place];
-    std::set<std::uint32_t> rivals;
+    last_rival_of[place] = place;
     for (const std::uint32_t clique : catalog_.task_cliques[task.id]) {
       for (const TaskId other : catalog_.cliques[clique]) {
-        if (other != task.id) rivals.insert(place + other - task.id);
+        const std::uint32_t rival = place + other - task.id;
+        if (std::exchange(last_rival_of[rival], place) == place) continue;
+        if (task.reactive != none) task.rivals.push_back(rival);
+        if (tasks_[rival].reactive != none) task.reactive_rivals.push_back(tasks_[rival].reactive);
       }
     }
-    task.rivals.assign(rivals.begin(), rivals.end());
-    for (const std::uint32_t rival : task.rivals) {
-      if (tasks_[rival].reactive != none) task.reactive_rivals.push_back(tasks_[rival].reactive);
-    }
+    std::sort(task.rivals.begin(), task.rivals.end());
+    std::sort(task.reactive_rivals.begin(), task.reactive_rivals.end());
   }
 }
 
@@ -136,7 +146,11 @@ void Model::find_interactions() {
     for (const TaskId id : order) {
       const std::uint32_t task = group.tasks.begin + (id - catalog_.group_tasks[group.number]);
       set_bit(needs[task].data(), task);
-      for (const std::uint32_t rival : tasks_[task].rivals) set_bit(rivals[task].data(), rival);
+      for (const std::uint32_t clique : catalog_.task_cliques[id]) {
+        for (const TaskId rival : catalog_.cliques[clique]) {
+          if (rival != id) set_bit(rivals[task].data(), task + rival - id);
+        }
+      }
       has_minimum[task] = catalog_.tasks[id].has_performance_rules != 0;
       for (const Arc& arc : catalog_.arcs[id]) {
         const std::uint32_t target =
@@ -149,24 +163,35 @@ void Model::find_interactions() {
       }
     }
   }
-  const auto meet = [&](const std::vector<Word>& a, const std::vector<Word>& b) {
-    for (std::size_t word = 0; word < words; ++word) {
-      if ((a[word] & b[word]) != 0) return true;
-    }
-    return false;
-  };
   DisjointSets classes(count);
   std::vector<std::uint32_t> requestable = reactive_;
   for (const Assumptions::Start& start : assumptions_.start) {
     const std::uint32_t task = find_task(start.task);
     if (task != none) requestable.push_back(task);
   }
-  for (const std::uint32_t a : requestable) {
-    for (const std::uint32_t b : requestable) {
-      if (a == b || tasks_[a].group != tasks_[b].group) continue;
-      const bool shares_minimum = (has_minimum[a] || has_minimum[b]) && meet(needs[a], needs[b]);
-      if (shares_minimum || meet(rivals[a], needs[b])) classes.join(a, b);
-    }
+  // Two tasks interact by way of a task that both need, if either has a minimum, and of one that
+  // the one needs and that is a rival of what the other needs. So all that need a task interact
+  // with each other if one of them has a minimum, and with all of which it is a rival.
+  std::vector<std::uint32_t> first_needing(count, none);
+  std::vector<std::uint32_t> first_excluding(count, none);
+  std::vector<bool> is_minimum_near(count, false);
+  for (const std::uint32_t task : requestable) {
+    for_each_bit(needs[task].data(), words, [&](std::uint32_t needed) {
+      if (first_needing[needed] == none) first_needing[needed] = task;
+      if (has_minimum[task]) is_minimum_near[needed] = true;
+    });
+    for_each_bit(rivals[task].data(), words, [&](std::uint32_t excluded) {
+      if (first_excluding[excluded] == none) first_excluding[excluded] = task;
+    });
+  }
+  for (const std::uint32_t task : requestable) {
+    for_each_bit(needs[task].data(), words, [&](std::uint32_t needed) {
+      if (is_minimum_near[needed]) classes.join(task, first_needing[needed]);
+      if (first_excluding[needed] != none) classes.join(task, first_excluding[needed]);
+    });
+    for_each_bit(rivals[task].data(), words, [&](std::uint32_t excluded) {
+      if (first_needing[excluded] != none) classes.join(task, first_needing[excluded]);
+    });
   }
   const std::vector<std::uint32_t> numbers = classes.numbers();
   classes_.assign(count, none);
@@ -223,12 +248,25 @@ Model::Rank Model::rank_of(std::int32_t priority) const {
                            priorities_.begin());
 }
 
-std::uint32_t Model::find_task(TaskId task) const { return find_number(tasks_, task); }
+std::uint32_t Model::find_task(TaskId task) const {
+  const std::uint32_t group = catalog_.tasks[task].group;
+  const auto found =
+      std::lower_bound(groups_.begin(), groups_.end(), group,
+                       [](const Group& one, std::uint32_t other) { return one.number < other; });
+  if (found == groups_.end() || found->number != group) return none;
+  return found->tasks.begin + (task - catalog_.group_tasks[group]);
+}
 std::uint32_t Model::find_behavior(BehaviorId behavior) const {
-  return find_number(behaviors_, behavior);
+  const auto found = std::find_if(behaviors_.begin(), behaviors_.end(),
+                                  [behavior](const Behavior& one) { return one.id == behavior; });
+  return found == behaviors_.end() ? none : static_cast<std::uint32_t>(found - behaviors_.begin());
 }
 std::uint32_t Model::find_variable(std::uint32_t variable) const {
-  return find_number(variables_, variable);
+  const auto found =
+      std::lower_bound(variables_.begin(), variables_.end(), variable,
+                       [](const Variable& one, std::uint32_t other) { return one.id < other; });
+  if (found == variables_.end() || found->id != variable) return none;
+  return static_cast<std::uint32_t>(found - variables_.begin());
 }
 
 /// A bound on the requests at one time: of the tasks that an exclusivity list names, one runs.
@@ -269,6 +307,8 @@ void Model::lay_out() {
       return;
     }
     if (bits % 32 + width > 32) bits += 32 - bits % 32;
+    // A field counts words in as many bits as a cell has.
+    is_too_large_ = is_too_large_ || bits / 32 > most_in_cell;
     fields_.push_back(
         {static_cast<std::uint16_t>(bits / 32), static_cast<std::uint8_t>(bits % 32), width});
     bits += width;
@@ -288,14 +328,18 @@ void Model::lay_out() {
   layout_.waiting = here();
   for (std::uint32_t task = 0; task < layout_.reactive_count; ++task) add(1);
   layout_.variables = here();
+  const std::vector<bool> may_change =
+      members_of(assumptions_.variables, catalog_.variables.size());
   for (Variable& variable : variables_) {
-    if (!contains(assumptions_.variables, variable.id)) continue;
+    if (!may_change[variable.id]) continue;
     variable.cell = here();
     add(variable.values - 1);
   }
   layout_.own = here();
+  const std::vector<bool> may_own_change =
+      members_of(assumptions_.behaviors, catalog_.behaviors.size());
   for (Behavior& behavior : behaviors_) {
-    if (!contains(assumptions_.behaviors, behavior.id)) continue;
+    if (!may_own_change[behavior.id]) continue;
     behavior.own = layout_.own_count++;
     add(1);
   }
@@ -310,11 +354,15 @@ void Model::lay_out() {
 
 /// Entries of `never` as conditions on cells. What cannot change is compared once.
 void Model::add_never() {
+  const std::vector<bool> may_change =
+      members_of(assumptions_.variables, catalog_.variables.size());
+  const std::vector<bool> may_own_change =
+      members_of(assumptions_.behaviors, catalog_.behaviors.size());
   for (const SituationPart& part : assumptions_.never) {
     Excluded excluded;
     bool occurs = true;
     for (const VariableValue& value : part.variables) {
-      if (!contains(assumptions_.variables, value.variable)) {
+      if (!may_change[value.variable]) {
         occurs = occurs && initial_value(assumptions_, value.variable) == value.value;
         continue;
       }
@@ -323,7 +371,7 @@ void Model::add_never() {
       if (occurs) excluded.emplace_back(variables_[place].cell, value.value);
     }
     for (const SituationPart::Own& own : part.behaviors) {
-      if (!contains(assumptions_.behaviors, own.behavior)) {
+      if (!may_own_change[own.behavior]) {
         occurs = occurs && is_available_at_first(assumptions_, own.behavior) == own.available;
         continue;
       }
@@ -342,17 +390,21 @@ void Model::add_moves() {
   const auto index_of_behavior = [&](std::uint32_t behavior) {
     return catalog_.behaviors[behaviors_[behavior].id].catalog_index;
   };
-  for (const std::uint32_t task : tasks_in_order_) {
-    for (const Assumptions::Start& start : assumptions_.start) {
-      if (start.task != tasks_[task].id) continue;
-      for (const std::int32_t priority : start.priorities) {
-        moves_.push_back(
-            {{Move::Kind::start, index_of_task(task), priority}, task, rank_of(priority)});
-      }
-    }
+  std::vector<const Assumptions::Start*> starts(tasks_.size(), nullptr);
+  for (const Assumptions::Start& start : assumptions_.start) {
+    const std::uint32_t task = find_task(start.task);
+    if (task != none) starts[task] = &start;
   }
   for (const std::uint32_t task : tasks_in_order_) {
-    if (!contains(assumptions_.stop, tasks_[task].id)) continue;
+    if (starts[task] == nullptr) continue;
+    for (const std::int32_t priority : starts[task]->priorities) {
+      moves_.push_back(
+          {{Move::Kind::start, index_of_task(task), priority}, task, rank_of(priority)});
+    }
+  }
+  const std::vector<bool> may_stop = members_of(assumptions_.stop, catalog_.tasks.size());
+  for (const std::uint32_t task : tasks_in_order_) {
+    if (!may_stop[tasks_[task].id]) continue;
     moves_.push_back({{Move::Kind::stop, index_of_task(task), 0}, task, 0});
   }
   const auto add_for_behaviors = [&](Move::Kind kind) {
@@ -403,6 +455,19 @@ std::vector<std::uint16_t> Model::first_state() const {
     }
   }
   return cells;
+}
+
+std::optional<std::string> Model::find_obstacle() const {
+  if (is_too_large_) {
+    return fmt::format(
+        "too large to explore: the tasks of a group, the behaviors of a task, the values of a "
+        "variable and the priorities may be {} each, and a state may take {} bytes",
+        most_in_cell, 4 * most_in_cell);
+  }
+  if (is_excluded(first_state().data())) {
+    return "the first state is in a situation that 'never' excludes";
+  }
+  return std::nullopt;
 }
 
 bool Model::is_excluded(const std::uint16_t* cells) const {

@@ -52,6 +52,9 @@ class Model {
  public:
   /// A priority is counted by its rank among those that occur; that of reactive starts is 0.
   using Rank = std::uint16_t;
+  /// The most tasks, behaviors of a task, values of a variable and priorities: a cell holds their
+  /// numbers, one more for none, and Stepper needs a number that nothing else has.
+  static constexpr std::size_t most_in_cell = 65'000;
 
   struct Task {
     TaskId id = 0;
@@ -59,8 +62,10 @@ class Model {
     BitRange values;
     bool start_on_request = true;
     bool achieves_goal = false;
-    std::uint32_t reactive = none;      ///< its number among the reactive tasks
-    std::vector<std::uint32_t> rivals;  ///< other tasks that share an exclusivity list with it
+    std::uint32_t reactive = none;  ///< its number among the reactive tasks
+    /// Other tasks that share an exclusivity list with it. Of a reactive task only, since a list
+    /// of many tasks has very many pairs.
+    std::vector<std::uint32_t> rivals;
     std::vector<std::uint32_t> reactive_rivals;  ///< numbers among the reactive tasks
   };
   struct Group {
@@ -170,6 +175,9 @@ class Model {
   /// The cells of the first state.
   [[nodiscard]] std::vector<std::uint16_t> first_state() const;
 
+  /// Why no state can be explored, if so: `never` excludes the first one, or a number is too large
+  /// for a cell. Then this model must not be used for anything else.
+  [[nodiscard]] std::optional<std::string> find_obstacle() const;
   /// Whether `never` excludes the situation of these cells.
   [[nodiscard]] bool is_excluded(const std::uint16_t* cells) const;
 
@@ -178,6 +186,7 @@ class Model {
 
  private:
   void add_groups(const std::vector<std::uint32_t>& groups);
+  [[nodiscard]] bool fits_into_cells() const;
   void add_behaviors(Group& group);
   void add_rivals();
   void find_interactions();
@@ -210,6 +219,7 @@ class Model {
   std::size_t packed_words_ = 0;
   std::vector<Choice> moves_;
   std::vector<Excluded> excluded_;
+  bool is_too_large_ = false;
 };
 
 inline void Model::pack(const std::uint16_t* cells, std::uint32_t* packed) const {

@@ -209,7 +209,7 @@ struct ModelPair {
             const Translation& to_new)
       : old_model(old_catalog, groups.old_groups, old_assumptions),
         new_model(new_catalog, groups.new_groups, new_assumptions) {
-    for (const Model::Choice& choice : new_model.moves()) add_move(choice, to_old);
+    add_moves(to_old);
     const auto is_due = [](const Model::Choice& choice) {
       return choice.move.kind == Move::Kind::due;
     };
@@ -223,18 +223,13 @@ struct ModelPair {
     for (const auto& task : new_model.tasks()) new_tasks.push_back(task.id);
     const auto behavior_count = static_cast<std::uint32_t>(new_catalog.behaviors.size());
     const auto task_count = static_cast<std::uint32_t>(new_catalog.tasks.size());
-    std::map<BehaviorId, BehaviorId> to_new_behavior;
-    for (BehaviorId id = 0; id < behavior_count; ++id) to_new_behavior[to_old.behaviors[id]] = id;
-    std::map<TaskId, TaskId> to_new_task;
-    for (TaskId id = 0; id < task_count; ++id) to_new_task[to_old.tasks[id]] = id;
     for (const auto& behavior : old_model.behaviors()) {
-      const auto found = to_new_behavior.find(behavior.id);
-      old_behaviors.push_back(found != to_new_behavior.end() ? found->second
-                                                             : behavior_count + behavior.id);
+      const BehaviorId known = to_new.behaviors[behavior.id];
+      old_behaviors.push_back(known != none ? known : behavior_count + behavior.id);
     }
     for (const auto& task : old_model.tasks()) {
-      const auto found = to_new_task.find(task.id);
-      old_tasks.push_back(found != to_new_task.end() ? found->second : task_count + task.id);
+      const TaskId known = to_new.tasks[task.id];
+      old_tasks.push_back(known != none ? known : task_count + task.id);
     }
   }
 
@@ -254,34 +249,52 @@ struct ModelPair {
   std::vector<std::uint32_t> old_behaviors;
 
  private:
-  /// Adds a move of the new model together with that of the old one.
-  void add_move(const Model::Choice& choice, const Translation& to_old) {
-    const auto matches = [&](const Model::Choice& other) {
-      if (other.move.kind != choice.move.kind) return false;
-      switch (choice.move.kind) {
-        case Move::Kind::due:
-          return true;
-        case Move::Kind::start:
-        case Move::Kind::stop:
-          return other.move.choice == choice.move.choice &&
-                 old_model.tasks()[other.subject].id ==
-                     to_old.tasks[new_model.tasks()[choice.subject].id];
-        case Move::Kind::variable: {
-          const std::uint32_t variable = new_model.variables()[choice.subject].id;
-          return old_model.variables()[other.subject].id == to_old.variables[variable] &&
-                 other.choice == to_old.values[variable][choice.choice];
-        }
-        default:
-          return old_model.behaviors()[other.subject].id ==
-                 to_old.behaviors[new_model.behaviors()[choice.subject].id];
+  /// A move, with the id of its task, behavior or variable, and its priority or value, both as the
+  /// old catalog counts.
+  using Key = std::tuple<Move::Kind, std::uint32_t, std::int64_t>;
+
+  [[nodiscard]] Key key_of_old(const Model::Choice& choice) const {
+    switch (choice.move.kind) {
+      case Move::Kind::due:
+        return {choice.move.kind, 0, 0};
+      case Move::Kind::start:
+      case Move::Kind::stop:
+        return {choice.move.kind, old_model.tasks()[choice.subject].id, choice.move.choice};
+      case Move::Kind::variable:
+        return {choice.move.kind, old_model.variables()[choice.subject].id, choice.choice};
+      default:
+        return {choice.move.kind, old_model.behaviors()[choice.subject].id, 0};
+    }
+  }
+  [[nodiscard]] Key key_of_new(const Model::Choice& choice, const Translation& to_old) const {
+    switch (choice.move.kind) {
+      case Move::Kind::due:
+        return {choice.move.kind, 0, 0};
+      case Move::Kind::start:
+      case Move::Kind::stop:
+        return {choice.move.kind, to_old.tasks[new_model.tasks()[choice.subject].id],
+                choice.move.choice};
+      case Move::Kind::variable: {
+        const std::uint32_t variable = new_model.variables()[choice.subject].id;
+        return {choice.move.kind, to_old.variables[variable],
+                to_old.values[variable][choice.choice]};
       }
-    };
-    const auto& others = old_model.moves();
-    const auto found = std::find_if(others.begin(), others.end(), matches);
-    if (found != others.end()) {
-      moves.push_back({&choice, &*found, choice.move});
-    } else if (choice.move.kind == Move::Kind::due || is_of_one(choice, to_old)) {
-      moves.push_back({&choice, nullptr, choice.move});
+      default:
+        return {choice.move.kind, to_old.behaviors[new_model.behaviors()[choice.subject].id], 0};
+    }
+  }
+
+  /// Adds the moves of the new model together with those of the old one.
+  void add_moves(const Translation& to_old) {
+    std::map<Key, const Model::Choice*> of_old;
+    for (const Model::Choice& choice : old_model.moves()) of_old[key_of_old(choice)] = &choice;
+    for (const Model::Choice& choice : new_model.moves()) {
+      const auto found = of_old.find(key_of_new(choice, to_old));
+      if (found != of_old.end()) {
+        moves.push_back({&choice, found->second, choice.move});
+      } else if (choice.move.kind == Move::Kind::due || is_of_one(choice, to_old)) {
+        moves.push_back({&choice, nullptr, choice.move});
+      }
     }
   }
 
@@ -605,13 +618,11 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
     }
     const ModelPair models(old_catalog, new_catalog, groups, old_assumptions, new_assumptions,
                            to_old, to_new);
+    result.error = models.new_model.find_obstacle();
+    if (!result.error) result.error = models.old_model.find_obstacle();
+    if (result.error) return result;
     const std::vector<std::uint16_t> new_first = models.new_model.first_state();
     const std::vector<std::uint16_t> old_first = models.old_model.first_state();
-    if (models.new_model.is_excluded(new_first.data()) ||
-        models.old_model.is_excluded(old_first.data())) {
-      result.error = "the first state is in a situation that 'never' excludes";
-      return result;
-    }
     const std::size_t new_words = models.new_model.packed_words();
     std::vector<std::uint32_t> first(new_words + models.old_model.packed_words());
     models.new_model.pack(new_first.data(), first.data());

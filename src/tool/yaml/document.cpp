@@ -550,6 +550,10 @@ void check_characters(std::string_view text, const PositionMap& positions) {
     if (is_forbidden(decoded.character)) {
       refuse("a control character: " + quote(text.substr(offset, decoded.bytes)));
     }
+    // YAML says that it ends a line, the parser does not: readers would disagree about comments.
+    if (decoded.character == '\r' && offset + 1 < text.size() && text[offset + 1] != '\n') {
+      refuse("a carriage return without a line feed; end lines with a line feed");
+    }
     offset += decoded.bytes;
   }
 }
