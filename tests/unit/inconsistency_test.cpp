@@ -20,14 +20,19 @@ constexpr std::string_view catalog_text = R"(tasks:
 - {task: LAND}
 - {task: LIGHT, reactive_start: true}
 - {task: BLINK, reactive_start: true}
+- {task: ROLL}
+- {task: SIT}
 behaviors:
 - {behavior: fly, task: FLY, requires: [{task: LIGHT}], situation: {wind: low}}
 - {behavior: glide, task: FLY}
 - {behavior: land, task: LAND}
 - {behavior: light, task: LIGHT}
 - {behavior: blink, task: BLINK}
+- {behavior: roll, task: ROLL}
+- {behavior: sit, task: SIT}
 exclusivity_constraints:
 - mutually_exclusive: [FLY, LAND]
+- mutually_exclusive: [ROLL, SIT]
 situation:
 - {variable: wind, values: [low, high]}
 )";
@@ -231,6 +236,13 @@ TEST_F(Inconsistency, OfConstraints) {
   snapshot.running.pop_back();
   snapshot.active.pop_back();
   EXPECT_NE(find_inconsistency(catalog, snapshot), std::nullopt) << "fly requires LIGHT";
+}
+
+TEST_F(Inconsistency, OfConstraintsInEachGroup) {
+  run("ROLL", "roll", 99 * second);
+  EXPECT_EQ(find_inconsistency(catalog, snapshot), std::nullopt);
+  run("SIT", "sit", 99 * second);
+  EXPECT_NE(find_inconsistency(catalog, snapshot), std::nullopt);
 }
 
 TEST_F(Inconsistency, TheFirstOneIsTold) {

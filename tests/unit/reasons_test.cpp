@@ -1,5 +1,5 @@
 // The parts of the search that learns, on random branches: each inference and each no-good against
-// all solutions, and what is inferred against the propagator of branch and bound.
+// all solutions, or the best one, and what is inferred against the propagator of branch and bound.
 #include <algorithm>
 #include <cstdint>
 #include <span>
@@ -10,8 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "compile/compile.h"
+#include "solver/components.h"
 #include "solver/conflict_analysis.h"
 #include "solver/domains.h"
+#include "solver/landmark_bound.h"
+#include "solver/objective.h"
+#include "solver/objective_reasons.h"
 #include "solver/performance_reasons.h"
 #include "solver/propagator.h"
 #include "solver/reason_trail.h"
@@ -24,6 +28,29 @@ namespace cbc {
 namespace {
 
 using test::Random;
+
+/// Whether a literal holds in a solution.
+bool holds(const ReasonTrail& trail, const Assignment& solution, Literal literal) {
+  const std::uint32_t task = trail.task_of(variable_of(literal));
+  const std::uint32_t index = solution[task];
+  bool is_true = index != none;
+  if (!trail.is_about_running(literal)) {
+    is_true = is_true && trail.has_value(task, index) == (literal & ~Literal{1});
+  }
+  return is_true != is_negated(literal);
+}
+
+bool hold_all(const ReasonTrail& trail, const Assignment& solution,
+              std::span<const Literal> literals) {
+  return std::all_of(literals.begin(), literals.end(),
+                     [&](Literal literal) { return holds(trail, solution, literal); });
+}
+
+bool holds_any(const ReasonTrail& trail, const Assignment& solution,
+               std::span<const Literal> literals) {
+  return std::any_of(literals.begin(), literals.end(),
+                     [&](Literal literal) { return holds(trail, solution, literal); });
+}
 
 /// Decisions and inferences in the group of a problem, and all its solutions.
 class Branch {
@@ -95,7 +122,7 @@ class Branch {
         EXPECT_LT(trail_.place_of(other), trail_.place_of(literal));
       }
       for (const Assignment& solution : solutions()) {
-        EXPECT_TRUE(!holds_all(solution, reason) || holds(solution, literal));
+        EXPECT_TRUE(!hold_all(trail_, solution, reason) || holds(trail_, solution, literal));
       }
     }
   }
@@ -103,7 +130,7 @@ class Branch {
   void expect_conflict_is_right() const {
     for (const Literal literal : trail_.conflict()) EXPECT_TRUE(trail_.is_true(literal));
     for (const Assignment& solution : solutions()) {
-      EXPECT_FALSE(holds_all(solution, trail_.conflict()));
+      EXPECT_FALSE(hold_all(trail_, solution, trail_.conflict()));
     }
   }
 
@@ -137,8 +164,7 @@ class Branch {
     EXPECT_EQ(analysis_.level_count(), levels.size());
     for (const Literal literal : learned.subspan(1)) EXPECT_FALSE(follows_from_others(literal));
     for (const Assignment& solution : solutions()) {
-      EXPECT_TRUE(std::any_of(learned.begin(), learned.end(),
-                              [&](Literal literal) { return holds(solution, literal); }));
+      EXPECT_TRUE(holds_any(trail_, solution, learned));
     }
   }
 
@@ -153,21 +179,6 @@ class Branch {
       return trail_.level_of(other) == 0 ||
              std::find(learned.begin(), learned.end(), negate(other)) != learned.end();
     });
-  }
-
-  [[nodiscard]] bool holds(const Assignment& solution, Literal literal) const {
-    const std::uint32_t task = trail_.task_of(variable_of(literal));
-    const bool is_about_running = trail_.is_about_running(literal);
-    bool is_true = solution[task] != none;
-    if (!is_about_running) {
-      is_true = is_true && trail_.has_value(task, solution[task]) == (literal & ~Literal{1});
-    }
-    return is_true != is_negated(literal);
-  }
-  [[nodiscard]] bool holds_all(const Assignment& solution,
-                               std::span<const Literal> literals) const {
-    return std::all_of(literals.begin(), literals.end(),
-                       [&](Literal literal) { return holds(solution, literal); });
   }
 
   Domains domains_;
@@ -304,6 +315,151 @@ TEST(Reasons, ComeWithAllThatThePropagatorInfers) {
   }
   EXPECT_GE(nodes, test::rounds(1'000));
   EXPECT_GE(conflicts, test::rounds(50));
+}
+
+/// A search for the best solution that decides at random. Until it has found it, nothing that it
+/// infers may rule it out.
+class RandomSearch {
+ public:
+  RandomSearch(const CompiledCatalog& catalog, const Problem& problem, const Assignment& optimum)
+      : optimum_(optimum),
+        domains_(catalog),
+        components_(catalog, domains_),
+        objective_(catalog, domains_, components_, ranks_),
+        trail_(catalog, domains_),
+        bound_(catalog, domains_, trail_),
+        performance_(catalog, domains_, trail_),
+        objectives_(domains_, objective_, bound_, trail_) {
+    trail_.set_lazy_reasons(objectives_);
+    domains_.load(problem);
+    components_.load(problem);
+    objective_.load(problem);
+    performance_.load();
+    objectives_.load(problem);
+    is_consistent_ = trail_.load(problem);
+    bound_.load();
+    analysis_.resize(trail_.variable_count());
+  }
+
+  /// False if it does not end.
+  [[nodiscard]] bool run(Random& random) {
+    for (int move = 0; move < 2'000 && !testing::Test::HasFailure(); ++move) {
+      is_consistent_ = is_consistent_ && propagate();
+      expect_optimum_is_possible();
+      if (!is_consistent_) {
+        if (!learn()) return true;
+      } else if (random.below(10) == 0) {
+        backtrack_to(0);
+      } else if (const Literal decision = choose(random); decision == none) {
+        objective_.record(best_);
+      } else {
+        bound_.begin_level();
+        trail_.decide(decision);
+      }
+    }
+    return false;
+  }
+
+  [[nodiscard]] const Assignment& best() const { return best_.assignment; }
+  [[nodiscard]] int conflicts() const { return conflicts_; }
+
+ private:
+  [[nodiscard]] bool has_found_optimum() const {
+    return best_.exists && best_.assignment == optimum_;
+  }
+
+  [[nodiscard]] bool propagate() {
+    for (;;) {
+      if (!trail_.propagate()) return false;
+      const std::size_t before = trail_.literals().size();
+      if (!performance_.propagate()) return false;
+      if (trail_.literals().size() > before) continue;
+      if (best_.exists && !objectives_.propagate(best_)) return false;
+      if (trail_.literals().size() == before) return true;
+    }
+  }
+
+  [[nodiscard]] bool learn() {
+    ++conflicts_;
+    const std::uint32_t level = ConflictAnalysis::level_of(trail_.conflict(), trail_);
+    if (level == 0) return false;
+    backtrack_to(level);
+    analysis_.analyze(trail_.conflict(), trail_);
+    EXPECT_TRUE(has_found_optimum() || holds_any(trail_, optimum_, analysis_.learned()));
+    backtrack_to(analysis_.back_level());
+    is_consistent_ = trail_.learn(analysis_.learned(), analysis_.level_count());
+    return true;
+  }
+
+  void backtrack_to(std::uint32_t level) {
+    trail_.backtrack_to(level);
+    bound_.backtrack_to(level);
+  }
+
+  /// Requests first, then values; none if all is decided.
+  [[nodiscard]] Literal choose(Random& random) const {
+    std::vector<Literal> choices;
+    for (const std::uint32_t task : trail_.requests()) {
+      const Literal runs = ReasonTrail::runs(task);
+      if (!trail_.is_true(runs) && !trail_.is_false(runs)) choices.push_back(runs);
+    }
+    if (choices.empty()) {
+      for (const std::uint32_t task : domains_.needed_tasks()) {
+        if (domains_.count(task) < 2) continue;
+        for (std::uint32_t index = 0; index < domains_.values(task).size(); ++index) {
+          if (domains_.has(task, index)) choices.push_back(trail_.has_value(task, index));
+        }
+      }
+    }
+    if (choices.empty()) return none;
+    const Literal chosen = choices[random.below(choices.size())];
+    return random.below(4) == 0 ? negate(chosen) : chosen;
+  }
+
+  void expect_optimum_is_possible() const {
+    if (has_found_optimum()) return;
+    EXPECT_TRUE(is_consistent_ || !hold_all(trail_, optimum_, trail_.conflict()));
+    std::vector<Literal> reason;
+    for (const Literal literal : trail_.literals()) {
+      if (trail_.is_given(literal)) continue;
+      reason.clear();
+      if (trail_.level_of(literal) > 0) trail_.append_reason(literal, reason);
+      EXPECT_TRUE(!hold_all(trail_, optimum_, reason) || holds(trail_, optimum_, literal));
+    }
+  }
+
+  const Assignment& optimum_;
+  const std::vector<std::uint32_t> ranks_;
+  Domains domains_;
+  Components components_;
+  Objective objective_;
+  ReasonTrail trail_;
+  LandmarkBound bound_;
+  PerformanceReasons performance_;
+  ObjectiveReasons objectives_;
+  ConflictAnalysis analysis_;
+  Incumbent best_;
+  bool is_consistent_ = false;
+  int conflicts_ = 0;
+};
+
+TEST(Reasons, NeverRuleOutTheBestSolution) {
+  Random random(3);
+  int conflicts = 0;
+  for (int round = 0; round < test::rounds(3'000) && !HasFailure(); ++round) {
+    SCOPED_TRACE(round);
+    test::Shape shape = random_shape(random);
+    shape.on_request = 50;
+    const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
+    const Problem problem = test::random_problem(random, catalog, test::largest_group(catalog));
+    const auto optimum = test::BruteForce(catalog, problem).best();
+    if (!optimum) continue;
+    RandomSearch search(catalog, problem, *optimum);
+    EXPECT_TRUE(search.run(random));
+    EXPECT_EQ(search.best(), *optimum);
+    conflicts += search.conflicts();
+  }
+  EXPECT_GE(conflicts, test::rounds(5'000));
 }
 
 }  // namespace
