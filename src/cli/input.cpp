@@ -288,6 +288,12 @@ bool is_folder(const std::string& path) {
 
 namespace {
 
+/// Whether it is a pipe, a device or a socket, from which something may never come.
+bool is_special(const std::string& path) {
+  std::error_code ignored;
+  return !find_confinement(path) && fs::is_other(path, ignored);
+}
+
 /// Whether a file is a catalog or another file of cbc, at least by its keys.
 bool is_known_kind(std::string_view text, const yaml::Document* document) {
   if (document == nullptr) return has_lines_of_catalog(text);
@@ -297,6 +303,10 @@ bool is_known_kind(std::string_view text, const yaml::Document* document) {
 }  // namespace
 
 std::optional<InputFile> InputFiles::read(const std::string& path, NamedBy named_by) {
+  if (named_by == NamedBy::file && is_special(path)) {
+    (void)fail(path, "it is no regular file");
+    return std::nullopt;
+  }
   std::optional<CatalogInput> input = read_catalog_input(path);
   if (!input) return std::nullopt;
   if (input->is_compiled) return InputFile{path, nullptr, std::move(*input)};

@@ -99,8 +99,8 @@ struct InputFile {
   CatalogInput compiled;
 };
 
-/// Who names a file. Of one that another file names, and that is no catalog, nothing is shown: it
-/// may be a file that whoever wrote the other one must not see.
+/// Who names a file. One that another file names has to be a regular file, and if it is no catalog,
+/// nothing of it is shown: it may be a file that whoever wrote the other one must not see.
 enum class NamedBy : std::uint8_t { command_line, file };
 
 /// Reads the files of a command line, and collects the findings about them.

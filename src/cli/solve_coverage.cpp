@@ -34,9 +34,16 @@ CatalogCoverage coverage_of(std::shared_ptr<const CompiledCatalog> catalog,
   return {std::move(catalog), source.text, std::move(goals)};
 }
 
-int complain_of_compiled(const CompiledCatalog& catalog) {
-  return complain("--coverage: the catalog {} was compiled; expected the YAML, whose lines count",
-                  quote(catalog.file));
+/// Says why there can be no coverage of a catalog, if so. `source`: null if it was compiled.
+bool can_be_covered(const CompiledCatalog& catalog, const CatalogSource* source) {
+  if (source == nullptr) {
+    complain("--coverage: the catalog {} was compiled; expected the YAML, whose lines count",
+             quote(catalog.file));
+    return false;
+  }
+  const std::optional<std::string> too_many = find_too_many_pairs(catalog);
+  if (too_many) complain("--coverage: {}", *too_many);
+  return !too_many;
 }
 
 /// The next word is taken for the file, so one that looks like an argument is refused.
@@ -86,11 +93,8 @@ void add_coverage_options(Command& command, CoverageOptions& options) {
 std::unique_ptr<CoverageCollector> CoverageCollector::make(const std::vector<Mission>& missions) {
   std::unique_ptr<CoverageCollector> collector(new CoverageCollector(missions));
   for (const Mission& mission : missions) {
-    if (mission.source == nullptr) {
-      complain_of_compiled(*mission.catalog);
-      return nullptr;
-    }
     if (collector->find(*mission.catalog) != nullptr) continue;
+    if (!can_be_covered(*mission.catalog, mission.source.get())) return nullptr;
     collector->coverage_.catalogs.push_back(coverage_of(mission.catalog, *mission.source));
   }
   return collector;
@@ -225,7 +229,7 @@ int merge_coverage(const SolveOptions& options) {
   files.print_findings();
   if (catalog == nullptr) return exit_unusable;
   const std::shared_ptr<const CatalogSource> source = catalogs.source_of(*catalog);
-  if (source == nullptr) return complain_of_compiled(*catalog);
+  if (!can_be_covered(*catalog, source.get())) return exit_unusable;
   Coverage coverage;
   coverage.catalogs.push_back(coverage_of(catalog, *source));
   const auto assumptions = find_assumptions(coverage, options.coverage);

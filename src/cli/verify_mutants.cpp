@@ -16,6 +16,7 @@
 #include "cli/ordered_work.h"
 #include "cli/output.h"
 #include "cli/verify.h"
+#include "coverage/goals.h"
 #include "mutate/judge.h"
 #include "mutate/mutants.h"
 #include "report/mutants_report.h"
@@ -61,11 +62,12 @@ void judge_all(const VerifyOptions& options, const MutantJudge& judge,
       thread_count(options.jobs), std::max<std::size_t>(1, result.mutants.size()));
   Progress progress("judging", result.mutants.size());
   OrderedWork<MutantVerdict> work(result.mutants.size(), threads, judge_one);
-  for (const Mutant& mutant : result.mutants) {
-    progress.begin(describe(*result.catalog, mutant));
+  while (result.verdicts.size() < result.mutants.size() && !is_stopped()) {
+    progress.begin(describe(*result.catalog, result.mutants[result.verdicts.size()]));
     while (!work.wait_for(between_looks)) progress.show();
     result.verdicts.push_back(work.take());
   }
+  result.verdicts.resize(result.mutants.size());
 }
 
 /// Writes the scripts of survivors, which name the catalog by its path from the folder, if it has
@@ -118,6 +120,9 @@ int verify_mutants(const VerifyOptions& options, const VerifyQuestions& question
   if (questions.source == nullptr) {
     return complain("--mutants: the catalog {} was compiled; expected the YAML, whose lines count",
                     quote(catalog.file));
+  }
+  if (const auto too_many = find_too_many_pairs(catalog)) {
+    return complain("--mutants: {}", *too_many);
   }
   if (questions.files.size() > 1) {
     return usage_error("verify", "--mutants takes at most one property file, found {}",

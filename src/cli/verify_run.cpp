@@ -29,6 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using Clock = std::chrono::steady_clock;
+
 /// Three quarters of the memory of the machine; 0 if it is unknown.
 std::uint64_t default_memory() {
   const long pages = ::sysconf(_SC_PHYS_PAGES);
@@ -189,10 +191,10 @@ class Call {
     of_verification.reduce = options_.reduce;
     std::vector<std::uint32_t> explored;
     std::uint64_t states = 0;
-    std::chrono::steady_clock::time_point begin;
+    Clock::time_point begin;
     of_verification.on_progress = [&](const std::vector<std::uint32_t>& groups,
                                       const ExplorationProgress& so_far) {
-      const auto now = std::chrono::steady_clock::now();
+      const auto now = Clock::now();
       if (explored != groups || so_far.states < states) {
         explored = groups;
         begin = now;
@@ -220,10 +222,10 @@ class Call {
     VerificationOptions of_comparison;
     of_comparison.limits = result_.limits;
     of_comparison.jobs = thread_count(options_.jobs);
-    const auto begin = std::chrono::steady_clock::now();
+    const auto begin = Clock::now();
     of_comparison.on_progress = [&](const std::vector<std::uint32_t>& /*groups*/,
                                     const ExplorationProgress& so_far) {
-      progress.show(describe_progress(so_far, std::chrono::steady_clock::now() - begin));
+      progress.show(describe_progress(so_far, Clock::now() - begin));
       return !signals_.have_come();
     };
     const Assumptions assumptions = result_.parts.empty()
@@ -290,15 +292,16 @@ class Call {
   int find_cut_sets() {
     const std::vector<bool> ruled_out = ruled_out_by(catalog_, situation_);
     for (const TaskId task : cut_tasks_) {
-      result_.cut_sets.push_back(cut_sets_of(task, options_.order, ruled_out));
+      result_.cut_sets.push_back(cut_sets_of(task, options_.order, ruled_out, Clock::now()));
     }
     const bool is_about_groups =
         std::any_of(result_.parts.begin(), result_.parts.end(),
                     [](const VerifyPart& part) { return part.is_about_groups(); });
     if (is_about_groups && options_.format == "text") {
+      const Clock::time_point begin = Clock::now();
       for (const TaskId task : catalog_.task_ids) {
         if (catalog_.tasks[task].start_on_request == 0) continue;
-        result_.single_faults.push_back(cut_sets_of(task, 1, ruled_out));
+        result_.single_faults.push_back(cut_sets_of(task, 1, ruled_out, begin));
       }
     }
     if (!options_.open_psa) return exit_ok;
@@ -309,18 +312,23 @@ class Call {
     return write_output(*options_.open_psa, open_psa_text(catalog_, std::get<FaultTree>(tree)));
   }
 
-  TaskCutSets cut_sets_of(TaskId task, std::uint32_t order, const std::vector<bool>& ruled_out) {
+  /// `begin`: since when the time limit counts.
+  TaskCutSets cut_sets_of(TaskId task, std::uint32_t order, const std::vector<bool>& ruled_out,
+                          Clock::time_point begin) {
+    const auto may_go_on = [&] {
+      const std::chrono::duration<double> elapsed = Clock::now() - begin;
+      const double limit = result_.limits.seconds;
+      return !signals_.have_come() && (limit <= 0 || elapsed.count() < limit);
+    };
+    if (!may_go_on()) return {task, order, {}};
     Progress progress("searching", 1);
     progress.begin(std::string(catalog_.name_of_task(task)));
-    const auto begin = std::chrono::steady_clock::now();
     CutSetOptions of_search;
     of_search.order = order;
     of_search.on_progress = [&](const CutSetProgress& so_far) {
       progress.show(fmt::format(" ({} of {}, {} found)", quantity(so_far.examined, "set"),
                                 quantity(so_far.size, "behavior"), so_far.found));
-      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-      const double limit = result_.limits.seconds;
-      return !signals_.have_come() && (limit <= 0 || elapsed.count() < limit);
+      return may_go_on();
     };
     return {task, order, cbc::find_cut_sets(catalog_, task, ruled_out, of_search)};
   }

@@ -146,6 +146,9 @@ int write_tests(const VerifyOptions& options, const VerifyQuestions& questions) 
     return usage_error("verify", "--write-tests takes at most one property file, found {}",
                        questions.files.size());
   }
+  if (const auto too_many = find_too_many_pairs(*questions.catalog)) {
+    return complain("--write-tests: {}", *too_many);
+  }
   if (!can_write_output(options.output)) return exit_unusable;
   TestFolder folder(*options.write_tests);
   if (!folder.open()) return exit_unusable;

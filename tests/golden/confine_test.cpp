@@ -1,6 +1,7 @@
 // --confine: files of others cannot make the program read, or show, what is outside of a folder.
 #include <filesystem>
 #include <string>
+#include <sys/stat.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -107,6 +108,28 @@ TEST_F(Confine, NothingIsShownOfANamedFileThatIsNoCatalog) {
     EXPECT_EQ(result.status, 2);
     EXPECT_EQ(result.err, "cbc: '" + catalog.substr(6) + "' is not a catalog\n");
     EXPECT_EQ(result.out, "");
+  }
+}
+
+/// A pipe without a writer would block, also within the folder.
+TEST_F(Confine, NoPipeOrDeviceIsNamedByAFile) {
+  ASSERT_EQ(::mkfifo((folder / "repository/pipe.yaml").c_str(), 0600), 0);
+  for (const std::string catalog : {"../pipe.yaml", "/dev/zero"}) {
+    name_catalog(catalog);
+    folder.write("repository/missions/bad.properties.yaml",
+                 "catalog: " + catalog + "\nproperties: [{can_start: HOVER}]\n");
+    const std::string name = catalog.starts_with("..") ? "repository/pipe.yaml" : catalog;
+    const std::string message = "cbc: cannot read '" + name + "': it is no regular file\n";
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"solve", "repository/missions/bad.yaml"},
+          {"graph", "--script", "repository/missions/bad.yaml"},
+          {"lint", "repository/missions/bad.yaml"},
+          {"verify", "repository/missions/bad.properties.yaml"}}) {
+      const Result result = cbc(arguments);
+      EXPECT_EQ(result.status, 2) << arguments.front();
+      EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+      EXPECT_EQ(result.out, "") << arguments.front();
+    }
   }
 }
 

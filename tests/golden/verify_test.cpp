@@ -213,6 +213,33 @@ TEST_F(Verify, EndsAtTheTimeLimit) {
   EXPECT_NE(result.out.find("ended by --time-limit 0.05;"), std::string::npos);
 }
 
+/// Each of these pairs would be a goal, and a mutant.
+TEST_F(Verify, RefusesToListMillionsOfPairs) {
+  std::string list;
+  std::string text = "behaviors:\n";
+  for (int task = 0; task <= 1000; ++task) {
+    const std::string name = "T" + std::to_string(task);
+    text += "- {behavior: B" + name + ", task: " + name + "}\n";
+    list += (task == 0 ? "" : ", ") + name;
+  }
+  text += "exclusivity_constraints: [mutually_exclusive: [" + list + "]]\n";
+  scratch.write("many.yaml", text);
+  scratch.write("mission.yaml", "[{start: T0}]\n");
+  const std::string message = ": the exclusivity lists of '" + (scratch / "many.yaml") +
+                              "' have 500500 pairs of tasks; expected at most 500000\n";
+  const auto expect_refusal = [&](const Result& result, const std::string& option) {
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err, "cbc: " + option + message);
+  };
+  const std::string many = scratch / "many.yaml";
+  const std::string mission = scratch / "mission.yaml";
+  expect_refusal(verify({many, "--mutants", "--beside", mission}), "--mutants");
+  expect_refusal(verify({many, "--write-tests", scratch / "tests"}), "--write-tests");
+  EXPECT_FALSE(fs::exists(scratch / "tests"));
+  expect_refusal(run({{"solve", many, mission, "--coverage"}, CBC_SOURCE_DIR}), "--coverage");
+}
+
 /// Whoever changes a published catalog finds out here whether its properties still hold.
 TEST(PublishedProperties, Hold) {
   for (const fs::path& file : test::catalog_files(CBC_SOURCE_DIR "/catalogs")) {

@@ -126,6 +126,40 @@ TEST(Part, ManyExclusiveTasksAreCountedInstead) {
   EXPECT_EQ(diagram.nodes.back().left_out, 8U);
 }
 
+/// How the only list of so many exclusive tasks is drawn if pairs are asked for.
+std::vector<std::size_t> pairs_and_hubs(std::size_t tasks, View view) {
+  std::string text = "behaviors:\n";
+  std::string list;
+  for (std::size_t task = 0; task < tasks; ++task) {
+    const std::string number = std::to_string(task);
+    for (const char* const behavior : {"A", "B"}) {
+      text += "- {behavior: " + (behavior + number) + ", task: T" + number + "}\n";
+    }
+    list += (task == 0 ? "T" : ", T") + number;
+  }
+  text += "exclusivity_constraints: [mutually_exclusive: [" + list + "]]\n";
+  const auto subject = understand(text);
+  const CatalogGraph graph = to_graph(subject->compiled);
+  const Diagram diagram = make_diagram(graph, whole(graph),
+                                       {view, ExclusivityStyle::pairs, Clustering::nothing, false});
+  const auto hubs = std::count_if(diagram.nodes.begin(), diagram.nodes.end(),
+                                  [](const Node& node) { return node.kind == NodeKind::hub; });
+  const auto lines =
+      std::count_if(diagram.edges.begin(), diagram.edges.end(),
+                    [](const Edge& edge) { return edge.kind == EdgeKind::exclusion; });
+  return {static_cast<std::size_t>(lines), static_cast<std::size_t>(hubs)};
+}
+
+TEST(Exclusions, ListsWithVeryManyNodesAreHubs) {
+  using Counts = std::vector<std::size_t>;
+  EXPECT_EQ(pairs_and_hubs(3, View::constraints), (Counts{3, 0}));
+  EXPECT_EQ(pairs_and_hubs(1000, View::constraints), (Counts{499'500, 0}));
+  EXPECT_EQ(pairs_and_hubs(1001, View::constraints), (Counts{1001, 1}));
+  // There each task has two nodes.
+  EXPECT_EQ(pairs_and_hubs(3, View::behaviors), (Counts{12, 0}));
+  EXPECT_EQ(pairs_and_hubs(501, View::behaviors), (Counts{1002, 1}));
+}
+
 TEST(Names, IdsDiffer) {
   EXPECT_EQ(id_of("task", "HOVER_2"), "task:HOVER_2");
   EXPECT_EQ(id_of("task", "a b:c\"<日>"), "task:a b:c\"<日>");

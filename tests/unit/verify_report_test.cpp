@@ -1,9 +1,12 @@
 // What the golden cases of `cbc verify` cannot show, as it takes limits that depend on the machine.
 #include "report/verify_report.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -92,6 +95,39 @@ TEST(VerifyReport, SaysWhatEndedAnExploration) {
   EXPECT_EQ(limit_of({0, 3 << 10, 0}, false), "ended by --max-memory 3K" + depth + way_on + counts);
   EXPECT_EQ(limit_of({0, 1025, 0}, false), "ended by --max-memory 1025" + depth + way_on + counts);
   EXPECT_EQ(limit_of({0, 0, 1e-9}, false), "ended by --time-limit 1e-09" + depth + way_on + counts);
+}
+
+/// What is said of the pairs of a group of tasks that have all been seen to run, the first two of
+/// them together.
+std::string pairs_of_group(std::size_t tasks) {
+  std::string catalog = "behaviors:\n";
+  std::string list;
+  for (std::size_t task = 0; task < tasks; ++task) {
+    catalog += fmt::format("- {{behavior: B{0}, task: T{0}}}\n", task);
+    list += fmt::format("{}T{}", task == 0 ? "" : ", ", task);
+  }
+  catalog += fmt::format("exclusivity_constraints: [mutually_exclusive: [{}]]\n", list);
+  VerifyResult result;
+  result.catalog = std::make_shared<const CompiledCatalog>(test::compile_text(catalog));
+  Exploration exploration;
+  exploration.groups = {0};
+  exploration.complete = true;
+  for (std::uint32_t task = 0; task < tasks; ++task) exploration.runs.emplace_back(task, 1);
+  exploration.together = {{0, 1, 2}};
+  result.parts.emplace_back().verification.explorations.push_back(exploration);
+  const std::string text = verify_to_text(result, plain_style());
+  const std::size_t begin = text.find("  never run together");
+  return begin == std::string::npos ? "" : text.substr(begin);
+}
+
+TEST(VerifyReport, ListsThePairsOfTasksUnlessTheyAreMillions) {
+  EXPECT_EQ(pairs_of_group(2), "");
+  EXPECT_EQ(pairs_of_group(4),
+            "  never run together        T0 with T2, T3\n"
+            "                            T1 with T2, T3\n"
+            "                            T2 with T3\n");
+  EXPECT_EQ(pairs_of_group(2001),
+            "  never run together        (pairs of more than 2000 tasks are not listed)\n");
 }
 
 }  // namespace

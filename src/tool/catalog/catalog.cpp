@@ -95,7 +95,7 @@ using Vertex = std::uint32_t;
 
 // Steps that the search for the shortest cycles may take; enough for every catalog that people
 // write.
-constexpr std::size_t most_work = 100'000'000;
+constexpr std::size_t most_work = 10'000'000;
 
 // The vertices are the tasks, then the behaviors. Edges lead from a task to the behaviors that
 // perform it, and from a behavior to the tasks it requires, so there are no more edges than lines

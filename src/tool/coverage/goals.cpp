@@ -327,6 +327,18 @@ GoalSection section_of(Goal::Kind kind) {
   return kind_names[static_cast<std::size_t>(kind)].section;
 }
 
+std::optional<std::string> find_too_many_pairs(const CompiledCatalog& catalog) {
+  constexpr std::uint64_t most = 500'000;
+  std::uint64_t pairs = 0;
+  for (std::uint32_t list = 0; list < catalog.cliques.size(); ++list) {
+    const std::uint64_t tasks = catalog.cliques[list].size();
+    pairs += tasks * (tasks - 1) / 2;
+  }
+  if (pairs <= most) return std::nullopt;
+  return fmt::format("the exclusivity lists of {} have {} pairs of tasks; expected at most {}",
+                     quote(catalog.file), pairs, most);
+}
+
 std::vector<Goal> find_goals(const CompiledCatalog& catalog) { return GoalFinder(catalog).find(); }
 
 void add_lines(const Catalog& source, const CompiledCatalog& catalog, std::vector<Goal>& goals) {

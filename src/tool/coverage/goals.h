@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -77,6 +78,10 @@ inline constexpr std::size_t goal_sections = 9;
   return kind == Goal::Kind::requirement_decided || kind == Goal::Kind::minimum_decided ||
          kind == Goal::Kind::exclusion_decided;
 }
+
+/// Why the goals and the mutants of a catalog cannot be listed, if so: each pair of tasks of an
+/// exclusivity list is one, so a list of thousands of tasks has millions.
+[[nodiscard]] std::optional<std::string> find_too_many_pairs(const CompiledCatalog& catalog);
 
 /// All goals of a catalog: by section, and in it in catalog order. They have no lines yet.
 [[nodiscard]] std::vector<Goal> find_goals(const CompiledCatalog& catalog);

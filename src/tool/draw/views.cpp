@@ -53,6 +53,7 @@ class Builder {
   [[nodiscard]] std::string unique_id(const std::string& id);
   [[nodiscard]] std::vector<std::uint32_t> nodes_of_exclusion(std::uint32_t task) const;
   [[nodiscard]] std::vector<Member> members_of(std::uint32_t list) const;
+  [[nodiscard]] static bool has_few_nodes(const std::vector<Member>& members);
   void add_hub(std::uint32_t list, const std::vector<Member>& members);
 
   const CatalogGraph& graph_;
@@ -176,6 +177,9 @@ void Builder::add_clusters(Clustering clustering) {
 
 /// Lists of up to this many tasks are drawn as pairs unless something else is asked for.
 constexpr std::size_t most_for_pairs = 3;
+/// Lists of tasks with more nodes than this are drawn as hubs, whatever is asked for: they would
+/// have more than half a million pairs.
+constexpr std::size_t most_nodes_for_pairs = 1000;
 
 using Nodes = std::vector<std::uint32_t>;
 
@@ -246,6 +250,12 @@ void Builder::add_hub(std::uint32_t list, const std::vector<Member>& members) {
   }
 }
 
+bool Builder::has_few_nodes(const std::vector<Member>& members) {
+  std::size_t nodes = 0;
+  for (const Member& member : members) nodes += member.nodes.size();
+  return nodes <= most_nodes_for_pairs;
+}
+
 void Builder::add_exclusions(ExclusivityStyle style) {
   if (style == ExclusivityStyle::hidden) return;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Mark> pairs;
@@ -254,7 +264,9 @@ void Builder::add_exclusions(ExclusivityStyle style) {
     std::vector<Member> members = members_of(list);
     if (members.size() < 2 && !has_named_task(graph_, part_, list)) continue;
     const std::size_t most = style == ExclusivityStyle::readable ? most_for_pairs : 2;
-    if (members.size() == 1 || (style != ExclusivityStyle::pairs && members.size() > most)) {
+    const bool has_few =
+        style == ExclusivityStyle::pairs ? has_few_nodes(members) : members.size() <= most;
+    if (members.size() == 1 || !has_few) {
       hubs.emplace_back(list, std::move(members));
       continue;
     }

@@ -4,12 +4,14 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "lint/together.h"
 #include "report/table_parts.h"
 #include "report/verify_report.h"
 #include "support/wording.h"
@@ -172,14 +174,13 @@ class GroupText {
 
  private:
   void add_group(const Exploration& exploration) {
+    const std::uint32_t group = exploration.groups.front();
     std::vector<std::uint32_t> tasks;  // by their places in the catalog
-    for (std::uint32_t index = 0; index < catalog_.task_ids.size(); ++index) {
-      if (catalog_.tasks[catalog_.task_ids[index]].group == exploration.groups.front()) {
-        tasks.push_back(index);
-      }
+    for (TaskId id = catalog_.group_tasks[group]; id < catalog_.group_tasks[group + 1]; ++id) {
+      tasks.push_back(catalog_.tasks[id].catalog_index);
     }
-    text_ +=
-        fmt::format("\n{}group {}{}\n", style_.strong, exploration.groups.front(), style_.reset);
+    std::sort(tasks.begin(), tasks.end());
+    text_ += fmt::format("\n{}group {}{}\n", style_.strong, group, style_.reset);
     add_row("tasks", names_of(tasks));
     text_ += fmt::format("  {:<{}}{}, {}, depth {}{}\n", "explored", label_width,
                          quantity(exploration.states, "state"),
@@ -200,17 +201,20 @@ class GroupText {
                  std::string_view never) {
     std::vector<std::uint32_t> idle;
     for (const std::uint32_t task : tasks) {
-      if (!runs(exploration, task)) idle.push_back(task);
+      if (!has_first(exploration.runs, task)) idle.push_back(task);
     }
     add_row(fmt::format("{} run", never), names_of(idle));
-    std::set<std::uint32_t> active;
-    for (const auto& entry : exploration.active) active.insert(entry.first);
+    const std::uint32_t group = exploration.groups.front();
+    std::vector<std::uint32_t> behaviors;  // not active
+    for (BehaviorId id = catalog_.group_behaviors[group]; id < catalog_.group_behaviors[group + 1];
+         ++id) {
+      const std::uint32_t index = catalog_.behaviors[id].catalog_index;
+      if (!has_first(exploration.active, index)) behaviors.push_back(index);
+    }
+    std::sort(behaviors.begin(), behaviors.end());
     std::vector<std::string> inactive;
-    for (std::uint32_t index = 0; index < catalog_.behavior_ids.size(); ++index) {
-      if (catalog_.group_of(catalog_.behavior_ids[index]) == exploration.groups.front() &&
-          !active.contains(index)) {
-        inactive.push_back(printable(catalog_.behavior_names[index]));
-      }
+    for (const std::uint32_t index : behaviors) {
+      inactive.push_back(printable(catalog_.behavior_names[index]));
     }
     add_row(fmt::format("{} active", exploration.complete ? "never" : "not seen"), inactive);
   }
@@ -235,14 +239,29 @@ class GroupText {
   /// The pairs of tasks that may be requested, of which both run, but never at the same time.
   void add_apart(const Exploration& exploration, const std::vector<std::uint32_t>& tasks,
                  std::string_view never) {
-    std::set<std::pair<std::uint32_t, std::uint32_t>> together;
-    for (const Exploration::Together& pair : exploration.together) together.emplace(pair.a, pair.b);
+    std::vector<std::uint32_t> candidates;
+    for (const std::uint32_t task : tasks) {
+      if (requested_.contains(task) && has_first(exploration.runs, task)) {
+        candidates.push_back(task);
+      }
+    }
     std::string label = fmt::format("{} run together", never);
-    for (auto a = tasks.begin(); a != tasks.end(); ++a) {
+    if (candidates.size() > most_tasks_in_pairs) {
+      add_row(label,
+              {fmt::format("(pairs of more than {} tasks are not listed)", most_tasks_in_pairs)});
+      return;
+    }
+    auto pair = exploration.together.begin();  // these, too, are in catalog order
+    for (auto a = candidates.begin(); a != candidates.end(); ++a) {
       std::vector<std::uint32_t> apart;
-      for (auto b = a + 1; b != tasks.end(); ++b) {
-        const bool both_run = is_candidate(exploration, *a) && is_candidate(exploration, *b);
-        if (both_run && !together.contains({*a, *b})) apart.push_back(*b);
+      for (auto b = a + 1; b != candidates.end(); ++b) {
+        while (pair != exploration.together.end() &&
+               std::tie(pair->a, pair->b) < std::tie(*a, *b)) {
+          ++pair;
+        }
+        const bool run_together =
+            pair != exploration.together.end() && pair->a == *a && pair->b == *b;
+        if (!run_together) apart.push_back(*b);
       }
       if (apart.empty()) continue;
       const std::string first = fmt::format("{} with ", name_of_task(*a));
@@ -275,13 +294,11 @@ class GroupText {
     text_ += wrap(fmt::format("  {:<{}}", label, label_width), names, ",");
   }
 
-  [[nodiscard]] static bool runs(const Exploration& exploration, std::uint32_t task) {
-    return std::any_of(exploration.runs.begin(), exploration.runs.end(),
-                       [task](const auto& entry) { return entry.first == task; });
-  }
-
-  [[nodiscard]] bool is_candidate(const Exploration& exploration, std::uint32_t task) const {
-    return requested_.contains(task) && runs(exploration, task);
+  /// Whether an entry, of which there is one each in ascending order, is about this place.
+  [[nodiscard]] static bool has_first(
+      const std::vector<std::pair<std::uint32_t, std::uint32_t>>& entries, std::uint32_t place) {
+    const auto found = std::lower_bound(entries.begin(), entries.end(), std::pair(place, 0U));
+    return found != entries.end() && found->first == place;
   }
 
   [[nodiscard]] std::string name_of_task(std::uint32_t index) const {

@@ -1,9 +1,7 @@
 #include "verify/breadth_first.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <cstddef>
 
 #include "support/threads.h"
 
@@ -15,6 +13,12 @@ namespace {
 constexpr StateStore::Number part_size = 128;
 /// States that are expanded before their successors are inserted.
 constexpr StateStore::Number batch_size = 16384;
+/// Successors that one state may have before those are dropped that are known.
+constexpr std::size_t most_unsifted = 1024;
+/// Moves between two looks at the limits.
+constexpr std::uint32_t moves_between_looks = 64;
+/// Parts that take more memory for their successors give it back.
+constexpr std::size_t most_words_kept = std::size_t{1} << 18U;
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -22,33 +26,48 @@ double seconds_now() {
 
 }  // namespace
 
-std::uint32_t* Successors::add() {
-  ++transitions_;
-  candidates_.push_back({0, parent_});
-  words_.resize(candidates_.size() * known_.words());
-  return words_.data() + words_.size() - known_.words();
+bool Successors::may_go_on() {
+  if (++asked_ % moves_between_looks == 0) search_.look_at_limits();
+  return !search_.is_cut_;
 }
 
-void Successors::end() {
-  const std::size_t width = known_.words();
+std::uint32_t* Successors::add() {
+  if (candidates_.size() - kept_ >= most_unsifted) sift();
+  ++transitions_;
+  candidates_.push_back({0, parent_});
+  const std::size_t width = search_.store_.words();
+  words_.resize(candidates_.size() * width);
+  return words_.data() + words_.size() - width;
+}
+
+/// Keeps the successors that are not known yet.
+void Successors::sift() {
+  const StateStore& known = search_.store_;
+  const std::size_t width = known.words();
+  const std::size_t before = kept_;
   for (std::size_t place = kept_; place < candidates_.size(); ++place) {
-    candidates_[place].hash = known_.hash(words_.data() + place * width);
-    known_.prefetch(candidates_[place].hash);
+    candidates_[place].hash = known.hash(words_.data() + place * width);
+    known.prefetch(candidates_[place].hash);
   }
   for (std::size_t place = kept_; place < candidates_.size(); ++place) {
     const std::uint32_t* const state = words_.data() + place * width;
-    if (known_.contains(state, candidates_[place].hash)) continue;
+    if (known.contains(state, candidates_[place].hash)) continue;
     candidates_[kept_] = candidates_[place];
     std::copy_n(state, width, words_.data() + kept_ * width);
     ++kept_;
   }
   candidates_.resize(kept_);
   words_.resize(kept_ * width);
+  search_.candidates_ += kept_ - before;
 }
 
 void Successors::clear() {
   candidates_.clear();
   words_.clear();
+  if (words_.capacity() > most_words_kept) {
+    candidates_.shrink_to_fit();
+    words_.shrink_to_fit();
+  }
   kept_ = 0;
   transitions_ = 0;
 }
@@ -75,29 +94,38 @@ void BreadthFirst::run(const std::vector<std::unique_ptr<Expander>>& expanders) 
   level_begin_.pop_back();
 }
 
-/// False if a limit ended it. Then its successors are not inserted.
+/// False if the search ends. Then its successors are not inserted.
 bool BreadthFirst::expand_batch(StateStore::Number begin, StateStore::Number end,
                                 const std::vector<std::unique_ptr<Expander>>& expanders) {
   const std::size_t parts = (end - begin + part_size - 1) / part_size;
-  while (parts_.size() < parts) parts_.emplace_back(store_);
+  while (parts_.size() < parts) parts_.emplace_back(*this);
   std::atomic<std::size_t> next{0};
-  std::atomic<bool> is_stopped{false};
+  std::atomic<bool> is_done{false};
   run_in_threads(std::min(expanders.size(), parts), [&](std::size_t job) {
     Expander& expander = *expanders[job];
-    for (std::size_t part = next++; part < parts && !is_stopped; part = next++) {
+    while (!is_done && !is_cut_) {
+      const std::size_t part = next++;  // is expanded then, as those before it are
+      if (part >= parts) break;
       Successors& successors = parts_[part];
-      successors.clear();
       const auto first = begin + static_cast<StateStore::Number>(part) * part_size;
-      for (StateStore::Number number = first; number < std::min(end, first + part_size); ++number) {
+      const StateStore::Number last = std::min(end, first + part_size);
+      for (StateStore::Number number = first; number < last && !is_cut_; ++number) {
         successors.begin(number);
         expander.expand(store_.state(number), number, successors);
         successors.end();
       }
-      if (job == 0 && !may_go_on()) is_stopped = true;
+      if (expander.is_done()) is_done = true;
+      look_at_limits();
     }
   });
-  if (is_stopped) return false;
-  for (std::size_t part = 0; part < parts; ++part) insert(parts_[part]);
+  if (is_done || is_cut_) return false;
+  // Once more, so that it does not depend on the threads.
+  if (!has_memory()) return false;
+  for (std::size_t part = 0; part < parts; ++part) {
+    insert(parts_[part]);
+    parts_[part].clear();
+  }
+  candidates_ = 0;
   return true;
 }
 
@@ -112,6 +140,13 @@ void BreadthFirst::insert(const Successors& successors) {
   }
 }
 
+/// Of several threads one looks at a time; the others go on with their work.
+void BreadthFirst::look_at_limits() {
+  if (is_cut_) return;
+  const std::unique_lock lock(looking_, std::try_to_lock);
+  if (lock && !may_go_on()) is_cut_ = true;
+}
+
 bool BreadthFirst::may_go_on() {
   const ExplorationLimits& limits = options_.limits;
   const auto end_by = [this](ExplorationEnd end) {
@@ -124,16 +159,25 @@ bool BreadthFirst::may_go_on() {
   if (store_.size() >= StateStore::most_states - batch_size * 64) {
     return end_by(ExplorationEnd::too_many);
   }
-  // With as many new states as a batch usually finds.
-  constexpr std::uint64_t room = std::uint64_t{batch_size} * 8;
-  if (limits.max_memory > 0 && store_.bytes_for(store_.size() + room) > limits.max_memory) {
-    return end_by(ExplorationEnd::max_memory);
-  }
+  if (!has_memory()) return false;
   if (deadline_ > 0 && seconds_now() >= deadline_) return end_by(ExplorationEnd::time_limit);
   if (!options_.on_progress) return true;
   return options_.on_progress({store_.size(), transitions_, store_.size() - expanded_,
                                static_cast<std::uint32_t>(level_begin_.size() - 1)}) ||
          end_by(ExplorationEnd::stopped);
+}
+
+/// Whether the memory suffices for what is there, and as many new states as a batch usually finds.
+bool BreadthFirst::has_memory() {
+  const std::uint64_t most = options_.limits.max_memory;
+  if (most == 0) return true;
+  const std::uint64_t room = std::max<std::uint64_t>(candidates_, std::uint64_t{batch_size} * 8);
+  // An array that grows takes twice its size.
+  const std::uint64_t of_candidate =
+      2 * (sizeof(Successors::Candidate) + store_.words() * sizeof(std::uint32_t));
+  if (store_.bytes_for(store_.size() + room) + candidates_ * of_candidate <= most) return true;
+  end_ = ExplorationEnd::max_memory;
+  return false;
 }
 
 std::uint32_t BreadthFirst::depth_of(StateStore::Number number) const {

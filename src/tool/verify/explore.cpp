@@ -178,8 +178,9 @@ class GroupExpander final : public Expander {
 
   void expand(const std::uint32_t* state, Number number, Successors& successors) override {
     stepper_.load(state);
-    look(number);
+    look(number, successors);
     for (const Model::Choice& choice : model_.moves()) {
+      if (!successors.may_go_on()) return;
       if (!stepper_.has_move(choice) || !stepper_.take(choice)) continue;
       if (choice.move.kind == Move::Kind::start && choice.move.choice == 1 &&
           !stepper_.was_accepted()) {
@@ -189,7 +190,8 @@ class GroupExpander final : public Expander {
     }
   }
 
-  [[nodiscard]] const Sightings& seen() const { return seen_; }
+  /// What was seen. Nothing can be expanded after it.
+  [[nodiscard]] Sightings release() { return std::move(seen_); }
   [[nodiscard]] const Decisions& decisions() const { return stepper_.decisions(); }
 
  private:
@@ -215,7 +217,7 @@ class GroupExpander final : public Expander {
     }
   }
 
-  void look(Number number) {
+  void look(Number number, Successors& successors) {
     const auto& running = stepper_.running();
     const std::size_t words = running.size();
     const std::size_t tasks = model_.tasks().size();
@@ -235,6 +237,7 @@ class GroupExpander final : public Expander {
                  [&](std::uint32_t behavior) { note(seen_.active[behavior], number); });
     for (const std::uint32_t task : unasked_) {
       if (seen_.start_refused[task] != never_seen || stepper_.cells()[task] != 0) continue;
+      if (!successors.may_go_on()) return;
       if (!stepper_.would_start(task, model_.ranks_up_to(1))) note_refusal(task, number);
     }
     for (std::size_t place = 0; place < goals_.size(); ++place) {
@@ -326,12 +329,19 @@ Verdict verdict_of(const Model& model, const BreadthFirst& search, const Propert
   return verdict;
 }
 
+/// What the tables of pairs of tasks take, before any state is visited: in the model, the needs and
+/// the rivals; for each job, what was seen to run together, and where first.
+std::uint64_t bytes_of_pairs(const Model& model, unsigned jobs) {
+  const std::uint64_t pairs = std::uint64_t{model.tasks().size()} * model.tasks().size();
+  return pairs / 4 + jobs * (pairs / 8 + pairs * sizeof(Number));
+}
+
 /// Sets apart a quarter of the memory for remembered decisions.
 Stepper::Options share_memory(ExplorationOptions& options) {
   Stepper::Options result;
   result.reduce = options.reduce;
   constexpr std::uint64_t most = std::uint64_t{256} << 20;
-  const std::uint64_t jobs = std::max(1U, options.jobs);
+  const std::uint64_t jobs = options.jobs;
   std::uint64_t& memory = options.limits.max_memory;
   result.decision_bytes = memory == 0 ? most : std::min(most, memory / 4 / jobs);
   // An array that grows takes twice its size for a while.
@@ -354,6 +364,19 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint3
     result.verdicts.resize(properties.size());
     return result;
   }
+  ExplorationOptions of_search = options;
+  of_search.jobs = std::max(1U, options.jobs);
+  if (std::uint64_t& memory = of_search.limits.max_memory; memory > 0) {
+    const std::uint64_t of_pairs = bytes_of_pairs(model, of_search.jobs);
+    if (of_pairs >= memory) {
+      result.end = ExplorationEnd::max_memory;
+      result.states = 1;
+      result.states_at_depth = {1};
+      result.verdicts.resize(properties.size());
+      return result;
+    }
+    memory -= of_pairs;
+  }
   std::vector<Goal> goals;
   goals.reserve(properties.size());
   for (const Property* const property : properties) goals.emplace_back(model, *property);
@@ -361,21 +384,20 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint3
   const std::vector<std::uint16_t> cells = model.first_state();
   std::vector<std::uint32_t> first(model.packed_words());
   model.pack(cells.data(), first.data());
-  ExplorationOptions of_search = options;
   const Stepper::Options of_steppers = share_memory(of_search);
   BreadthFirst search(first, of_search);
   std::vector<std::unique_ptr<Expander>> expanders;
-  std::vector<const GroupExpander*> of_groups;
-  for (unsigned job = 0; job < std::max(1U, options.jobs); ++job) {
+  std::vector<GroupExpander*> of_groups;
+  for (unsigned job = 0; job < of_search.jobs; ++job) {
     auto expander = std::make_unique<GroupExpander>(model, goals, of_steppers);
     of_groups.push_back(expander.get());
     expanders.push_back(std::move(expander));
   }
   search.run(expanders);
 
-  Sightings seen = of_groups.front()->seen();
-  for (const GroupExpander* const expander : of_groups) {
-    seen.add(expander->seen());
+  Sightings seen = of_groups.front()->release();
+  for (GroupExpander* const expander : of_groups) {
+    if (expander != of_groups.front()) seen.add(expander->release());
     result.decisions_remembered += expander->decisions().remembered();
     result.decisions_computed += expander->decisions().computed();
   }

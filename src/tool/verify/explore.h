@@ -71,7 +71,8 @@ struct ExplorationOptions {
   /// this sense: verdicts, scripts and least numbers of moves stay as they are, and only the counts
   /// of states and transitions, and the depth, are those of what is left.
   bool reduce = false;
-  /// Called now and then by one thread; false ends the exploration as a limit does. May be empty.
+  /// Called now and then, by one thread at a time; false ends the exploration as a limit does. May
+  /// be empty.
   std::function<bool(const ExplorationProgress&)> on_progress;
 };
 

@@ -417,6 +417,7 @@ class PairExpander final : public Expander {
     const std::size_t new_words = models_.new_model.packed_words();
     stepper_.load(state);
     for (const ModelPair::PairedMove& move : models_.moves) {
+      if (!successors.may_go_on()) return;
       new_trace_.events.clear();
       old_trace_.events.clear();
       if (!stepper_.take(move)) continue;
@@ -428,6 +429,8 @@ class PairExpander final : public Expander {
       }
     }
   }
+
+  [[nodiscard]] bool is_done() const override { return first_difference_ != UINT32_MAX; }
 
   /// The first state with a move that is decided differently, and that move; UINT32_MAX: none.
   [[nodiscard]] Number first_difference() const { return first_difference_; }
@@ -633,12 +636,11 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
     ExplorationOptions exploration;
     exploration.limits = options.limits;
     exploration.jobs = options.jobs;
-    // The first thread asks between parts of the frontier, which are handed out in order: all
-    // states before the first difference that it knows have been looked at when the search ends.
-    exploration.on_progress = [&](const ExplorationProgress& progress) {
-      if (of_pairs.front()->first_difference() != UINT32_MAX) return false;
-      return !options.on_progress || options.on_progress(groups.new_groups, progress);
-    };
+    if (options.on_progress) {
+      exploration.on_progress = [&](const ExplorationProgress& progress) {
+        return options.on_progress(groups.new_groups, progress);
+      };
+    }
     for (unsigned job = 0; job < std::max(1U, options.jobs); ++job) {
       auto expander = std::make_unique<PairExpander>(models, scope.differences, options.reduce);
       of_pairs.push_back(expander.get());
@@ -656,6 +658,8 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
           return a->first_difference() < b->first_difference();
         });
     if (found->first_difference() == UINT32_MAX) continue;
+    // There may be one before it, in a state that was not expanded.
+    if (search.was_cut_short() && found->first_difference() >= search.expanded()) continue;
     std::vector<Move> moves =
         moves_along(models, search, found->first_difference(), options.reduce);
     moves.push_back(found->difference());
