@@ -384,7 +384,8 @@ constexpr std::string_view text_format = "text";
 struct TableView {
   std::string_view name;
   std::string_view answer;  ///< what it shows, after "it is not known"
-  bool is_of_pairs = false;
+  /// Why there can be none, if so.
+  std::optional<std::string> (*find_obstacle)(const CompiledCatalog& catalog);
   std::vector<std::string> (*formats)();
   /// `format` is one of these; of one by Graphviz, the input of `dot`.
   std::string (*write)(const CompiledCatalog& catalog, const SeveritySettings& settings,
@@ -405,11 +406,19 @@ std::string write_table_of_pairs(const CompiledCatalog& catalog, const SeverityS
       ->write(catalog, make_together_table(catalog, options), style);
 }
 
+std::optional<std::string> find_too_many_tasks(const CompiledCatalog& catalog) {
+  const std::size_t tasks = count_tasks_in_pairs(catalog);
+  if (tasks <= most_tasks_in_pairs) return std::nullopt;
+  return fmt::format(
+      "catalog {} has too many tasks for a table of their pairs: {}; expected at most {}",
+      quote(catalog.file), tasks, most_tasks_in_pairs);
+}
+
 constexpr TableView table_views[] = {
-    {"together", "which tasks can run together", true, [] { return names_in(together_formats()); },
-     write_table_of_pairs},
-    {"situation", "which behaviors fit", false, [] { return names_in(situation_formats()); },
-     write_situation_table},
+    {"together", "which tasks can run together", find_too_many_tasks,
+     [] { return names_in(together_formats()); }, write_table_of_pairs},
+    {"situation", "which behaviors fit", find_too_large_situation,
+     [] { return names_in(situation_formats()); }, write_situation_table},
 };
 
 /// Null if it is a drawing.
@@ -533,12 +542,7 @@ int write_table(const TableView& table, const GraphCommand& command) {
              table.answer);
     return exit_unusable;
   }
-  const std::size_t tasks = count_tasks_in_pairs(*drawable->compiled);
-  if (table.is_of_pairs && tasks > most_tasks_in_pairs) {
-    complain("catalog {} has too many tasks for a table of their pairs: {}; expected at most {}",
-             quote(drawable->graph.file), tasks, most_tasks_in_pairs);
-    return exit_unusable;
-  }
+  if (const auto obstacle = table.find_obstacle(*drawable->compiled)) return complain(*obstacle);
   const std::string format = format_of(command);
   const Style style = output_of(command) == "-" ? style_for(stdout) : plain_style();
   std::optional<std::string> content = table.write(*drawable->compiled, *settings, format, style);

@@ -282,7 +282,8 @@ class Call {
     for (const VerifyPart& part : result_.parts) {
       for (const Exploration& exploration : part.verification.explorations) {
         if (exploration.error) {
-          return fmt::format("{}: {}", quote(part.file->path), *exploration.error);
+          const std::string_view file = part.file ? part.file->path : catalog_.file;
+          return fmt::format("{}: {}", quote(file), *exploration.error);
         }
       }
     }

@@ -213,6 +213,23 @@ TEST_F(Verify, EndsAtTheTimeLimit) {
   EXPECT_NE(result.out.find("ended by --time-limit 0.05;"), std::string::npos);
 }
 
+TEST_F(Verify, RefusesGroupsThatAreTooLarge) {
+  std::string behaviors = "behaviors:\n";
+  for (int behavior = 0; behavior <= 65'000; ++behavior) {
+    behaviors += "- {behavior: B" + std::to_string(behavior) + ", task: T}\n";
+  }
+  scratch.write("many.yaml", behaviors);
+  const std::string many = scratch / "many.yaml";
+  scratch.write("many.properties.yaml", "catalog: many.yaml\nproperties: [{can_start: T}]\n");
+  const std::string properties_of_many = scratch / "many.properties.yaml";
+  for (const std::string& file : {many, properties_of_many}) {
+    const Result result = verify({file});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err.find("cbc: '" + file + "': too large to explore: "), 0U) << result.err;
+  }
+}
+
 /// Each of these pairs would be a goal, and a mutant.
 TEST_F(Verify, RefusesToListMillionsOfPairs) {
   std::string list;

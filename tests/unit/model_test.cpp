@@ -87,6 +87,18 @@ TEST(Model, RefusesMoreValuesThanACellHolds) {
   EXPECT_TRUE(Model(catalog, {0}, default_assumptions(catalog)).find_obstacle());
 }
 
+/// For each value there is a set of the behaviors that do not fit.
+TEST(Model, RefusesTooManyBehaviorsTimesValues) {
+  std::string values = "v0";
+  for (int value = 1; value < 33'500; ++value) values += ", v" + std::to_string(value);
+  std::string text = "situation: [{variable: V, values: [" + values + "]}]\nbehaviors:\n";
+  for (int behavior = 0; behavior < 32'064; ++behavior) {
+    text += "- {behavior: B" + std::to_string(behavior) + ", task: T, situation: {V: v0}}\n";
+  }
+  const CompiledCatalog catalog = compile_text(text);
+  EXPECT_TRUE(Model(catalog, {0}, default_assumptions(catalog)).find_obstacle());
+}
+
 TEST(Model, RefusesMoreTasksThanACellHolds) {
   std::string text = "behaviors:\n";
   std::string list;

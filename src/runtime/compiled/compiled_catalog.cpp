@@ -97,13 +97,12 @@ std::span<const FittingValue> CompiledCatalog::fitting_values_of(BehaviorId beha
   return {first, end};
 }
 
-std::optional<std::uint32_t> CompiledCatalog::find_misfit(
-    BehaviorId behavior, std::span<const std::uint32_t> present) const {
-  const auto all = fitting_values_of(behavior);
-  for (auto next = all.begin(); next != all.end();) {
+std::optional<std::uint32_t> CompiledCatalog::find_misfit(std::span<const FittingValue> fitting,
+                                                          std::span<const std::uint32_t> present) {
+  for (auto next = fitting.begin(); next != fitting.end();) {
     const std::uint32_t variable = next->variable;
     bool is_fitting = false;
-    for (; next != all.end() && next->variable == variable; ++next) {
+    for (; next != fitting.end() && next->variable == variable; ++next) {
       is_fitting |= next->value == present[variable];
     }
     if (!is_fitting) return variable;

@@ -274,7 +274,12 @@ struct CompiledCatalog : CatalogArrays<View, Rows> {
   /// The first variable that a behavior names and whose value is none that it names; none if the
   /// behavior fits. `present`: the values of the variables.
   [[nodiscard]] std::optional<std::uint32_t> find_misfit(
-      BehaviorId behavior, std::span<const std::uint32_t> present) const;
+      BehaviorId behavior, std::span<const std::uint32_t> present) const {
+    return find_misfit(fitting_values_of(behavior), present);
+  }
+  /// The same for the values in which a behavior fits.
+  [[nodiscard]] static std::optional<std::uint32_t> find_misfit(
+      std::span<const FittingValue> fitting, std::span<const std::uint32_t> present);
 
   /// The task that a value is of.
   [[nodiscard]] TaskId task_of(ValueId value) const { return value_tasks[value]; }

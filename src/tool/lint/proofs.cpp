@@ -39,6 +39,8 @@ AssignmentSearch::AssignmentSearch(CompiledCatalog catalog, std::uint64_t max_no
   for (ValueId value = 0; value < catalog_.values.items.size(); ++value) {
     const Bit bit = bit_of(value);
     domains_[bit.word] |= bit.mask;
+    const auto fitting = catalog_.fitting_values_of(catalog_.values.items[value].behavior);
+    if (!fitting.empty()) conditions_.push_back({value, fitting});
   }
 }
 
@@ -128,21 +130,26 @@ void AssignmentSearch::close(TaskId task) {
 }
 
 void AssignmentSearch::close_misfits(std::span<const std::uint32_t> situation) {
-  const TaskId first = catalog_.group_tasks[problem_.group];
-  const TaskId end = catalog_.group_tasks[problem_.group + 1];
-  for (ValueId value = catalog_.values.begin[first]; value < catalog_.values.begin[end]; ++value) {
-    if (!catalog_.find_misfit(catalog_.values.items[value].behavior, situation)) continue;
-    const Bit bit = bit_of(value);
+  const ValueId end = catalog_.values.begin[catalog_.group_tasks[problem_.group + 1]];
+  const ValueId begin = catalog_.values.begin[catalog_.group_tasks[problem_.group]];
+  std::uint64_t effort = 0;
+  for (auto condition =
+           std::lower_bound(conditions_.begin(), conditions_.end(), begin,
+                            [](const Condition&one, ValueId value) { return one.value < value; });
+       condition != conditions_.end() && condition->value < end; ++condition) {
+    effort += condition->fitting.size();
+    if (!CompiledCatalog::find_misfit(condition->fitting, situation)) continue;
+    const Bit bit = bit_of(condition->value);
     problem_.domains[bit.word - first_word()] &= ~bit.mask;
   }
+  spend(effort);
 }
 
 /// A solution that a limit left unproven is no answer where the best one is sought.
 Feasibility AssignmentSearch::solve(Solver& solver, Assignment& solution) {
   if (effort_left_ == 0) return Feasibility::unknown;
   const SearchResult result = solver.solve(problem_, solution);
-  const std::uint64_t effort = result.nodes * effort_of_a_node + problem_.may_stop.size();
-  effort_left_ -= std::min(effort, effort_left_);
+  spend(result.nodes * effort_of_a_node + problem_.may_stop.size());
   switch (result.status) {
     case SearchStatus::optimal:
       return Feasibility::yes;

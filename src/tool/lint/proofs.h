@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -93,6 +94,12 @@ class AssignmentSearch {
     std::uint64_t mask = 0;
   };
 
+  /// The values of variables in which the behavior of a value fits.
+  struct Condition {
+    ValueId value = 0;
+    std::span<const FittingValue> fitting;
+  };
+
   [[nodiscard]] Bit bit_of(ValueId value) const;
   void open_group(std::uint32_t group);
   [[nodiscard]] std::uint32_t first_word() const;
@@ -100,6 +107,7 @@ class AssignmentSearch {
   void must_run(TaskId task);
   void close(TaskId task);
   void close_misfits(std::span<const std::uint32_t> situation);
+  void spend(std::uint64_t effort) { effort_left_ -= std::min(effort, effort_left_); }
   [[nodiscard]] Feasibility solve(Solver& solver, Assignment& solution);
   [[nodiscard]] std::vector<Millionths> factors_of(TaskId task, const Assignment& solution) const;
 
@@ -109,6 +117,7 @@ class AssignmentSearch {
   Solver any_;
   Solver best_;
   std::vector<std::uint64_t> domains_;  ///< of all tasks, without the values that are ruled out
+  std::vector<Condition> conditions_;   ///< of all values that have any, ascending
   Problem problem_;
   std::uint64_t effort_left_;
 };

@@ -33,7 +33,7 @@ class SituationCheck {
  private:
   void check_task(TaskId task) {
     if (proof_.liveness().of_task(task) == Liveness::State::dead) return;
-    const std::vector<std::uint32_t> variables = variables_of(catalog_, {&task, 1});
+    const std::vector<std::uint32_t>& variables = variables_of_task(task);
     if (variables.empty()) return;
     std::vector<BehaviorId> dead;
     const std::span<const Value> values = catalog_.values[task];
@@ -73,12 +73,18 @@ class SituationCheck {
            }) != Feasibility::no;
   }
 
+  [[nodiscard]] const std::vector<std::uint32_t>& variables_of_task(TaskId task) {
+    const auto [entry, is_new] = variables_.try_emplace(task);
+    if (is_new) entry->second = variables_of(catalog_, {&task, 1});
+    return entry->second;
+  }
+
   /// For any of its tasks. True if that is not known.
   [[nodiscard]] bool can_be_active(BehaviorId behavior) {
     const auto values = catalog_.performs[behavior];
     return std::any_of(values.begin(), values.end(), [&](ValueId value) {
       const TaskId task = catalog_.task_of(value);
-      return ask_in_situations(catalog_, variables_of(catalog_, {&task, 1}),
+      return ask_in_situations(catalog_, variables_of_task(task),
                                [&](std::span<const std::uint32_t> situation) {
                                  return proof_.search().find(value, {}, solution_, situation);
                                }) != Feasibility::no;
@@ -110,6 +116,7 @@ class SituationCheck {
   ProofContext& proof_;
   const CompiledCatalog& catalog_;
   std::vector<bool> is_dead_;  ///< by task, because of the situation
+  std::unordered_map<TaskId, std::vector<std::uint32_t>> variables_;  ///< that matter to the task
   Assignment solution_;
   std::uint64_t effort_left_ = 100'000'000;  ///< reasons that may be examined in total
 };

@@ -66,13 +66,14 @@ class SituationTable {
   }
 
   [[nodiscard]] Fit fit(BehaviorId behavior, VariableValue value) const {
-    Fit fit = Fit::in_any;
-    for (const FittingValue& fitting : catalog_.fitting_values_of(behavior)) {
-      if (fitting.variable != value.variable) continue;
-      if (fitting.value == value.value) return Fit::fits;
-      fit = Fit::does_not_fit;
-    }
-    return fit;
+    const auto fitting = catalog_.fitting_values_of(behavior);
+    const FittingValue wanted{behavior, value.variable, value.value};
+    const auto next = std::lower_bound(fitting.begin(), fitting.end(), wanted);
+    if (next != fitting.end() && *next == wanted) return Fit::fits;
+    const auto names_it = [&](const FittingValue& one) { return one.variable == value.variable; };
+    const bool is_named = (next != fitting.end() && names_it(*next)) ||
+                          (next != fitting.begin() && names_it(*std::prev(next)));
+    return is_named ? Fit::does_not_fit : Fit::in_any;
   }
 
   [[nodiscard]] std::vector<BehaviorId> behaviors_with(Fit wanted, VariableValue value) const {
@@ -250,6 +251,20 @@ class TextTable {
 };
 
 }  // namespace
+
+std::optional<std::string> find_too_large_situation(const CompiledCatalog& catalog) {
+  constexpr std::uint64_t most_cells = 4'000'000;
+  const SituationTable table(catalog);
+  std::uint64_t values = 0;
+  for (const CompiledVariable& variable : catalog.variables) values += variable.value_count;
+  const std::uint64_t behaviors = table.behaviors().size();
+  if (behaviors * values <= most_cells) return std::nullopt;
+  return fmt::format(
+      "catalog {} is too large for a table of its situation: {} behaviors by {} values; expected "
+      "at "
+      "most {} places",
+      quote(catalog.file), behaviors, values, most_cells);
+}
 
 std::string situation_text(const CompiledCatalog& catalog, const Style& style) {
   const SituationTable table(catalog);

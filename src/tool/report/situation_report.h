@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +10,9 @@
 
 /// Which behaviors fit in which values of the situation variables (`cbc graph --view situation`).
 namespace cbc {
+
+/// Why there can be no table of a catalog, if so.
+[[nodiscard]] std::optional<std::string> find_too_large_situation(const CompiledCatalog& catalog);
 
 /// The table for people, at most 80 columns wide: a row for each behavior that names a variable, a
 /// column for each value, and a sign where they meet; then the tasks without a

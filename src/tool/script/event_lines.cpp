@@ -12,6 +12,7 @@
 #include "coordinator/record.h"
 #include "diagnostic/diagnostic.h"
 #include "diagnostic/rules.h"
+#include "script/names.h"
 #include "script/reader.h"
 #include "support/json.h"
 #include "yaml/document.h"
@@ -199,7 +200,8 @@ constexpr std::string_view state_schema = "cbc.state/1";
 
 class StateReader {
  public:
-  StateReader(const Node& root, const CompiledCatalog& catalog) : root_(root), catalog_(catalog) {}
+  StateReader(const Node& root, const CompiledCatalog& catalog)
+      : root_(root), catalog_(catalog), situation_(catalog) {}
 
   [[nodiscard]] Snapshot read() {
     if (const std::string schema = root_["schema"].text(); schema != state_schema) {
@@ -262,11 +264,11 @@ class StateReader {
   }
 
   void read_variable(const JsonValue& value) {
-    const auto variable = catalog_.find_variable(value.name());
+    const auto variable = situation_.find_variable(value.name());
     if (!variable) throw JsonFault("there is no situation variable " + quote(value.name()));
     const bool is_boolean = catalog_.variables[*variable].is_boolean != 0;
     const std::string text = !is_boolean ? value.text() : value.truth() ? "true" : "false";
-    const auto place = catalog_.find_value(*variable, text);
+    const auto place = situation_.find_value(*variable, text);
     if (!place) {
       throw JsonFault("situation variable " + quote(value.name()) + " has no value " + quote(text));
     }
@@ -295,6 +297,7 @@ class StateReader {
 
   const JsonValue root_;
   const CompiledCatalog& catalog_;
+  SituationNames situation_;
   Snapshot out_;
 };
 

@@ -356,6 +356,17 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint3
                     const ExplorationOptions& options) {
   Exploration result;
   result.groups = groups;
+  const auto end_before_moves = [&](ExplorationEnd end) {
+    result.end = end;
+    result.states = 1;
+    result.states_at_depth = {1};
+    result.verdicts.resize(properties.size());
+    return std::move(result);
+  };
+  // The model of a group takes a while, and there may be thousands of groups.
+  if (options.on_progress && !options.on_progress({})) {
+    return end_before_moves(ExplorationEnd::stopped);
+  }
   std::set<std::uint32_t> variables;
   for (const Property* const property : properties) variables.merge(variables_of(*property));
   const Model model(catalog, groups, assumptions, variables);
@@ -368,13 +379,7 @@ Exploration explore(const CompiledCatalog& catalog, const std::vector<std::uint3
   of_search.jobs = std::max(1U, options.jobs);
   if (std::uint64_t& memory = of_search.limits.max_memory; memory > 0) {
     const std::uint64_t of_pairs = bytes_of_pairs(model, of_search.jobs);
-    if (of_pairs >= memory) {
-      result.end = ExplorationEnd::max_memory;
-      result.states = 1;
-      result.states_at_depth = {1};
-      result.verdicts.resize(properties.size());
-      return result;
-    }
+    if (of_pairs >= memory) return end_before_moves(ExplorationEnd::max_memory);
     memory -= of_pairs;
   }
   std::vector<Goal> goals;

@@ -12,6 +12,9 @@ namespace cbc {
 
 namespace {
 
+/// The most words of Variable::misfits, of all variables: 128 MiB.
+constexpr std::size_t most_misfit_words = std::size_t{1} << 24U;
+
 /// By number below a count: whether a list has it.
 std::vector<bool> members_of(const std::vector<std::uint32_t>& list, std::size_t count) {
   std::vector<bool> members(count, false);
@@ -25,9 +28,8 @@ Model::Model(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& g
              const Assumptions& assumptions, const std::set<std::uint32_t>& variables)
     : catalog_(catalog), assumptions_(assumptions) {
   add_groups(groups);
-  add_variables(variables);
   rank_priorities();
-  is_too_large_ = !fits_into_cells();
+  is_too_large_ = !add_variables(variables) || !fits_into_cells();
   if (is_too_large_) return;
   add_rivals();
   find_interactions();
@@ -198,7 +200,8 @@ void Model::find_interactions() {
   for (const std::uint32_t task : requestable) classes_[task] = numbers[task];
 }
 
-void Model::add_variables(const std::set<std::uint32_t>& watched) {
+/// False if the table of the behaviors that do not fit is too large.
+bool Model::add_variables(const std::set<std::uint32_t>& watched) {
   denied_.assign(words_for(behaviors_.size()), 0);
   for (std::uint32_t place = 0; place < behaviors_.size(); ++place) {
     if (!is_available_at_first(assumptions_, behaviors_[place].id)) set_bit(denied_.data(), place);
@@ -209,6 +212,9 @@ void Model::add_variables(const std::set<std::uint32_t>& watched) {
       named.insert(fitting.variable);
     }
   }
+  std::size_t values = 0;
+  for (const std::uint32_t id : named) values += catalog_.variables[id].value_count;
+  if (values * denied_.size() > most_misfit_words) return false;
   for (const std::uint32_t id : named) {
     Variable& variable = variables_.emplace_back();
     variable.id = id;
@@ -218,16 +224,16 @@ void Model::add_variables(const std::set<std::uint32_t>& watched) {
   }
   for (std::uint32_t behavior = 0; behavior < behaviors_.size(); ++behavior) {
     const auto fitting = catalog_.fitting_values_of(behaviors_[behavior].id);
-    for (const FittingValue& first : fitting) {
-      Variable& variable = variables_[find_variable(first.variable)];
-      for (std::uint32_t value = 0; value < variable.values; ++value) {
-        const bool fits = std::any_of(fitting.begin(), fitting.end(), [&](const auto& other) {
-          return other.variable == first.variable && other.value == value;
-        });
-        if (!fits) set_bit(variable.misfits[value].data(), behavior);
+    for (auto next = fitting.begin(); next != fitting.end();) {
+      const std::uint32_t id = next->variable;
+      Variable& variable = variables_[find_variable(id)];
+      for (std::vector<Word>& misfits : variable.misfits) set_bit(misfits.data(), behavior);
+      for (; next != fitting.end() && next->variable == id; ++next) {
+        clear_bit(variable.misfits[next->value].data(), behavior);
       }
     }
   }
+  return true;
 }
 
 void Model::rank_priorities() {
@@ -461,8 +467,9 @@ std::optional<std::string> Model::find_obstacle() const {
   if (is_too_large_) {
     return fmt::format(
         "too large to explore: the tasks of a group, the behaviors of a task, the values of a "
-        "variable and the priorities may be {} each, and a state may take {} bytes",
-        most_in_cell, 4 * most_in_cell);
+        "variable and the priorities may be {} each, the behaviors of a group times the values of "
+        "its variables {}, and a state may take {} bytes",
+        most_in_cell, most_misfit_words * 64, 4 * most_in_cell);
   }
   if (is_excluded(first_state().data())) {
     return "the first state is in a situation that 'never' excludes";

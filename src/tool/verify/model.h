@@ -190,7 +190,7 @@ class Model {
   void add_behaviors(Group& group);
   void add_rivals();
   void find_interactions();
-  void add_variables(const std::set<std::uint32_t>& watched);
+  [[nodiscard]] bool add_variables(const std::set<std::uint32_t>& watched);
   void rank_priorities();
   void lay_out();
   void add_moves();

@@ -12,6 +12,7 @@
 #include "base/disjoint_sets.h"
 #include "base/text.h"
 #include "coordinator/record.h"
+#include "script/names.h"
 #include "verify/breadth_first.h"
 #include "verify/model.h"
 #include "verify/stepper.h"
@@ -34,13 +35,14 @@ struct Translation {
       const auto found = to.find_behavior(from.name_of_behavior(behavior));
       behaviors.push_back(found ? to.behavior_ids[*found] : none);
     }
+    SituationNames names(to);
     for (std::uint32_t variable = 0; variable < from.variables.size(); ++variable) {
-      const auto found = to.find_variable(from.name_of_variable(variable));
+      const auto found = names.find_variable(from.name_of_variable(variable));
       variables.push_back(found.value_or(none));
       auto& of_variable = values.emplace_back(from.variables[variable].value_count, none);
       for (std::uint32_t value = 0; found && value < of_variable.size(); ++value) {
         of_variable[value] =
-            to.find_value(*found, from.name_of_value({variable, value})).value_or(none);
+            names.find_value(*found, from.name_of_value({variable, value})).value_or(none);
       }
     }
   }
@@ -615,6 +617,10 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
   // What only the new catalog has does not move.
   const Assumptions new_assumptions = translate(old_assumptions, to_new);
   for (const GroupPair& groups : join_groups(old_catalog, new_catalog, to_old)) {
+    if (options.on_progress && !options.on_progress(groups.new_groups, {})) {
+      result.end = result.end.value_or(ExplorationEnd::stopped);
+      break;
+    }
     if (scope.group && std::find(groups.new_groups.begin(), groups.new_groups.end(),
                                  *scope.group) == groups.new_groups.end()) {
       continue;
