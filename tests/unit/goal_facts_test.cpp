@@ -1,6 +1,7 @@
 // Why no mission can meet a goal: a catalog for each reason.
 #include "coverage/goal_facts.h"
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
@@ -35,6 +36,37 @@ std::map<std::string, std::string> reasons(std::string_view text, const Change& 
 }
 
 using Reasons = std::map<std::string, std::string>;
+
+/// The first state of this group has 2,000 moves.
+TEST(GoalProof, EndsWithinAStateAndProvesNothingThen) {
+  std::string text = "behaviors:\n";
+  std::string list = "T0";
+  for (int task = 0; task < 1000; ++task) {
+    const std::string number = std::to_string(task);
+    text += "- {behavior: B" + number + ", task: T" + number + "}\n";
+    if (task > 0) list += ", T" + number;
+  }
+  const CompiledCatalog catalog =
+      test::compile_text(text + "exclusivity_constraints: [mutually_exclusive: [" + list + "]]\n");
+  const auto prove = [&](const GroupWalkOptions& walk) {
+    const GoalProof proof =
+        prove_unreachable(catalog, {}, assumptions_of_goals(catalog), {{}, walk});
+    EXPECT_EQ(proof.groups.size(), 1U);
+    return proof.groups.front();
+  };
+  int looks = 0;
+  GroupWalkOptions asked;
+  asked.on_progress = [&looks](std::uint32_t, std::uint64_t) { return ++looks < 5; };
+  const GroupWalkResult stopped = prove(asked);
+  EXPECT_FALSE(stopped.is_complete);
+  EXPECT_EQ(looks, 5);
+  EXPECT_LT(stopped.moves, 500U);
+  GroupWalkOptions memory;
+  memory.max_memory = 40'000;
+  const GroupWalkResult full = prove(memory);
+  EXPECT_FALSE(full.is_complete);
+  EXPECT_LT(full.moves, 500U);
+}
 
 TEST(UnreachableGoals, OfWhatNothingStarts) {
   EXPECT_EQ(

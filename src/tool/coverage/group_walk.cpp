@@ -21,22 +21,31 @@ GroupWalkResult GroupWalk::run(Listener& listener) {
   find(packed_);
   result_.is_complete = true;
   for (Number state = 0; state < states_.size() && result_.is_complete; ++state) {
-    if (states_.size() > options_.max_states ||
-        (options_.on_progress && !options_.on_progress(group_, states_.size()))) {
-      result_.is_complete = false;
-    } else {
-      leave(state, listener);
-    }
+    leave(state, listener);
   }
   if (result_.is_complete) race_.tell(watch_);
   result_.states = states_.size();
   return result_;
 }
 
+bool GroupWalk::may_go_on() const {
+  // A state is there twice, and has a place in two tables.
+  const std::size_t bytes = 2 * packed_.size() * sizeof(packed_.front()) + 128;
+  return states_.size() <= options_.max_states && states_.size() <= options_.max_memory / bytes &&
+         (!options_.on_progress || options_.on_progress(group_, states_.size()));
+}
+
+/// A limit may come before all of its moves are made.
 void GroupWalk::leave(Number state, Listener& listener) {
+  constexpr std::size_t moves_between_looks = 64;
+  std::size_t moves = 0;
   stepper_.load(states_[state].data());
   replay_.load(stepper_);
   for (const Model::Choice& choice : model_.moves()) {
+    if (moves++ % moves_between_looks == 0 && !may_go_on()) {
+      result_.is_complete = false;
+      return;
+    }
     if (!stepper_.has_move(choice)) continue;
     const Move move = stepper_.move_of(choice);
     if (!stepper_.take(choice)) continue;

@@ -19,8 +19,9 @@
 namespace cbc {
 
 struct GroupWalkOptions {
-  std::uint64_t max_states = 1'000'000;  ///< of each group
-  /// Called for each state; false ends the walk as a limit does. May be empty.
+  std::uint64_t max_states = 1'000'000;                ///< of each group
+  std::uint64_t max_memory = std::uint64_t{4} << 30U;  ///< bytes that its states may take
+  /// Called for each state, and now and then within one that has many moves; false ends the walk as a limit does. May be empty.
   std::function<bool(std::uint32_t group, std::uint64_t states)> on_progress;
 };
 
@@ -61,6 +62,7 @@ class GroupWalk {
   [[nodiscard]] GroupWalkResult run(Listener& listener);
 
  private:
+  [[nodiscard]] bool may_go_on() const;
   Number find(const std::vector<std::uint32_t>& packed);
   void leave(Number state, Listener& listener);
 

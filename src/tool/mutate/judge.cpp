@@ -245,6 +245,9 @@ bool MutantJudge::never_time_out(const CompiledCatalog& catalog,
   GoalProofOptions options;
   options.group = group;
   options.walk.max_states = options_.limits.max_states;
+  if (options_.limits.max_memory > 0) {
+    options.walk.max_memory = std::min(options.walk.max_memory, options_.limits.max_memory);
+  }
   options.walk.on_progress = [this](std::uint32_t, std::uint64_t) { return !is_stopped(); };
   const GoalProof proof = prove_unreachable(catalog, {}, assumptions_, options);
   if (proof.error || !proof.groups[group].is_complete) return false;
