@@ -19,6 +19,7 @@ PerformanceBound::Bound PerformanceBound::bound(std::uint32_t task) {
   Bound bound;
   for (std::size_t next = 0; next < closure_.size(); ++next) {
     const std::uint32_t member = closure_[next];
+    ++effort_;
     if (domains_.count(member) == 0) {
       bound.reachable = false;
       closure_.resize(next + 1);

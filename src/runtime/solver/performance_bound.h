@@ -24,6 +24,8 @@ class PerformanceBound {
   PerformanceBound(const CompiledCatalog& catalog, const Domains& domains);
 
   [[nodiscard]] Bound bound(std::uint32_t task);
+  /// The tasks of the closures of all bounds so far: what they took.
+  [[nodiscard]] std::uint64_t effort() const { return effort_; }
 
   /// The tasks of the last bound; the last of them is the one that cannot run, if any.
   [[nodiscard]] const std::vector<std::uint32_t>& closure() const { return closure_; }
@@ -40,6 +42,7 @@ class PerformanceBound {
   std::vector<std::uint32_t> closure_;
   std::vector<std::uint64_t> in_closure_;  ///< by task: number of the last closure it was in
   std::uint64_t closure_number_ = 0;
+  std::uint64_t effort_ = 0;
   ExactProduct product_;
   ExactProduct minimum_;
 };

@@ -42,6 +42,8 @@ struct SearchResult {
   std::uint64_t nodes = 0;  ///< decisions taken
   /// How often the constraints of a task with a changed domain were applied to the other tasks.
   std::uint64_t propagations = 0;
+  /// The tasks that were looked at for bounds of performances.
+  std::uint64_t performance_effort = 0;
   SearchBound bound;  ///< of a feasible answer
 };
 

@@ -18,6 +18,7 @@ void Propagator::load(const Problem& problem) {
   first_task_ = catalog_.group_tasks[problem.group];
   has_performance_rules_ = has_rules_[problem.group] != 0;
   propagations_ = 0;
+  effort_before_ = performance_.effort();
 }
 
 bool Propagator::propagate() {

@@ -27,6 +27,9 @@ class Propagator {
 
   /// Revisions of tasks since the last load.
   [[nodiscard]] std::uint64_t propagations() const { return propagations_; }
+  [[nodiscard]] std::uint64_t performance_effort() const {
+    return performance_.effort() - effort_before_;
+  }
 
  private:
   [[nodiscard]] bool revise(std::uint32_t task);
@@ -43,6 +46,7 @@ class Propagator {
   TaskId first_task_ = 0;
   bool has_performance_rules_ = false;
   std::uint64_t propagations_ = 0;
+  std::uint64_t effort_before_ = 0;  ///< of performance_, in earlier problems
   std::vector<std::uint8_t> has_rules_;  ///< by group
   PerformanceBound performance_;
 };

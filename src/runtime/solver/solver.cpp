@@ -41,6 +41,7 @@ SearchResult Solver::solve_again(const Problem& problem, Assignment& solution) {
   bool is_complete = search();
   if (!is_complete && !best.exists && !options_.any_solution) repair();
   result_.propagations = propagator_.propagations();
+  result_.performance_effort = propagator_.performance_effort();
   if (is_hopeless_) is_complete = search_learning();
   budget_.nodes_before += result_.nodes;
   if (best.exists) {

@@ -15,6 +15,8 @@ namespace {
 
 /// A decision takes about as long as looking at this many values.
 constexpr std::uint64_t effort_of_a_node = 50;
+/// So many tasks in a bound of a performance take about as long as one value.
+constexpr std::uint64_t performance_tasks_in_effort = 4;
 constexpr std::uint64_t most_effort_of_search = 100'000'000;
 
 SearchOptions search_options(std::uint64_t max_nodes, bool any_solution) {
@@ -149,7 +151,8 @@ void AssignmentSearch::close_misfits(std::span<const std::uint32_t> situation) {
 Feasibility AssignmentSearch::solve(Solver& solver, Assignment& solution) {
   if (effort_left_ == 0) return Feasibility::unknown;
   const SearchResult result = solver.solve(problem_, solution);
-  spend(result.nodes * effort_of_a_node + problem_.may_stop.size());
+  spend(result.nodes * effort_of_a_node + problem_.may_stop.size() +
+        result.performance_effort / performance_tasks_in_effort);
   switch (result.status) {
     case SearchStatus::optimal:
       return Feasibility::yes;
