@@ -46,7 +46,7 @@ class Propagator {
   TaskId first_task_ = 0;
   bool has_performance_rules_ = false;
   std::uint64_t propagations_ = 0;
-  std::uint64_t effort_before_ = 0;  ///< of performance_, in earlier problems
+  std::uint64_t effort_before_ = 0;      ///< of performance_, in earlier problems
   std::vector<std::uint8_t> has_rules_;  ///< by group
   PerformanceBound performance_;
 };

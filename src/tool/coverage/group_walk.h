@@ -21,7 +21,8 @@ namespace cbc {
 struct GroupWalkOptions {
   std::uint64_t max_states = 1'000'000;                ///< of each group
   std::uint64_t max_memory = std::uint64_t{4} << 30U;  ///< bytes that its states may take
-  /// Called for each state, and now and then within one that has many moves; false ends the walk as a limit does. May be empty.
+  /// Called for each state, and now and then within one that has many moves; false ends the walk as
+  /// a limit does. May be empty.
   std::function<bool(std::uint32_t group, std::uint64_t states)> on_progress;
 };
 

@@ -135,10 +135,9 @@ void AssignmentSearch::close_misfits(std::span<const std::uint32_t> situation) {
   const ValueId end = catalog_.values.begin[catalog_.group_tasks[problem_.group + 1]];
   const ValueId begin = catalog_.values.begin[catalog_.group_tasks[problem_.group]];
   std::uint64_t effort = 0;
-  for (auto condition =
-           std::lower_bound(conditions_.begin(), conditions_.end(), begin,
-                            [](const Condition&one, ValueId value) { return one.value < value; });
-       condition != conditions_.end() && condition->value < end; ++condition) {
+  const auto is_before = [](const Condition& one, ValueId value) { return one.value < value; };
+  auto condition = std::lower_bound(conditions_.begin(), conditions_.end(), begin, is_before);
+  for (; condition != conditions_.end() && condition->value < end; ++condition) {
     effort += condition->fitting.size();
     if (!CompiledCatalog::find_misfit(condition->fitting, situation)) continue;
     const Bit bit = bit_of(condition->value);

@@ -261,8 +261,7 @@ std::optional<std::string> find_too_large_situation(const CompiledCatalog& catal
   if (behaviors * values <= most_cells) return std::nullopt;
   return fmt::format(
       "catalog {} is too large for a table of its situation: {} behaviors by {} values; expected "
-      "at "
-      "most {} places",
+      "at most {} places",
       quote(catalog.file), behaviors, values, most_cells);
 }
 
