@@ -1,6 +1,7 @@
 #include "script/runner.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -211,6 +212,29 @@ exclusivity_constraints:
       EXPECT_EQ(write_state(catalog, other.snapshot()), write_state(catalog, snapshot));
     }
   }
+}
+
+TEST(SavedStates, ListTheQueueInCatalogOrder) {
+  const CompiledCatalog catalog = test::compile_text(R"(
+tasks: [{task: X}, {task: Y}, {task: A, reactive_start: true}, {task: B, reactive_start: true}]
+behaviors: [{behavior: x, task: X}, {behavior: y, task: Y}, {behavior: a, task: A},
+            {behavior: b, task: B}]
+exclusivity_constraints: [mutually_exclusive: [X, A], mutually_exclusive: [Y, B]]
+)");
+  Diagnostics diagnostics;
+  // B joins the queue first.
+  const auto document =
+      yaml::parse("[start: X, start: Y, stop: Y, {stop: X, at: 0.05}]", "s.yaml", diagnostics);
+  const auto script = read_script(*document, catalog, Severity::warning, diagnostics);
+  ASSERT_TRUE(script) << show(diagnostics);
+  Silent listener;
+  Runner runner(catalog, {}, listener);
+  runner.begin({});
+  for (const Step& step : script->steps) EXPECT_TRUE(runner.take(step));
+  using Entry = std::pair<TaskId, Microseconds>;
+  EXPECT_EQ(runner.snapshot().queue,
+            (std::vector<Entry>{{catalog.task_ids[*catalog.find_task("A")], 130'000},
+                                {catalog.task_ids[*catalog.find_task("B")], 80'000}}));
 }
 
 TEST(Runner, TakesSituationAndDelayFromTheScript) {
