@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the commands on large catalogs of many shapes, and lists what crashes, or takes more time, memory or output than a
-user would wait for, store or read. Shapes that people do not write are among them: strangers do."""
+"""Runs the commands on large catalogs of many shapes, and lists what crashes, or takes more time, memory or output than
+a user would wait for, store or read. Shapes that people do not write are among them: strangers do."""
 
 import argparse
 import dataclasses
@@ -100,7 +100,8 @@ def behaviors_of_100_tasks(count):
 
 
 def reactive_clique(count):
-    return Catalog(plain(count), [names(count)], [f"{{task: {task}, reactive_start: true}}" for task in names(count, 1)])
+    return Catalog(plain(count), [names(count)],
+                   [f"{{task: {task}, reactive_start: true}}" for task in names(count, 1)])
 
 
 def reactive_star(count):
@@ -155,8 +156,8 @@ def commands(catalog, missions, folder):
             graph, [*graph, "--view", "tasks"], [*graph, "--view", "constraints", "--exclusivity", "pairs"],
             [*graph, "--view", "behaviors", "--reduce"], ["graph", catalog, "--view", "situation"],
             ["graph", catalog, "--view", "together"], ["graph", "--diff", catalog, catalog, "--format", "text"],
-            [*verify, "--cut-sets", "T0", "--order", "2"], [*verify, "--mutants", "--beside", missions],
-            [*verify, "--write-tests", f"{folder}/tests"]]
+            [*verify, "--max-states", "200"], [*verify, "--cut-sets", "T0", "--order", "2"],
+            [*verify, "--mutants", "--beside", missions], [*verify, "--write-tests", f"{folder}/tests"]]
 
 
 @dataclasses.dataclass
@@ -198,7 +199,8 @@ def read_options():
     parser = argparse.ArgumentParser(prog="./dev shapes", description=__doc__)
     known = {shape.__name__: shape for shape in SHAPES}
     parser.add_argument("shapes", nargs="*", metavar="SHAPE", help=f"only these: {', '.join(known)}")
-    parser.add_argument("--size", type=int, default=3000, metavar="N", help="tasks, behaviors or values (default: 3000)")
+    parser.add_argument("--size", type=int, default=3000, metavar="N",
+                        help="tasks, behaviors or values (default: 3000)")
     parser.add_argument("--seconds", type=float, default=15, help="that a command may take (default: 15)")
     parser.add_argument("--memory", type=int, default=2048, metavar="MIB", help="that it may take (default: 2048)")
     parser.add_argument("--output", type=int, default=64, metavar="MIB", help="that it may write (default: 64)")
