@@ -80,9 +80,6 @@ MissingMissions find_tests(const VerifyOptions& options, const VerifyQuestions& 
   MissingMissionOptions of_search;
   of_search.catalog = catalog_from(*options.write_tests, options, questions);
   if (options.max_states > 0) of_search.exploration.max_states = options.max_states;
-  if (!options.max_memory.empty()) {
-    of_search.exploration.max_memory = limits_of(options).max_memory;
-  }
   of_search.exploration.on_progress = [&](std::uint32_t group, std::uint64_t states) {
     progress.show(group, states);
     return true;

@@ -12,7 +12,7 @@ import sys
 import tempfile
 import time
 
-MISSION = "events:\n- start: T0\n- expect: {outcome: accepted}\n- stop: T0\n- {start: T0, priority: 3}\n"
+MISSION = "events:\n- start: T0\n- stop: T0\n- {start: T0, priority: 3}\n"
 TIME_LIMIT = 3  # seconds, of the commands that have one
 
 
@@ -153,8 +153,8 @@ def commands(catalog, missions, folder):
             ["compile", catalog, "-o", f"{folder}/out.cbc"],
             solve, [*solve, "--why", "T0"], [*solve, "--alternatives", "5"], [*solve, "--html", f"{folder}/out.html"],
             [*solve, "--coverage"], ["solve", "--sweep", "1", catalog],
-            graph, [*graph, "--view", "tasks"], [*graph, "--view", "constraints", "--exclusivity", "pairs"],
-            [*graph, "--view", "behaviors", "--reduce"], ["graph", catalog, "--view", "situation"],
+            graph, [*graph, "--view", "tasks", "--reduce"], [*graph, "--view", "constraints", "--exclusivity", "pairs"],
+            [*graph, "--view", "behaviors"], ["graph", catalog, "--view", "situation"],
             ["graph", catalog, "--view", "together"], ["graph", "--diff", catalog, catalog, "--format", "text"],
             [*verify, "--max-states", "200"], [*verify, "--cut-sets", "T0", "--order", "2"],
             [*verify, "--mutants", "--beside", missions], [*verify, "--write-tests", f"{folder}/tests"]]

@@ -126,8 +126,9 @@ TEST(Part, ManyExclusiveTasksAreCountedInstead) {
   EXPECT_EQ(diagram.nodes.back().left_out, 8U);
 }
 
-/// How the only list of so many exclusive tasks is drawn if pairs are asked for.
-std::vector<std::size_t> pairs_and_hubs(std::size_t tasks, View view) {
+/// How the only list of so many exclusive tasks, of two behaviors each, is drawn.
+std::vector<std::size_t> pairs_and_hubs(std::size_t tasks, View view,
+                                        ExclusivityStyle style = ExclusivityStyle::pairs) {
   std::string text = "behaviors:\n";
   std::string list;
   for (std::size_t task = 0; task < tasks; ++task) {
@@ -140,8 +141,8 @@ std::vector<std::size_t> pairs_and_hubs(std::size_t tasks, View view) {
   text += "exclusivity_constraints: [mutually_exclusive: [" + list + "]]\n";
   const auto subject = understand(text);
   const CatalogGraph graph = to_graph(subject->compiled);
-  const Diagram diagram = make_diagram(graph, whole(graph),
-                                       {view, ExclusivityStyle::pairs, Clustering::nothing, false});
+  const Diagram diagram =
+      make_diagram(graph, whole(graph), {view, style, Clustering::nothing, false});
   const auto hubs = std::count_if(diagram.nodes.begin(), diagram.nodes.end(),
                                   [](const Node& node) { return node.kind == NodeKind::hub; });
   const auto lines =

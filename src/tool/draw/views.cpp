@@ -264,9 +264,8 @@ void Builder::add_exclusions(ExclusivityStyle style) {
     std::vector<Member> members = members_of(list);
     if (members.size() < 2 && !has_named_task(graph_, part_, list)) continue;
     const std::size_t most = style == ExclusivityStyle::readable ? most_for_pairs : 2;
-    const bool has_few =
-        style == ExclusivityStyle::pairs ? has_few_nodes(members) : members.size() <= most;
-    if (members.size() == 1 || !has_few) {
+    const bool are_pairs = style == ExclusivityStyle::pairs || members.size() <= most;
+    if (members.size() == 1 || !are_pairs || !has_few_nodes(members)) {
       hubs.emplace_back(list, std::move(members));
       continue;
     }

@@ -109,13 +109,17 @@ bool BreadthFirst::expand_batch(StateStore::Number begin, StateStore::Number end
       Successors& successors = parts_[part];
       const auto first = begin + static_cast<StateStore::Number>(part) * part_size;
       const StateStore::Number last = std::min(end, first + part_size);
-      for (StateStore::Number number = first; number < last && !is_cut_; ++number) {
+      for (StateStore::Number number = first; number < last && !is_cut_ && !expander.is_done();
+           ++number) {
         successors.begin(number);
         expander.expand(store_.state(number), number, successors);
         successors.end();
       }
-      if (expander.is_done()) is_done = true;
-      look_at_limits();
+      if (expander.is_done()) {
+        is_done = true;
+      } else {
+        look_at_limits();
+      }
     }
   });
   if (is_done || is_cut_) return false;

@@ -43,7 +43,7 @@ struct Move {
 /// Where an exploration ends although states are left. 0: no limit.
 struct ExplorationLimits {
   std::uint64_t max_states = 0;
-  std::uint64_t max_memory = 0;  ///< bytes, of states, their index and remembered decisions
+  std::uint64_t max_memory = 0;  ///< bytes, of states, successors, tables and remembered decisions
   double seconds = 0;
 };
 

@@ -12,7 +12,7 @@ namespace cbc {
 
 namespace {
 
-/// The most words of Variable::misfits, of all variables: 128 MiB.
+/// The most words of Variable::misfits, of all variables.
 constexpr std::size_t most_misfit_words = std::size_t{1} << 24U;
 
 /// By number below a count: whether a list has it.

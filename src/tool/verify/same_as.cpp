@@ -425,9 +425,10 @@ class PairExpander final : public Expander {
       if (!stepper_.take(move)) continue;
       std::uint32_t* const packed = successors.add();
       stepper_.pack(packed);
-      if (first_difference_ == UINT32_MAX && differ(packed, packed + new_words)) {
+      if (differ(packed, packed + new_words)) {
         first_difference_ = number;
         difference_ = stepper_.move_of(move);
+        return;  // it ends the search
       }
     }
   }
@@ -665,7 +666,7 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
         });
     if (found->first_difference() == UINT32_MAX) continue;
     // There may be one before it, in a state that was not expanded.
-    if (search.was_cut_short() && found->first_difference() >= search.expanded()) continue;
+    if (search.was_cut_short() && found->first_difference() > search.expanded()) continue;
     std::vector<Move> moves =
         moves_along(models, search, found->first_difference(), options.reduce);
     moves.push_back(found->difference());
