@@ -113,6 +113,22 @@ TEST(Model, RefusesMoreTasksThanACellHolds) {
   EXPECT_TRUE(Model(catalog, {0}, default_assumptions(catalog)).find_obstacle());
 }
 
+/// What is found in the first move stays true when a limit comes right after it.
+TEST(Model, KeepsADifferenceThatALimitFollows) {
+  const CompiledCatalog before = compile_text("behaviors: [{behavior: OLD, task: T}]\n");
+  const CompiledCatalog after = compile_text("behaviors: [{behavior: NEW, task: T}]\n");
+  VerificationOptions options;
+  int looks = 0;
+  // Before the pair of groups, and before its first state.
+  options.on_progress = [&looks](const auto& /*groups*/, const ExplorationProgress& /*so_far*/) {
+    return ++looks <= 2;
+  };
+  const CatalogComparison comparison =
+      compare_catalogs(before, after, common_assumptions(before, after), options, {});
+  EXPECT_EQ(comparison.result, Verdict::Result::violated);
+  EXPECT_EQ(comparison.moves.size(), 1U);
+}
+
 /// Going through all old moves for each new one would take hours here.
 TEST(Model, PairsVeryManyMoves) {
   const CompiledCatalog catalog = compile_text(behaviors_of_one_task(Model::most_in_cell - 1));
