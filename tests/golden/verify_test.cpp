@@ -11,6 +11,7 @@
 
 #include "golden/process.h"
 #include "support/catalog_files.h"
+#include "support/exclusive_tasks.h"
 #include "support/scratch_folder.h"
 
 namespace cbc::golden {
@@ -232,15 +233,7 @@ TEST_F(Verify, RefusesGroupsThatAreTooLarge) {
 
 /// Each of these pairs would be a goal, and a mutant.
 TEST_F(Verify, RefusesToListMillionsOfPairs) {
-  std::string list;
-  std::string text = "behaviors:\n";
-  for (int task = 0; task <= 1000; ++task) {
-    const std::string name = "T" + std::to_string(task);
-    text += "- {behavior: B" + name + ", task: " + name + "}\n";
-    list += (task == 0 ? "" : ", ") + name;
-  }
-  text += "exclusivity_constraints: [mutually_exclusive: [" + list + "]]\n";
-  scratch.write("many.yaml", text);
+  scratch.write("many.yaml", test::exclusive_tasks(1001));
   scratch.write("mission.yaml", "[{start: T0}]\n");
   const std::string message = ": the exclusivity lists of '" + (scratch / "many.yaml") +
                               "' have 500500 pairs of tasks; expected at most 500000\n";

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "coverage/goal_proof.h"
+#include "support/exclusive_tasks.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc {
@@ -39,15 +40,7 @@ using Reasons = std::map<std::string, std::string>;
 
 /// The first state of this group has 2,000 moves.
 TEST(GoalProof, EndsWithinAStateAndProvesNothingThen) {
-  std::string text = "behaviors:\n";
-  std::string list = "T0";
-  for (int task = 0; task < 1000; ++task) {
-    const std::string number = std::to_string(task);
-    text += "- {behavior: B" + number + ", task: T" + number + "}\n";
-    if (task > 0) list += ", T" + number;
-  }
-  const CompiledCatalog catalog =
-      test::compile_text(text + "exclusivity_constraints: [mutually_exclusive: [" + list + "]]\n");
+  const CompiledCatalog catalog = test::compile_text(test::exclusive_tasks(1000));
   const auto prove = [&](const GroupWalkOptions& walk) {
     const GoalProof proof =
         prove_unreachable(catalog, {}, assumptions_of_goals(catalog), {{}, walk});

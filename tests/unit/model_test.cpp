@@ -13,6 +13,7 @@
 #include "base/disjoint_sets.h"
 #include "compile/compile.h"
 #include "compiled/compiled_catalog.h"
+#include "support/exclusive_tasks.h"
 #include "support/rounds.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
@@ -100,15 +101,7 @@ TEST(Model, RefusesTooManyBehaviorsTimesValues) {
 }
 
 TEST(Model, RefusesMoreTasksThanACellHolds) {
-  std::string text = "behaviors:\n";
-  std::string list;
-  for (std::size_t task = 0; task <= Model::most_in_cell; ++task) {
-    const std::string number = std::to_string(task);
-    text += "- {behavior: B" + number + ", task: T" + number + "}\n";
-    list += (task == 0 ? "T" : ", T") + number;
-  }
-  const CompiledCatalog catalog =
-      compile_text(text + "exclusivity_constraints: [{mutually_exclusive: [" + list + "]}]\n");
+  const CompiledCatalog catalog = compile_text(test::exclusive_tasks(Model::most_in_cell + 1));
   ASSERT_EQ(catalog.group_count(), 1U);
   EXPECT_TRUE(Model(catalog, {0}, default_assumptions(catalog)).find_obstacle());
 }

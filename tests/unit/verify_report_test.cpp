@@ -6,10 +6,10 @@
 #include <memory>
 #include <string>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "support/exclusive_tasks.h"
 #include "unit/compiled_fixture.h"
 #include "verify/verification.h"
 
@@ -100,15 +100,9 @@ TEST(VerifyReport, SaysWhatEndedAnExploration) {
 /// What is said of the pairs of a group of tasks that have all been seen to run, the first two of
 /// them together.
 std::string pairs_of_group(std::size_t tasks) {
-  std::string catalog = "behaviors:\n";
-  std::string list;
-  for (std::size_t task = 0; task < tasks; ++task) {
-    catalog += fmt::format("- {{behavior: B{0}, task: T{0}}}\n", task);
-    list += fmt::format("{}T{}", task == 0 ? "" : ", ", task);
-  }
-  catalog += fmt::format("exclusivity_constraints: [mutually_exclusive: [{}]]\n", list);
   VerifyResult result;
-  result.catalog = std::make_shared<const CompiledCatalog>(test::compile_text(catalog));
+  result.catalog =
+      std::make_shared<const CompiledCatalog>(test::compile_text(test::exclusive_tasks(tasks)));
   Exploration exploration;
   exploration.groups = {0};
   exploration.complete = true;
