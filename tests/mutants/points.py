@@ -154,6 +154,8 @@ class _Finder:
             return "constant expression"
         elif kind in NAMES and begin > cursor.location.offset:
             return "in a type"
+        elif kind == CursorKind.CALL_EXPR and cursor.spelling == "reserve":
+            return "amount of reserved memory"
         elif kind in (CursorKind.CXX_UNARY_EXPR, CursorKind.TEMPLATE_NON_TYPE_PARAMETER):
             return "constant expression"
         elif kind in FUNCTIONS and child.kind.is_expression():  # noexcept and requires

@@ -44,6 +44,10 @@ int calculate(int a, int b, bool flag) {
   if ((a <=> b) < 0) ++sum;
   return flag ? sum / 2 : ~sum;
 }
+struct Memory {
+  void reserve(int) {}
+};
+void prepare(Memory& memory, int count) { memory.reserve(count + 1); }
 """
 
 EXPECTED = [
@@ -70,6 +74,7 @@ EXPECTED = [
     (29, "comparison", "<", ">="), (29, "statement", "++sum;", "{}"), (29, "arithmetic", "++", "--"),
     (30, "comparison", "", "!"), (30, "arithmetic", "/", "*"), (30, "swap", "sum / 2", "2 / sum"),
     (30, "constant", "2", "3"), (30, "constant", "2", "1"), (30, "arithmetic", "~", ""),
+    (35, "statement", "memory.reserve(count + 1);", "{}"),
 ]
 
 # Calls a function of the mutated source and of the changed ones, which must agree.
@@ -114,9 +119,10 @@ class Points(unittest.TestCase):
         self.assertEqual(sorted(found), sorted(EXPECTED))
 
     def test_counts_what_it_leaves_out(self):
-        # `7 * 3`, `> 20`, `= 1`, `case 1`; the 5; the [3]; `if (const int rest`.
+        # `7 * 3`, `> 20`, `= 1`, `case 1`; the 5; the [3]; `if (const int rest`; `count + 1`.
         self.assertEqual(self.skipped, {"constant expression": 5 + 4 + 2 + 2, "initial value of a member": 2,
-                                        "in a type": 2, "declaration in a condition": 1})
+                                        "in a type": 2, "declaration in a condition": 1,
+                                        "amount of reserved memory": 3})
 
     def test_selecting_is_changing(self):
         mutated = points.write_mutated(SAMPLE, self.points, 1)
