@@ -399,10 +399,9 @@ const Problem* Coordinator::search(const Trigger& trigger) {
     if (trigger.kind == Trigger::Kind::finish && result.status == SearchStatus::unknown) {
       return &keep_present(protection);
     }
-    const auto next =
-        trigger.kind == Trigger::Kind::finish && result.status == SearchStatus::infeasible
-            ? problem_builder_.next_protection(protection)
-            : std::nullopt;
+    const auto next = trigger.kind == Trigger::Kind::finish
+                          ? problem_builder_.next_protection(protection)
+                          : std::nullopt;
     if (!next) {
       note_domain_sizes(problem);
       return nullptr;

@@ -89,7 +89,7 @@ void ProblemBuilder::rank_requests(std::uint64_t event) {
 std::optional<std::int32_t> ProblemBuilder::next_protection(std::int32_t level) const {
   std::optional<std::int32_t> next;
   for (TaskId task = first_task_; task < end_task_; ++task) {
-    if (has_finished(task) || !state_.has_request(task)) continue;
+    if (!state_.has_request(task)) continue;
     const std::int32_t priority = state_.request(task).priority;
     if (priority > level && (!next || priority < *next)) next = priority;
   }

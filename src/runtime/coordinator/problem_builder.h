@@ -49,6 +49,7 @@ class ProblemBuilder {
   /// The first protection level to try.
   [[nodiscard]] std::int32_t first_protection() const { return first_protection_; }
   /// The lowest level above `level` that protects fewer tasks; none if all levels protect alike.
+  /// `level` is the first one or above, so above the requests of what has finished.
   [[nodiscard]] std::optional<std::int32_t> next_protection(std::int32_t level) const;
 
   /// The problem at a protection level. Valid until the next call.
