@@ -9,6 +9,7 @@
 #include "compile/compile.h"
 #include "solver/components.h"
 #include "solver/cost_bound.h"
+#include "solver/objective.h"
 #include "solver/propagator.h"
 #include "support/rounds.h"
 #include "unit/brute_force.h"
@@ -34,6 +35,7 @@ class Subtree {
     domains.load(problem);
     propagator.load(problem);
     components.load(problem);
+    objective.load(problem);
   }
   /// The domains afterwards, "A:a1,a2 B?:b" ("?": it may stop, too), or "inconsistent".
   std::string need(const std::vector<std::string>& tasks) {
@@ -49,6 +51,17 @@ class Subtree {
   /// Decides for the first value of a task.
   void decide(std::string_view task) {
     EXPECT_TRUE(domains.keep_only(local(task), 0));
+    EXPECT_TRUE(propagator.propagate());
+  }
+  /// Decides as in a solution, with this chance for each task, in percent.
+  void follow(const Assignment& solution, test::Random& random, std::size_t chance) {
+    for (std::uint32_t task = 0; task < domains.task_count(); ++task) {
+      const std::uint32_t index = solution[task];
+      EXPECT_TRUE(problem.may_stop[task] != 0 || domains.need(task));
+      if (!random.percent(chance)) continue;
+      EXPECT_TRUE(index == none ? domains.close(task)
+                                : domains.need(task) && domains.keep_only(task, index));
+    }
     EXPECT_TRUE(propagator.propagate());
   }
 
@@ -76,6 +89,8 @@ class Subtree {
   Propagator propagator{catalog, domains};
   Components components{catalog, domains};
   CostBound cost_bound{catalog, domains, components};
+  const std::vector<std::uint32_t> ranks;
+  Objective objective{catalog, domains, components, ranks};
 
  private:
   [[nodiscard]] std::uint32_t local(std::string_view task) const {
@@ -183,6 +198,85 @@ behaviors:
 - {behavior: c, task: C, suitability: 89.2051}
 )");
   EXPECT_EQ(misleading.need({"A"}), "A:a B:b1,b2 C:c");
+}
+
+// The comparison with the incumbent --------------------------------------------------------------
+
+/// Compares a subtree in which these tasks have to run with its solution in which each of them has
+/// the first of its behaviors.
+Objective::Comparison compare_with_first(Subtree& subtree, const std::vector<std::string>& tasks) {
+  EXPECT_NE(subtree.need(tasks), "inconsistent");
+  const Domains::Mark root = subtree.domains.mark();
+  for (const std::string& task : tasks) subtree.decide(task);
+  Incumbent incumbent;
+  subtree.objective.record(incumbent);
+  subtree.domains.undo_to(root);
+  return subtree.objective.compare(incumbent, 0);
+}
+
+TEST(Comparison, SharesAnActivationAmongTheTasksThatMayHaveTheBehavior) {
+  Subtree subtree(R"(
+default_values: {tasks: {start_on_request: false}}
+behaviors:
+- {behavior: a, task: A}
+- {behavior: b, task: B}
+- {behavior: c1, task: C}
+- {behavior: c2, task: C}
+- {behavior: ab, tasks: [{task: A}, {task: B}]}
+)");
+  const Objective::Comparison open = compare_with_first(subtree, {"A", "B", "C"});
+  EXPECT_TRUE(open.order < 0);
+  EXPECT_EQ(open.decider, Objective::Decider::changes) << "A and B need one activation";
+  subtree.leave_out("B", "ab");
+  const Objective::Comparison apart = compare_with_first(subtree, {"A", "B", "C"});
+  EXPECT_TRUE(apart.order == 0);
+  EXPECT_EQ(apart.decider, Objective::Decider::order) << "each task needs one of its own";
+}
+
+TEST(Comparison, CountsHalfAnActivationAsOne) {
+  Subtree subtree(R"(
+default_values: {tasks: {start_on_request: false}}
+behaviors:
+- {behavior: ab, tasks: [{task: A}, {task: B}]}
+- {behavior: a, task: A}
+- {behavior: b, task: B}
+- {behavior: c, task: C}
+- {behavior: bc, tasks: [{task: B}, {task: C}]}
+)");
+  const Objective::Comparison comparison = compare_with_first(subtree, {"A", "B", "C"});
+  EXPECT_TRUE(comparison.order == 0);
+  EXPECT_EQ(comparison.decider, Objective::Decider::order) << "three tasks need two behaviors";
+}
+
+/// Of subtrees that have the best solution.
+TEST(Comparison, NeverRulesOutTheBestSolution) {
+  test::Random random(3);
+  int compared = 0;
+  for (int round = 0; round < test::rounds(600); ++round) {
+    test::Shape shape;
+    shape.several_tasks = 50;
+    shape.on_request = 10;
+    shape.minimum = 0;
+    Subtree subtree(compile(test::random_catalog(random, shape)));
+    subtree.problem =
+        test::random_problem(random, subtree.catalog, test::largest_group(subtree.catalog));
+    const test::BruteForce brute_force(subtree.catalog, subtree.problem);
+    const std::vector<Assignment>& solutions = brute_force.solutions();
+    if (solutions.empty()) continue;
+    const Assignment best = *brute_force.best();
+    for (int branch = 0; branch < 10; ++branch) {
+      subtree.load();
+      subtree.follow(solutions[random.below(solutions.size())], random, 100);
+      Incumbent incumbent;
+      subtree.objective.record(incumbent);
+      if (incumbent.assignment == best) continue;
+      subtree.load();
+      subtree.follow(best, random, 50);
+      ASSERT_TRUE(subtree.objective.compare(incumbent, 0).order < 0) << "round " << round;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, test::rounds(1'000));
 }
 
 // Components -----------------------------------------------------------------------------------

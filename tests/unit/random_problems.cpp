@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "unit/compiled_fixture.h"
+
 namespace cbc::test {
 namespace {
 
@@ -170,6 +172,29 @@ Problem random_problem(Random& random, const CompiledCatalog& catalog, std::uint
   std::sort(problem.active.begin(), problem.active.end());
   problem.active.erase(std::unique(problem.active.begin(), problem.active.end()),
                        problem.active.end());
+  return problem;
+}
+
+Problem random_open_problem(Random& random, const CompiledCatalog& catalog) {
+  Problem problem = open_problem(catalog, largest_group(catalog));
+  const TaskId first = catalog.group_tasks[problem.group];
+  const auto tasks = static_cast<std::uint32_t>(problem.may_stop.size());
+  for (std::uint32_t task = 0; task < tasks; ++task) {
+    const auto values = catalog.values[first + task];
+    if (values.empty() || !random.percent(40)) continue;
+    problem.present[task] = static_cast<std::uint32_t>(random.below(values.size()));
+    problem.active.push_back(values[problem.present[task]].behavior);
+  }
+  std::sort(problem.active.begin(), problem.active.end());
+  problem.active.erase(std::unique(problem.active.begin(), problem.active.end()),
+                       problem.active.end());
+  const std::size_t requests = 2 + random.below(6);
+  for (std::size_t i = 0; i < requests; ++i) {
+    const auto task = static_cast<std::uint32_t>(random.below(tasks));
+    if (std::count(problem.requests.begin(), problem.requests.end(), task) > 0) continue;
+    problem.requests.push_back(task);
+    if (random.percent(30) || i == 0) problem.may_stop[task] = 0;
+  }
   return problem;
 }
 

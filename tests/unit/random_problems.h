@@ -38,4 +38,8 @@ struct Shape {
 [[nodiscard]] Problem random_problem(Random& random, const CompiledCatalog& catalog,
                                      std::uint32_t group);
 
+/// Much is open in its largest group: several tasks are requested, some of them have to run, and
+/// nearly every behavior is available.
+[[nodiscard]] Problem random_open_problem(Random& random, const CompiledCatalog& catalog);
+
 }  // namespace cbc::test

@@ -329,7 +329,7 @@ class RandomSearch {
         trail_(catalog, domains_),
         bound_(catalog, domains_, trail_),
         performance_(catalog, domains_, trail_),
-        objectives_(domains_, objective_, bound_, trail_) {
+        objectives_(catalog, domains_, objective_, bound_, trail_) {
     trail_.set_lazy_reasons(objectives_);
     domains_.load(problem);
     components_.load(problem);

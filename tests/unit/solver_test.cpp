@@ -503,31 +503,6 @@ TEST(Solver, AgreesWithBruteForceOnMoreThanSixtyFourValues) {
 
 // Larger ones ----------------------------------------------------------------------------------
 
-/// Much is open: several tasks are requested, some of them have to run, and nearly every behavior
-/// is available.
-Problem random_open_problem(test::Random& random, const CompiledCatalog& catalog) {
-  Problem problem = open_problem(catalog, test::largest_group(catalog));
-  const TaskId first = catalog.group_tasks[problem.group];
-  const auto tasks = static_cast<std::uint32_t>(problem.may_stop.size());
-  for (std::uint32_t task = 0; task < tasks; ++task) {
-    const auto values = catalog.values[first + task];
-    if (values.empty() || !random.percent(40)) continue;
-    problem.present[task] = static_cast<std::uint32_t>(random.below(values.size()));
-    problem.active.push_back(values[problem.present[task]].behavior);
-  }
-  std::sort(problem.active.begin(), problem.active.end());
-  problem.active.erase(std::unique(problem.active.begin(), problem.active.end()),
-                       problem.active.end());
-  const std::size_t requests = 2 + random.below(6);
-  for (std::size_t i = 0; i < requests; ++i) {
-    const auto task = static_cast<std::uint32_t>(random.below(tasks));
-    if (std::count(problem.requests.begin(), problem.requests.end(), task) > 0) continue;
-    problem.requests.push_back(task);
-    if (random.percent(30) || i == 0) problem.may_stop[task] = 0;
-  }
-  return problem;
-}
-
 TEST(Solver, AnswersOfLargerProblemsDoNotDependOnRestarts) {
   test::Random random(10);
   int proven = 0;
@@ -547,7 +522,7 @@ TEST(Solver, AnswersOfLargerProblemsDoNotDependOnRestarts) {
     shape.any_percent = random.percent(70) ? 100 : 0;
     shape.is_deep = true;
     const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
-    const Problem problem = random_open_problem(random, catalog);
+    const Problem problem = test::random_open_problem(random, catalog);
     std::optional<Answer> first;
     for (SearchOptions options :
          {restarting_after(0), SearchOptions(), restarting_after(7), restarting_after(never),

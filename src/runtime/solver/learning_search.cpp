@@ -15,7 +15,7 @@ LearningSearch::LearningSearch(const CompiledCatalog& catalog, Domains& domains,
       trail_(catalog, domains),
       bound_(catalog, domains, trail_),
       performance_(catalog, domains, trail_),
-      objectives_(domains, objective, bound_, trail_) {
+      objectives_(catalog, domains, objective, bound_, trail_) {
   trail_.set_lazy_reasons(objectives_);
 }
 

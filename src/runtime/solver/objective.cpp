@@ -107,20 +107,20 @@ void Objective::load(const Problem& problem) {
   }
 }
 
-/// Whether the task may run in a best solution of the present subtree.
-bool Objective::may_run(std::uint32_t task) const {
-  return domains_.needed(task) || (is_request_[task] != 0 && domains_.count(task) > 0);
-}
-
-bool Objective::may_beat(const Incumbent& incumbent, std::uint32_t depth) {
-  if (!incumbent.exists) return true;
-  if (const auto order = compare_requests(incumbent); order != 0) return order < 0;
-  if (const auto order = compare_suitability(incumbent); order != 0) return order < 0;
-  const std::uint32_t idle = domains_.sums().idle;
-  if (idle != incumbent.sums.idle) return idle < incumbent.sums.idle;
-  const std::uint32_t changes = least_changes();
-  if (changes != incumbent.changes) return changes < incumbent.changes;
-  return compare_keys(incumbent, depth) < 0;
+Objective::Comparison Objective::compare(const Incumbent& incumbent, std::uint32_t depth) {
+  if (const auto order = compare_requests(incumbent); order != 0) {
+    return {order, Decider::requests};
+  }
+  if (const auto order = compare_suitability(incumbent); order != 0) {
+    return {order, Decider::suitability};
+  }
+  if (const auto order = domains_.sums().idle <=> incumbent.sums.idle; order != 0) {
+    return {order, Decider::idle};
+  }
+  if (const auto order = least_changes() <=> incumbent.changes; order != 0) {
+    return {order, Decider::changes};
+  }
+  return {compare_keys(incumbent, depth), Decider::order};
 }
 
 std::strong_ordering Objective::compare_requests(const Incumbent& incumbent) const {
@@ -179,41 +179,80 @@ std::uint32_t Objective::least_changes() { return least_activations() + least_de
 std::uint32_t Objective::least_activations() {
   ++count_number_;
   std::uint32_t activations = 0;
+  bool has_open_tasks = false;
   for (const std::uint32_t task : domains_.needed_tasks()) {
-    const auto words = domains_.words(task);
-    const std::uint64_t* const free = &free_[domains_.word_begin(task)];
-    bool is_free = false;
-    for (std::size_t word = 0; word < words.size(); ++word) {
-      if ((words[word] & free[word]) != 0) is_free = true;
-    }
-    if (is_free) {
-      // A behavior of several tasks counts once, and only where it is decided.
-      if (domains_.count(task) > 1) continue;
+    if (!has_free_value(task)) {
+      ++activations;
+    } else if (domains_.count(task) > 1) {
+      has_open_tasks = true;
+    } else {
       const BehaviorId behavior = domains_.value(task, domains_.best(task)).behavior;
-      if (was_active(behavior)) continue;
-      std::uint64_t& counted = counted_[behavior - domains_.first_behavior()];
-      if (counted == count_number_) continue;
-      counted = count_number_;
+      if (was_active(behavior) || is_counted(behavior)) continue;
+      counted_[behavior - domains_.first_behavior()] = count_number_;
+      ++activations;
     }
-    ++activations;
   }
-  return activations;
+  return has_open_tasks ? activations + least_activations_of_open_tasks() : activations;
+}
+
+namespace {
+
+/// One activation; the least common multiple of 1 to 8, so that few shares are rounded.
+constexpr std::uint32_t whole_share = 840;
+
+}  // namespace
+
+/// Activations beyond the counted ones. Each task takes at least its least share of one.
+std::uint32_t Objective::least_activations_of_open_tasks() {
+  std::uint32_t shares = 0;
+  for (const std::uint32_t task : domains_.needed_tasks()) {
+    if (domains_.count(task) > 1 && has_free_value(task)) shares += least_share(task);
+  }
+  return (shares + whole_share - 1) / whole_share;
+}
+
+/// The least share of an activation that a value of the task has. Tasks that may have one behavior
+/// share its activation; none is needed for a behavior that was active, or is counted.
+std::uint32_t Objective::least_share(std::uint32_t task) const {
+  std::uint32_t most_tasks = 1;
+  const auto values = domains_.values(task);
+  for (std::uint32_t index = 0; index < values.size(); ++index) {
+    if (!is_free(task, index) || !domains_.has(task, index)) continue;
+    const BehaviorId behavior = values[index].behavior;
+    if (was_active(behavior) || is_counted(behavior)) return 0;
+    std::uint32_t tasks = 0;
+    for (const ValueId value : catalog_.performs[behavior]) {
+      const TaskId other = catalog_.task_of(value);
+      const std::uint32_t local = other - domains_.first_task();
+      if (may_run(local) && domains_.has(local, value - catalog_.values.begin[other])) ++tasks;
+    }
+    most_tasks = std::max(most_tasks, tasks);
+  }
+  return whole_share / most_tasks;
+}
+
+bool Objective::has_free_value(std::uint32_t task) const {
+  const auto words = domains_.words(task);
+  const std::uint64_t* const free = &free_[domains_.word_begin(task)];
+  for (std::size_t word = 0; word < words.size(); ++word) {
+    if ((words[word] & free[word]) != 0) return true;
+  }
+  return false;
 }
 
 std::uint32_t Objective::least_deactivations() const {
-  std::uint32_t deactivations = 0;
-  for (const BehaviorId behavior : problem_->active) {
-    bool may_stay = false;
-    for (const ValueId value : catalog_.performs[behavior]) {
-      const TaskId task = catalog_.task_of(value);
-      const std::uint32_t local = task - domains_.first_task();
-      if (may_run(local) && domains_.has(local, value - catalog_.values.begin[task])) {
-        may_stay = true;
-      }
-    }
-    if (!may_stay) ++deactivations;
-  }
-  return deactivations;
+  return static_cast<std::uint32_t>(
+      std::count_if(problem_->active.begin(), problem_->active.end(),
+                    [this](BehaviorId behavior) { return !may_stay(behavior); }));
+}
+
+bool Objective::may_stay(BehaviorId behavior) const {
+  const auto values = catalog_.performs[behavior];
+  return std::any_of(values.begin(), values.end(), [this](ValueId value) {
+    const TaskId task = catalog_.task_of(value);
+    const std::uint32_t local = task - domains_.first_task();
+    return may_run(local) && domains_.has(local, value - catalog_.values.begin[task]);
+  });
 }
 
 /// The canonical order: compares the lowest ranks that are left, task by task. "less" is better.

@@ -76,10 +76,21 @@ class Objective {
   /// To be called after Domains::load.
   void load(const Problem& problem);
 
-  /// Whether a solution in the present subtree may be better than `incumbent`, the best of the
+  /// The first objective that tells two solutions apart.
+  enum class Decider : std::uint8_t { requests, suitability, idle, changes, order };
+  struct Comparison {
+    std::strong_ordering order = std::strong_ordering::equal;  ///< "less" is better
+    Decider decider = Decider::order;
+  };
+
+  /// Compares a bound on the solutions in the present subtree with `incumbent`, the best of the
   /// component entered at `depth`. Exact where the subtree is solved: each needed task of the
   /// component has one behavior left and no request is undecided.
-  [[nodiscard]] bool may_beat(const Incumbent& incumbent, std::uint32_t depth);
+  [[nodiscard]] Comparison compare(const Incumbent& incumbent, std::uint32_t depth);
+  /// Whether a solution in the present subtree may be better than `incumbent`; see compare().
+  [[nodiscard]] bool may_beat(const Incumbent& incumbent, std::uint32_t depth) {
+    return !incumbent.exists || compare(incumbent, depth).order < 0;
+  }
 
   /// f1, then the requests from the most important one down: how the best of the subtree compares
   /// with `incumbent`. "less" is better.
@@ -101,6 +112,18 @@ class Objective {
   [[nodiscard]] bool was_active(BehaviorId behavior) const {
     return active_[behavior - domains_.first_behavior()] != 0;
   }
+  [[nodiscard]] bool is_request(std::uint32_t task) const { return is_request_[task] != 0; }
+  /// Whether a task may get this value without an activation of its own: the behavior was active,
+  /// or performs other tasks, too.
+  [[nodiscard]] bool is_free(std::uint32_t task, std::uint32_t index) const {
+    return ((free_[domains_.word_begin(task) + index / 64] >> (index % 64)) & 1) != 0;
+  }
+  /// Whether the task may run in a best solution of the present subtree.
+  [[nodiscard]] bool may_run(std::uint32_t task) const {
+    return domains_.needed(task) || (is_request(task) && domains_.count(task) > 0);
+  }
+  /// Whether a behavior that was active may stay so in a best solution of the present subtree.
+  [[nodiscard]] bool may_stay(BehaviorId behavior) const;
 
  private:
   [[nodiscard]] std::strong_ordering compare_suitability(const Incumbent& incumbent);
@@ -109,8 +132,13 @@ class Objective {
                                                   std::uint32_t depth) const;
   [[nodiscard]] std::uint32_t least_changes();
   [[nodiscard]] std::uint32_t least_activations();
+  [[nodiscard]] std::uint32_t least_activations_of_open_tasks();
+  [[nodiscard]] std::uint32_t least_share(std::uint32_t task) const;
   [[nodiscard]] std::uint32_t least_deactivations() const;
-  [[nodiscard]] bool may_run(std::uint32_t task) const;
+  [[nodiscard]] bool has_free_value(std::uint32_t task) const;
+  [[nodiscard]] bool is_counted(BehaviorId behavior) const {
+    return counted_[behavior - domains_.first_behavior()] == count_number_;
+  }
 
   const CompiledCatalog& catalog_;
   const Domains& domains_;
@@ -120,7 +148,7 @@ class Objective {
   CanonicalOrder order_;
   std::vector<std::uint8_t> is_request_;  ///< by task
   std::vector<std::uint8_t> active_;      ///< by behavior of the group: active before the event
-  std::vector<std::uint64_t> free_;       ///< as domains: values whose choice may add no activation
+  std::vector<std::uint64_t> free_;       ///< as domains; see is_free
   std::vector<std::uint64_t> counted_;    ///< by behavior of the group: last count it was in
   std::uint64_t count_number_ = 0;
   ExactProduct ours_;

@@ -4,9 +4,9 @@
 
 namespace cbc {
 
-ObjectiveReasons::ObjectiveReasons(const Domains& domains, Objective& objective,
-                                   LandmarkBound& bound, ReasonTrail& trail)
-    : domains_(domains), objective_(objective), bound_(bound), trail_(trail) {}
+ObjectiveReasons::ObjectiveReasons(const CompiledCatalog& catalog, const Domains& domains,
+                                   Objective& objective, LandmarkBound& bound, ReasonTrail& trail)
+    : catalog_(catalog), domains_(domains), objective_(objective), bound_(bound), trail_(trail) {}
 
 bool ObjectiveReasons::propagate(const Incumbent& incumbent) {
   if (objective_.compare_requests(incumbent) > 0) {
@@ -20,11 +20,13 @@ bool ObjectiveReasons::propagate(const Incumbent& incumbent) {
   if (trail_.literals().size() > before || !objective_.ties_on_requests(incumbent)) return true;
   const CostBound::Cost limits = pruning_threshold(incumbent, domains_.task_count());
   if (!bound_costs(limits, false)) return false;
-  if (trail_.literals().size() > before || objective_.may_beat(incumbent, 0)) return true;
+  if (trail_.literals().size() > before) return true;
+  const Objective::Comparison comparison = objective_.compare(incumbent, 0);
+  if (comparison.order < 0) return true;
   // The bound has better reasons.
   if (!bound_costs(limits, true)) return false;
   if (trail_.literals().size() > before) return true;
-  explain_all();
+  explain_comparison(incumbent, comparison.decider);
   trail_.set_conflict(reason_);
   return false;
 }
@@ -109,16 +111,79 @@ void ObjectiveReasons::append_lost_requests(std::size_t end, std::vector<Literal
   }
 }
 
-/// The comparison of f3, f4 and ranks looks at all that is left for the needed tasks. Others do not
-/// run where f1 to f3 are those of the incumbent.
-void ObjectiveReasons::explain_all() {
+/// What the comparison rests on, up to the objective that decides: each of them is at least as bad
+/// in any solution with the same facts. A solution that leaves out one more request is worse, so
+/// each other request counts as running.
+void ObjectiveReasons::explain_comparison(const Incumbent& incumbent, Objective::Decider decider) {
   explain_requests();
+  append_needed_tasks(decider);
+  if (decider < Objective::Decider::changes) return;
+  // With f1 to f3 of the incumbent nothing runs but the needed tasks.
+  append_activations();
+  append_deactivations();
+  if (decider == Objective::Decider::order) append_order(incumbent);
+}
+
+/// f2 and f3: the tasks that have to run, and that they cannot do better.
+void ObjectiveReasons::append_needed_tasks(Objective::Decider decider) {
   for (const std::uint32_t task : domains_.needed_tasks()) {
-    reason_.push_back(ReasonTrail::runs(task));
-    const auto values = static_cast<std::uint32_t>(domains_.values(task).size());
-    for (std::uint32_t index = 0; index < values; ++index) {
-      if (!domains_.has(task, index)) reason_.push_back(negate(trail_.has_value(task, index)));
+    const std::uint32_t best = domains_.best(task);
+    const bool is_perfect = domains_.value(task, best).suitability == one_million;
+    if (is_perfect && decider == Objective::Decider::suitability) continue;
+    if (!objective_.is_request(task)) reason_.push_back(ReasonTrail::runs(task));
+    if (is_perfect) continue;
+    append_removed_values(task, [best](std::uint32_t index) { return index < best; });
+  }
+}
+
+/// f4: the values with which tasks might have shared an activation, or needed none.
+void ObjectiveReasons::append_activations() {
+  for (const std::uint32_t task : domains_.needed_tasks()) {
+    append_removed_values(task,
+                          [&](std::uint32_t index) { return objective_.is_free(task, index); });
+    const std::uint32_t best = domains_.best(task);
+    if (domains_.count(task) == 1 && objective_.is_free(task, best)) {
+      reason_.push_back(trail_.has_value(task, best));
     }
+  }
+}
+
+/// f4: the behaviors that cannot stay active.
+void ObjectiveReasons::append_deactivations() {
+  for (const BehaviorId behavior : problem_->active) {
+    if (objective_.may_stay(behavior)) continue;
+    for (const ValueId value : catalog_.performs[behavior]) {
+      const TaskId id = catalog_.task_of(value);
+      const std::uint32_t task = id - domains_.first_task();
+      if (!objective_.may_run(task)) continue;
+      reason_.push_back(negate(trail_.has_value(task, value - catalog_.values.begin[id])));
+    }
+  }
+}
+
+/// The canonical order: up to the task that decides, no value comes before that of the incumbent;
+/// of that task not even the same.
+void ObjectiveReasons::append_order(const Incumbent& incumbent) {
+  for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
+    const std::uint32_t theirs = incumbent.assignment[task];
+    const bool may_run = objective_.may_run(task);
+    if (may_run) {
+      const std::uint32_t key = objective_.key(task, theirs);
+      append_removed_values(
+          task, [&](std::uint32_t index) { return objective_.key(task, index) <= key; });
+    }
+    const bool may_be_equal = theirs == none ? !may_run : may_run && domains_.has(task, theirs);
+    if (!may_be_equal) return;
+  }
+}
+
+/// Appends that the task does not have any of the removed values that matter.
+template <typename Matters>
+void ObjectiveReasons::append_removed_values(std::uint32_t task, Matters matters) {
+  const auto values = static_cast<std::uint32_t>(domains_.values(task).size());
+  for (std::uint32_t index = 0; index < values; ++index) {
+    if (domains_.has(task, index) || !matters(index)) continue;
+    reason_.push_back(negate(trail_.has_value(task, index)));
   }
 }
 

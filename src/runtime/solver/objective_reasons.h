@@ -17,8 +17,8 @@ namespace cbc {
 /// its f2, and then the exact comparison of all objectives.
 class ObjectiveReasons final : public LazyReasons {
  public:
-  ObjectiveReasons(const Domains& domains, Objective& objective, LandmarkBound& bound,
-                   ReasonTrail& trail);
+  ObjectiveReasons(const CompiledCatalog& catalog, const Domains& domains, Objective& objective,
+                   LandmarkBound& bound, ReasonTrail& trail);
 
   void load(const Problem& problem) { problem_ = &problem; }
   /// To be called at a fixpoint of the trail; there may be more to propagate afterwards. False: see
@@ -35,8 +35,15 @@ class ObjectiveReasons final : public LazyReasons {
   [[nodiscard]] bool bound_costs(const CostBound::Cost& limits, bool is_final);
   void append_lost_requests(std::size_t end, std::vector<Literal>& reason) const;
   void explain_requests();
-  void explain_all();
+  void explain_comparison(const Incumbent& incumbent, Objective::Decider decider);
+  void append_needed_tasks(Objective::Decider decider);
+  void append_activations();
+  void append_deactivations();
+  void append_order(const Incumbent& incumbent);
+  template <typename Matters>
+  void append_removed_values(std::uint32_t task, Matters matters);
 
+  const CompiledCatalog& catalog_;
   const Domains& domains_;
   Objective& objective_;
   LandmarkBound& bound_;

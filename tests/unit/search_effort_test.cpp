@@ -1,0 +1,182 @@
+// How much work the search takes, in decisions and propagations, on problems that are always the
+// same. No answer shows it where a bound gets weaker or an inference comes too late, but more work
+// does. The bounds are what it took when they were measured, and a hundredth more. Who makes the
+// search better, lowers them; who makes it worse for a good reason, raises them and says why.
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "compile/compile.h"
+#include "solver/solver.h"
+#include "unit/compiled_fixture.h"
+#include "unit/random_problems.h"
+
+namespace cbc {
+namespace {
+
+constexpr std::uint64_t never = UINT64_MAX;
+
+enum class Family : std::uint8_t {
+  small,
+  deep,       ///< long chains of requirements
+  minimums,   ///< many minimum performances
+  exclusive,  ///< many lists
+  equal,      ///< all suitabilities are 1, so f3, f4 and the canonical order decide
+  wide        ///< many behaviors of a task
+};
+
+test::Shape shape_of(Family family, test::Random& random) {
+  test::Shape shape;
+  shape.on_request = 0;
+  switch (family) {
+    case Family::small:
+      shape.tasks = 9;
+      shape.minimum = 30;
+      shape.exclusivity_lists = 2;
+      shape.on_request = 30;
+      break;
+    case Family::deep:
+      shape.tasks = static_cast<std::uint32_t>(random.between(20, 40));
+      shape.most_behaviors = 4;
+      shape.exclusivity_lists = static_cast<std::uint32_t>(random.below(5));
+      shape.most_exclusive = 4;
+      shape.several_tasks = 5;
+      shape.minimum = 3;
+      shape.any_percent = 100;
+      shape.is_deep = true;
+      break;
+    case Family::minimums:
+      shape.tasks = 60;
+      shape.most_behaviors = 4;
+      shape.minimum = 40;
+      shape.any_percent = 60;
+      shape.is_deep = true;
+      break;
+    case Family::exclusive:
+      shape.tasks = 60;
+      shape.most_behaviors = 4;
+      shape.exclusivity_lists = 40;
+      shape.most_exclusive = 5;
+      shape.several_tasks = 0;
+      shape.minimum = 0;
+      shape.any_percent = 50;
+      break;
+    case Family::equal:
+      shape.tasks = 40;
+      shape.most_behaviors = 6;
+      shape.exclusivity_lists = 4;
+      shape.several_tasks = 10;
+      shape.minimum = 0;
+      shape.is_deep = true;
+      break;
+    case Family::wide:
+      shape.tasks = 8;
+      shape.most_behaviors = 140;
+      shape.several_tasks = 3;
+      shape.minimum = 10;
+      shape.any_percent = 30;
+      break;
+  }
+  return shape;
+}
+
+CompiledCatalog catalog_of(Family family, test::Random& random) {
+  Catalog catalog = test::random_catalog(random, shape_of(family, random));
+  if (family == Family::equal) {
+    for (Behavior& behavior : catalog.behaviors) {
+      for (Performance& performance : behavior.performs) performance.suitability = one_million;
+    }
+  }
+  return compile(catalog);
+}
+
+/// Sums over all problems of a family.
+struct Effort {
+  std::uint64_t nodes = 0;
+  std::uint64_t propagations = 0;
+  std::uint64_t performance_effort = 0;
+};
+
+Effort measure(Family family, const SearchOptions& options, int problems) {
+  test::Random random(23);
+  Effort sum;
+  for (int i = 0; i < problems; ++i) {
+    const CompiledCatalog catalog = catalog_of(family, random);
+    const Problem problem = test::random_open_problem(random, catalog);
+    const std::vector<std::uint32_t> ranks;
+    Solver solver(catalog, options, ranks);
+    Assignment solution;
+    const SearchResult result = solver.solve(problem, solution);
+    sum.nodes += result.nodes;
+    sum.propagations += result.propagations;
+    sum.performance_effort += result.performance_effort;
+  }
+  return sum;
+}
+
+/// From the first decision with cost bounds, or learning, or neither.
+SearchOptions options(std::uint64_t easy_nodes, std::uint64_t bounded_nodes) {
+  SearchOptions options;
+  options.easy_nodes = easy_nodes;
+  options.bounded_nodes = bounded_nodes;
+  options.max_nodes = 3'000;
+  return options;
+}
+
+struct Measurement {
+  std::string_view name;
+  Family family;
+  SearchOptions options;
+  int problems;
+  Effort most;
+};
+
+std::ostream& operator<<(std::ostream& out, const Measurement& measurement) {
+  return out << measurement.problems << " problems";
+}
+
+class SearchEffort : public testing::TestWithParam<Measurement> {};
+
+TEST_P(SearchEffort, IsNoMoreThanItWas) {
+  const Measurement& measurement = GetParam();
+  const Effort effort = measure(measurement.family, measurement.options, measurement.problems);
+  EXPECT_LE(effort.nodes, measurement.most.nodes);
+  EXPECT_LE(effort.propagations, measurement.most.propagations);
+  EXPECT_LE(effort.performance_effort, measurement.most.performance_effort);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Problems, SearchEffort,
+    testing::Values(
+        Measurement{"small", Family::small, SearchOptions{}, 1000, {3'678, 26'703, 11'012}},
+        Measurement{"deep", Family::deep, SearchOptions{}, 300, {12'763, 123'136, 39'812}},
+        Measurement{
+            "deep_plain", Family::deep, options(never, never), 100, {15'460, 239'620, 125'834}},
+        Measurement{
+            "deep_bounded", Family::deep, options(0, never), 200, {15'505, 251'468, 159'548}},
+        Measurement{"deep_learning", Family::deep, options(0, 0), 200, {1'770, 53'765, 9'435}},
+        Measurement{"minimums", Family::minimums, SearchOptions{}, 150, {4'656, 254'347, 490'315}},
+        Measurement{"minimums_bounded",
+                    Family::minimums,
+                    options(0, never),
+                    150,
+                    {14'668, 823'258, 1'409'235}},
+        Measurement{
+            "minimums_learning", Family::minimums, options(0, 0), 150, {1'570, 176'994, 279'643}},
+        Measurement{"exclusive", Family::exclusive, SearchOptions{}, 500, {3'015, 26'403, 0}},
+        Measurement{"exclusive_learning", Family::exclusive, options(0, 0), 500, {941, 98'669, 0}},
+        Measurement{"equal", Family::equal, SearchOptions{}, 100, {16'980, 153'068, 0}},
+        Measurement{"equal_bounded", Family::equal, options(0, never), 50, {33'932, 142'437, 0}},
+        Measurement{"equal_learning", Family::equal, options(0, 0), 100, {5'515, 160'239, 0}},
+        Measurement{"wide", Family::wide, SearchOptions{}, 100, {10'698, 134'123, 90'457}},
+        Measurement{
+            "wide_bounded", Family::wide, options(0, never), 50, {30'306, 293'840, 243'948}},
+        Measurement{"wide_learning", Family::wide, options(0, 0), 100, {795, 220'033, 217'719}}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace cbc
