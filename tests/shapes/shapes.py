@@ -22,11 +22,13 @@ class Catalog:
     lists: list = dataclasses.field(default_factory=list)  # of exclusive tasks
     tasks: list = dataclasses.field(default_factory=list)
     variables: list = dataclasses.field(default_factory=list)
+    starts_by_itself: bool = False  # tasks also start where others require them, without a request
 
     def text(self):
+        defaults = "default_values: {tasks: {start_on_request: false}}\n" if self.starts_by_itself else ""
         sections = {"situation": self.variables, "behaviors": self.behaviors, "tasks": self.tasks,
                     "exclusivity_constraints": [f"mutually_exclusive: [{', '.join(each)}]" for each in self.lists]}
-        return "".join(f"{key}:\n" + "".join(f"- {entry}\n" for entry in entries)
+        return defaults + "".join(f"{key}:\n" + "".join(f"- {entry}\n" for entry in entries)
                        for key, entries in sections.items() if entries)
 
 
@@ -81,6 +83,20 @@ def chain_of_alternatives(count):
 
 def chain_of_minimums(count):
     return chain(count, rule=", minimum_performance: 1", more=", suitability: 99.9")
+
+
+def started_chain_of_alternatives(count):
+    return dataclasses.replace(chain(count, variants="AB"), starts_by_itself=True)
+
+
+def alike(count):
+    """Tasks with very many behaviors that are equally suitable, and require different tasks."""
+    tasks = 20
+    return Catalog([f"{{behavior: B{number}, task: T{number % tasks}, requires: [" +
+                    ", ".join(f"{{task: T{target}}}" for target in
+                              {number % tasks + 1 + number // tasks * step % 7 for step in (1, 3)}
+                              if target < tasks) + "]}"
+                    for number in range(count)], starts_by_itself=True)
 
 
 def cycle(count):
@@ -139,8 +155,8 @@ def parameters(count):
 
 
 SHAPES = [loose, star, clique, grid, one_pair_again_and_again, many_behaviors, chain, chain_of_alternatives,
-          chain_of_minimums, cycle, requires_all, behaviors_of_100_tasks, reactive_clique, reactive_star, timeouts,
-          variables, values, conditions, parameters]
+          chain_of_minimums, started_chain_of_alternatives, alike, cycle, requires_all, behaviors_of_100_tasks,
+          reactive_clique, reactive_star, timeouts, variables, values, conditions, parameters]
 
 
 # Commands ------------------------------------------------------------------------------------------

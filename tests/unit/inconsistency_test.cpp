@@ -55,7 +55,7 @@ class Inconsistency : public testing::Test {
     snapshot.variables = {0};
     run("FLY", "fly", 95 * second);
     snapshot.running.back().waits_for_timeout = true;
-    snapshot.running.back().request = Request{1, 3, {}};
+    request(3);
     run("LIGHT", "light", 90 * second);
     snapshot.queue.emplace_back(task("BLINK"), 101 * second);
   }
@@ -71,6 +71,9 @@ class Inconsistency : public testing::Test {
     entry.since = since;
     snapshot.active.emplace_back(behavior(with), since);
   }
+
+  /// The task that was made to run last has a request since this event.
+  void request(std::uint64_t event) { snapshot.running.back().request = Request{1, event, {}}; }
 
   /// What is said of the snapshot with a change.
   [[nodiscard]] std::string with(const std::function<void(Snapshot&)>& change) const {
@@ -152,16 +155,19 @@ TEST_F(Inconsistency, OfRunningTasks) {
 }
 
 TEST_F(Inconsistency, OfRequests) {
-  const auto request = [](std::int32_t priority, std::uint64_t event) {
+  const auto with_request = [](std::int32_t priority, std::uint64_t event) {
     return [=](Snapshot& state) { state.running.back().request = Request{priority, event, {}}; };
   };
-  EXPECT_EQ(with(request(-1, 1)), "the request of 'LIGHT' has no priority");
-  EXPECT_EQ(with(request(0, 1)), "");
+  EXPECT_EQ(with(with_request(-1, 1)), "the request of 'LIGHT' has no priority");
+  EXPECT_EQ(with(with_request(0, 1)), "");
   const std::string never = "the request of 'LIGHT' is from an event that never happened";
-  EXPECT_EQ(with(request(1, 0)), never);
-  EXPECT_EQ(with(request(1, 5)), "");
-  EXPECT_EQ(with(request(1, 6)), never);
-  EXPECT_EQ(with(request(1, 3)), "the request of 'LIGHT' is from the same event as another one");
+  EXPECT_EQ(with(with_request(1, 0)), never);
+  EXPECT_EQ(with(with_request(1, 5)), "");
+  EXPECT_EQ(with(with_request(1, 6)), never);
+  EXPECT_EQ(with(with_request(1, 3)),
+            "the request of 'LIGHT' is from the same event as another one");
+  EXPECT_EQ(with([](Snapshot& state) { state.running.front().request.reset(); }),
+            "task 'FLY' starts only on request, but runs without one");
 }
 
 TEST_F(Inconsistency, OfTimeouts) {
@@ -230,6 +236,7 @@ TEST_F(Inconsistency, OfWaitingTasks) {
 
 TEST_F(Inconsistency, OfConstraints) {
   run("LAND", "land", 99 * second);
+  request(4);
   EXPECT_NE(find_inconsistency(catalog, snapshot), std::nullopt) << "FLY excludes LAND";
   snapshot.running.pop_back();
   snapshot.active.pop_back();
@@ -240,8 +247,10 @@ TEST_F(Inconsistency, OfConstraints) {
 
 TEST_F(Inconsistency, OfConstraintsInEachGroup) {
   run("ROLL", "roll", 99 * second);
+  request(4);
   EXPECT_EQ(find_inconsistency(catalog, snapshot), std::nullopt);
   run("SIT", "sit", 99 * second);
+  request(5);
   EXPECT_NE(find_inconsistency(catalog, snapshot), std::nullopt);
 }
 

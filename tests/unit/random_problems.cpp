@@ -104,6 +104,12 @@ Catalog random_catalog(Random& random, const Shape& shape) {
   return catalog;
 }
 
+void make_perfect(Catalog& catalog) {
+  for (Behavior& behavior : catalog.behaviors) {
+    for (Performance& performance : behavior.performs) performance.suitability = one_million;
+  }
+}
+
 std::uint32_t largest_group(const CompiledCatalog& catalog) {
   std::uint32_t largest = 0;
   const auto size = [&](std::uint32_t group) {

@@ -30,6 +30,9 @@ struct Shape {
 /// and exact performance boundaries are frequent.
 [[nodiscard]] Catalog random_catalog(Random& random, const Shape& shape);
 
+/// Gives all behaviors a suitability of 1.
+void make_perfect(Catalog& catalog);
+
 /// A group with the most tasks.
 [[nodiscard]] std::uint32_t largest_group(const CompiledCatalog& catalog);
 

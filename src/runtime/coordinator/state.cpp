@@ -350,7 +350,11 @@ class SnapshotCheck {
       refuse(concat("task ", name, " runs with ", quote(catalog_.name_of_behavior(behavior)),
                     ", which is not active"));
     }
-    if (entry.request) check_request(name, *entry.request);
+    if (entry.request) {
+      check_request(name, *entry.request);
+    } else if (catalog_.tasks[entry.task].start_on_request != 0) {
+      refuse(concat("task ", name, " starts only on request, but runs without one"));
+    }
     check_timeout(name, entry);
   }
 

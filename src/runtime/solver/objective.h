@@ -118,11 +118,13 @@ class Objective {
   [[nodiscard]] bool is_free(std::uint32_t task, std::uint32_t index) const {
     return ((free_[domains_.word_begin(task) + index / 64] >> (index % 64)) & 1) != 0;
   }
-  /// Whether the task may run in a best solution of the present subtree.
+  /// Whether the task may run in a solution of the present subtree that ties with the incumbent on
+  /// f1 to f3.
   [[nodiscard]] bool may_run(std::uint32_t task) const {
     return domains_.needed(task) || (is_request(task) && domains_.count(task) > 0);
   }
-  /// Whether a behavior that was active may stay so in a best solution of the present subtree.
+  /// Whether a behavior that was active may stay so in a solution of the present subtree that ties
+  /// with the incumbent on f1 to f3.
   [[nodiscard]] bool may_stay(BehaviorId behavior) const;
 
  private:

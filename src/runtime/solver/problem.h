@@ -10,6 +10,9 @@ namespace cbc {
 
 /// The constraint problem of one event in one group. Tasks are counted within the group. A value
 /// index is the position of a behavior among those of its task: 0 is the most suitable one.
+///
+/// Where behaviors are active before, each task that starts only on request has a request, must
+/// run, or has an empty domain: the bound on f4 relies on it that no task runs for nothing.
 struct Problem {
   std::uint32_t group = 0;
   std::vector<std::uint64_t> domains;   ///< bit sets of value indices, task by task as in words
