@@ -80,6 +80,11 @@ void add_behavior(Catalog& catalog, const std::vector<TaskIndex>& order, std::ui
   }
 }
 
+void list_once(std::vector<BehaviorId>& behaviors) {
+  std::sort(behaviors.begin(), behaviors.end());
+  behaviors.erase(std::unique(behaviors.begin(), behaviors.end()), behaviors.end());
+}
+
 }  // namespace
 
 Catalog random_catalog(Random& random, const Shape& shape) {
@@ -175,25 +180,25 @@ Problem random_problem(Random& random, const CompiledCatalog& catalog, std::uint
     }
   }
   random.shuffle(problem.requests);
-  std::sort(problem.active.begin(), problem.active.end());
-  problem.active.erase(std::unique(problem.active.begin(), problem.active.end()),
-                       problem.active.end());
+  list_once(problem.active);
   return problem;
 }
 
-Problem random_open_problem(Random& random, const CompiledCatalog& catalog) {
-  Problem problem = open_problem(catalog, largest_group(catalog));
+void run_some(Random& random, const CompiledCatalog& catalog, Problem& problem) {
   const TaskId first = catalog.group_tasks[problem.group];
-  const auto tasks = static_cast<std::uint32_t>(problem.may_stop.size());
-  for (std::uint32_t task = 0; task < tasks; ++task) {
+  for (std::uint32_t task = 0; task < problem.present.size(); ++task) {
     const auto values = catalog.values[first + task];
     if (values.empty() || !random.percent(40)) continue;
     problem.present[task] = static_cast<std::uint32_t>(random.below(values.size()));
     problem.active.push_back(values[problem.present[task]].behavior);
   }
-  std::sort(problem.active.begin(), problem.active.end());
-  problem.active.erase(std::unique(problem.active.begin(), problem.active.end()),
-                       problem.active.end());
+  list_once(problem.active);
+}
+
+Problem random_open_problem(Random& random, const CompiledCatalog& catalog) {
+  Problem problem = open_problem(catalog, largest_group(catalog));
+  run_some(random, catalog, problem);
+  const std::size_t tasks = problem.may_stop.size();
   const std::size_t requests = 2 + random.below(6);
   for (std::size_t i = 0; i < requests; ++i) {
     const auto task = static_cast<std::uint32_t>(random.below(tasks));

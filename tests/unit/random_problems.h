@@ -41,6 +41,9 @@ void make_perfect(Catalog& catalog);
 [[nodiscard]] Problem random_problem(Random& random, const CompiledCatalog& catalog,
                                      std::uint32_t group);
 
+/// Lets some tasks of the problem's group run before the event, with any of their behaviors.
+void run_some(Random& random, const CompiledCatalog& catalog, Problem& problem);
+
 /// Much is open in its largest group: several tasks are requested, some of them have to run, and
 /// nearly every behavior is available.
 [[nodiscard]] Problem random_open_problem(Random& random, const CompiledCatalog& catalog);

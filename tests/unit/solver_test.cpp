@@ -465,15 +465,7 @@ TEST(Solver, AgreesWithBruteForceWhereComponentsAreNearlyIndependent) {
   for (int round = 0; round < test::rounds(2'000); ++round) {
     const CompiledCatalog catalog = compile(two_branches(random));
     Problem problem = open_problem(catalog);
-    for (std::uint32_t task = 0; task < problem.present.size(); ++task) {
-      if (!random.percent(40)) continue;
-      const auto values = catalog.values[task];
-      problem.present[task] = static_cast<std::uint32_t>(random.below(values.size()));
-      problem.active.push_back(values[problem.present[task]].behavior);
-    }
-    std::sort(problem.active.begin(), problem.active.end());
-    problem.active.erase(std::unique(problem.active.begin(), problem.active.end()),
-                         problem.active.end());
+    test::run_some(random, catalog, problem);
     const std::string_view top = random.percent(50) ? "R" : "F";
     test::demand(problem, catalog, top);
     test::request(problem, catalog, top);

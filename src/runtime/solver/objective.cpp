@@ -30,6 +30,9 @@ std::strong_ordering ExactProduct::compare(ExactProduct& a, ExactProduct& b) {
 
 namespace {
 
+/// One activation; the least common multiple of 1 to 8, so that few shares are rounded.
+constexpr std::uint32_t whole_share = 840;
+
 bool has(const std::uint64_t* words, std::uint32_t index) {
   return ((words[index / 64] >> (index % 64)) & 1) != 0;
 }
@@ -105,6 +108,10 @@ void Objective::load(const Problem& problem) {
       }
     }
   }
+}
+
+bool Objective::is_free(std::uint32_t task, std::uint32_t index) const {
+  return has(&free_[domains_.word_begin(task)], index);
 }
 
 Objective::Comparison Objective::compare(const Incumbent& incumbent, std::uint32_t depth) {
@@ -195,15 +202,8 @@ std::uint32_t Objective::least_activations() {
   return has_open_tasks ? activations + least_activations_of_open_tasks() : activations;
 }
 
-namespace {
-
-/// One activation; the least common multiple of 1 to 8, so that few shares are rounded.
-constexpr std::uint32_t whole_share = 840;
-
-}  // namespace
-
 /// Activations beyond the counted ones. Each task takes at least its least share of one.
-std::uint32_t Objective::least_activations_of_open_tasks() {
+std::uint32_t Objective::least_activations_of_open_tasks() const {
   std::uint32_t shares = 0;
   for (const std::uint32_t task : domains_.needed_tasks()) {
     if (domains_.count(task) > 1 && has_free_value(task)) shares += least_share(task);
@@ -220,13 +220,10 @@ std::uint32_t Objective::least_share(std::uint32_t task) const {
     if (!is_free(task, index) || !domains_.has(task, index)) continue;
     const BehaviorId behavior = values[index].behavior;
     if (was_active(behavior) || is_counted(behavior)) return 0;
-    std::uint32_t tasks = 0;
-    for (const ValueId value : catalog_.performs[behavior]) {
-      const TaskId other = catalog_.task_of(value);
-      const std::uint32_t local = other - domains_.first_task();
-      if (may_run(local) && domains_.has(local, value - catalog_.values.begin[other])) ++tasks;
-    }
-    most_tasks = std::max(most_tasks, tasks);
+    const auto of_tasks = catalog_.performs[behavior];
+    const auto tasks = std::count_if(of_tasks.begin(), of_tasks.end(),
+                                     [this](ValueId value) { return may_have(value); });
+    most_tasks = std::max(most_tasks, static_cast<std::uint32_t>(tasks));
   }
   return whole_share / most_tasks;
 }
@@ -248,11 +245,14 @@ std::uint32_t Objective::least_deactivations() const {
 
 bool Objective::may_stay(BehaviorId behavior) const {
   const auto values = catalog_.performs[behavior];
-  return std::any_of(values.begin(), values.end(), [this](ValueId value) {
-    const TaskId task = catalog_.task_of(value);
-    const std::uint32_t local = task - domains_.first_task();
-    return may_run(local) && domains_.has(local, value - catalog_.values.begin[task]);
-  });
+  return std::any_of(values.begin(), values.end(),
+                     [this](ValueId value) { return may_have(value); });
+}
+
+bool Objective::may_have(ValueId value) const {
+  const TaskId task = catalog_.task_of(value);
+  const std::uint32_t local = task - domains_.first_task();
+  return may_run(local) && domains_.has(local, value - catalog_.values.begin[task]);
 }
 
 /// The canonical order: compares the lowest ranks that are left, task by task. "less" is better.

@@ -115,9 +115,7 @@ class Objective {
   [[nodiscard]] bool is_request(std::uint32_t task) const { return is_request_[task] != 0; }
   /// Whether a task may get this value without an activation of its own: the behavior was active,
   /// or performs other tasks, too.
-  [[nodiscard]] bool is_free(std::uint32_t task, std::uint32_t index) const {
-    return ((free_[domains_.word_begin(task) + index / 64] >> (index % 64)) & 1) != 0;
-  }
+  [[nodiscard]] bool is_free(std::uint32_t task, std::uint32_t index) const;
   /// Whether the task may run in a solution of the present subtree that ties with the incumbent on
   /// f1 to f3.
   [[nodiscard]] bool may_run(std::uint32_t task) const {
@@ -134,10 +132,11 @@ class Objective {
                                                   std::uint32_t depth) const;
   [[nodiscard]] std::uint32_t least_changes();
   [[nodiscard]] std::uint32_t least_activations();
-  [[nodiscard]] std::uint32_t least_activations_of_open_tasks();
+  [[nodiscard]] std::uint32_t least_activations_of_open_tasks() const;
   [[nodiscard]] std::uint32_t least_share(std::uint32_t task) const;
   [[nodiscard]] std::uint32_t least_deactivations() const;
   [[nodiscard]] bool has_free_value(std::uint32_t task) const;
+  [[nodiscard]] bool may_have(ValueId value) const;
   [[nodiscard]] bool is_counted(BehaviorId behavior) const {
     return counted_[behavior - domains_.first_behavior()] == count_number_;
   }
