@@ -13,6 +13,7 @@
 #include "cli/input.h"
 #include "cli/output.h"
 #include "cli/read_files.h"
+#include "support/system.h"
 #include "support/wording.h"
 
 namespace cbc::cli {
@@ -53,6 +54,7 @@ std::string join(const std::vector<std::string>& words, std::string_view separat
 
 std::string join_with_or(const std::vector<std::string>& words) {
   std::vector<std::string> quoted;
+  quoted.reserve(words.size());
   for (const std::string& word : words) quoted.push_back(quote_if_split(word));
   return list_words(quoted, "or");
 }
@@ -411,12 +413,11 @@ std::string find_left_over(const Program& program, const Parsed& parsed,
   const auto called = command == nullptr
                           ? arguments.begin()
                           : std::find(arguments.begin(), arguments.end(), command->name());
-  if (const std::string name = first_option(parsed.left_of_command); !name.empty()) {
-    return describe_unknown_option(*command, name);
-  }
   if (command == nullptr) {
     const std::string name = first_option(parsed.left_of_program);
     if (!name.empty()) return describe_unknown_option(program.itself(), name);
+  } else if (const std::string unknown = first_option(parsed.left_of_command); !unknown.empty()) {
+    return describe_unknown_option(*command, unknown);
   } else if (const std::string name = first_option({arguments.begin(), called}); !name.empty()) {
     if (command->find(name) == nullptr) return describe_unknown_option(*command, name);
     return fmt::format("{} goes after the command {}", name, quote(command->name()));
@@ -429,20 +430,36 @@ std::string find_left_over(const Program& program, const Parsed& parsed,
   return {};
 }
 
+/// A file that an option names.
+struct NamedFile {
+  const Option* option = nullptr;
+  std::string path;
+};
+
 /// About files that are read or written; empty if all go together.
-std::string find_bad_file(const std::vector<std::string>& inputs,
-                          const std::vector<std::string>& outputs) {
-  if (std::count(inputs.begin(), inputs.end(), "-") > 1) {
+std::string find_bad_file(const std::vector<NamedFile>& inputs,
+                          const std::vector<NamedFile>& outputs) {
+  const auto is_standard = [](const NamedFile& file) { return file.path == "-"; };
+  if (std::count_if(inputs.begin(), inputs.end(), is_standard) > 1) {
     return "standard input can be read only once, but is given several times";
   }
   for (auto output = outputs.begin(); output != outputs.end(); ++output) {
-    const auto is_output = [&](const std::string& file) { return is_same_file(file, *output); };
-    if (std::any_of(inputs.begin(), inputs.end(), is_output)) {
-      return fmt::format("the output {} is also an input", quote(*output));
+    const auto is_lost = [&](const NamedFile& input) {
+      const bool may_be =
+          !is_standard(input) && input.option->values.replaced_by == output->option->name();
+      return !may_be && is_same_file(input.path, output->path);
+    };
+    if (std::any_of(inputs.begin(), inputs.end(), is_lost)) {
+      return fmt::format("the output {} is also an input", quote(output->path));
     }
-    if (std::find(outputs.begin(), output, *output) != output ||
-        std::any_of(outputs.begin(), output, is_output)) {
-      return fmt::format("{} would be written twice", quote(*output));
+    const auto is_again = [&](const NamedFile& other) {
+      return other.path == output->path ||
+             (!is_standard(other) && !is_standard(*output) &&
+              target_of(other.path) == target_of(output->path)) ||
+             is_same_file(other.path, output->path);
+    };
+    if (std::any_of(outputs.begin(), output, is_again)) {
+      return fmt::format("{} would be written twice", quote(output->path));
     }
   }
   return {};
@@ -450,8 +467,8 @@ std::string find_bad_file(const std::vector<std::string>& inputs,
 
 /// About the values that were given; empty if all are right.
 std::string find_bad_value(const Command& command, const Given& given) {
-  std::vector<std::string> inputs;
-  std::vector<std::string> outputs;
+  std::vector<NamedFile> inputs;
+  std::vector<NamedFile> outputs;
   for (const Option& option : command.options()) {
     const auto found = given.find(&option);
     if (found == given.end()) continue;
@@ -462,10 +479,8 @@ std::string find_bad_value(const Command& command, const Given& given) {
     for (const std::string& value : values) {
       const std::string fault = option.values.check ? option.values.check(value) : std::string();
       if (!fault.empty()) return fmt::format("{}: {}", option.name(), fault);
-      if (option.values.is_input && (value == "-" || !option.values.is_replaceable)) {
-        inputs.push_back(value);
-      }
-      if (option.values.is_output) outputs.push_back(value);
+      if (option.values.is_input) inputs.push_back({&option, value});
+      if (option.values.is_output) outputs.push_back({&option, value});
     }
   }
   return find_bad_file(inputs, outputs);

@@ -43,7 +43,7 @@ struct Values {
   ValueKind kind = ValueKind::text;
   bool is_input = false;             ///< names a file to read, "-" being standard input
   bool is_output = false;            ///< names a file to write, "-" being standard output
-  bool is_replaceable = false;       ///< an input that an output may replace, as it is read before
+  std::string replaced_by;           ///< the option whose output may replace this input, or none
   std::vector<std::string> choices;  ///< if not empty, no other value is accepted
   /// Names that completion offers; may be null.
   std::function<std::vector<NameWithHelp>()> names;

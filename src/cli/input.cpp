@@ -231,17 +231,13 @@ std::optional<std::string> read_stream(std::FILE* stream, const std::string& pat
 
 }  // namespace
 
-std::optional<std::string> read_replaceable_input(const std::string& path) {
+std::optional<std::string> read_input(const std::string& path) {
+  note_read(path);
   if (path == "-") return read_stream(stdin, path);
   if (const auto refusal = find_confinement(path)) return fail(path, *refusal);
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rbe"));
   if (file == nullptr) return fail(path, std::strerror(errno));
   return read_stream(file.get(), path);
-}
-
-std::optional<std::string> read_input(const std::string& path) {
-  note_read(path);
-  return read_replaceable_input(path);
 }
 
 std::string display_name(const std::string& path) { return path == "-" ? "<stdin>" : path; }
@@ -303,7 +299,7 @@ bool is_known_kind(std::string_view text, const yaml::Document* document) {
 }  // namespace
 
 std::optional<InputFile> InputFiles::read(const std::string& path, NamedBy named_by) {
-  if (named_by == NamedBy::file && is_special(path)) {
+  if (named_by != NamedBy::command_line && is_special(path)) {
     (void)fail(path, "it is no regular file");
     return std::nullopt;
   }
@@ -316,6 +312,10 @@ std::optional<InputFile> InputFiles::read(const std::string& path, NamedBy named
   auto document = yaml::parse(entry->second, name, diagnostics);
   if (named_by == NamedBy::file && !is_known_kind(entry->second, document.get())) {
     complain("{} is not a catalog", quote(name));
+    return std::nullopt;
+  }
+  if (named_by == NamedBy::link && document == nullptr) {
+    complain("{} is a link to a file elsewhere that is not valid YAML", quote(name));
     return std::nullopt;
   }
   if (keeps_findings_) {
@@ -534,7 +534,11 @@ std::optional<SeveritySettings> SettingsFinder::find(const std::string& path) {
     Diagnostics diagnostics;
     entry->second = read_settings(*text, *file, diagnostics);
     diagnostics.sort();
-    print_findings(diagnostics.all(), {{*file, *text}});
+    if (!entry->second && leads_out_of(folder_of(*file), *file)) {
+      complain("{} is a link to a file elsewhere that has no valid settings", quote(*file));
+    } else {
+      print_findings(diagnostics.all(), {{*file, *text}});
+    }
   }
   if (entry->second) entry->second->override_with(command_line_);
   return entry->second;

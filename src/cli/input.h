@@ -50,9 +50,6 @@ enum class FoundFile : std::uint8_t {
 /// standard error.
 [[nodiscard]] std::optional<std::string> read_input(const std::string& path);
 
-/// The same for a file that an output may replace, as a state that a stream continues from.
-[[nodiscard]] std::optional<std::string> read_replaceable_input(const std::string& path);
-
 /// The name of an input in messages and reports.
 [[nodiscard]] std::string display_name(const std::string& path);
 
@@ -99,9 +96,10 @@ struct InputFile {
   CatalogInput compiled;
 };
 
-/// Who names a file. One that another file names has to be a regular file, and if it is no catalog,
-/// nothing of it is shown: it may be a file that whoever wrote the other one must not see.
-enum class NamedBy : std::uint8_t { command_line, file };
+/// Who names a file. One that another file names, or to which a link in a folder leads, has to be a
+/// regular file, and if it is none for cbc, nothing of it is shown: it may be a file that whoever
+/// wrote the other one, or made the link, must not see.
+enum class NamedBy : std::uint8_t { command_line, file, link };
 
 /// Reads the files of a command line, and collects the findings about them.
 class InputFiles {

@@ -42,6 +42,14 @@ ReadFiles& read_files() {
   return files;
 }
 
+/// Whether the file behind a path is in a folder, which is canonical, or below.
+bool is_inside(const fs::path& folder, const std::string& path) {
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(fs::absolute(path, error), error);
+  return !error && std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first ==
+                       folder.end();
+}
+
 }  // namespace
 
 void note_read(const std::string& path) {
@@ -52,6 +60,12 @@ void note_read(const std::string& path) {
   files.names.try_emplace(*identity, path);
 }
 
+bool leads_out_of(const std::string& folder, const std::string& path) {
+  std::error_code error;
+  const fs::path top = fs::canonical(folder, error);
+  return error || !is_inside(top, path);
+}
+
 void confine_reading(const std::string& folder) {
   read_files().confinement = fs::canonical(folder);
 }
@@ -60,12 +74,7 @@ std::optional<std::string> find_confinement(const std::string& path) {
   const fs::path& folder = read_files().confinement;
   if (folder.empty() || path == "-") return std::nullopt;
   // Also of what does not exist, so that nobody learns of that.
-  std::error_code error;
-  const fs::path real = fs::weakly_canonical(fs::absolute(path, error), error);
-  const bool is_inside =
-      !error &&
-      std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end();
-  if (is_inside) return std::nullopt;
+  if (is_inside(folder, path)) return std::nullopt;
   return fmt::format("it is outside of {} (--confine)", quote(folder.string()));
 }
 

@@ -15,6 +15,10 @@ void note_read(const std::string& path);
 /// another name or through a link. Standard output ("-") replaces nothing.
 [[nodiscard]] std::optional<std::string> find_read_file(const std::string& output);
 
+/// Whether a file in a folder is a link to one outside of it. Then nothing of it must be shown that
+/// is not meant for cbc: it may be a file that whoever made the link must not see.
+[[nodiscard]] bool leads_out_of(const std::string& folder, const std::string& path);
+
 /// Refuses from here on to read files outside of a folder, which must exist. For runs on files of
 /// others, which may name files, or be links to them.
 void confine_reading(const std::string& folder);

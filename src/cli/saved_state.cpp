@@ -11,14 +11,24 @@
 
 namespace cbc::cli {
 
+namespace {
+
+/// Whether the new state replaces the one that was read.
+bool goes_on(const StreamOptions& options) {
+  return options.state_in && *options.state_in != "-" &&
+         is_same_file(*options.state_in, *options.state_out);
+}
+
+}  // namespace
+
 bool can_save_state(const StreamOptions& options) {
-  return !options.state_out || can_write_output(*options.state_out);
+  return !options.state_out || goes_on(options) || can_write_output(*options.state_out);
 }
 
 bool load_state(const StreamOptions& options, const CompiledCatalog& catalog,
                 std::optional<Snapshot>& state) {
   if (!options.state_in) return true;
-  const std::optional<std::string> text = read_replaceable_input(*options.state_in);
+  const std::optional<std::string> text = read_input(*options.state_in);
   if (!text) return false;
   StateReading reading = read_state(*text, catalog);
   if (!reading.snapshot) {
@@ -34,7 +44,9 @@ bool save_state(const StreamOptions& options, const CompiledCatalog& catalog,
   if (!options.state_out || runner.result().status == Coordinator::Status::refused_answer) {
     return true;
   }
-  return write_output(*options.state_out, write_state(catalog, runner.snapshot())) == exit_ok;
+  const std::string state = write_state(catalog, runner.snapshot());
+  return (goes_on(options) ? replace_input(*options.state_out, state)
+                           : write_output(*options.state_out, state)) == exit_ok;
 }
 
 int report_end(const Runner& runner, const CoordinatorOptions& options) {

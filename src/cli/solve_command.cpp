@@ -305,7 +305,7 @@ void add_solve_command(Program& program) {
               "its last instant are left to the stream that continues")
       .only_with({"--format jsonl", "--replay"});
   Values state = input("FILE", ValueKind::file);
-  state.is_replaceable = true;
+  state.replaced_by = "--state-out";
   command
       .option("--state-in", options->stream.state_in, state,
               "Continue from a saved state of the same catalog, with its time, situation and "

@@ -85,7 +85,8 @@ void MissionLoader::add_path(const std::string& path) {
 void MissionLoader::add_folder(const std::string& path) {
   for (const std::string& name : list_folder(path, {".yaml", ".yml", ".json"}, has_failed_)) {
     if (is_left_out(name)) continue;
-    std::optional<InputFile> file = files_.read(name);
+    const NamedBy named_by = leads_out_of(path, name) ? NamedBy::link : NamedBy::command_line;
+    std::optional<InputFile> file = files_.read(name, named_by);
     if (!file) {
       has_failed_ = true;
     } else if (file->document != nullptr && looks_like_script(*file->document)) {

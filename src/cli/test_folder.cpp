@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "cli/command_line.h"
 #include "cli/output.h"
+#include "cli/read_files.h"
 #include "compiled/compiled_file.h"
 
 namespace cbc::cli {
@@ -67,6 +68,10 @@ bool TestFolder::open() {
     const std::string name = entry->path().filename().string();
     const bool is_ours = is_file && name.ends_with(".yaml") && is_signed(entry->path());
     (is_ours ? names_ : foreign).push_back(name);
+    if (const auto refusal = find_read_file(path_of(name))) {
+      complain(*refusal);
+      return false;
+    }
   }
   if (error) {
     complain("cannot read the folder {}: {}", quote(path_), error.message());

@@ -111,7 +111,16 @@ std::string in_shell(const std::string& path) {
     return std::isalnum(static_cast<unsigned char>(character)) != 0 ||
            std::string_view("_./-+").find(character) != std::string_view::npos;
   });
-  return is_plain ? path : fmt::format("'{}'", printable(path));
+  if (is_plain) return path;
+  std::string quoted = "'";
+  for (const char character : printable(path)) {
+    if (character == '\'') {
+      quoted += "'\\''";
+    } else {
+      quoted += character;
+    }
+  }
+  return quoted + "'";
 }
 
 /// Which command looks at what these tests leave.

@@ -95,6 +95,23 @@ TEST_F(Confine, SettingsAboveTheFolderDoNotCount) {
   expect_refusal({"solve", "repository/mission.yaml"});
 }
 
+/// Without the option, nothing is shown of what links lead to that were found, and not named.
+TEST_F(Confine, NothingIsShownOfALinkedFileThatIsNotMeantForIt) {
+  const fs::path settings = folder / "repository/.cbc.yaml";
+  for (const std::string target : {"../shadow", "../secrets.yaml"}) {
+    fs::create_symlink(target, settings);
+    expect_result(cbc({"solve", "repository/robot.yaml", "repository/mission.yaml"}), 2, "",
+                  "cbc: 'repository/.cbc.yaml' is a link to a file elsewhere that has no valid "
+                  "settings\n");
+    fs::remove(settings);
+  }
+  folder.write("key", "password: [hunter2\n");
+  fs::create_symlink("../../key", folder / "repository/missions/found.yaml");
+  expect_result(cbc({"solve", "repository/robot.yaml", "repository/missions"}), 2, "",
+                "cbc: 'repository/missions/found.yaml' is a link to a file elsewhere that is not "
+                "valid YAML\n");
+}
+
 TEST_F(Confine, NeedsAFolder) {
   expect_result(cbc({"lint", "robot.yaml", "--confine", "no_such"}), 2, "",
                 "cbc: --confine: there is no folder 'no_such'\nSee 'cbc lint --help'.\n");

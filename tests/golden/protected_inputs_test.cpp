@@ -96,6 +96,45 @@ TEST_F(ProtectedInputs, AreNamedAsTheyWereRead) {
                 "'.cbc.yaml', which was read\n");
 }
 
+/// A state may be replaced by the next one, and by nothing else.
+TEST_F(ProtectedInputs, AreStatesThatAStreamContinues) {
+  const CommandLine stream{"solve", "robot.cbc", "missions/mission.yaml", "--format", "jsonl"};
+  CommandLine first = stream;
+  first.insert(first.end(), {"--state-out", "state.json"});
+  EXPECT_EQ(cbc(first).status, 0);
+  CommandLine second = stream;
+  second.insert(second.end(), {"--state-in", "state.json"});
+  const Result log = cbc(second);
+  EXPECT_EQ(log.status, 0) << log.err;
+  folder.write("second.jsonl", log.out);
+  expect_protected(
+      {"solve", "--replay", "second.jsonl", "robot.cbc", "--state-in", "state.json", "--html"},
+      "state.json");
+}
+
+TEST_F(ProtectedInputs, AreScriptsThatWouldBeReplaced) {
+  EXPECT_EQ(cbc({"verify", "robot.yaml", "--write-tests", "tests"}).status, 0);
+  const fs::path script = fs::directory_iterator(folder / "tests")->path().filename();
+  fs::create_directory(folder / "links");
+  fs::create_symlink(fs::path("../tests") / script, folder / "links" / script);
+  const std::string before = folder.read("tests/" + script.string());
+  const Result result =
+      cbc({"verify", "robot.yaml", "--write-tests", "tests", "--beside", "links"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("is also an input"), std::string::npos) << result.err;
+  EXPECT_EQ(folder.read("tests/" + script.string()), before);
+}
+
+/// Two names of a file that does not exist yet.
+TEST_F(ProtectedInputs, AreNotTheOnlyFilesThatAreWrittenOnce) {
+  fs::create_symlink("page.html", folder / "link.html");
+  for (const std::string other : {"./page.html", "missions/../page.html", "link.html"}) {
+    expect_result(
+        cbc({"solve", "robot.yaml", "missions", "--html", "page.html", "--coverage", other}), 2, "",
+        "cbc: '" + other + "' would be written twice\nSee 'cbc solve --help'.\n");
+  }
+}
+
 /// What is read to be replaced: a state that goes on, and what --fix mends.
 TEST_F(ProtectedInputs, MayBeReplacedWhereThatIsMeant) {
   const CommandLine stream{"solve", "robot.cbc", "missions/mission.yaml", "--format", "jsonl"};

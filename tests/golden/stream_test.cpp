@@ -499,8 +499,10 @@ TEST_F(StreamTest, TooManyClockEventsEndItWithTheStateSaved) {
   EXPECT_EQ(json::parse(rest.at(1))["origin"], "reactive");
 
   folder_.write("log", result.out);
-  const Result replay = run(call({"restless.yaml", "--replay", "log", "--max-clock-events", "5"}));
+  const Result replay = run(call({"restless.yaml", "--replay", "log", "--max-clock-events", "5",
+                                  "--state-out", "again.json"}));
   EXPECT_EQ(replay.status, 0) << replay.err;
+  EXPECT_EQ(folder_.read("again.json"), folder_.read("state.json"));
 }
 
 bool has_ended(pid_t process) { return !fs::exists("/proc/" + std::to_string(process) + "/fd/0"); }

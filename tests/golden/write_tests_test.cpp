@@ -132,6 +132,19 @@ TEST_F(WriteTests, NamesTheCatalogByItsPathFromTheFolder) {
   EXPECT_EQ(all.status, 0) << all.out << all.err;
 }
 
+/// Names, and paths, with characters that YAML and JSON write in different ways: tags, musical
+/// signs.
+TEST_F(WriteTests, WritesScriptsThatCanBeReadWhateverTheNamesAre) {
+  fs::create_directory(scratch / "it's; echo \U000E0041");
+  scratch.write("it's; echo \U000E0041/robot.yaml",
+                "behaviors:\n- {behavior: B, task: 'T\U000E0041\U0001D173\u200B''\"\\'}\n");
+  const Result written = write_tests(scratch / "it's; echo \U000E0041/robot.yaml");
+  EXPECT_EQ(written.status, 0) << written.err;
+  EXPECT_NE(written.out.find("it'\\''s; echo"), std::string::npos) << written.out;
+  const Result solved = cbc({"solve", folder});
+  EXPECT_EQ(solved.status, 0) << solved.err;
+}
+
 TEST_F(WriteTests, RemovesScriptsThatAreNotNeededAnyMore) {
   scratch.write("robot.yaml", robot);
   EXPECT_EQ(write_tests(scratch / "robot.yaml").status, 0);

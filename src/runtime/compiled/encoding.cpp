@@ -188,7 +188,8 @@ class Decoder {
     const auto end = static_cast<std::size_t>(content.data() - bytes_.data()) + content.size();
     const std::string_view rest = bytes_.substr(end);
     return (content.size() + rest.size()) % content_alignment == 0 &&
-           rest.size() < content_alignment && rest.find_first_not_of('\0') == rest.npos;
+           rest.size() < content_alignment &&
+           rest.find_first_not_of('\0') == std::string_view::npos;
   }
 
   /// The fields of the table are `written_by`, `source_digest`, and the arrays.

@@ -108,13 +108,13 @@ std::optional<Microseconds> Coordinator::next_due() const {
 /// At one instant, timeouts come before reactive starts. Each counts towards max_clock_events, even
 /// if it is a no-op, so that the limit bounds the time that a call takes.
 Coordinator::Status Coordinator::process_next_due() {
+  if (clock_events_ == options_.max_clock_events) return Status::too_many_clock_events;
+  ++clock_events_;
   const Timers& timeouts = state_.timeouts();
   const Timers& queue = state_.queue();
   now_ = *next_due();
   const bool is_timeout = !timeouts.empty() && timeouts.first_due() == now_;
   const TaskId task = catalog_.task_ids[is_timeout ? timeouts.first() : queue.first()];
-  if (clock_events_ == options_.max_clock_events) return Status::too_many_clock_events;
-  ++clock_events_;
   const Status status = is_timeout ? time_out(task) : start_reactive(task);
   return status == Status::ok ? finish_pending() : status;
 }

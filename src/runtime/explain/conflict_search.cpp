@@ -45,6 +45,7 @@ Feasibility ConflictSearch::solve(std::span<const Reason> reasons, std::uint64_t
       continue;
     }
     const TaskId task = choose_task();
+    effort_ += (end_task_ - first_task_) / 8;
     if (task != none) {
       trail_.decide(trail_.has_value(task, choose_value(task)));
       continue;
@@ -273,6 +274,7 @@ void ConflictSearch::add_reason(std::uint32_t reason) {
 /// Adds the reasons that literals of level 0 follow from.
 void ConflictSearch::trace_facts(std::span<const Literal> facts) {
   facts_.assign(facts.begin(), facts.end());
+  // NOLINTNEXTLINE(modernize-loop-convert): the list grows
   for (std::size_t next = 0; next < facts_.size(); ++next) {
     const Literal fact = facts_[next];
     if (std::exchange(is_known_fact_[variable_of(fact)], 1) != 0) continue;

@@ -9,31 +9,17 @@ RelaxedTrail::RelaxedTrail(const CompiledCatalog& catalog, std::uint32_t group)
       first_task_(catalog.group_tasks[group]),
       task_count_(catalog.group_tasks[group + 1] - first_task_),
       first_value_(catalog.values.begin[first_task_]),
-      first_behavior_(catalog.group_behaviors[group]) {
+      first_behavior_(catalog.group_behaviors[group]),
+      behavior_count_(catalog.group_behaviors[group + 1] - first_behavior_) {
   const std::size_t variables =
       task_count_ + catalog.values.begin[first_task_ + task_count_] - first_value_;
   levels_.resize(variables);
   causes_.resize(variables);
-  index_.exclusions.resize(task_count_);
-  index_.required_by.resize(task_count_);
-  index_.requires_.resize(catalog.group_behaviors[group + 1] - first_behavior_);
 }
 
 void RelaxedTrail::load(std::span<const Reason> reasons) {
   constraints_ = reasons;
-  for (auto* const lists : {&index_.exclusions, &index_.required_by, &index_.requires_}) {
-    for (std::vector<std::uint32_t>& list : *lists) list.clear();
-  }
-  for (std::uint32_t index = 0; index < reasons.size(); ++index) {
-    const Reason& reason = reasons[index];
-    if (reason.kind == Reason::Kind::exclusive) {
-      index_.exclusions[reason.task - first_task_].push_back(index);
-      index_.exclusions[reason.other_task - first_task_].push_back(index);
-    } else if (reason.kind == Reason::Kind::requires_task) {
-      index_.required_by[reason.task - first_task_].push_back(index);
-      index_.requires_[reason.behavior - first_behavior_].push_back(index);
-    }
-  }
+  index_constraints();
   truth_.assign(2 * variable_count(), 0);
   literals_.clear();
   next_ = 0;
@@ -48,6 +34,29 @@ void RelaxedTrail::load(std::span<const Reason> reasons) {
     if (counts_.back() == 0) set(negate(runs(task)), {Cause::Kind::no_value});
   }
   effort_ += reasons.size() + variable_count() / 8;  // most of the latter is cleared word by word
+}
+
+void RelaxedTrail::index_constraints() {
+  index_.exclusions.begin(task_count_);
+  index_.required_by.begin(task_count_);
+  index_.requirements.begin(behavior_count_);
+  for (const auto put : {&Lists::count, &Lists::add}) {
+    for (std::uint32_t index = 0; index < constraints_.size(); ++index) {
+      const Reason& reason = constraints_[index];
+      if (reason.kind == Reason::Kind::exclusive) {
+        (index_.exclusions.*put)(reason.task - first_task_, index);
+        (index_.exclusions.*put)(reason.other_task - first_task_, index);
+      } else if (reason.kind == Reason::Kind::requires_task) {
+        (index_.required_by.*put)(reason.task - first_task_, index);
+        (index_.requirements.*put)(reason.behavior - first_behavior_, index);
+      }
+    }
+    if (put == &Lists::count) {
+      index_.exclusions.end_count();
+      index_.required_by.end_count();
+      index_.requirements.end_count();
+    }
+  }
 }
 
 std::uint32_t RelaxedTrail::best(TaskId task) const {
@@ -165,7 +174,7 @@ bool RelaxedTrail::follow(Literal literal) {
 }
 
 bool RelaxedTrail::follow_running(TaskId task) {
-  const std::vector<std::uint32_t>& exclusions = index_.exclusions[task - first_task_];
+  const std::span<const std::uint32_t> exclusions = index_.exclusions[task - first_task_];
   effort_ += exclusions.size();
   for (const std::uint32_t index : exclusions) {
     const Reason& reason = constraints_[index];
@@ -200,7 +209,8 @@ bool RelaxedTrail::follow_value(ValueId value) {
     if (other != chosen && !imply(negate(other), cause)) return false;
   }
   const BehaviorId behavior = catalog_.values.items[value].behavior;
-  const std::vector<std::uint32_t>& requirements = index_.requires_[behavior - first_behavior_];
+  const std::span<const std::uint32_t> requirements =
+      index_.requirements[behavior - first_behavior_];
   effort_ += requirements.size();
   for (const std::uint32_t index : requirements) {
     cause.reason = index;

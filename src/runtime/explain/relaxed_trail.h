@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -106,13 +107,34 @@ class RelaxedTrail final : public Inferences {
   [[nodiscard]] std::uint64_t effort() const { return effort_; }
 
  private:
-  /// The constraints to look at when one of these changes.
-  struct Index {
-    std::vector<std::vector<std::uint32_t>> exclusions;   ///< by task of the group
-    std::vector<std::vector<std::uint32_t>> required_by;  ///< by task of the group
-    std::vector<std::vector<std::uint32_t>> requires_;    ///< by behavior of the group
+  /// Lists of numbers, in one array. Each number is counted first, and then added.
+  class Lists {
+   public:
+    void begin(std::size_t count) { begins_.assign(count + 2, 0); }
+    void count(std::uint32_t list, std::uint32_t /*item*/) { ++begins_[list + 2]; }
+    void end_count() {
+      std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+      items_.resize(begins_.back());
+    }
+    void add(std::uint32_t list, std::uint32_t item) { items_[begins_[list + 1]++] = item; }
+
+    [[nodiscard]] std::span<const std::uint32_t> operator[](std::uint32_t list) const {
+      return {items_.data() + begins_[list], begins_[list + 1] - begins_[list]};
+    }
+
+   private:
+    std::vector<std::uint32_t> begins_;  ///< by list; while it is filled, of the list before it
+    std::vector<std::uint32_t> items_;
   };
 
+  /// The constraints to look at when one of these changes.
+  struct Index {
+    Lists exclusions;    ///< by task of the group
+    Lists required_by;   ///< by task of the group
+    Lists requirements;  ///< by behavior of the group
+  };
+
+  void index_constraints();
   void append_reason(Literal literal, const Cause& cause, std::vector<Literal>& result) const;
   void set(Literal literal, const Cause& cause);
   [[nodiscard]] bool follow(Literal literal);
@@ -127,6 +149,7 @@ class RelaxedTrail final : public Inferences {
   const std::uint32_t task_count_;
   const ValueId first_value_;
   const BehaviorId first_behavior_;
+  const std::uint32_t behavior_count_;
   std::span<const Reason> constraints_;
   Index index_;
   std::vector<std::int8_t> truth_;     ///< by literal: 1 true, -1 false, 0 undecided

@@ -84,6 +84,7 @@ void LandmarkBound::find_relevant_tasks() {
   };
   for (const std::uint32_t task : domains_.needed_tasks()) add_task(task);
   for (const std::uint32_t task : trail_.requests()) add_task(task);
+  // NOLINTNEXTLINE(modernize-loop-convert): the list grows
   for (std::size_t next = 0; next < relevant_.size(); ++next) {
     for (const cbc::Arc& arc : catalog_.arcs[first + relevant_[next]]) add_task(arc.target - first);
   }

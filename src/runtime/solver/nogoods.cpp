@@ -5,10 +5,12 @@
 namespace cbc {
 
 void Nogoods::clear(std::size_t variables) {
+  if (!nogoods_.empty()) {
+    for (std::vector<Watch>& watches : watches_) watches.clear();
+  }
   nogoods_.clear();
   literals_.clear();
   if (watches_.size() < 2 * variables) watches_.resize(2 * variables);
-  for (std::vector<Watch>& watches : watches_) watches.clear();
   increment_ = 1;
 }
 

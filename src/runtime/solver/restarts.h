@@ -33,7 +33,7 @@ class Restarts {
       size = 2 * size + 1;
       value *= 2;
     }
-    while (size - 1 != place) {
+    while (size - 1 > place) {
       size = (size - 1) / 2;
       value /= 2;
       place %= size;

@@ -20,6 +20,7 @@ using yaml::Node;
 
 std::vector<std::string_view> names_of(const std::vector<Variable>& variables) {
   std::vector<std::string_view> names;
+  names.reserve(variables.size());
   for (const Variable& variable : variables) names.emplace_back(variable.name);
   return names;
 }

@@ -35,7 +35,7 @@ class SituationReader {
 
  private:
   void read_variable(const yaml::Node& entry);
-  void read_values(const yaml::Node& list, Variable& variable);
+  void read_values(const yaml::Node& node, Variable& variable);
   [[nodiscard]] std::optional<std::uint32_t> find_variable(const yaml::Node& name,
                                                            const yaml::Node& conditions,
                                                            std::string_view behavior);

@@ -43,13 +43,12 @@ class GroupWalk {
   /// Sees the moves of the states, one state after the other.
   class Listener {
    public:
+    virtual ~Listener() = default;
+
     /// Before the watched coordinator makes a move.
     virtual void before_move() {}
     /// After it. What the replay tells is that of this move.
     virtual void on_move(Number from, Number to, const Move& move, const StateReplay& replay) = 0;
-
-   protected:
-    ~Listener() = default;
   };
 
   /// All must outlive this object.

@@ -257,13 +257,15 @@ const Rule confusable_name = {
     .summary = "A name is easily taken for another one, or has an invisible character.",
     .explanation =
         "Two names differ only in upper and lower case, in what separates the words ('_', '-', "
-        "'.', '/' or blanks), in characters that look alike (0 and O; 1, l and I; some Cyrillic or "
-        "Greek letters and Latin ones), or in characters that cannot be seen. To the coordinator "
-        "they are different names, so it goes unnoticed where one stands in place of the other. A "
-        "name with a character that cannot be seen is reported also if there is no other one.\n\n"
-        "Tasks are compared with tasks, the parameters of one task and the values of one situation "
-        "variable with one another, and behaviors also with situation variables. A task and a "
-        "behavior are not compared; they may even have the same name.",
+        "'.', '/' or blanks), in characters that look alike (0 and O; 1, l and I; a Latin letter "
+        "and "
+        "what looks like it in other scripts, by the confusable characters of Unicode), or in "
+        "characters that cannot be seen. To the coordinator they are different names, so it goes "
+        "unnoticed where one stands in place of the other. A name with a character that cannot be "
+        "seen is reported also if there is no other one.\n\n"
+        "Tasks are compared with tasks, the parameters of one task and the values of one parameter "
+        "or situation variable with one another, and behaviors also with situation variables. A "
+        "task and a behavior are not compared; they may even have the same name.",
     .example = R"(behaviors:
 - {behavior: FOLLOW_PATH_WITH_PID, task: FOLLOW_PATH}
 - {behavior: FOLLOW_PATH_WITH_MPC, task: Follow_Path}

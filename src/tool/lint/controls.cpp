@@ -225,15 +225,15 @@ class SettingsReader {
     for (const yaml::Node* list : lists.items) {
       if (yaml::read_list(*list, never_together, expected, reporter_) == nullptr) continue;
       NeverTogether tasks{file_, list->range, {}, {}};
+      std::unordered_map<std::string_view, Range> first_ranges;
       for (const yaml::Node* item : list->items) {
         const auto name = yaml::read_name(*item, never_together, expected, reporter_);
         if (!name) continue;
-        const auto known = std::find(tasks.tasks.begin(), tasks.tasks.end(), *name);
-        if (known != tasks.tasks.end()) {
-          const Range& first = tasks.ranges[static_cast<std::size_t>(known - tasks.tasks.begin())];
+        const auto [first, is_new] = first_ranges.try_emplace(*name, item->range);
+        if (!is_new) {
           reporter_.report(rule::invalid_value, item->range,
                            "task " + quote(*name) + " is given twice",
-                           {reporter_.note(first, "first given here")});
+                           {reporter_.note(first->second, "first given here")});
           continue;
         }
         tasks.tasks.emplace_back(*name);

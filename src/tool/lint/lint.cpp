@@ -21,6 +21,7 @@
 #include "diagnostic/rules.h"
 #include "lint/proofs.h"
 #include "support/json.h"
+#include "support/look_alikes.h"
 #include "support/wording.h"
 
 namespace cbc {
@@ -127,6 +128,11 @@ void check_names(const Catalog& catalog, Reporter& reporter) {
     NameCheck parameters(reporter);
     for (const Parameter& parameter : task.parameters) {
       parameters.add("parameter", parameter.name, parameter.range);
+      if (!parameter.allowed_is_list) continue;
+      NameCheck values(reporter);
+      for (const std::string& value : parameter.allowed_values) {
+        values.add("value", value, parameter.allowed_range);
+      }
     }
   }
   NameCheck in_situations(reporter);

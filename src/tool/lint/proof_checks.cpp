@@ -141,21 +141,22 @@ class DeadCheck {
 
   bool is_reachable(std::span<const ProofContext::Goal> goals,
                     const std::vector<Reason>& constraints) {
-    return constraints.size() <= most_constraints &&
-           proof_.solve(goals, constraints) == Feasibility::yes;
+    if (constraints.size() > most_constraints) return false;
+    std::vector<ConflictSearch> problems = proof_.relaxed(goals);
+    return proof_.solve(problems, constraints) == Feasibility::yes;
   }
 
   /// A minimal conflict set: why none of the goals can be reached. Empty if it takes too long to
   /// find.
   std::vector<Note> find_reason(std::span<const ProofContext::Goal> goals,
                                 const std::vector<Reason>& constraints) {
-    if (constraints.size() > most_constraints ||
-        proof_.solve(goals, constraints) != Feasibility::no) {
-      return {};
-    }
-    const std::vector<Reason> reason = minimal_conflict_set(
-        constraints,
-        [&](std::span<const Reason> some) { return proof_.solve(goals, some) != Feasibility::no; });
+    if (constraints.size() > most_constraints) return {};
+    std::vector<ConflictSearch> problems = proof_.relaxed(goals);
+    if (proof_.solve(problems, constraints) != Feasibility::no) return {};
+    const std::vector<Reason> reason =
+        minimal_conflict_set(constraints, [&](std::span<const Reason> some) {
+          return proof_.solve(problems, some) != Feasibility::no;
+        });
     return proof_.notes_of(reason);
   }
 
@@ -410,6 +411,10 @@ class RedundancyCheck {
     if (proof_.liveness().of_behavior(id) != Liveness::State::live) return;
     check_repetitions(proof_.behavior(id));
     if (catalog_.requirements[id].size() < 2) return;
+    if (!proof_.spend(0)) {
+      note_undecided(id, catalog_.requirements[id].front());
+      return;
+    }
     for (const CompiledRequirement& requirement : doubtful_requirements(id)) {
       check_requirement(id, requirement);
     }
@@ -449,12 +454,13 @@ class RedundancyCheck {
   /// The requirements whose tasks may also be required by something else that the behavior
   /// requires. No other can be redundant. Requirements form no cycle, so the task itself need not
   /// be left out.
-  [[nodiscard]] std::vector<CompiledRequirement> doubtful_requirements(BehaviorId id) const {
+  [[nodiscard]] std::vector<CompiledRequirement> doubtful_requirements(BehaviorId id) {
     RelevantTasks all(catalog_, catalog_.group_of(id));
     for (const CompiledRequirement& requirement : catalog_.requirements[id]) {
       all.add(requirement.task);
     }
     all.close();
+    proof_.spend(4 * all.tasks().size());
     RelevantTasks led_to(catalog_, catalog_.group_of(id));
     for (const TaskId task : all.tasks()) {
       for (const Arc& arc : catalog_.arcs[task]) led_to.add(arc.target);
@@ -478,7 +484,7 @@ class RedundancyCheck {
     for (const BehaviorId behavior : relevant.behaviors()) {
       add_requirements(catalog_, behavior, others);
     }
-    if (others.size() >= most_constraints) {
+    if (!proof_.spend(4 * others.size()) || others.size() >= most_constraints) {
       note_undecided(id, requirement);
       return;
     }

@@ -408,6 +408,13 @@ ConflictSearch ProofContext::relaxed(const Goal& goal) const {
   return {compiled(), group, nothing_present_, {{kind, goal.task, goal.value_index}}};
 }
 
+std::vector<ConflictSearch> ProofContext::relaxed(std::span<const Goal> goals) const {
+  std::vector<ConflictSearch> problems;
+  problems.reserve(goals.size());
+  for (const Goal& goal : goals) problems.push_back(relaxed(goal));
+  return problems;
+}
+
 Feasibility ProofContext::solve(ConflictSearch& problem, std::span<const Reason> reasons) {
   if (effort_left_ == 0) return Feasibility::unknown;
   const std::uint64_t before = problem.effort();
@@ -416,10 +423,10 @@ Feasibility ProofContext::solve(ConflictSearch& problem, std::span<const Reason>
   return answer;
 }
 
-Feasibility ProofContext::solve(std::span<const Goal> goals, std::span<const Reason> reasons) {
+Feasibility ProofContext::solve(std::span<ConflictSearch> problems,
+                                std::span<const Reason> reasons) {
   Feasibility answer = Feasibility::no;
-  for (const Goal& goal : goals) {
-    ConflictSearch problem = relaxed(goal);
+  for (ConflictSearch& problem : problems) {
     const Feasibility one = solve(problem, reasons);
     if (one == Feasibility::yes) return one;
     if (one == Feasibility::unknown) answer = one;

@@ -190,14 +190,23 @@ class ProofContext {
     TaskId task = none;
     std::uint32_t value_index = none;  ///< none: with any behavior
   };
-  /// Whether one of several goals, all of one group, can be reached under some of the constraints
-  /// alone.
-  [[nodiscard]] Feasibility solve(std::span<const Goal> goals, std::span<const Reason> reasons);
-  /// The same for a problem that was set up before.
-  [[nodiscard]] Feasibility solve(ConflictSearch& problem, std::span<const Reason> reasons);
-
   /// A relaxed problem in which a task runs.
   [[nodiscard]] ConflictSearch relaxed(const Goal& goal) const;
+  /// One for each of some goals.
+  [[nodiscard]] std::vector<ConflictSearch> relaxed(std::span<const Goal> goals) const;
+
+  /// Whether a problem has a solution under some of the constraints alone.
+  [[nodiscard]] Feasibility solve(ConflictSearch& problem, std::span<const Reason> reasons);
+  /// Whether one of several problems has.
+  [[nodiscard]] Feasibility solve(std::span<ConflictSearch> problems,
+                                  std::span<const Reason> reasons);
+
+  /// Takes what a check does beside the searches from their effort: so many constraints or tasks
+  /// were looked at. False if the effort is used up.
+  bool spend(std::uint64_t effort) {
+    effort_left_ -= std::min(effort, effort_left_);
+    return effort_left_ > 0;
+  }
 
   /// Notes that say, for each of a set of constraints, what it is and where it stands.
   [[nodiscard]] std::vector<Note> notes_of(std::span<const Reason> constraints) const;

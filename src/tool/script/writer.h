@@ -9,7 +9,8 @@
 
 namespace cbc {
 
-/// A name or a path in a script: quoted as in JSON, so that it is not taken for another type.
+/// A name or a path in a script: in quotes, so that it is not taken for another type, and with
+/// escapes for what does not show.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// A script as text for `cbc solve`, below the lines of `comment`. `comments`: by step, lines to

@@ -150,6 +150,18 @@ std::optional<std::string> follow_links(fs::path& path) {
   return reason(ELOOP);
 }
 
+}  // namespace
+
+std::string target_of(const std::string& path) {
+  fs::path target(path);
+  if (follow_links(target)) return path;
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(fs::absolute(target, error), error);
+  return error ? path : whole.string();
+}
+
+namespace {
+
 /// Makes the new name last. The content is complete either way, so failures do not matter.
 void sync_folder(const fs::path& folder) {
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -25,6 +25,9 @@ namespace cbc {
 /// work. Nothing changes.
 [[nodiscard]] std::optional<std::string> find_obstacle(const std::string& path);
 
+/// The file that write_atomically would write, which need not exist: absolute, without links.
+[[nodiscard]] std::string target_of(const std::string& path);
+
 /// Removes what killed runs of these functions left behind in the folder of an output: files of
 /// this user with the names that they give to unfinished ones, older than an hour. Reads the
 /// folder.

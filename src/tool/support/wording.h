@@ -52,33 +52,6 @@ class Suggestions {
 /// How a message about an unknown name ends: "; did you mean 'HOVER'?", or nothing.
 [[nodiscard]] std::string did_you_mean(std::optional<std::string_view> suggestion);
 
-/// The first character of a name that cannot be seen, "character 5 is U+200B", or nothing.
-[[nodiscard]] std::optional<std::string> invisible_part_of(std::string_view name);
-
-/// Finds names that people take for one another. They differ only in upper and lower case, in what
-/// separates their words, in characters that look alike in many fonts ('0' and 'O'; '1', 'l' and
-/// 'I'; some Cyrillic or Greek letters and Latin ones; two ways to write an accent), or in
-/// characters that cannot be seen.
-class LookAlikes {
- public:
-  /// Returns the place of the first name so far that looks like this one, but is another; places
-  /// count from 0, by call.
-  std::optional<std::size_t> add(std::string_view name);
-
- private:
-  struct First {
-    std::string name;
-    std::size_t place = 0;
-  };
-
-  std::unordered_map<std::string, First> by_case_;   ///< by the name in small letters
-  std::unordered_map<std::string, First> by_shape_;  ///< by the name in basic shapes
-  std::size_t count_ = 0;
-};
-
-/// How two names that look alike differ: "they differ only in upper and lower case".
-[[nodiscard]] std::string difference_of(std::string_view name, std::string_view other);
-
 /// "1 task", "2 tasks", "0 tasks".
 [[nodiscard]] inline std::string quantity(std::uint64_t number, std::string_view noun) {
   return std::to_string(number) + " " + std::string(noun) + (number == 1 ? "" : "s");

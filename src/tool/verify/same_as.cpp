@@ -199,6 +199,7 @@ std::vector<GroupPair> join_groups(const CompiledCatalog& old_catalog,
     place < count ? pair.new_groups.push_back(place) : pair.old_groups.push_back(place - count);
   }
   std::vector<GroupPair> result;
+  result.reserve(pairs.size());
   for (auto& [number, pair] : pairs) result.push_back(std::move(pair));
   return result;
 }

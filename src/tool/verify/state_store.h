@@ -59,7 +59,7 @@ class StateStore {
   /// The bucket that the state is in, or that a new one belongs into.
   [[nodiscard]] std::size_t find(const std::uint32_t* state, std::uint64_t hash,
                                  bool& is_found) const;
-  void add_to_bucket(std::size_t bucket, std::uint64_t hash, Number number);
+  void add_to_bucket(std::size_t place, std::uint64_t hash, Number number);
   /// At most 5 of 6 places are taken, so that few buckets overflow.
   [[nodiscard]] static bool is_crowded(std::uint64_t states, std::size_t buckets) {
     return states > buckets * (bucket_size - 2);

@@ -313,13 +313,12 @@ bool Stepper::change_situation(std::uint32_t cell, std::uint16_t value) {
   if (model_.is_excluded(now_.cells.data())) return false;
   derive_situation(now_);
   open_event(Verb::situation, Origin::script, none);
-  for (std::size_t group = 0; group < model_.groups().size(); ++group) {
-    const BitRange behaviors = model_.groups()[group].behaviors;
-    for (std::uint32_t place = behaviors.begin; place < behaviors.end; ++place) {
+  for (const auto& group : model_.groups()) {
+    for (std::uint32_t place = group.behaviors.begin; place < group.behaviors.end; ++place) {
       if (!has_bit(now_.available.data(), place) || has_bit(before_.available.data(), place)) {
         continue;
       }
-      for (const std::uint32_t reactive : model_.groups()[group].reactive) enqueue(reactive);
+      for (const std::uint32_t reactive : group.reactive) enqueue(reactive);
       break;
     }
   }
