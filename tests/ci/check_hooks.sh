@@ -50,6 +50,11 @@ hook cbc-lint-fix
 hook cbc-lint
 [[ $status == 0 && $output == *"check behavior catalogs"*Passed*"no findings in 1 catalog"* ]] || fail "a sound catalog"
 
+printf 'catalog: /etc/passwd\nevents: [{start: A}]\n' >catalogs/outside.yaml
+hook cbc-lint
+[[ $status == 1 && $output == *"outside of"*"(--confine)"* && $output != *root:* ]] || fail "a script that names a file outside"
+rm catalogs/outside.yaml
+
 printf 'behaviors:\n- behavior: A\n  tasc: B\n' >catalogs/wrong.yaml
 hook cbc-lint
 [[ $status == 1 && $output == *Failed*"catalogs/wrong.yaml:3:3: "*"did you mean 'task'?"* ]] || fail "a wrong catalog"

@@ -25,5 +25,6 @@ format=text
 if [ "${GITHUB_ACTIONS-}" = true ]; then
   format=github                    # failures become annotations at their lines
 fi
-cbc lint --format "$format" .
-cbc solve --format "$format" missions/
+# Nothing outside of this folder is read.
+cbc lint --confine . --format "$format" .
+cbc solve --confine . --format "$format" missions/
