@@ -240,34 +240,34 @@ std::vector<Mutant> find_mutants(const Catalog& catalog) { return MutantFinder(c
 
 Catalog mutate(const Catalog& catalog, const Mutant& mutant) {
   Catalog changed = catalog;
-  Task* const task = mutant.task == Mutant::none ? nullptr : &changed.tasks[mutant.task];
-  Behavior* const behavior =
-      mutant.behavior == Mutant::none ? nullptr : &changed.behaviors[mutant.behavior];
+  const bool is_of_task = mutant.behavior == Mutant::none;
+  const auto task = [&]() -> Task& { return changed.tasks[mutant.task]; };
+  const auto behavior = [&]() -> Behavior& { return changed.behaviors[mutant.behavior]; };
   switch (mutant.kind) {
     case Mutant::Kind::behavior_removed:
-      remove_for_ever(changed, *behavior);
+      remove_for_ever(changed, behavior());
       break;
     case Mutant::Kind::suitability_lowered:
-      for (Performance& performance : behavior->performs) {
+      for (Performance& performance : behavior().performs) {
         if (performance.task == mutant.task) performance.suitability = mutant.suitability;
       }
       break;
     case Mutant::Kind::requirement_removed:
-      std::erase_if(behavior->requirements, [&](const Requirement& requirement) {
+      std::erase_if(behavior().requirements, [&](const Requirement& requirement) {
         return requirement.task == mutant.task;
       });
       break;
     case Mutant::Kind::minimum_removed:
-      if (behavior == nullptr) {
-        task->minimum_performance = 0;
+      if (is_of_task) {
+        task().minimum_performance = 0;
         break;
       }
-      for (Requirement& requirement : behavior->requirements) {
+      for (Requirement& requirement : behavior().requirements) {
         if (requirement.task == mutant.task) requirement.minimum_performance = 0;
       }
       break;
     case Mutant::Kind::condition_removed:
-      std::erase_if(behavior->situation, [&](const Condition& condition) {
+      std::erase_if(behavior().situation, [&](const Condition& condition) {
         return condition.variable == mutant.variable;
       });
       break;
@@ -278,16 +278,16 @@ Catalog mutate(const Catalog& catalog, const Mutant& mutant) {
       remove_from(changed.exclusivity[mutant.list], mutant.task);
       break;
     case Mutant::Kind::timeout_removed:
-      (behavior != nullptr ? behavior->timeout : task->timeout).reset();
+      (is_of_task ? task().timeout : behavior().timeout).reset();
       break;
     case Mutant::Kind::start_on_request_turned:
-      task->start_on_request = !task->start_on_request;
+      task().start_on_request = !task().start_on_request;
       break;
     case Mutant::Kind::reactive_start_turned:
-      task->reactive_start = !task->reactive_start;
+      task().reactive_start = !task().reactive_start;
       break;
     case Mutant::Kind::execution_goal_turned:
-      task->execution_goal = ExecutionGoal::achieve_goal;
+      task().execution_goal = ExecutionGoal::achieve_goal;
       break;
   }
   return changed;

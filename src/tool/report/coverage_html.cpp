@@ -91,7 +91,7 @@ class CatalogPage {
                                   : count.met == 0           ? "missed"
                                                              : "part";
     html_ +=
-        fmt::format("<tr id=\"L{0}\" class=\"{1}\"><td class=\"number\">{0}</td><td>", line, kind);
+        fmt::format(R"(<tr id="L{0}" class="{1}"><td class="number">{0}</td><td>)", line, kind);
     const std::string source = "<code>" + xml_text(text) + "</code>";
     if (goals.empty()) {
       html_ += source + "</td><td class=\"count\"></td></tr>\n";

@@ -174,8 +174,8 @@ const CoverageFormat& coverage_format_of(std::string_view path) {
   };
   constexpr std::array<Suffix, 4> suffixes{
       {{".json", "json"}, {".html", "html"}, {".info", "lcov"}, {".lcov", "lcov"}}};
-  const auto suffix = std::find_if(suffixes.begin(), suffixes.end(),
-                                   [&](const Suffix& one) { return path.ends_with(one.end); });
+  const auto* const suffix = std::find_if(
+      suffixes.begin(), suffixes.end(), [&](const Suffix& one) { return path.ends_with(one.end); });
   const auto formats = coverage_formats();
   if (suffix == suffixes.end()) return formats.front();
   return *std::find_if(formats.begin(), formats.end(),

@@ -213,6 +213,7 @@ class GroupText {
     }
     std::sort(behaviors.begin(), behaviors.end());
     std::vector<std::string> inactive;
+    inactive.reserve(behaviors.size());
     for (const std::uint32_t index : behaviors) {
       inactive.push_back(printable(catalog_.behavior_names[index]));
     }
@@ -306,6 +307,7 @@ class GroupText {
   }
   [[nodiscard]] std::vector<std::string> names_of(const std::vector<std::uint32_t>& tasks) const {
     std::vector<std::string> names;
+    names.reserve(tasks.size());
     for (const std::uint32_t task : tasks) names.push_back(name_of_task(task));
     return names;
   }
@@ -443,6 +445,7 @@ std::string cut_sets_text(const CompiledCatalog& catalog, const TaskCutSets& of_
                   quantity(of_task.order, "behavior"), task, style.reset);
   for (const std::vector<BehaviorId>& set : found.sets) {
     std::vector<std::string> names;
+    names.reserve(set.size());
     for (const BehaviorId behavior : set) {
       names.push_back(printable(catalog.name_of_behavior(behavior)));
     }
