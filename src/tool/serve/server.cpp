@@ -84,7 +84,7 @@ class Server::Loop {
   Loop(Site site, const History& history) : site_(std::move(site)), history_(history) {}
 
   /// Returns what went wrong, or nothing.
-  std::string listen(const Address& address);
+  std::string listen(const Address& wanted);
   void run();
 
   // From other threads.

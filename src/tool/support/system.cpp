@@ -225,7 +225,7 @@ std::optional<std::string> create_atomically(const std::string& path, std::strin
 }
 
 void remove_leftovers(const std::string& path) {
-  constexpr std::time_t oldest = 60 * 60;  // in seconds; a younger one may still be written to
+  constexpr std::time_t oldest = 3600;  // in seconds; a younger one may still be written to
   Target target;
   if (find_target(path, target)) return;
   const std::time_t now = std::time(nullptr);

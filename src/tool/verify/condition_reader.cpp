@@ -311,6 +311,7 @@ class ConditionReader {
     }
     const auto ids = [](const std::vector<Named>& named) {
       std::vector<std::uint32_t> all;
+      all.reserve(named.size());
       for (const Named& entry : named) all.push_back(entry.id);
       return all;
     };

@@ -29,8 +29,10 @@ Model::Model(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& g
     : catalog_(catalog), assumptions_(assumptions) {
   add_groups(groups);
   rank_priorities();
-  is_too_large_ = !add_variables(variables) || !fits_into_cells();
-  if (is_too_large_) return;
+  if (!add_variables(variables) || !fits_into_cells()) {
+    is_too_large_ = true;
+    return;
+  }
   add_rivals();
   find_interactions();
   lay_out();
