@@ -88,6 +88,7 @@ bool has_content(const std::string& path, std::string_view text) {
 /// Where the files of a folder go, in their order.
 std::vector<std::string> paths_in(const std::string& folder) {
   std::vector<std::string> paths;
+  paths.reserve(std::size(new_files));
   for (const NewFile& file : new_files) {
     paths.push_back((fs::path(folder) / file.path).lexically_normal().string());
   }

@@ -38,7 +38,7 @@ std::vector<const EmbeddedFile*> referenced_by(const EmbeddedFile& schema) {
   std::vector<const EmbeddedFile*> found = {&schema};
   for (std::size_t i = 0; i < found.size(); ++i) {
     for (const EmbeddedFile& other : schema_files) {
-      const std::string reference = "\"$ref\": \"" + id_of(other);
+      const std::string reference = R"("$ref": ")" + id_of(other);
       if (found[i]->text.find(reference) != std::string_view::npos &&
           std::find(found.begin(), found.end(), &other) == found.end()) {
         found.push_back(&other);
