@@ -34,13 +34,13 @@ def main():
         path = pathlib.Path(command["file"])
         if options.build not in path.parents:
             groups.setdefault(flags_of(command), {})[path] = None
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+    with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
         units = [unit for units in pool.map(lambda group: join(*group, units_dir), enumerate(groups.items()))
                  for unit in units]
         sources = sum(len(unit.sources) for unit in units)
         print(f"{sources} sources in {len(units)} translation units", flush=True)
         seen = set()
-        for findings in pool.map(lambda unit: examine(unit, options.tidy), units):
+        for findings in pool.map(examine, units):
             for finding in findings:
                 if finding not in seen:  # one in a header is found by each unit
                     seen.add(finding)
@@ -52,8 +52,6 @@ def read_options():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("build", type=lambda path: pathlib.Path(path).resolve(),
                         help="folder of a build with compile_commands.json, without precompiled headers")
-    parser.add_argument("--tidy", default="clang-tidy", metavar="PROGRAM")
-    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)), metavar="N")
     return parser.parse_args()
 
 
@@ -131,16 +129,16 @@ def find_wrong(unit):
     return wrong & set(unit.sources)
 
 
-def examine(unit, tidy):
+def examine(unit):
     """The findings, each with its notes."""
-    command = [tidy, "--quiet", str(unit.path), "--", *unit.flags[1:]]
+    command = ["clang-tidy", "--quiet", str(unit.path), "--", *unit.flags[1:]]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     findings = []
     for part in re.split(r"^(?=/[^:\n]+:\d+:\d+: (?:warning|error|fatal error):)", done.stdout, flags=re.MULTILINE):
         if part.strip():
             findings.append(PLACE.sub(unit.place, part).rstrip("\n"))
     if done.returncode != 0 and not findings:
-        findings.append(f"{unit.path}: {tidy} ended with status {done.returncode}:\n{done.stderr.strip()}")
+        findings.append(f"{unit.path}: clang-tidy ended with status {done.returncode}:\n{done.stderr.strip()}")
     return findings
 
 

@@ -411,7 +411,7 @@ class RedundancyCheck {
     if (proof_.liveness().of_behavior(id) != Liveness::State::live) return;
     check_repetitions(proof_.behavior(id));
     if (catalog_.requirements[id].size() < 2) return;
-    if (!proof_.spend(0)) {
+    if (proof_.is_exhausted()) {
       note_undecided(id, catalog_.requirements[id].front());
       return;
     }
@@ -484,7 +484,8 @@ class RedundancyCheck {
     for (const BehaviorId behavior : relevant.behaviors()) {
       add_requirements(catalog_, behavior, others);
     }
-    if (!proof_.spend(4 * others.size()) || others.size() >= most_constraints) {
+    proof_.spend(4 * others.size());
+    if (proof_.is_exhausted() || others.size() >= most_constraints) {
       note_undecided(id, requirement);
       return;
     }

@@ -416,10 +416,10 @@ std::vector<ConflictSearch> ProofContext::relaxed(std::span<const Goal> goals) c
 }
 
 Feasibility ProofContext::solve(ConflictSearch& problem, std::span<const Reason> reasons) {
-  if (effort_left_ == 0) return Feasibility::unknown;
+  if (is_exhausted()) return Feasibility::unknown;
   const std::uint64_t before = problem.effort();
   const Feasibility answer = problem.solve(reasons, effort_left_);
-  effort_left_ -= std::min(problem.effort() - before, effort_left_);
+  spend(problem.effort() - before);
   return answer;
 }
 

@@ -201,12 +201,11 @@ class ProofContext {
   [[nodiscard]] Feasibility solve(std::span<ConflictSearch> problems,
                                   std::span<const Reason> reasons);
 
+  /// Whether the effort is used up.
+  [[nodiscard]] bool is_exhausted() const { return effort_left_ == 0; }
   /// Takes what a check does beside the searches from their effort: so many constraints or tasks
-  /// were looked at. False if the effort is used up.
-  bool spend(std::uint64_t effort) {
-    effort_left_ -= std::min(effort, effort_left_);
-    return effort_left_ > 0;
-  }
+  /// were looked at.
+  void spend(std::uint64_t effort) { effort_left_ -= std::min(effort, effort_left_); }
 
   /// Notes that say, for each of a set of constraints, what it is and where it stands.
   [[nodiscard]] std::vector<Note> notes_of(std::span<const Reason> constraints) const;
