@@ -109,9 +109,8 @@ void to_small_shape(char32_t c, std::u32string& text) {
   }
 }
 
-/// A name as it is seen, with each character spelled in a certain way; four bytes for each. If
-/// `joins`, whatever separates two words is '_'.
-std::string seen(std::string_view name, Spelling spell, bool joins) {
+/// The characters of a name that are seen, letters and accents one by one.
+std::u32string visible_part_of(std::string_view name) {
   std::u32string text;
   for (std::size_t offset = 0; offset < name.size();) {
     const utf8::Decoded decoded = utf8::decode(name, offset);
@@ -126,6 +125,12 @@ std::string seen(std::string_view name, Spelling spell, bool joins) {
     }
   }
   while (!text.empty() && text.back() == U' ') text.pop_back();
+  return text;
+}
+
+/// Characters that are seen, each spelled in a certain way. If `joins`, whatever separates two
+/// words is '_'.
+std::u32string seen(const std::u32string& text, Spelling spell, bool joins) {
   std::u32string spelled;
   bool follows_separator = false;
   for (const char32_t c : text) {
@@ -138,13 +143,7 @@ std::string seen(std::string_view name, Spelling spell, bool joins) {
       spell(c, spelled);
     }
   }
-  std::string bytes;
-  for (const char32_t c : spelled) {
-    for (unsigned shift = 0; shift < 32; shift += 8) {
-      bytes += static_cast<char>((c >> shift) & 0xFFU);
-    }
-  }
-  return bytes;
+  return spelled;
 }
 
 /// "U+041E".
@@ -161,12 +160,13 @@ std::string code_point(char32_t character) {
 
 std::optional<std::size_t> LookAlikes::add(std::string_view name) {
   const std::size_t place = count_++;
+  const std::u32string text = visible_part_of(name);
   const std::initializer_list<std::pair<Names&, Spelling>> ways = {
       {by_case_, to_small}, {by_shape_, to_shape}, {by_both_, to_small_shape}};
   std::optional<std::size_t> found;
   for (const auto& [names, spell] : ways) {
     const First& first =
-        names.try_emplace(seen(name, spell, true), First{std::string(name), place}).first->second;
+        names.try_emplace(seen(text, spell, true), First{std::string(name), place}).first->second;
     if (!found && first.name != name) found = first.place;
   }
   return found;
@@ -185,8 +185,9 @@ std::optional<std::string> invisible_part_of(std::string_view name) {
 }
 
 std::string difference_of(std::string_view name, std::string_view other) {
-  const auto are_same = [&](Spelling spell, bool joins) {
-    return seen(name, spell, joins) == seen(other, spell, joins);
+  const auto are_same = [text = visible_part_of(name), other_text = visible_part_of(other)](
+                            Spelling spell, bool joins) {
+    return seen(text, spell, joins) == seen(other_text, spell, joins);
   };
   if (!are_same(keep, false)) {
     if (are_same(to_small, false)) return "they differ only in upper and lower case";

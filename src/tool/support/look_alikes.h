@@ -26,7 +26,7 @@ class LookAlikes {
     std::string name;
     std::size_t place = 0;
   };
-  using Names = std::unordered_map<std::string, First>;
+  using Names = std::unordered_map<std::u32string, First>;
 
   Names by_case_;   ///< by the name in small letters
   Names by_shape_;  ///< by the name in basic shapes
