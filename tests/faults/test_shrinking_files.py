@@ -58,7 +58,8 @@ class ShrinkingFiles(FaultCase):
         children = pathlib.Path(f"/proc/{tracer}/task/{tracer}/children")
         while time.monotonic() < deadline:
             for child in children.read_text().split():
-                with contextlib.suppress(FileNotFoundError):  # strace also tries what it can do
+                # strace first tries what it can do, with children that end at once.
+                with contextlib.suppress(FileNotFoundError, ProcessLookupError):
                     if "robot.cbc" in pathlib.Path(f"/proc/{child}/maps").read_text():
                         return
             time.sleep(0.01)
