@@ -79,6 +79,8 @@ class Domains {
 
   [[nodiscard]] Mark mark() const { return {trail_.size(), needed_.size(), sums_}; }
   void undo_to(const Mark& mark);
+  /// The task of a change, counted as the trail of a Mark is.
+  [[nodiscard]] std::uint32_t changed_task(std::size_t change) const { return trail_[change].task; }
 
   // Tasks whose change may matter to others: needed ones that changed, and those with no behavior
   // left.

@@ -12,7 +12,10 @@ constexpr std::uint32_t most_dead_ends = 20;
 
 Repair::Repair(const CompiledCatalog& catalog, Domains& domains, Propagator& propagator)
     : catalog_(catalog), domains_(domains), propagator_(propagator) {
-  choices_.reserve(most_in_a_group(catalog.group_tasks));
+  const std::size_t most_tasks = most_in_a_group(catalog.group_tasks);
+  choices_.reserve(most_tasks);
+  candidates_.reserve(2 * most_tasks);  // each task is needed once, and loses its value once
+  listings_.resize(most_tasks);
 }
 
 /// With all requests in view, propagation keeps the first choices from taking the place of later
@@ -53,16 +56,20 @@ bool Repair::drop(std::uint32_t task, const Domains::Mark& before) {
 /// Gives each needed task one behavior. False after too many dead ends.
 bool Repair::assign_needed_tasks() {
   choices_.clear();
+  list_candidates();
   std::uint32_t dead_ends = 0;
   for (;;) {
-    const std::uint32_t task = choose_task();
+    const std::uint32_t task = take_next_task();
     if (task == none) return true;
     const std::uint32_t index = choose_value(task);
-    bool is_consistent = false;
     if (index != none) {
       choices_.push_back({task, index, domains_.mark()});
-      is_consistent = assign(task, index);
+      if (assign(task, index)) {
+        list_new_candidates();
+        continue;
+      }
     }
+    bool is_consistent = false;
     while (!is_consistent) {
       if (choices_.empty() || ++dead_ends > most_dead_ends) return false;
       const Choice last = choices_.back();
@@ -70,23 +77,49 @@ bool Repair::assign_needed_tasks() {
       domains_.undo_to(last.before);
       is_consistent = domains_.remove(last.task, last.index) && propagator_.propagate();
     }
+    list_candidates();
   }
 }
 
-/// The next task with a choice. Those that cannot keep their behavior come first, so that the
-/// others can make way; then the highest level, so that a task comes after those that require it.
-std::uint32_t Repair::choose_task() const {
-  std::uint32_t chosen = none;
-  std::pair<bool, std::uint32_t> best;
-  for (const std::uint32_t task : domains_.needed_tasks()) {
-    if (domains_.count(task) == 1) continue;
-    const std::pair<bool, std::uint32_t> rank(!has_present_value(task),
-                                              catalog_.tasks[domains_.first_task() + task].level);
-    if (chosen != none && rank <= best) continue;
-    chosen = task;
-    best = rank;
+void Repair::list_candidates() {
+  candidates_.clear();
+  listed_ = {};
+  list_new_candidates();
+}
+
+void Repair::list_new_candidates() {
+  const std::vector<std::uint32_t>& needed = domains_.needed_tasks();
+  for (std::size_t place = listed_.needed; place < needed.size(); ++place) {
+    const std::uint32_t task = needed[place];
+    listings_[task] = {static_cast<std::uint32_t>(place), !has_present_value(task)};
+    list_candidate(task);
   }
-  return chosen;
+  const Domains::Mark now = domains_.mark();
+  for (std::size_t change = listed_.trail; change < now.trail; ++change) {
+    const std::uint32_t task = domains_.changed_task(change);
+    if (!domains_.needed(task) || has_present_value(task)) continue;
+    if (std::exchange(listings_[task].lost_present_value, true)) continue;
+    list_candidate(task);
+  }
+  listed_ = now;
+}
+
+void Repair::list_candidate(std::uint32_t task) {
+  if (domains_.count(task) == 1) return;
+  const Listing& listing = listings_[task];
+  candidates_.push_back({listing.lost_present_value,
+                         catalog_.tasks[domains_.first_task() + task].level, listing.place});
+  std::push_heap(candidates_.begin(), candidates_.end());
+}
+
+std::uint32_t Repair::take_next_task() {
+  while (!candidates_.empty()) {
+    const std::uint32_t task = domains_.needed_tasks()[candidates_.front().place];
+    std::pop_heap(candidates_.begin(), candidates_.end());
+    candidates_.pop_back();
+    if (domains_.count(task) != 1) return task;
+  }
+  return none;
 }
 
 /// The present value, or the one that leaves most: of the requests, and then of f2. None if

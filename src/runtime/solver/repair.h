@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -34,11 +35,31 @@ class Repair {
     Domains::Mark before;
   };
 
+  /// A needed task with a choice. Those that cannot keep their behavior come first, so that the
+  /// others can make way; then the highest level, so that a task comes after those that require
+  /// it; then the one that was needed first.
+  struct Candidate {
+    bool lost_present_value = false;
+    std::uint32_t level = 0;
+    std::uint32_t place = 0;  ///< among the needed tasks
+    bool operator<(const Candidate& other) const {
+      return std::tie(lost_present_value, level, other.place) <
+             std::tie(other.lost_present_value, other.level, place);
+    }
+  };
+  struct Listing {
+    std::uint32_t place = 0;
+    bool lost_present_value = false;
+  };
+
   [[nodiscard]] bool find_solution_with(std::size_t together);
   [[nodiscard]] bool serve(std::uint32_t task);
   [[nodiscard]] bool drop(std::uint32_t task, const Domains::Mark& before);
   [[nodiscard]] bool assign_needed_tasks();
-  [[nodiscard]] std::uint32_t choose_task() const;
+  void list_candidates();
+  void list_new_candidates();
+  void list_candidate(std::uint32_t task);
+  [[nodiscard]] std::uint32_t take_next_task();
   [[nodiscard]] std::uint32_t choose_value(std::uint32_t task);
   [[nodiscard]] std::optional<std::pair<std::uint32_t, std::int64_t>> try_value(
       std::uint32_t task, std::uint32_t index);
@@ -54,6 +75,11 @@ class Repair {
   Propagator& propagator_;
   const Problem* problem_ = nullptr;
   std::vector<Choice> choices_;
+  /// A heap. A task that loses its present value is listed again; what is left of tasks that have
+  /// one value by then is passed over.
+  std::vector<Candidate> candidates_;
+  std::vector<Listing> listings_;  ///< by task; of needed ones
+  Domains::Mark listed_;           ///< up to where the changes of the domains are in the heap
 };
 
 }  // namespace cbc
