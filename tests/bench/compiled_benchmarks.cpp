@@ -15,8 +15,6 @@
 #include "compiled/compiled_file.h"
 #include "support/read_file.h"
 
-extern char** environ;
-
 namespace cbc::bench {
 namespace {
 
@@ -39,6 +37,7 @@ class QuietProgram {
   /// Runs it to its end. The exit status, or -1.
   int run(std::vector<std::string> arguments) const {
     std::vector<char*> pointers;
+    pointers.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) pointers.push_back(argument.data());
     pointers.push_back(nullptr);
     pid_t process = 0;

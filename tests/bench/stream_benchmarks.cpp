@@ -18,8 +18,6 @@
 #include "bench/inputs.h"
 #include "support/read_file.h"
 
-extern char** environ;
-
 namespace cbc::bench {
 namespace {
 
@@ -74,6 +72,7 @@ rusage run_stream(const std::string& input, const std::string& output) {
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   std::vector<std::string> arguments{CBC_PROGRAM_PATH, "solve", catalog, "-", "--format", "jsonl"};
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   pid_t process = 0;

@@ -1,6 +1,7 @@
 #include "golden/json_relations.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -81,7 +82,7 @@ class Relations {
   /// The table by values and the conditions of the behaviors say the same.
   void check_situation(const Json& report) {
     for (const Json& variable : report.at("variables")) {
-      const std::string& name = variable.at("variable").get_ref<const std::string&>();
+      const auto& name = variable.at("variable").get_ref<const std::string&>();
       for (const Json& value : variable.at("values")) {
         Json fit = Json::array();
         Json do_not_fit = Json::array();
@@ -109,7 +110,7 @@ class Relations {
     }
     std::set<std::string> ids;
     for (const Json& node : report.at("nodes")) {
-      const std::string& id = node.at("id").get_ref<const std::string&>();
+      const auto& id = node.at("id").get_ref<const std::string&>();
       expect(ids.insert(id).second, "two nodes have the id " + id);
       expect(node.contains("priority") == (is_state && node.at("kind") == "task"),
              "only tasks of a state have a priority, unlike " + id);
@@ -147,7 +148,7 @@ class Relations {
   void check_lint(const Json& report) {
     std::map<std::string, std::uint64_t> found;
     for (const Json& file : report.at("files")) {
-      const std::string& where = file.at("file").get_ref<const std::string&>();
+      const auto& where = file.at("file").get_ref<const std::string&>();
       check_places(file.at("diagnostics"), where);
       for (const Json& finding : file.at("diagnostics")) ++found[finding.at("severity")];
       if (!file.at("summary").is_null()) check_summary(file.at("summary"), where);
@@ -302,7 +303,7 @@ class Relations {
     const double tenths = report.at("percent").get<double>() * 10;
     const std::size_t goals = counts["goals"];
     const std::size_t expected = goals == 0 ? 1000 : counts["met"] * 1000 / goals;
-    expect(static_cast<std::size_t>(tenths + 0.5) == expected, "the percentage");
+    expect(static_cast<std::size_t>(std::lround(tenths)) == expected, "the percentage");
   }
 
   void check_sweep(const Json& sweep) {

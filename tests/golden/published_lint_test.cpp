@@ -29,7 +29,7 @@ Json lint(const fs::path& file) {
       run({{"lint", "--format", "json", file.filename().string()}, file.parent_path()});
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(find_contradictions(result.out), std::vector<std::string>());
-  const Json report = Json::parse(result.out);
+  Json report = Json::parse(result.out);
   EXPECT_EQ(result.status, report["errors"] == 0 ? 0 : 1);
   return report;
 }

@@ -105,6 +105,7 @@ TEST(Px4, HasAFailsafeThatFallsStepByStep) {
   }
   std::sort(steps.begin(), steps.end());
   std::vector<std::string> names;
+  names.reserve(steps.size());
   for (const auto& [suitability, name] : steps) names.push_back(name);
   EXPECT_EQ(names, (std::vector<std::string>{"AUTO_RTL", "AUTO_LAND", "DESCEND", "TERMINATION"}));
 }

@@ -44,14 +44,18 @@ std::vector<Message> messages_in(const std::string& answer) {
 }
 
 class ServeTest : public testing::Test {
+ public:
+  ServeTest(const ServeTest&) = delete;
+  ServeTest& operator=(const ServeTest&) = delete;
+  ~ServeTest() override {
+    if (program_.joinable()) static_cast<void>(end());
+  }
+
  protected:
   ServeTest() {
     fs::copy(fs::path(CBC_SOURCE_DIR) / "catalogs" / "quadrotor.yaml", folder_.path());
     EXPECT_EQ(::mkfifo((folder_ / "in").c_str(), 0600), 0);
     in_ = ::open((folder_ / "in").c_str(), O_RDWR | O_CLOEXEC);  // waits for nobody
-  }
-  ~ServeTest() override {
-    if (program_.joinable()) static_cast<void>(end());
   }
 
   /// Runs the program in a shell, with messages in "err"; its process is in "process".

@@ -22,7 +22,9 @@ using Files = std::map<std::string, std::string>;
 
 class WriteTests : public testing::Test {
  protected:
-  static Result cbc(std::vector<std::string> arguments) { return run({arguments, CBC_SOURCE_DIR}); }
+  static Result cbc(std::vector<std::string> arguments) {
+    return run({std::move(arguments), CBC_SOURCE_DIR});
+  }
   Result write_tests(const std::string& catalog, std::vector<std::string> more = {}) {
     std::vector<std::string> arguments{"verify", catalog, "--write-tests", folder};
     arguments.insert(arguments.end(), more.begin(), more.end());

@@ -52,7 +52,7 @@ const std::vector<Name>& hostile_names() {
           "\\\"",
           "\\N",
           "\\G",
-          "\\l\\r\\n",
+          R"(\l\r\n)",
           "\\\\",
           "<b>bold</b>",
           "<",
@@ -142,8 +142,8 @@ const std::vector<Name>& hostile_names() {
           "</text>",
           "<!--",
           "]]>",
-          "a_very_long_name_that_is_broken_into_several_lines_and_TakesCamelCaseAsWell.or-other/"
-          "ones",
+          ("a_very_long_name_that_is_broken_into_several_lines_and_TakesCamelCaseAsWell.or-other/"
+           "ones"),
           "averyverylongnamewithoutanyplaceatwhichitcouldbebrokenintoseverallineswithoutharm"}) {
       result.push_back(plain(text));
     }

@@ -10,7 +10,6 @@
 namespace cbc::plain {
 
 using oracle::Catalog;
-using oracle::contains;
 using oracle::Millionths;
 using oracle::Random;
 

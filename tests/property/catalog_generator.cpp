@@ -27,6 +27,7 @@ std::vector<Millionths> pick_palette(Random& random) {
     return random.pick(palettes);
   }
   std::vector<Millionths> palette;
+  palette.reserve(4);
   for (int i = 0; i < 4; ++i) {
     palette.push_back(random.between(0, whole_degree));
   }
@@ -116,7 +117,7 @@ class CatalogGenerator {
       add_waiting(block);
     }
     for (std::size_t i = 0; i < size; ++i) {
-      if (complete_.count(block.first + i) == 0) {
+      if (!complete_.contains(block.first + i)) {
         add_behaviors(block, block.first + i);
       }
     }

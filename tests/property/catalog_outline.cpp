@@ -28,7 +28,7 @@ class Witness {
   }
 
  private:
-  bool open(std::size_t task, std::vector<std::size_t> rest) {
+  bool open(std::size_t task, const std::vector<std::size_t>& rest) {
     for (std::size_t behavior = 0; behavior < catalog_.behaviors().size(); ++behavior) {
       if (suitability(behavior, task) >= 0 && assign(task, behavior, rest)) return true;
     }

@@ -109,7 +109,7 @@ class CatalogOutline {
   [[nodiscard]] bool is_live(const Behavior& behavior) const;
 
  private:
-  explicit CatalogOutline(const Lines& lines) : lines_(lines) {}
+  explicit CatalogOutline(Lines lines) : lines_(std::move(lines)) {}
 
   bool understand();
   void add(std::string_view shape, const Item& item);

@@ -112,7 +112,7 @@ std::vector<std::string> differences(const Statements& before, const Statements&
     }
   }
   for (const auto& [statement, attributes] : after) {
-    if (before.count(statement) == 0) lines.push_back("+ " + statement);
+    if (!before.contains(statement)) lines.push_back("+ " + statement);
   }
   std::sort(lines.begin(), lines.end());
   return lines;
@@ -197,7 +197,7 @@ std::vector<std::string> signs(Statements before, Statements after) {
     }
   }
   for (const auto& [statement, attributes] : after) {
-    if (before.count(statement) == 0) lines.insert("+ " + statement);
+    if (!before.contains(statement)) lines.insert("+ " + statement);
   }
   return {lines.begin(), lines.end()};
 }

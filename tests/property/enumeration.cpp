@@ -161,10 +161,10 @@ Solution evaluate(const CatalogFacts& facts, const Problem& problem, const Assig
     solution.running_unasked += facts.catalog.tasks[task].start_on_request ? 0U : 1U;
   }
   for (const std::size_t behavior : active) {
-    solution.changes += problem.active.count(behavior) == 0 ? 1U : 0U;
+    solution.changes += problem.active.contains(behavior) ? 0U : 1U;
   }
   for (const std::size_t behavior : problem.active) {
-    solution.changes += active.count(behavior) == 0 ? 1U : 0U;
+    solution.changes += active.contains(behavior) ? 0U : 1U;
   }
   return solution;
 }

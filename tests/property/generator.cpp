@@ -471,7 +471,7 @@ class ScriptGenerator {
       }
     }
     return behaviors_where(
-        [&](std::size_t b) { return names.count(facts_->catalog.behaviors[b].name) != 0; });
+        [&](std::size_t b) { return names.contains(facts_->catalog.behaviors[b].name); });
   }
 
   Random& random_;

@@ -14,10 +14,11 @@ namespace {
 
 class Writer {
  public:
-  explicit Writer(Random& random) : random_(random) {
-    list_indent_ = random_.percent(30) ? "  " : "";
-    uses_older_names_ = random_.percent(20);
-    has_comments_ = random_.percent(50);
+  explicit Writer(Random& random)
+      : random_(random),
+        list_indent_(random.percent(30) ? "  " : ""),
+        uses_older_names_(random.percent(20)),
+        has_comments_(random.percent(50)) {
     const std::vector<std::pair<std::string, std::string>> words{
         {"TRUE", "FALSE"}, {"true", "false"}, {"yes", "no"}};
     std::tie(true_, false_) = random_.pick(words);

@@ -110,18 +110,18 @@ void check(const VerifyCase& sample, oracle::Statistics& statistics) {
   for (std::uint32_t goal = 0; goal < goals.size(); ++goal) {
     const std::string text = describe(catalog, goals[goal]);
     if (met[goal] != 0) {
-      demand(unmet.count(goal) == 0, "met, but listed: " + text);
+      demand(!unmet.contains(goal), "met, but listed: " + text);
       statistics.count("met");
       continue;
     }
     if (!proof.unreachable[goal].empty()) {
-      demand(unmet.count(goal) == 0, "unreachable, but listed: " + text);
+      demand(!unmet.contains(goal), "unreachable, but listed: " + text);
       demand(reasons[goal] == proof.unreachable[goal],
              text + ": " + reasons[goal] + ", but " + proof.unreachable[goal]);
       statistics.count("unreachable");
       continue;
     }
-    demand(unmet.count(goal) != 0, "neither met nor listed: " + text);
+    demand(unmet.contains(goal), "neither met nor listed: " + text);
     // A state has no times: others may always come first.
     demand(goals[goal].kind == Goal::Kind::timeout_fired, "no script meets it: " + text);
     statistics.count("no time for a timeout");

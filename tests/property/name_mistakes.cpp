@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 #include "lint_mutations.h"
 
@@ -293,6 +295,16 @@ Result task_in_other_case(const CatalogOutline& catalog, Random& random) {
                    at(lines, "confusable-name", line, column + 8, in_quotes(name))}};
 }
 
+/// Where the entry of a behavior names a task that it performs.
+const Field& task_named(const Item& entry, const std::string& task) {
+  if (const Field* only = entry.find("task")) return *only;
+  for (const Item& item : entry.find("tasks")->value.items) {
+    const Field* name = item.find("task");
+    if (name->value.text == task) return *name;
+  }
+  throw std::logic_error("the behavior does not perform " + task);
+}
+
 /// Takes the entry of a task away, so that only behaviors name it.
 Result task_not_listed(const CatalogOutline& catalog, Random& random) {
   const Field* section = catalog.root().find("tasks");
@@ -306,16 +318,11 @@ Result task_not_listed(const CatalogOutline& catalog, Random& random) {
     for (const Performance& performance : behavior.performs) {
       if (performance.task != index) continue;
       // The first behavior that performs it.
-      const Field* name = behavior.entry->find("task");
-      if (name == nullptr) {
-        for (const Item& item : behavior.entry->find("tasks")->value.items) {
-          if (item.find("task")->value.text == task->name) name = item.find("task");
-        }
-      }
-      const std::size_t line = name->line > task->entry->line ? name->line - removed : name->line;
+      const Field& name = task_named(*behavior.entry, task->name);
+      const std::size_t line = name.line > task->entry->line ? name.line - removed : name.line;
       return Mutation{
           lines.text(),
-          {at(lines, "implicit-task", line, name->value.column, in_quotes(task->name))},
+          {at(lines, "implicit-task", line, name.value.column, in_quotes(task->name))},
           {"required-goal", "requires-on-request", "no-timeout-effect", "redundant-requirement"}};
     }
   }

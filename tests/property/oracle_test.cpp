@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 constexpr Microseconds one_second = 1'000'000;
 
 // Percentages are whole here.
-Millionths percent(int value) { return value * 10'000; }
+Millionths percent(int value) { return Millionths{value} * 10'000; }
 
 Task on_request(const std::string& name) {
   Task task;

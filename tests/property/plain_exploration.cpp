@@ -14,7 +14,6 @@
 namespace cbc::plain {
 namespace {
 
-using oracle::contains;
 using oracle::demand;
 
 std::set<std::uint32_t> variables_of(const std::vector<const Property*>& properties) {

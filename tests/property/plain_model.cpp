@@ -133,11 +133,11 @@ void handle_move(const CompiledCatalog& catalog, const Move& move, Coordinator& 
   demand(coordinator.handle(event) == Coordinator::Status::ok, coordinator.internal_error());
 }
 
-PlainModel::PlainModel(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
+PlainModel::PlainModel(const CompiledCatalog& catalog, std::vector<std::uint32_t> groups,
                        const Assumptions& assumptions, const std::set<std::uint32_t>& variables)
     : catalog_(catalog),
       assumptions_(assumptions),
-      groups_(groups),
+      groups_(std::move(groups)),
       variables_(variables.begin(), variables.end()) {
   for (const TaskId task : catalog.task_ids) {
     if (has_group(catalog.tasks[task].group)) tasks_.push_back(task);

@@ -42,7 +42,7 @@ class PlainModel {
  public:
   /// The catalog and the assumptions must outlive the model.
   /// `variables` are part of the state, too.
-  PlainModel(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
+  PlainModel(const CompiledCatalog& catalog, std::vector<std::uint32_t> groups,
              const Assumptions& assumptions, const std::set<std::uint32_t>& variables = {});
 
   [[nodiscard]] Snapshot first_state() const;

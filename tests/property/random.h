@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -26,8 +27,10 @@ class Random {
     return z ^ (z >> 31U);
   }
 
-  // 0 to bound - 1. The slight bias for bounds that are no power of two does not matter here.
+  // 0 to bound - 1; bound is not 0. The slight bias for bounds that are no power of two does not
+  // matter here.
   std::size_t below(std::size_t bound) {
+    if (bound == 0) throw std::invalid_argument("no number is below 0");
     if (bytes_.empty()) return static_cast<std::size_t>(next() % bound);
     std::size_t value = 0;
     for (std::size_t rest = bound - 1; rest > 0 && !bytes_.empty(); rest >>= 8U) {

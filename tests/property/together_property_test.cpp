@@ -81,6 +81,7 @@ class Check {
 
   std::vector<std::size_t> in_model(const std::vector<TaskId>& tasks) const {
     std::vector<std::size_t> all;
+    all.reserve(tasks.size());
     for (const TaskId task : tasks) all.push_back(in_model(task));
     return all;
   }

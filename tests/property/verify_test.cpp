@@ -166,9 +166,9 @@ std::uint32_t compare_beginnings(const VerifyCase& sample, const Exploration& ex
   const Exploration result = explore_with(1);
   demand_same(sample, explore_with(3), result, "3 jobs, and not 1");
   if (!result.complete) {
-    for (std::size_t i = 0; i < result.verdicts.size(); ++i) {
-      const bool is_decided = result.verdicts[i].result != Verdict::Result::undecided;
-      demand(is_decided == result.verdicts[i].has_script, "a verdict without reason");
+    for (const Verdict& verdict : result.verdicts) {
+      const bool is_decided = verdict.result != Verdict::Result::undecided;
+      demand(is_decided == verdict.has_script, "a verdict without reason");
     }
   }
   const std::uint32_t depth = std::min(expected.depth, result.depth);

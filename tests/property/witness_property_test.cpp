@@ -54,7 +54,7 @@ PlainRun run_plainly(const PlainModel& model, const std::vector<Move>& moves) {
 /// Runs the text of a script; its events and its end must be those of the moves.
 PlainRun check_script(const PlainModel& model, const std::vector<Move>& moves,
                       const std::string& text) {
-  const PlainRun expected = run_plainly(model, moves);
+  PlainRun expected = run_plainly(model, moves);
   const ScriptRun run = run_text(model.catalog(), text, model.tasks());
   demand(run.failures.empty(), run.failures.empty() ? "" : run.failures.front());
   const auto text_of_all = [&](const std::vector<Happening>& happenings) {

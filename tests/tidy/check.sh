@@ -14,13 +14,18 @@ done
 
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
-cd "$folder" && mkdir src src/inner build || exit 1
+cd "$folder" && mkdir src src/inner tests build || exit 1
 
 cat >.clang-tidy <<'END'
 Checks: -*,clang-analyzer-core.*,readability-duplicate-include,readability-identifier-naming
 WarningsAsErrors: '*'
 HeaderFilterRegex: '/src/'
 CheckOptions: [{key: readability-identifier-naming.FunctionCase, value: lower_case}]
+END
+cat >tests/.clang-tidy <<'END'
+InheritParentConfig: true
+Checks: -clang-analyzer-core.*
+CheckOptions: [{key: readability-identifier-naming.FunctionCase, value: CamelCase}]
 END
 cat >src/inner/shared.h <<'END'
 #pragma once
@@ -53,13 +58,20 @@ int Third(int number) { return helper(number); }
 END
 # Joins what is left over, and is right.
 echo 'int fourth() { return 4; }' >src/fourth.cpp
+# Has a configuration of its own.
+cat >tests/fifth.cpp <<'END'
+int fifth(const int* number) {
+  if (number != nullptr) return 1;
+  return *number;
+}
+END
 
 {
   echo '['
   separator=
-  for source in inner/first second third fourth; do
-    echo "$separator{\"directory\": \"$folder/build\", \"file\": \"$folder/src/$source.cpp\","
-    echo "\"command\": \"clang++ -std=c++20 -o $source.o -c $folder/src/$source.cpp\"}"
+  for source in src/inner/first src/second src/third src/fourth tests/fifth; do
+    echo "$separator{\"directory\": \"$folder/build\", \"file\": \"$folder/$source.cpp\","
+    echo "\"command\": \"clang++ -std=c++20 -o $source.o -c $folder/$source.cpp\"}"
     separator=,
   done
   echo ']'
@@ -70,11 +82,12 @@ status=$?
 grep -oE '^([0-9]+ sources in .*|/[^ ]*: [a-z]+:.*\[[a-z-]*[a-zA-Z.]*)' output |
   sed -E "s|^$folder/||; s|: error: .*\[|: |" | LC_ALL=C sort >found
 cat >expected <<'END'
-4 sources in 2 translation units
+5 sources in 3 translation units
 src/inner/shared.h:2:12: readability-identifier-naming
 src/second.cpp:4:10: clang-analyzer-core.NullDereference
 src/third.cpp:3:1: readability-duplicate-include
 src/third.cpp:7:5: readability-identifier-naming
+tests/fifth.cpp:1:5: readability-identifier-naming
 END
 if [ "$status" -ne 1 ] || [ -s errors ] || ! diff -u expected found; then
   echo "check.sh: exit status $status (1 expected); the output was:" >&2
@@ -83,7 +96,7 @@ if [ "$status" -ne 1 ] || [ -s errors ] || ! diff -u expected found; then
 fi
 
 # Without findings.
-echo 'Checks: -*,clang-analyzer-core.CallAndMessage' >.clang-tidy
+echo 'Checks: -*,clang-analyzer-core.CallAndMessage,misc-static-assert' >.clang-tidy
 python3 -B "$here/tidy.py" build >output 2>&1 || {
   echo "check.sh: exit status $? without findings; the output was:" >&2
   cat output >&2

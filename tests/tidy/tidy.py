@@ -2,8 +2,8 @@
 """clang-tidy over all sources of a CMake build, many of them in one translation unit.
 
 Nearly all of the time of clang-tidy goes to the headers of libraries, which it examines once for each translation unit.
-So sources that are compiled with the same flags are joined. What cannot be joined, as two sources define the same name,
-waits for the next unit. Sources are joined as text, not included: some checks look only at the main file.
+So sources with the same flags and the same configuration are joined. What cannot be joined, as two sources define the
+same name, waits for the next unit. Sources are joined as text, not included: some checks look only at the main file.
 """
 
 import argparse
@@ -33,7 +33,7 @@ def main():
     for command in commands:
         path = pathlib.Path(command["file"])
         if options.build not in path.parents:
-            groups.setdefault(flags_of(command), {})[path] = None
+            groups.setdefault((flags_of(command), configuration_of(path)), {})[path] = None
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
         units = [unit for units in pool.map(lambda group: join(*group, units_dir), enumerate(groups.items()))
                  for unit in units]
@@ -65,10 +65,16 @@ def flags_of(command):
     return tuple(words)
 
 
+def configuration_of(source):
+    """The file that decides what clang-tidy says about a source."""
+    return next(path for path in (folder / ".clang-tidy" for folder in source.parents) if path.exists())
+
+
 @dataclasses.dataclass(frozen=True)
 class Unit:
     path: pathlib.Path
     flags: tuple
+    configuration: pathlib.Path
     sources: tuple
     starts: tuple  # by source: how many lines are before it
 
@@ -82,13 +88,13 @@ class Unit:
 
 
 def join(number, group, folder):
-    """The units of the sources that have these flags."""
-    flags, left = group[0], list(group[1])
+    """The units of the sources that have these flags and this configuration."""
+    settings, left = group[0], list(group[1])
     units = []
     while left:
         chosen, left = left[:SOURCES], left[SOURCES:]
         while True:
-            unit = write_unit(folder / f"{number}_{len(units)}.cpp", flags, chosen)
+            unit = write_unit(folder / f"{number}_{len(units)}.cpp", settings, chosen)
             wrong = find_wrong(unit) - {chosen[0]}
             if not wrong:
                 break
@@ -98,7 +104,7 @@ def join(number, group, folder):
     return units
 
 
-def write_unit(path, flags, sources):
+def write_unit(path, settings, sources):
     lines, starts, included = [], [], set()
     for source in sources:
         starts.append(len(lines))
@@ -115,7 +121,7 @@ def write_unit(path, flags, sources):
             lines.append(line)
         included |= here
     path.write_text("\n".join(lines) + "\n")
-    return Unit(path, flags, tuple(sources), tuple(starts))
+    return Unit(path, *settings, tuple(sources), tuple(starts))
 
 
 def find_wrong(unit):
@@ -131,7 +137,7 @@ def find_wrong(unit):
 
 def examine(unit):
     """The findings, each with its notes."""
-    command = ["clang-tidy", "--quiet", str(unit.path), "--", *unit.flags[1:]]
+    command = ["clang-tidy", "--quiet", f"--config-file={unit.configuration}", str(unit.path), "--", *unit.flags[1:]]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     findings = []
     for part in re.split(r"^(?=/[^:\n]+:\d+:\d+: (?:warning|error|fatal error):)", done.stdout, flags=re.MULTILINE):

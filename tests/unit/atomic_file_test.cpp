@@ -124,7 +124,7 @@ TEST(AtomicFile, RemovesOldLeftoversAndNothingElse) {
   std::filesystem::create_directory(folder / ".cbc-00000000000000bb.tmp");
   std::filesystem::create_symlink("a", folder / ".cbc-00000000000000cc.tmp");
   const auto make_old = [&](const std::string& name) {
-    const timespec old{std::time(nullptr) - 2 * 60 * 60, 0};
+    const timespec old{std::time(nullptr) - std::time_t{2} * 60 * 60, 0};
     const std::array<timespec, 2> times{old, old};
     ASSERT_EQ(utimensat(AT_FDCWD, (folder / name).c_str(), times.data(), AT_SYMLINK_NOFOLLOW), 0);
   };

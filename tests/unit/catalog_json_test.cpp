@@ -206,7 +206,7 @@ TEST_P(PublishedCatalog, HasNumbersThatAddUp) {
   std::uint64_t space = 1;
   std::uint64_t levels = 0;
   for (const Json& group : json["groups"]) {
-    for (auto& [key, value] : sum.items()) {
+    for (const auto& [key, value] : sum.items()) {
       value = value.get<std::uint64_t>() + group["constraints"][key].get<std::uint64_t>();
     }
     std::uint64_t group_space = 1;

@@ -194,7 +194,7 @@ TEST(CatalogText, ListsAnEmptyCatalog) {
 }
 
 TEST(CatalogText, MakesHostileNamesHarmless) {
-  const std::string text = list("behaviors: [{behavior: \"a\\nb\", task: \"\\e[2J\"}]");
+  const std::string text = list(R"(behaviors: [{behavior: "a\nb", task: "\e[2J"}])");
   EXPECT_NE(text.find("\n  task \\x1b[2J\n"), std::string::npos) << text;
   EXPECT_NE(text.find("\n  behavior a\\nb\n"), std::string::npos) << text;
 }

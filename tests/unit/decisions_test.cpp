@@ -82,6 +82,7 @@ void expect_fresh_answers(const CompiledCatalog& catalog, std::size_t most_bytes
   Decisions remembering(model, most_bytes);
   Random random(1);
   std::vector<RandomQuestion> questions;
+  questions.reserve(60);
   for (int i = 0; i < 60; ++i) questions.emplace_back(random, model);
   std::size_t infeasible = 0;
   for (int i = 0; i < 600; ++i) {
@@ -143,6 +144,7 @@ TEST(Decisions, ForgetsWhenThereAreTooMany) {
     Decisions decisions(model, most_bytes);
     Random random(2);
     std::vector<RandomQuestion> questions;
+    questions.reserve(300);
     for (int i = 0; i < 300; ++i) questions.emplace_back(random, model);
     for (int round = 0; round < 2; ++round) {
       for (RandomQuestion& question : questions) static_cast<void>(decisions.find(question.ask()));

@@ -234,7 +234,7 @@ std::string difference(const CompiledCatalog& a, const CompiledCatalog& b) {
       "texts",          "texts_begin", "behavior_packages", "parameters",
       "allowed_values", "variables",   "variable_values"};
   std::string_view different;
-  auto name = first_array_name;
+  const auto* name = first_array_name;
   const auto compare = [&](const auto& of_a, const auto& of_b) {
     if (!with_texts.contains(*name) && !is_same(of_a, of_b)) different = *name;
     ++name;

@@ -40,7 +40,7 @@ class EditableCatalog {
   /// Calls visit(name, vector) for each array, with its name in the schema.
   template <typename Visit>
   void for_each_array(Visit visit) {
-    auto name = first_array_name;
+    const auto* name = first_array_name;
     std::apply([&](auto&... array) { (visit(std::string_view(*name++), array), ...); },
                arrays_of(arrays));
   }
@@ -49,7 +49,7 @@ class EditableCatalog {
 };
 
 /// The catalog that the arrays describe, without what they do not say (ranges but for lines).
-[[nodiscard]] Catalog describe_compiled(const CompiledCatalog& catalog);
+[[nodiscard]] Catalog describe_compiled(const CompiledCatalog& compiled);
 
 /// An array in which two catalogs differ, or nothing. Texts are compared where they are
 /// used: their places do not count.

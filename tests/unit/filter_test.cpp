@@ -1,3 +1,4 @@
+#include <cstddef>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -17,7 +18,8 @@ TEST(Filter, PassesAnyAmountThrough) {
 }
 
 TEST(Filter, SurvivesAProgramThatReadsNothing) {
-  const Filtered result = run_filter({"true"}, std::string(10'000'000, 'x'));
+  constexpr std::size_t more_than_a_pipe_holds = 10'000'000;
+  const Filtered result = run_filter({"true"}, std::string(more_than_a_pipe_holds, 'x'));
   EXPECT_TRUE(result.is_done);
   EXPECT_EQ(result.output, "");
 }

@@ -263,7 +263,7 @@ tasks:
             "no behavior fails, and so none runs into a timeout");
 
   // At the same instant, the task that the catalog has first comes first.
-  const auto replaced = [&](std::string from, const std::string& to) {
+  const auto replaced = [&](const std::string& from, const std::string& to) {
     std::string changed = text;
     return changed.replace(changed.find(from), from.size(), to);
   };

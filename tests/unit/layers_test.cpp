@@ -100,7 +100,7 @@ TEST(Layers, TheRuntimeIncludesNoLibraries) {
   int count = 0;
   const std::regex include("^#include <(.*)>");
   const std::regex allowed(
-      "[a-z_]+|flatbuffers/flatbuffers\\.h|xxhash\\.h|(fcntl|unistd|sys/[a-z]+)\\.h");
+      R"([a-z_]+|flatbuffers/flatbuffers\.h|xxhash\.h|(fcntl|unistd|sys/[a-z]+)\.h)");
   const fs::path runtime = fs::path(CBC_SOURCE_DIR) / "src" / "runtime";
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(runtime)) {
     if (!is_source(entry.path())) continue;

@@ -73,7 +73,7 @@ std::size_t fewest(const std::set<GoalSet>& paths, const GoalSet& wanted) {
   if (wanted.empty()) return 0;
   std::size_t best = goal_count;
   for (const GoalSet& path : paths) {
-    if (path.count(*wanted.begin()) == 0) continue;
+    if (!path.contains(*wanted.begin())) continue;
     GoalSet rest;
     std::set_difference(wanted.begin(), wanted.end(), path.begin(), path.end(),
                         std::inserter(rest, rest.end()));
@@ -100,7 +100,7 @@ TEST(MissionPlan, MeetsAllAndIsBounded) {
       for (const GoalSet& goals : all) reachable.insert(goals.begin(), goals.end());
     }
     for (std::uint32_t goal = 0; goal < goal_count; ++goal) {
-      ASSERT_EQ(planner.reachable()[goal] != 0, reachable.count(goal) != 0) << round;
+      ASSERT_EQ(planner.reachable()[goal] != 0, reachable.contains(goal)) << round;
     }
     const Goals wanted(goal_count, 1);
     const std::uint64_t bound = planner.lower_bound(wanted);

@@ -17,6 +17,7 @@
 namespace cbc::serve {
 namespace {
 
+using namespace std::string_literals;
 using test::Client;
 
 class ServerTest : public testing::Test {
@@ -101,7 +102,7 @@ TEST_F(ServerTest, RefusesOtherRequests) {
        {std::string("hello\r\n\r\n"), std::string(100, '\0') + "\r\n\r\n",
         "GET / HTTP/1.1\r\nHost: " + std::string(100'000, 'x'),
         std::string("GET / HTTP/9.9\r\n\r\n"),
-        std::string("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03 TLS\r\n\r\n")}) {
+        "\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03 TLS\r\n\r\n"s}) {
     EXPECT_EQ(status_of(garbage), "HTTP/1.1 400 Bad Request");
   }
   EXPECT_EQ(status("/"), "HTTP/1.1 200 OK");
@@ -152,6 +153,7 @@ TEST_F(ServerTest, DoesNotWaitForSlowClients) {
 
 TEST_F(ServerTest, ServesAFewOfVeryManyClients) {
   std::vector<Client> clients;
+  clients.reserve(300);
   for (int i = 0; i < 300; ++i) clients.push_back(listen());
   add("one");
   int served = 0;

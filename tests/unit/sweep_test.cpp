@@ -309,6 +309,7 @@ TEST(Sweep, DrawsTheSameNumbersOnEveryMachine) {
   EXPECT_EQ(RandomSource(UINT64_MAX, UINT64_MAX).next(), 0x082ee7e0af5462c6U);
   RandomSource digits(7, 3);
   std::vector<std::uint32_t> drawn;
+  drawn.reserve(8);
   for (int count = 0; count < 8; ++count) drawn.push_back(digits.below(10));
   EXPECT_EQ(drawn, (std::vector<std::uint32_t>{0, 9, 8, 8, 2, 4, 7, 7}));
 }

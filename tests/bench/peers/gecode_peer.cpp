@@ -152,6 +152,7 @@ class Model : public gc::Space {
 
   [[nodiscard]] std::vector<int> values() const {
     std::vector<int> values;
+    values.reserve(static_cast<std::size_t>(values_.size()));
     for (int i = 0; i < values_.size(); ++i) values.push_back(values_[i].val());
     return values;
   }
