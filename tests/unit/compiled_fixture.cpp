@@ -34,6 +34,18 @@ CompiledCatalog compile_text(std::string_view yaml) {
   return compile(catalog.value_or(Catalog{}));
 }
 
+std::string chain_of_alternatives(int length) {
+  std::string text = "behaviors:\n";
+  for (int task = 0; task < length; ++task) {
+    const std::string number = std::to_string(task);
+    text += "- {behavior: alone" + number + ", task: T" + number + ", suitability: 1}\n";
+    text += "- {behavior: with" + number + ", task: T" + number + ", suitability: 99.999";
+    if (task + 1 < length) text += ", requires: [{task: T" + std::to_string(task + 1) + "}]";
+    text += "}\n";
+  }
+  return text;
+}
+
 TaskId task_id(const CompiledCatalog& catalog, std::string_view name) {
   return catalog.task_ids[found_or_zero(catalog.find_task(name), name)];
 }

@@ -14,6 +14,10 @@ namespace cbc::test {
 /// Reads and compiles a catalog without errors.
 [[nodiscard]] CompiledCatalog compile_text(std::string_view yaml);
 
+/// A catalog in which each of the tasks T0, T1, … runs alone, hardly suitable, or requires the next
+/// one: a bound of T0's cost has a cut for each task, which holds all those before it.
+[[nodiscard]] std::string chain_of_alternatives(int length);
+
 [[nodiscard]] TaskId task_id(const CompiledCatalog& catalog, std::string_view name);
 [[nodiscard]] BehaviorId behavior_id(const CompiledCatalog& catalog, std::string_view name);
 /// Index of a task within its group.

@@ -3,6 +3,7 @@
 #include "solver/landmark_bound.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -13,7 +14,9 @@
 #include "solver/cost_bound.h"
 #include "solver/domains.h"
 #include "solver/reason_trail.h"
+#include "solver/search_budget.h"
 #include "support/rounds.h"
+#include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
 
 namespace cbc {
@@ -326,6 +329,36 @@ TEST_F(LandmarkBoundTest, ReachesTheHeightsInLargeGroups) {
     }
   }
   EXPECT_GE(tally_.bounds, test::rounds(100));
+}
+
+TEST_F(LandmarkBoundTest, AnAscentEndsWhenNoTimeIsLeftAndCanGoOn) {
+  const CompiledCatalog catalog = test::compile_text(test::chain_of_alternatives(300));
+  Problem problem = test::open_problem(catalog);
+  test::demand(problem, catalog, "T0");
+  const Branch branch(catalog, problem);
+  LandmarkBound bound(catalog, branch.domains(), branch.trail());
+  bound.load();
+  SearchBudget budget;
+  budget.deadline = std::chrono::steady_clock::now();
+  const std::int64_t first = bound.raise(INT64_MAX, budget);
+  EXPECT_LT(first, branch.heights(Measure::log)[test::local_task(catalog, "T0")]);
+  budget.deadline = std::chrono::steady_clock::now() + std::chrono::hours(1);
+  check_heights(branch, bound, Measure::log, tally_);
+  expect_same_as_anew(catalog, branch, bound, Measure::log);
+  EXPECT_EQ(bound.raise(INT64_MAX, budget), bound.raise(INT64_MAX));
+}
+
+TEST_F(LandmarkBoundTest, TheBoundOfAReportHoldsInAVeryLargeGroup) {
+  const CompiledCatalog catalog = test::compile_text(test::chain_of_alternatives(6'000));
+  Problem problem = test::open_problem(catalog);
+  test::demand(problem, catalog, "T0");
+  const Branch branch(catalog, problem);
+  LandmarkBound bound(catalog, branch.domains(), branch.trail());
+  bound.load();
+  const std::int64_t lower = bound.bound_again();
+  EXPECT_GT(lower, 0);
+  EXPECT_LT(lower, branch.heights(Measure::log)[test::local_task(catalog, "T0")])
+      << "all of it takes 18 million steps";
 }
 
 }  // namespace

@@ -386,6 +386,14 @@ tasks: [{task: A}, {task: B}, {task: Z}]
   expect_equal(subtree.bound(cost(log_cost(900'000), 0)), cost(log_cost(720'000), 0));
 }
 
+TEST(CostBound, OfAVeryLargeGroupIsThatOfAPart) {
+  constexpr int length = 6'000;  // all cuts have 18 million tasks
+  Subtree subtree(test::chain_of_alternatives(length), {"T0"});
+  const std::int64_t bound = subtree.bound().log;
+  EXPECT_GT(bound, length / 2 * log_cost(999'990));
+  EXPECT_LT(bound, length * log_cost(999'990));
+}
+
 TEST(CostBound, OfAZeroIsProhibitive) {
   Subtree subtree(R"(
 behaviors:

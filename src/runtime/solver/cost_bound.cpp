@@ -37,11 +37,15 @@ CostBound::CostBound(const CompiledCatalog& catalog, const Domains& domains,
 }
 
 CostBound::Cost CostBound::bound(const Cost& threshold, Roots roots) {
+  constexpr std::uint64_t most_steps = 10'000'000;  // tasks of cuts
   ++bound_number_;
   Cost total;
+  std::uint64_t steps = 0;
   for (const std::uint32_t task : domains_.needed_tasks()) {
     if (!is_root(task, roots)) continue;
     while (collect_cut(task)) {
+      steps += cut_.size();
+      if (steps > most_steps) return total;
       total += subtract_cut_minimum();
       if (total > threshold) return total;
     }
@@ -55,6 +59,7 @@ CostBound::Cost& CostBound::residual(std::uint32_t task, std::uint32_t index) {
 }
 
 CostBound::Cost CostBound::reduced_cost(std::uint32_t task, std::uint32_t index) {
+  open(task);
   Cost cost = residual(task, index);
   for (const CompiledRequirement& requirement :
        catalog_.requirements[domains_.value(task, index).behavior]) {

@@ -48,7 +48,8 @@ class CostBound {
   enum class Roots : std::uint8_t { in_component, around_component };
 
   /// A lower bound on the cost of every solution of the present subtree. The ascent ends as soon as
-  /// the bound exceeds `threshold`.
+  /// the bound exceeds `threshold`, and after millions of steps: in a group of n tasks it may take
+  /// n^2.
   [[nodiscard]] Cost bound(const Cost& threshold, Roots roots);
 
   /// After a bound that did not exceed its threshold: an estimate of what a value of the domain

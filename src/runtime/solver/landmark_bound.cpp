@@ -172,12 +172,17 @@ void LandmarkBound::find_reached_tasks() {
   }
 }
 
-std::int64_t LandmarkBound::raise(std::int64_t threshold) {
+std::int64_t LandmarkBound::ascend(std::int64_t threshold, const SearchBudget& budget,
+                                   std::uint64_t steps) {
+  const std::uint64_t last_step = steps == UINT64_MAX ? UINT64_MAX : steps_ + steps;
   if (version_ != trail_.version()) start_ascent();
   version_ = trail_.version();
-  while (bound_ <= threshold && sort_unsettled()) {
+  next_check_ = steps_;
+  bool must_end = false;
+  while (bound_ <= threshold && !must_end && sort_unsettled()) {
     for (const std::uint32_t root : unsettled_) {
-      if (bound_ > threshold) break;
+      must_end = has_to_end(budget, last_step);
+      if (bound_ > threshold || must_end) break;
       if (find_cut(root)) subtract_cut(root);
     }
     update_heights();
@@ -185,10 +190,17 @@ std::int64_t LandmarkBound::raise(std::int64_t threshold) {
   return bound_;
 }
 
+bool LandmarkBound::has_to_end(const SearchBudget& budget, std::uint64_t last_step) {
+  constexpr std::uint64_t steps_between_checks = 10'000;
+  if (steps_ < next_check_) return false;
+  next_check_ = steps_ + steps_between_checks;
+  return steps_ > last_step || budget.is_out_of_time();
+}
+
 std::int64_t LandmarkBound::bound_again() {
   set_measure(Measure::log);
   version_ = 0;
-  return raise(INT64_MAX);
+  return ascend(INT64_MAX, {}, most_steps);
 }
 
 void LandmarkBound::mark(std::uint32_t task) {
@@ -257,6 +269,7 @@ bool LandmarkBound::sort_unsettled() {
   std::sort(unsettled_.begin(), unsettled_.end(), [this](std::uint32_t a, std::uint32_t b) {
     return heights_[a] != heights_[b] ? heights_[a] > heights_[b] : a < b;
   });
+  steps_ += unsettled_.size();
   return !unsettled_.empty();
 }
 
@@ -268,6 +281,7 @@ bool LandmarkBound::find_cut(std::uint32_t root) {
   in_cut_[root] = cut_number_;
   for (std::size_t next = 0; next < cut_.size(); ++next) {
     const std::uint32_t task = cut_[next];
+    ++steps_;
     for (std::uint32_t number = candidates_begin_[task]; number < candidates_end_[task]; ++number) {
       const Candidate& candidate = candidates_[number];
       if (residuals_[candidate.value] > 0 || candidate.is_removed || requires_cut(candidate)) {

@@ -7,6 +7,7 @@
 #include "compiled/compiled_catalog.h"
 #include "solver/domains.h"
 #include "solver/reason_trail.h"
+#include "solver/search_budget.h"
 
 namespace cbc {
 
@@ -51,10 +52,14 @@ class LandmarkBound {
 
   void set_measure(Measure measure);
 
-  /// Raises the bound of the present subtree until it exceeds `threshold`, or no cut is left. To be
-  /// called at a fixpoint of the trail.
-  std::int64_t raise(std::int64_t threshold);
-  /// At level 0: the highest bound on -log of f2 in the present domains.
+  /// Raises the bound of the present subtree until it exceeds `threshold`, or no cut is left. In a
+  /// group of n tasks that may take n^2 steps: a limit of the budget ends it, when no time is left
+  /// or, so that the result is always the same, after a number of steps. To be called at a fixpoint
+  /// of the trail.
+  std::int64_t raise(std::int64_t threshold, const SearchBudget& budget = {}) {
+    return ascend(threshold, budget, budget.max_nodes > 0 ? most_steps : UINT64_MAX);
+  }
+  /// At level 0: a bound on -log of f2 in the present domains, the highest one for most groups.
   std::int64_t bound_again();
 
   // After raise(), which did not exceed its threshold:
@@ -109,8 +114,12 @@ class LandmarkBound {
     std::size_t saved = 0;
   };
 
+  static constexpr std::uint64_t most_steps = 10'000'000;  ///< where a number of steps is a limit
+
   void find_relevant_tasks();
   void start_ascent();
+  std::int64_t ascend(std::int64_t threshold, const SearchBudget& budget, std::uint64_t steps);
+  [[nodiscard]] bool has_to_end(const SearchBudget& budget, std::uint64_t last_step);
   void find_reached_tasks();
   void add_candidates(std::uint32_t task);
   void mark(std::uint32_t task);
@@ -161,6 +170,8 @@ class LandmarkBound {
   std::vector<std::uint64_t> marked_;           ///< bit set of places: tasks whose height has sunk
   std::size_t first_marked_ = SIZE_MAX;         ///< no word of marked_ before this one is set
   std::int64_t bound_ = 0;
+  std::uint64_t steps_ = 0;       ///< of all ascents: tasks of cuts, and roots that were sorted
+  std::uint64_t next_check_ = 0;  ///< the step to look at the clock
 
   // The last cut.
   std::vector<std::uint32_t> cut_;

@@ -50,7 +50,7 @@ bool LearningSearch::search(const Problem& problem, Incumbent& best, bool any_so
       restart();
       continue;
     }
-    const Literal decision = decide(best);
+    const Literal decision = decide(best, budget);
     if (decision == none) {
       ++result.solutions;
       objective_.record(best);
@@ -71,9 +71,9 @@ bool LearningSearch::propagate(const Incumbent& best, const SearchBudget& budget
     if (budget.is_out_of_time()) return true;
     if (!trail_.propagate()) return false;
     const std::size_t before = trail_.literals().size();
-    if (!performance_.propagate()) return false;
+    if (!performance_.propagate(budget)) return false;
     if (trail_.literals().size() > before) continue;
-    if (best.exists && !objectives_.propagate(best)) return false;
+    if (best.exists && !objectives_.propagate(best, budget)) return false;
     if (trail_.literals().size() == before) return true;
   }
 }
@@ -112,13 +112,13 @@ void LearningSearch::restart() {
 
 /// The next literal to decide; none if all is decided that a best solution may contain. Requests
 /// come first, the most important one first.
-Literal LearningSearch::decide(const Incumbent& best) {
+Literal LearningSearch::decide(const Incumbent& best, const SearchBudget& budget) {
   for (const std::uint32_t task : problem_->requests) {
     const Literal runs = ReasonTrail::runs(task);
     if (!trail_.is_true(runs) && !trail_.is_false(runs)) return runs;
   }
   const std::uint32_t task = choose_task(best);
-  return task == none ? none : trail_.has_value(task, choose_value(task, best));
+  return task == none ? none : trail_.has_value(task, choose_value(task, best, budget));
 }
 
 /// Before the first solution: the undecided needed task that has taken part in most of the recent
@@ -143,10 +143,11 @@ std::uint32_t LearningSearch::choose_task(const Incumbent& best) const {
 }
 
 /// The value of the least estimated cost; before the first solution rather the one saved.
-std::uint32_t LearningSearch::choose_value(std::uint32_t task, const Incumbent& best) {
+std::uint32_t LearningSearch::choose_value(std::uint32_t task, const Incumbent& best,
+                                           const SearchBudget& budget) {
   const std::uint32_t saved = saved_[task];
   if (!best.exists && saved != none && domains_.has(task, saved)) return saved;
-  if (bound_.level() == none) static_cast<void>(bound_.raise(INT64_MAX));
+  if (bound_.level() == none) static_cast<void>(bound_.raise(INT64_MAX, budget));
   std::uint32_t chosen = none;
   std::int64_t least = 0;
   const auto values = static_cast<std::uint32_t>(domains_.values(task).size());

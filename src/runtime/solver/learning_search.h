@@ -47,9 +47,10 @@ class LearningSearch {
   [[nodiscard]] bool learn();
   void backtrack_to(std::uint32_t level);
   void restart();
-  [[nodiscard]] Literal decide(const Incumbent& best);
+  [[nodiscard]] Literal decide(const Incumbent& best, const SearchBudget& budget);
   [[nodiscard]] std::uint32_t choose_task(const Incumbent& best) const;
-  [[nodiscard]] std::uint32_t choose_value(std::uint32_t task, const Incumbent& best);
+  [[nodiscard]] std::uint32_t choose_value(std::uint32_t task, const Incumbent& best,
+                                           const SearchBudget& budget);
   void save_values();
 
   const CompiledCatalog& catalog_;

@@ -8,7 +8,7 @@ ObjectiveReasons::ObjectiveReasons(const CompiledCatalog& catalog, const Domains
                                    Objective& objective, LandmarkBound& bound, ReasonTrail& trail)
     : catalog_(catalog), domains_(domains), objective_(objective), bound_(bound), trail_(trail) {}
 
-bool ObjectiveReasons::propagate(const Incumbent& incumbent) {
+bool ObjectiveReasons::propagate(const Incumbent& incumbent, const SearchBudget& budget) {
   if (objective_.compare_requests(incumbent) > 0) {
     explain_requests();
     trail_.set_conflict(reason_);
@@ -19,12 +19,12 @@ bool ObjectiveReasons::propagate(const Incumbent& incumbent) {
   if (!serve_open_requests()) return false;
   if (trail_.literals().size() > before || !objective_.ties_on_requests(incumbent)) return true;
   const CostBound::Cost limits = pruning_threshold(incumbent, domains_.task_count());
-  if (!bound_costs(limits, false)) return false;
+  if (!bound_costs(limits, false, budget)) return false;
   if (trail_.literals().size() > before) return true;
   const Objective::Comparison comparison = objective_.compare(incumbent, 0);
   if (comparison.order < 0) return true;
   // The bound has better reasons.
-  if (!bound_costs(limits, true)) return false;
+  if (!bound_costs(limits, true, budget)) return false;
   if (trail_.literals().size() > before) return true;
   explain_comparison(incumbent, comparison.decider);
   trail_.set_conflict(reason_);
@@ -56,7 +56,8 @@ bool ObjectiveReasons::serve_open_requests() {
 }
 
 /// Refutes the subtree, or removes the values that cost too much.
-bool ObjectiveReasons::bound_costs(const CostBound::Cost& limits, bool is_final) {
+bool ObjectiveReasons::bound_costs(const CostBound::Cost& limits, bool is_final,
+                                   const SearchBudget& budget) {
   if (limits.log == INT64_MAX) return true;
   const bool is_idle = limits.idle != INT64_MAX;
   bound_.set_measure(is_idle ? LandmarkBound::Measure::idle : LandmarkBound::Measure::log);
@@ -68,7 +69,7 @@ bool ObjectiveReasons::bound_costs(const CostBound::Cost& limits, bool is_final)
       trail_.level() < last + levels_between_bounds) {
     return true;
   }
-  const std::int64_t bound = bound_.raise(threshold);
+  const std::int64_t bound = bound_.raise(threshold, budget);
   if (bound > threshold) {
     explain_requests();
     bound_.append_grounds(bound - threshold - 1, reason_);

@@ -10,6 +10,7 @@
 #include "solver/objective.h"
 #include "solver/problem.h"
 #include "solver/reason_trail.h"
+#include "solver/search_budget.h"
 
 namespace cbc {
 
@@ -21,9 +22,9 @@ class ObjectiveReasons final : public LazyReasons {
                    LandmarkBound& bound, ReasonTrail& trail);
 
   void load(const Problem& problem) { problem_ = &problem; }
-  /// To be called at a fixpoint of the trail; there may be more to propagate afterwards. False: see
-  /// the trail's conflict.
-  [[nodiscard]] bool propagate(const Incumbent& incumbent);
+  /// To be called at a fixpoint of the trail; there may be more to propagate afterwards, or if the
+  /// budget has no time left. False: see the trail's conflict.
+  [[nodiscard]] bool propagate(const Incumbent& incumbent, const SearchBudget& budget = {});
 
   /// Of a removed value: that it costs too much.
   void append_reason(Literal literal, std::uint32_t data,
@@ -32,7 +33,8 @@ class ObjectiveReasons final : public LazyReasons {
  private:
   [[nodiscard]] bool may_serve_more(const Incumbent& incumbent) const;
   [[nodiscard]] bool serve_open_requests();
-  [[nodiscard]] bool bound_costs(const CostBound::Cost& limits, bool is_final);
+  [[nodiscard]] bool bound_costs(const CostBound::Cost& limits, bool is_final,
+                                 const SearchBudget& budget);
   void append_lost_requests(std::size_t end, std::vector<Literal>& reason) const;
   void explain_requests();
   void explain_comparison(const Incumbent& incumbent, Objective::Decider decider);

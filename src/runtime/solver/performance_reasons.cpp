@@ -13,8 +13,9 @@ void PerformanceReasons::load() {
   }
 }
 
-bool PerformanceReasons::propagate() {
+bool PerformanceReasons::propagate(const SearchBudget& budget) {
   for (const std::uint32_t task : ruled_) {
+    if (budget.is_out_of_time()) return true;
     if (domains_.needed(task) && !revise(task)) return false;
   }
   return true;

@@ -7,6 +7,7 @@
 #include "solver/domains.h"
 #include "solver/performance_bound.h"
 #include "solver/reason_trail.h"
+#include "solver/search_budget.h"
 
 namespace cbc {
 
@@ -17,9 +18,9 @@ class PerformanceReasons {
   PerformanceReasons(const CompiledCatalog& catalog, const Domains& domains, ReasonTrail& trail);
 
   void load();
-  /// To be called at a fixpoint of the trail; there may be more to propagate afterwards. False: see
-  /// the trail's conflict.
-  [[nodiscard]] bool propagate();
+  /// To be called at a fixpoint of the trail; there may be more to propagate afterwards, or if no
+  /// time is left. False: see the trail's conflict.
+  [[nodiscard]] bool propagate(const SearchBudget& budget = {});
 
  private:
   [[nodiscard]] bool revise(std::uint32_t task);
