@@ -83,7 +83,8 @@ bool Repair::assign_needed_tasks() {
 
 void Repair::list_candidates() {
   candidates_.clear();
-  listed_ = {};
+  listed_ = domains_.mark();
+  listed_.needed = 0;
   list_new_candidates();
 }
 
@@ -91,13 +92,14 @@ void Repair::list_new_candidates() {
   const std::vector<std::uint32_t>& needed = domains_.needed_tasks();
   for (std::size_t place = listed_.needed; place < needed.size(); ++place) {
     const std::uint32_t task = needed[place];
+    if (domains_.count(task) == 1) continue;
     listings_[task] = {static_cast<std::uint32_t>(place), !has_present_value(task)};
     list_candidate(task);
   }
   const Domains::Mark now = domains_.mark();
   for (std::size_t change = listed_.trail; change < now.trail; ++change) {
     const std::uint32_t task = domains_.changed_task(change);
-    if (!domains_.needed(task) || has_present_value(task)) continue;
+    if (domains_.count(task) == 1 || !domains_.needed(task) || has_present_value(task)) continue;
     if (std::exchange(listings_[task].lost_present_value, true)) continue;
     list_candidate(task);
   }
@@ -105,7 +107,6 @@ void Repair::list_new_candidates() {
 }
 
 void Repair::list_candidate(std::uint32_t task) {
-  if (domains_.count(task) == 1) return;
   const Listing& listing = listings_[task];
   candidates_.push_back({listing.lost_present_value,
                          catalog_.tasks[domains_.first_task() + task].level, listing.place});
