@@ -1,11 +1,9 @@
 #include <algorithm>
-#include <cerrno>
 #include <cinttypes>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <fstream>
 #include <new>
@@ -62,14 +60,7 @@ int run(int argc, char** argv) {
     reply_to_shell(program, {arguments.begin() + 1, arguments.end()});
     return exit_ok;
   }
-  const int status = program.run(arguments);
-  // After an earlier error, what could not be written is tried again, which gives the reason.
-  errno = 0;
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    const char* const reason = errno != 0 ? std::strerror(errno) : "a part of it is missing";
-    return complain("cannot write the output: {}", reason);
-  }
-  return status;
+  return finish_output(program.run(arguments));
 }
 
 /// The name of the file that is mapped into memory at an address; empty if it is not known.

@@ -211,10 +211,27 @@ void hold_standard_descriptors() {
   }
 }
 
+namespace {
+
+/// The error of the first write_output to standard output that failed. The stream only knows that
+/// one did, and nothing of a long content is left in it to be written again.
+int error_of_output = 0;
+
+}  // namespace
+
+int finish_output(int status) {
+  // After an earlier error, what is left is tried again, which gives the reason.
+  errno = error_of_output;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+  const char* const reason = errno != 0 ? std::strerror(errno) : "a part of it is missing";
+  return complain("cannot write the output: {}", reason);
+}
+
 int write_output(const std::string& path, std::string_view content) {
   if (path == "-") {
-    std::fwrite(content.data(), 1, content.size(), stdout);  // errors show when it is flushed
-    return exit_ok;
+    const bool is_whole = std::fwrite(content.data(), 1, content.size(), stdout) == content.size();
+    if (!is_whole && error_of_output == 0) error_of_output = errno;
+    return exit_ok;  // finish_output reports it
   }
   if (const auto refusal = find_read_file(path)) return complain(*refusal);
   return replace_input(path, content);

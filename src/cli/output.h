@@ -162,6 +162,10 @@ void hold_standard_descriptors();
 /// file is one that was read, prints why. Returns the exit status.
 [[nodiscard]] int write_output(const std::string& path, std::string_view content);
 
+/// Writes what is left of standard output. If it could not all be written, prints why, and returns
+/// the exit status of that, otherwise `status`.
+[[nodiscard]] int finish_output(int status);
+
 /// The same for an input, which is meant to be replaced.
 [[nodiscard]] int replace_input(const std::string& path, std::string_view content);
 
