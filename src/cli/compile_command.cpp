@@ -139,7 +139,7 @@ int check(const CompileCommand& command) {
   const std::string output = output_of(command);
   std::error_code error;
   if (!fs::exists(output, error) && !error) return say_stale(output, "it does not exist");
-  if (const auto refusal = find_confinement(output)) {
+  if (const auto refusal = find_refusal(output)) {
     return complain("cannot read {}: {}", quote(output), *refusal);
   }
   const MappedFile memory = map_file(output, largest_compiled_file);

@@ -234,7 +234,7 @@ std::optional<std::string> read_stream(std::FILE* stream, const std::string& pat
 std::optional<std::string> read_input(const std::string& path) {
   note_read(path);
   if (path == "-") return read_stream(stdin, path);
-  if (const auto refusal = find_confinement(path)) return fail(path, *refusal);
+  if (const auto refusal = find_refusal(path)) return fail(path, *refusal);
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rbe"));
   if (file == nullptr) return fail(path, std::strerror(errno));
   return read_stream(file.get(), path);
@@ -252,7 +252,7 @@ std::vector<std::string> list_folder(const std::string& path,
     folders.pop_back();
     std::error_code error;
     std::error_code ignored;
-    if (const auto refusal = find_confinement(folder.string())) {
+    if (const auto refusal = find_refusal(folder.string())) {
       (void)fail(folder.string(), *refusal);
       has_failed = true;
       continue;
@@ -287,7 +287,7 @@ namespace {
 /// Whether it is a pipe, a device or a socket, from which something may never come.
 bool is_special(const std::string& path) {
   std::error_code ignored;
-  return !find_confinement(path) && fs::is_other(path, ignored);
+  return !find_refusal(path) && fs::is_other(path, ignored);
 }
 
 /// Whether a file is a catalog or another file of cbc, at least by its keys.
@@ -472,7 +472,7 @@ namespace {
 /// Whether a regular file has a compiled catalog. Other files cannot be read twice.
 bool can_be_mapped(const std::string& path) {
   std::error_code ignored;
-  if (path == "-" || find_confinement(path)) return false;
+  if (path == "-" || find_refusal(path)) return false;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
   std::array<char, 8> begin{};
   std::ifstream file(path, std::ios::binary);
@@ -527,7 +527,7 @@ SettingsFinder::SettingsFinder(SeveritySettings command_line)
 std::optional<SeveritySettings> SettingsFinder::find(const std::string& path) {
   const std::optional<std::string> file = find_settings_file(path);
   // One above the folder of --confine belongs to others.
-  if (!file || find_confinement(folder_of(*file))) return command_line_;
+  if (!file || find_refusal(folder_of(*file))) return command_line_;
   const auto [entry, is_new] = known_.try_emplace(*file);
   if (!is_new) return entry->second;
   if (const std::optional<std::string> text = read_input(*file)) {

@@ -70,7 +70,8 @@ void confine_reading(const std::string& folder) {
   read_files().confinement = fs::canonical(folder);
 }
 
-std::optional<std::string> find_confinement(const std::string& path) {
+std::optional<std::string> find_refusal(const std::string& path) {
+  if (path.find('\0') != std::string::npos) return "its name has a NUL character";
   const fs::path& folder = read_files().confinement;
   if (folder.empty() || path == "-") return std::nullopt;
   // Also of what does not exist, so that nobody learns of that.

@@ -23,8 +23,9 @@ void note_read(const std::string& path);
 /// others, which may name files, or be links to them.
 void confine_reading(const std::string& folder);
 
-/// Why a file must not be read, for people, or nothing. Links and ".." are followed. Standard input
-/// ("-") may be read.
-[[nodiscard]] std::optional<std::string> find_confinement(const std::string& path);
+/// Why a file must not be read, for people, or nothing: it is outside of that folder, or its name,
+/// as only another file can give it, has a NUL character, which ends it for the system. Links and
+/// ".." are followed. Standard input ("-") may be read.
+[[nodiscard]] std::optional<std::string> find_refusal(const std::string& path);
 
 }  // namespace cbc::cli

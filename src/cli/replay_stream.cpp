@@ -319,7 +319,7 @@ int replay_stream(const SolveOptions& options) {
       !knows_names(*catalog, options.explain)) {
     return exit_unusable;
   }
-  if (const auto refusal = find_confinement(path)) {
+  if (const auto refusal = find_refusal(path)) {
     return complain("cannot read {}: {}", quote(path), *refusal);
   }
   const int file = path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
