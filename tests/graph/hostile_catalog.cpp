@@ -19,15 +19,11 @@ Name plain(const std::string& text) { return {text, text}; }
 
 const std::vector<Name>& hostile_names() {
   static const std::vector<Name> names = [] {
-    std::vector<Name> result{{"a\nb", "a\\nb"},
-                             {"\n", "\\n"},
-                             {"\t", "\\t"},
-                             {"\x01", "\\x01"},
-                             {"\r\n", "\\r\\n"},
-                             {" ", "' '"},
-                             {"   ", "'   '"},
-                             {"\u202Eabc", "\\u202eabc"},
-                             {"\u00A0\u0085", "\u00A0\\x85"}};
+    std::vector<Name> result{{"a\nb", "a\\nb"},     {"\n", "\\n"},
+                             {"\t", "\\t"},         {"\x01", "\\x01"},
+                             {"\r\n", "\\r\\n"},    {" ", "' '"},
+                             {"   ", "'   '"},      {"\u202Eabc", "\\u202eabc"},
+                             {"\uFFFE", "\\ufffe"}, {"\u00A0\u0085", "\u00A0\\x85"}};
     for (const char* const text :
          {"node",
           "edge",

@@ -21,15 +21,16 @@ constexpr std::array zero_width = {
     Interval{0x0300, 0x036F}, Interval{0x200B, 0x200F}, Interval{0x20D0, 0x20FF},
     Interval{0xFE00, 0xFE0F}, Interval{0xFE20, 0xFE2F}, Interval{0xFEFF, 0xFEFF},
 };
-/// Default_Ignorable_Code_Point of Unicode 15, the marks of annotations (U+FFF9 to U+FFFB), and the
-/// Braille pattern without dots (U+2800).
+/// Default_Ignorable_Code_Point of Unicode 15, the marks of annotations (U+FFF9 to U+FFFB), the
+/// Braille pattern without dots (U+2800), and what is no character, of which XML allows not all.
 constexpr std::array invisible = {
     Interval{0x00AD, 0x00AD},   Interval{0x034F, 0x034F},   Interval{0x061C, 0x061C},
     Interval{0x115F, 0x1160},   Interval{0x17B4, 0x17B5},   Interval{0x180B, 0x180F},
     Interval{0x200B, 0x200F},   Interval{0x202A, 0x202E},   Interval{0x2060, 0x206F},
     Interval{0x2800, 0x2800},   Interval{0x3164, 0x3164},   Interval{0xFE00, 0xFE0F},
-    Interval{0xFEFF, 0xFEFF},   Interval{0xFFA0, 0xFFA0},   Interval{0xFFF0, 0xFFFB},
-    Interval{0x1BCA0, 0x1BCA3}, Interval{0x1D173, 0x1D17A}, Interval{0xE0000, 0xE0FFF},
+    Interval{0xFDD0, 0xFDEF},   Interval{0xFEFF, 0xFEFF},   Interval{0xFFA0, 0xFFA0},
+    Interval{0xFFF0, 0xFFFB},   Interval{0xFFFE, 0xFFFF},   Interval{0x1BCA0, 0x1BCA3},
+    Interval{0x1D173, 0x1D17A}, Interval{0xE0000, 0xE0FFF},
 };
 constexpr std::array double_width = {
     Interval{0x1100, 0x115F},   Interval{0x2E80, 0x303E},   Interval{0x3041, 0xA4CF},

@@ -58,7 +58,7 @@ template <typename... Parts>
 }
 
 /// Whether nothing is seen of a character, so that names that differ in it look alike: it has
-/// Unicode's property Default_Ignorable_Code_Point, or marks annotations.
+/// Unicode's property Default_Ignorable_Code_Point, marks annotations, or is no character (U+FFFE).
 [[nodiscard]] bool is_invisible(char32_t character);
 
 /// Whether a terminal would not just print a character: control characters, those that break lines
