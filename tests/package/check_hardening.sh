@@ -1,12 +1,11 @@
 #!/usr/bin/env bash
-# check_hardening.sh PROGRAM PACKAGE: checks that the program that was built, and the one in the Debian package, are
-# position-independent, cannot change their tables of functions once they are loaded, have no executable stack, and
-# were compiled with checks of the stack and of the sizes of buffers.
+# check_hardening.sh PROGRAM|PACKAGE…: checks that each program, be it that of a Debian package, is position-independent,
+# cannot change its tables of functions once it is loaded, has no executable stack, and, where it names functions of
+# libraries, was compiled with checks of the stack and of the sizes of buffers.
 set -euo pipefail
 
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
-dpkg-deb -x "$2" "$work"
 
 fail() {
   echo "check_hardening.sh: FAILED: $*" >&2
@@ -18,13 +17,19 @@ expect() {
   LC_ALL=C readelf -W "${@:4}" "$1" | grep -E "$3" >/dev/null || fail "$1: $2"
 }
 
-for program in "$1" "$work/usr/bin/cbc"; do
+for program in "$@"; do
+  if [[ $program == *.deb ]]; then
+    dpkg-deb -x "$program" "$work"
+    program=$work/usr/bin/cbc
+  fi
   expect "$program" "position-independent" 'Type: +DYN \(Position-Independent Executable' --file-header
   expect "$program" "relocations are read-only" '^ +GNU_RELRO ' --program-headers
   expect "$program" "functions are bound at the start" 'FLAGS_1.* NOW' --dynamic
   expect "$program" "stack without code" '^ +GNU_STACK .* RW +0x' --program-headers
-  expect "$program" "stack protector" ' __stack_chk_fail@' --dyn-syms
-  expect "$program" "fortified functions" ' __(memcpy|snprintf|fprintf|read)_chk@' --dyn-syms
+  if LC_ALL=C readelf -W --program-headers "$program" | grep -E '^ +INTERP ' >/dev/null; then # not static
+    expect "$program" "stack protector" ' __stack_chk_fail@' --dyn-syms
+    expect "$program" "fortified functions" ' __(memcpy|snprintf|fprintf|read)_chk@' --dyn-syms
+  fi
   if LC_ALL=C readelf -W --program-headers "$program" | grep -E '^ +[A-Z_]+ .* (RWE|WE)'; then
     fail "$program: memory that is writable and executable"
   fi

@@ -3,13 +3,15 @@
 set -euo pipefail
 
 program=$1
-catalogs=$(dirname -- "${BASH_SOURCE[0]}")/../../catalogs
+here=$(dirname -- "${BASH_SOURCE[0]}")
+catalogs=$here/../../catalogs
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
 
 # ldd reports it on either output, with an exit status of its own.
-[[ $(ldd "$program" 2>&1 || true) == *"not a dynamic executable"* ]]
+[[ $(ldd "$program" 2>&1 || true) == *"statically linked"* ]]
 [[ $(file -b "$program") == *" stripped"* ]]
+bash "$here/check_hardening.sh" "$program"
 
 cp -- "$program" "$work/program"
 cp -- "$catalogs"/*.yaml "$work"
