@@ -29,10 +29,11 @@ def main():
     units_dir = options.build / "tidy"
     shutil.rmtree(units_dir, ignore_errors=True)
     units_dir.mkdir()
-    groups = {}
+    groups, known = {}, set()
     for command in commands:
         path = pathlib.Path(command["file"])
-        if options.build not in path.parents:
+        if options.build not in path.parents and path not in known:
+            known.add(path)  # it may belong to several programs
             groups.setdefault((flags_of(command), configuration_of(path)), {})[path] = None
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
         units = [unit for units in pool.map(lambda group: join(*group, units_dir), enumerate(groups.items()))

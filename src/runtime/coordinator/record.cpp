@@ -7,7 +7,7 @@
 namespace cbc {
 namespace {
 
-constexpr auto verbs = [] {
+constexpr auto verbs = []() {
   std::array<std::string_view, verb_forms.size()> names;
   for (std::size_t verb = 0; verb < names.size(); ++verb) names[verb] = verb_forms[verb].name;
   return names;
