@@ -236,8 +236,10 @@ class Check {
     const CutSets found = find_cut_sets(compiled_, id_of_task(task), ruled_out_, options);
     std::vector<std::vector<BehaviorId>> expected;
     for (const std::vector<std::size_t>& set : minimal_cut_sets(task, options.order)) {
-      std::vector<BehaviorId>& ids = expected.emplace_back();
+      std::vector<BehaviorId> ids;
+      ids.reserve(set.size());
       for (const std::size_t behavior : set) ids.push_back(id_of_behavior(behavior));
+      expected.push_back(std::move(ids));
       statistics_.count("cut set of " + std::to_string(set.size()));
     }
     demand(found.complete, "not complete");
