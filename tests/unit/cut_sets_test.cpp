@@ -156,7 +156,9 @@ TEST(CutSets, CountTheSituationOnlyIfItIsGiven) {
   const std::uint32_t light = *catalog.find_variable("LIGHT");
   const VariableValue dusk{light, *catalog.find_value(light, "DUSK")};
   const VariableValue night{light, *catalog.find_value(light, "NIGHT")};
-  const auto sets = [&](const SituationPart& part) { return cut_sets(catalog, "LOCALIZE", 3, part); };
+  const auto sets = [&](const SituationPart& part) {
+    return cut_sets(catalog, "LOCALIZE", 3, part);
+  };
   EXPECT_EQ(cut_sets(catalog, "LOCALIZE", 3), "{gps slam lidar}");
   EXPECT_EQ(sets({}), "{gps slam lidar}");
   EXPECT_EQ(sets({{no_gps}, {}}), "{slam lidar}") << "LIGHT is not fixed";
