@@ -36,10 +36,11 @@ expect 143 'dev format: INTERRUPTED at: format'
 # A copy of ./dev, with a program that was built before.
 replace cmake <<<'exit 0'
 project="$bin/a project"
-mkdir -p -- "$project/build/release"
+mkdir -p -- "$project/"{build/release,include,src,tests}
 cp -- "$source/dev" "$project"
 
 # A failed test does not hide why others were skipped.
+replace xargs <<<'cat >/dev/null'
 replace ctest <<<'exit 8'
 mkdir -p -- "$project/build/release/Testing/Temporary"
 cat >"$project/build/release/Testing/Temporary/LastTest.log" <<'END'
