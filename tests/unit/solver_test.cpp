@@ -597,6 +597,38 @@ TEST(Solver, ALimitOfTimeEndsTheSearch) {
   EXPECT_EQ(solve(catalog, problem, options).result.status, SearchStatus::optimal);
 }
 
+/// A search that ends between two dead ends has not seen them all.
+TEST(Solver, ALimitOfTimeProvesNothing) {
+  const CompiledCatalog catalog = catalog_with_choices();
+  const Problem problem = demand_all(catalog);
+  SearchOptions options = restarting_after(never);
+  options.max_nodes = 3'000;
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(solve(catalog, problem, options).result.status, SearchStatus::feasible);
+  const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(
+      std::chrono::steady_clock::now() - begin);
+  for (int round = 1; round < 100; ++round) {
+    options.time_limit = std::max(whole * round / 100, std::chrono::microseconds(1));
+    const SearchStatus status = solve(catalog, problem, options).result.status;
+    EXPECT_TRUE(status == SearchStatus::feasible || status == SearchStatus::unknown) << round;
+  }
+}
+
+/// It looks at the root only.
+TEST(Solver, ABoundWithoutASearchLeavesOpenWhichRequestsAreServed) {
+  const CompiledCatalog catalog =
+      compile_text("behaviors: [{behavior: a, task: A, suitability: 90}]");
+  Problem problem = open_problem(catalog);
+  test::request(problem, catalog, "A");
+  test::demand(problem, catalog, "A");
+  const std::vector<std::uint32_t> ranks;
+  Solver solver(catalog, {}, ranks);
+  const SearchBound bound = solver.bound(problem, Assignment{0});
+  EXPECT_EQ(bound.more_requests, 0U);
+  EXPECT_FALSE(bound.same_requests);
+  EXPECT_NEAR(bound.suitability, 0.9, 1e-6);
+}
+
 TEST(Solver, TheFirstSolutionsCountImprovingOrNot) {
   const CompiledCatalog catalog = compile_text(R"(
 behaviors:
