@@ -131,6 +131,7 @@ TEST(WaitingTasks, TryAgainWhenTheirGroupChanges) {
   stage.settle_at(6);
   EXPECT_EQ(stage.events(), "5.08 reactive start HOVER 0 accepted");
   EXPECT_EQ(stage.waiting(), "");
+  EXPECT_EQ(stage.state().waiting_count(), 0U);
 }
 
 TEST(WaitingTasks, AnotherAttemptThatFailsIsNoEvent) {
