@@ -148,6 +148,18 @@ TEST(JsonReader, RefusesWhatIsNoJson) {
   }
 }
 
+TEST(JsonReader, SaysWhyATextIsNoJson) {
+  yaml::JsonReader reader;
+  const auto fault = [&reader](std::string_view text) {
+    EXPECT_EQ(reader.read(text), nullptr);
+    return reader.fault();
+  };
+  EXPECT_EQ(fault("{"), "it is not JSON, or it is damaged");
+  EXPECT_EQ(fault(std::string_view("\0\0\0\0", 4)), "it is not JSON, or it is damaged");
+  EXPECT_EQ(fault(std::string_view("{\0}\0", 4)), "expected UTF-8, found UTF-16");
+  EXPECT_EQ(fault(std::string_view("\0\0\0{\0\0\0}", 8)), "expected UTF-8, found UTF-32");
+}
+
 TEST(JsonReader, TellsOfMergeKeys) {
   yaml::JsonReader reader;
   ASSERT_NE(reader.read(R"({"<<": {}})", 1), nullptr);

@@ -561,7 +561,7 @@ std::variant<SweepResult, std::string> sweep_from_json(std::string_view text) {
   yaml::JsonReader reader;
   const yaml::Node* const root = reader.read(text);
   if (root == nullptr) {
-    return "it is not JSON, or it is truncated; expected what '--shard I/N --format json' writes";
+    return reader.fault() + "; --merge reads what '--shard I/N --format json' writes";
   }
   try {
     return SweepReader().read(JsonValue(*root));

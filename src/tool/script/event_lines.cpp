@@ -138,7 +138,8 @@ std::optional<EventLog::Entry> EventLog::read_entry(std::string_view line, std::
 const Node* EventLog::read_object(std::string_view line, std::uint32_t number, Reporter& reporter) {
   const Node* const root = json_.read(line, number);
   if (root != nullptr && root->kind == yaml::Kind::mapping) return root;
-  reporter.report(rule::wrong_type, {}, "the line is not a JSON object, or it is damaged");
+  reporter.report(rule::wrong_type, {},
+                  root == nullptr ? json_.fault() : "it is not a JSON object");
   return nullptr;
 }
 
@@ -382,7 +383,7 @@ std::string write_state(const CompiledCatalog& catalog, const Snapshot& snapshot
 StateReading read_state(std::string_view text, const CompiledCatalog& catalog) {
   yaml::JsonReader reader;
   const Node* const root = reader.read(text);
-  if (root == nullptr) return {std::nullopt, "it is not JSON, or it is damaged"};
+  if (root == nullptr) return {std::nullopt, reader.fault()};
   try {
     return {StateReader(*root, catalog).read(), {}};
   } catch (const JsonFault& fault) {

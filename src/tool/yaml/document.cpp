@@ -510,26 +510,6 @@ bool is_forbidden(char32_t character) {
   return character >= 0x7F && character < 0xA0 && character != 0x85;
 }
 
-/// Another encoding of Unicode that a text is in, by its first characters, which are a byte order
-/// mark or ASCII; empty if it is none.
-std::string_view other_encoding(std::string_view text) {
-  const std::string_view four = text.substr(0, 4);
-  const auto has_zeros = [four](std::string_view pattern) {  // '0' and 'x': a zero, or not
-    return four.size() >= pattern.size() &&
-           std::equal(pattern.begin(), pattern.end(), four.begin(),
-                      [](char wanted, char byte) { return (wanted == '0') == (byte == '\0'); });
-  };
-  const std::string_view two = text.substr(0, 2);
-  if (has_zeros("000x") || has_zeros("x000")) return "UTF-32";
-  if (four == std::string_view("\0\0\xFE\xFF", 4) || four == std::string_view("\xFF\xFE\0\0", 4)) {
-    return "UTF-32";
-  }
-  if (two == "\xFF\xFE" || two == "\xFE\xFF" || has_zeros("0x0x") || has_zeros("x0x0")) {
-    return "UTF-16";
-  }
-  return {};
-}
-
 void check_characters(std::string_view text, const PositionMap& positions) {
   for (std::size_t offset = 0; offset < text.size();) {
     if ((text[offset] >= ' ' && text[offset] < 0x7F) || text[offset] == '\n') {
@@ -542,9 +522,7 @@ void check_characters(std::string_view text, const PositionMap& positions) {
       throw Refusal({begin, {begin.line, begin.column + 1}}, message);
     };
     if (!decoded.valid || decoded.character == 0) {
-      if (const std::string_view found = other_encoding(text); !found.empty()) {
-        refuse("expected UTF-8, found " + std::string(found));
-      }
+      if (const std::string fault = fault_of_encoding(text); !fault.empty()) refuse(fault);
       refuse(decoded.valid ? "a NUL byte" : "not valid UTF-8");
     }
     if (is_forbidden(decoded.character)) {
@@ -631,6 +609,24 @@ void parse_document(std::string_view text, const PositionMap& positions, const s
 }
 
 }  // namespace
+
+std::string fault_of_encoding(std::string_view text) {
+  const std::string_view four = text.substr(0, 4);
+  const auto has_zeros = [four](std::string_view pattern) {  // '0' and 'x': a zero, or not
+    return four.size() >= pattern.size() &&
+           std::equal(pattern.begin(), pattern.end(), four.begin(),
+                      [](char wanted, char byte) { return (wanted == '0') == (byte == '\0'); });
+  };
+  const std::string_view two = text.substr(0, 2);
+  if (has_zeros("000x") || has_zeros("x000") || four == std::string_view("\0\0\xFE\xFF", 4) ||
+      four == std::string_view("\xFF\xFE\0\0", 4)) {
+    return "expected UTF-8, found UTF-32";
+  }
+  if (two == "\xFF\xFE" || two == "\xFE\xFF" || has_zeros("0x0x") || has_zeros("x0x0")) {
+    return "expected UTF-8, found UTF-16";
+  }
+  return {};
+}
 
 std::unique_ptr<const Document> parse(std::string_view text, std::string file,
                                       Diagnostics& diagnostics) {

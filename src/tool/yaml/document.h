@@ -55,6 +55,10 @@ inline constexpr std::size_t maximum_alias_nodes = 100'000;
 [[nodiscard]] std::unique_ptr<const Document> parse(std::string_view text, std::string file,
                                                     Diagnostics& diagnostics);
 
+/// What is wrong with a text in another encoding of Unicode, by its first characters, which are a
+/// byte order mark or ASCII: "expected UTF-8, found UTF-16". Empty if they do not tell of one.
+[[nodiscard]] std::string fault_of_encoding(std::string_view text);
+
 /// Reads JSON texts, one after the other, into the tree that the YAML parser gives for them, in a
 /// hundredth of its time: the nodes are kept and used again.
 class JsonReader {
@@ -63,6 +67,8 @@ class JsonReader {
   /// deeper than YAML may be: then the YAML parser has the last word. All ranges lie in `line`;
   /// their columns count bytes.
   [[nodiscard]] const Node* read(std::string_view text, std::uint32_t line = 1);
+  /// After a text that is no JSON: why, as far as a few words can tell.
+  [[nodiscard]] std::string fault() const;
   /// Whether the text has a key '<<', which merges mappings in YAML and is a name in JSON.
   [[nodiscard]] bool has_merge_key() const { return has_merge_key_; }
 

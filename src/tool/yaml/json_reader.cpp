@@ -43,6 +43,11 @@ const Node* JsonReader::read(std::string_view text, std::uint32_t line) {
   return at_ == text_.size() ? root : nullptr;
 }
 
+std::string JsonReader::fault() const {
+  std::string fault = fault_of_encoding(text_);
+  return fault.empty() ? "it is not JSON, or it is damaged" : fault;
+}
+
 /// Null after a mistake.
 const Node* JsonReader::read_value(std::size_t depth) {
   skip_space();
