@@ -326,7 +326,7 @@ std::unique_ptr<const ComparedCatalogs> read_and_compare(const std::string& befo
 
 constexpr const char* graph_examples =
     "  cbc graph robot.yaml -o robot.svg         or .png, .pdf, .mmd, .json, .dot\n"
-    "  cbc graph robot.yaml --task HOVER --down  what HOVER requires\n"
+    "  cbc graph robot.yaml --task DRIVE --down  what DRIVE requires\n"
     "  cbc graph --diff old.yaml new.yaml --format text\n"
     "                                            what has changed\n";
 

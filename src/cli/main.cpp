@@ -32,10 +32,9 @@ constexpr const char* program_examples =
     "  cbc graph robot.yaml -o robot.svg   a picture of the catalog\n";
 
 constexpr const char* program_footer =
-    "Exit status: 0 success, 1 lint found an error, a compiled catalog is not up to date, two "
-    "catalogs differ, an expectation failed, or a property is not proved, 2 the input or the usage "
-    "is wrong, 3 an internal "
-    "error.\n"
+    "Exit status: 0 success, 1 the answer is no (lint found an error, a compiled catalog is not up "
+    "to date, two catalogs or a replay differ, an expectation failed, a property is not proved, or "
+    "--fail-under was missed), 2 the input or the usage is wrong, 3 an internal error.\n"
     "\n"
     "Read more: 'cbc help COMMAND', man cbc, man cbc-catalog (how to write a catalog)";
 

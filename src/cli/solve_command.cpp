@@ -80,15 +80,15 @@ constexpr const char* solve_examples =
     "  cbc solve robot.yaml mission.yaml         one script, for a person to read\n"
     "  cbc solve robot.yaml mission.yaml --html mission.html\n"
     "                                            also a timeline for a browser\n"
-    "  cbc solve robot.yaml mission.yaml --why HOVER --alternatives 3\n"
-    "                                            explain HOVER and list the three\n"
+    "  cbc solve robot.yaml mission.yaml --why DRIVE --alternatives 3\n"
+    "                                            explain DRIVE and list the three\n"
     "                                            best configurations at each event\n";
 
 constexpr const char* solve_footer =
     "More examples:\n"
     "  cbc solve robot.yaml missions/ --format json\n"
     "                                            all scripts of a folder, as JSON\n"
-    "  echo '[{start: TAKE_OFF}]' | cbc solve robot.yaml -\n"
+    "  echo '[{start: DRIVE}]' | cbc solve robot.yaml -\n"
     "                                            a script from standard input\n"
     "  cbc solve robot.yaml missions/ --format junit > results.xml\n"
     "                                            for CI, a test suite per script\n"
@@ -112,8 +112,9 @@ constexpr const char* solve_footer =
     "it (. for none), + for an activation or - for a deactivation, and whether that is ok (Y or "
     "N).\n"
     "\n"
-    "Exit status: 0 all expectations hold, 1 one does not, 2 the input or the usage is wrong, 3 "
-    "an internal error (please report it).\n"
+    "Exit status: 0 all expectations hold, 1 one does not, a replay differs, or the coverage is "
+    "below --fail-under, 2 the input or the usage is wrong, 3 an internal error (please report "
+    "it).\n"
     "\n"
     "Read more: man cbc-solve, man cbc-events (how to write a script)";
 

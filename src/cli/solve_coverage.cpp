@@ -69,8 +69,8 @@ void add_coverage_options(Command& command, CoverageOptions& options) {
   command
       .option("--coverage", options.file, coverage_file(),
               "Report which goals of the catalog the scripts reach together: in place of the runs, "
-              "or beside them in FILE: as JSON, HTML or LCOV if its name ends with .json, .html "
-              "or .info, otherwise as text")
+              "or beside them in FILE: as JSON, HTML or LCOV if its name ends with .json, .html, "
+              ".info or .lcov, otherwise as text")
       .value_or("-")
       .not_with({"--sweep", "--replay", "--format jsonl"}, "it is about whole scripts");
   command

@@ -68,7 +68,7 @@ constexpr const char* verify_examples =
     "  cbc verify robot.yaml                     what can happen at all\n"
     "  cbc verify robot.yaml robot.properties.yaml\n"
     "                                            prove properties, or break them\n"
-    "  cbc verify robot.yaml --cut-sets LAND     faults that together end LAND\n";
+    "  cbc verify robot.yaml --cut-sets DRIVE    faults that together end DRIVE\n";
 
 constexpr const char* verify_footer =
     "More examples:\n"
@@ -83,7 +83,7 @@ constexpr const char* verify_footer =
     "                                            the missions that are missing\n"
     "  cbc verify robot.yaml --mutants --beside missions/ --fail-under 80\n"
     "                                            whether the missions notice changes\n"
-    "  cbc verify robot.yaml --cut-sets LAND --open-psa land.xml\n"
+    "  cbc verify robot.yaml --cut-sets DRIVE --open-psa drive.xml\n"
     "                                            a fault tree for other programs\n"
     "\n"
     "A property file says what may happen (assume), how it begins (initially), and what has to "
