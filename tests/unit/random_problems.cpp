@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "unit/compiled_fixture.h"
 
 namespace cbc::test {
@@ -182,6 +184,34 @@ Problem random_problem(Random& random, const CompiledCatalog& catalog, std::uint
   random.shuffle(problem.requests);
   list_once(problem.active);
   return problem;
+}
+
+CompiledCatalog random_nested_components(Random& random) {
+  constexpr int inner = 7;
+  constexpr int tasks = 15;
+  std::string text = "default_values: {tasks: {start_on_request: false}}\nbehaviors:\n";
+  int number = 0;
+  const auto add = [&](int task, const std::string& required) {
+    text += fmt::format("- {{behavior: b{}, task: T{}, suitability: {}, requires: [{}]}}\n",
+                        number++, task, random.between(50, 99), required);
+  };
+  for (int task = 0; task < tasks; ++task) {
+    add(task, "");
+    if (task < inner) {
+      const std::string left = fmt::format("{{task: T{}}}", 2 * task + 1);
+      const std::string right = fmt::format("{{task: T{}}}", 2 * task + 2);
+      for (int i = 0; i < 2; ++i) add(task, left + ", " + right);
+      add(task, random.percent(50) ? left : right);
+    } else {
+      for (int i = 0; i < 2; ++i) add(task, "");
+    }
+  }
+  std::string lists;
+  for (int leaf = inner; leaf + 1 < tasks; ++leaf) {
+    if (random.percent(80)) continue;
+    lists += fmt::format("- mutually_exclusive: [T{}, T{}]\n", leaf, leaf + 1);
+  }
+  return compile_text(lists.empty() ? text : text + "exclusivity_constraints:\n" + lists);
 }
 
 void run_some(Random& random, const CompiledCatalog& catalog, Problem& problem) {

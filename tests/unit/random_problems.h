@@ -33,6 +33,11 @@ struct Shape {
 /// Gives all behaviors a suitability of 1.
 void make_perfect(Catalog& catalog);
 
+/// A tree of tasks: each requires one or both of its two children, which have nothing to do with
+/// each other but for some lists of exclusive leaves. So components are within components. The
+/// root is T0.
+[[nodiscard]] CompiledCatalog random_nested_components(Random& random);
+
 /// A group with the most tasks.
 [[nodiscard]] std::uint32_t largest_group(const CompiledCatalog& catalog);
 

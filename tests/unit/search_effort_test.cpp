@@ -27,7 +27,8 @@ enum class Family : std::uint8_t {
   minimums,   ///< many minimum performances
   exclusive,  ///< many lists
   equal,      ///< all suitabilities are 1, so f3, f4 and the canonical order decide
-  wide        ///< many behaviors of a task
+  wide,       ///< many behaviors of a task
+  nested      ///< components within components
 };
 
 test::Shape shape_of(Family family, test::Random& random) {
@@ -80,11 +81,14 @@ test::Shape shape_of(Family family, test::Random& random) {
       shape.minimum = 10;
       shape.any_percent = 30;
       break;
+    case Family::nested:  // has no shape
+      break;
   }
   return shape;
 }
 
 CompiledCatalog catalog_of(Family family, test::Random& random) {
+  if (family == Family::nested) return test::random_nested_components(random);
   Catalog catalog = test::random_catalog(random, shape_of(family, random));
   if (family == Family::equal) test::make_perfect(catalog);
   return compile(catalog);
@@ -171,7 +175,10 @@ INSTANTIATE_TEST_SUITE_P(
         Measurement{"wide", Family::wide, SearchOptions{}, 100, {10'593, 132'796, 89'562}},
         Measurement{
             "wide_bounded", Family::wide, options(0, never), 50, {30'006, 290'931, 241'533}},
-        Measurement{"wide_learning", Family::wide, options(0, 0), 100, {788, 217'855, 215'564}}),
+        Measurement{"wide_learning", Family::wide, options(0, 0), 100, {788, 217'855, 215'564}},
+        Measurement{"nested", Family::nested, SearchOptions{}, 300, {3'772, 11'175, 0}},
+        Measurement{"nested_bounded", Family::nested, options(0, never), 300, {2'197, 8'077, 0}},
+        Measurement{"nested_learning", Family::nested, options(0, 0), 300, {981, 25'706, 0}}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -542,43 +542,13 @@ TEST(Solver, AnswersOfLargerProblemsDoNotDependOnRestarts) {
   EXPECT_LT(infeasible, test::rounds(1'600));
 }
 
-/// A tree of tasks: each requires one or both of its two children, which have nothing to do with
-/// each other but for some lists of exclusive leaves. So components are within components.
-CompiledCatalog catalog_of_nested_components(test::Random& random) {
-  constexpr int inner = 7;
-  constexpr int tasks = 15;
-  std::string text = "default_values: {tasks: {start_on_request: false}}\nbehaviors:\n";
-  int number = 0;
-  const auto add = [&](int task, const std::string& required) {
-    text += fmt::format("- {{behavior: b{}, task: T{}, suitability: {}, requires: [{}]}}\n",
-                        number++, task, random.between(50, 99), required);
-  };
-  for (int task = 0; task < tasks; ++task) {
-    add(task, "");
-    if (task < inner) {
-      const std::string left = fmt::format("{{task: T{}}}", 2 * task + 1);
-      const std::string right = fmt::format("{{task: T{}}}", 2 * task + 2);
-      for (int i = 0; i < 2; ++i) add(task, left + ", " + right);
-      add(task, random.percent(50) ? left : right);
-    } else {
-      for (int i = 0; i < 2; ++i) add(task, "");
-    }
-  }
-  std::string lists;
-  for (int leaf = inner; leaf + 1 < tasks; ++leaf) {
-    if (random.percent(80)) continue;
-    lists += fmt::format("- mutually_exclusive: [T{}, T{}]\n", leaf, leaf + 1);
-  }
-  return compile_text(lists.empty() ? text : text + "exclusivity_constraints:\n" + lists);
-}
-
 TEST(Solver, FindsTheSameWithAndWithoutComponentsWithinComponents) {
   test::Random random(3);
   const std::vector<std::uint32_t> ranks;
   int solved = 0;
   for (int round = 0; round < test::rounds(300); ++round) {
     SCOPED_TRACE(round);
-    const CompiledCatalog catalog = catalog_of_nested_components(random);
+    const CompiledCatalog catalog = test::random_nested_components(random);
     Solver with(catalog, restarting_after(0), ranks);  // one for all: nothing may be left over
     Solver without(catalog, restarting_after(never), ranks);
     for (int i = 0; i < 4; ++i) {

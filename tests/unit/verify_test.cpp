@@ -573,6 +573,8 @@ TEST(Verify, RefusesSituationVariables) {
        [](auto& c) { c.arrays.variables[0].is_boolean = 1; }},
       {"variable 0 has a value twice",
        [](auto& c) { c.arrays.variable_values[1] = c.arrays.variable_values[0]; }},
+      {"variable 0 has a value twice",
+       [](auto& c) { c.arrays.variable_values[2] = c.arrays.variable_values[0]; }},
       {"the name 'LIGHT' of a variable is not unique",
        [](auto& c) { c.arrays.variables[1].name = c.arrays.variables[0].name; }},
       {"the name 'b1' of a variable is not unique",
