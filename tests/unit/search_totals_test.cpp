@@ -98,22 +98,22 @@ TEST(StatsTable, HasARowForEachMeasure) {
   const SearchRecord large = search_of(4, 10, 9, 2500);
   SearchTotals totals;
   totals.add(event_of(Verb::stop, Origin::script, &small));
-  totals.add(event_of(Verb::start, Origin::reactive, &large));
+  totals.add(event_of(Verb::finish, Origin::situation, &large));
   EXPECT_EQ(stats_table(totals, {3 << 20, 1'250'000}, plain_style()),
             "searches\n"
-            "  event                   n                        mean          min          max\n"
-            "  stop                    1  solutions             1.00            1            1\n"
-            "                             nodes                 0.00            0            0\n"
-            "                             propagations          7.00            7            7\n"
-            "                             time [us]             1.50         1.50         1.50\n"
-            "  start (reactive)        1  solutions             4.00            4            4\n"
-            "                             nodes                10.00           10           10\n"
-            "                             propagations          9.00            9            9\n"
-            "                             time [us]             2.50         2.50         2.50\n"
-            "  all                     2  solutions             2.50            1            4\n"
-            "                             nodes                 5.00            0           10\n"
-            "                             propagations          8.00            7            9\n"
-            "                             time [us]             2.00         1.50         2.50\n"
+            "  event                     n                       mean         min         max\n"
+            "  stop                      1  solutions            1.00           1           1\n"
+            "                               nodes                0.00           0           0\n"
+            "                               propagations         7.00           7           7\n"
+            "                               time [us]            1.50        1.50        1.50\n"
+            "  finish (situation)        1  solutions            4.00           4           4\n"
+            "                               nodes               10.00          10          10\n"
+            "                               propagations         9.00           9           9\n"
+            "                               time [us]            2.50        2.50        2.50\n"
+            "  all                       2  solutions            2.50           1           4\n"
+            "                               nodes                5.00           0          10\n"
+            "                               propagations         8.00           7           9\n"
+            "                               time [us]            2.00        1.50        2.50\n"
             "  process: 3.0 MiB of memory at most, 1.250 s of CPU time\n");
 }
 

@@ -109,7 +109,7 @@ TEST(TogetherText, FitsIntoEightyColumns) {
   EXPECT_LE(longest_line(forty), 80U);
   // One matrix, with its numbers upright.
   EXPECT_NE(forty.find("1 11111 11112 22222"), std::string::npos) << forty;
-  EXPECT_NE(forty.find("\n  40 A_TASK_WITH_A_RATHER_LONG... +++++ +++++ +++++ "), std::string::npos)
+  EXPECT_NE(forty.find("\n  40 A_TASK_WITH_..._LONG_NAME_39 +++++ +++++ +++++ "), std::string::npos)
       << forty;
   EXPECT_EQ(forty.find("\n\n", forty.find("\n  40 A")), std::string::npos) << forty;
   const std::string hundred = text_of(many_tasks(100, "A_TASK_WITH_A_RATHER_LONG_NAME_"));

@@ -135,7 +135,7 @@ class TextTable {
   TextTable(const CompiledCatalog& catalog, const SituationTable& table, const Style& style)
       : catalog_(catalog), table_(table), style_(style) {
     for (const BehaviorId behavior : table.behaviors()) {
-      names_.push_back(cut_to(longest_name, draw::label_of(catalog.name_of_behavior(behavior))));
+      names_.push_back(shorten(draw::label_of(catalog.name_of_behavior(behavior))));
       left_ = std::max(left_, width_of(names_.back()));
     }
     left_ += gap.size();
@@ -171,10 +171,10 @@ class TextTable {
 
  private:
   [[nodiscard]] std::string name_of(std::uint32_t variable) const {
-    return cut_to(longest_name, draw::label_of(catalog_.name_of_variable(variable)));
+    return shorten(draw::label_of(catalog_.name_of_variable(variable)));
   }
   [[nodiscard]] std::string title_of(VariableValue value) const {
-    return cut_to(longest_name, draw::label_of(catalog_.name_of_value(value)));
+    return shorten(draw::label_of(catalog_.name_of_value(value)));
   }
 
   static void pad(std::string& line, std::size_t width) {

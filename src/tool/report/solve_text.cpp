@@ -44,20 +44,20 @@ std::string name_of_kind(const SearchTotals::Kind& kind) {
 
 /// One measure of a kind of events: its name, mean, minimum and maximum.
 std::string columns(const char* measure, const Spread& spread, std::uint64_t events) {
-  return fmt::format("{:<12}  {:>12.2f} {:>12} {:>12}\n", measure, mean(spread, events),
+  return fmt::format("{:<12}  {:>11.2f} {:>11} {:>11}\n", measure, mean(spread, events),
                      spread.least, spread.greatest);
 }
 
 std::string columns_of_time(const Spread& spread, std::uint64_t events) {
-  return fmt::format("{:<12}  {:>12.2f} {:>12.2f} {:>12.2f}\n", "time [us]",
+  return fmt::format("{:<12}  {:>11.2f} {:>11.2f} {:>11.2f}\n", "time [us]",
                      mean(spread, events) / 1000, to_microseconds(spread.least),
                      to_microseconds(spread.greatest));
 }
 
 std::string rows(const std::string& name, const SearchEffort& effort) {
   if (effort.events == 0) return {};
-  const std::string indent(29, ' ');
-  return fmt::format("  {:<16} {:>8}  ", name, effort.events) +
+  const std::string indent(31, ' ');
+  return fmt::format("  {:<18} {:>8}  ", name, effort.events) +
          columns("solutions", effort.solutions, effort.events) + indent +
          columns("nodes", effort.nodes, effort.events) + indent +
          columns("propagations", effort.propagations, effort.events) + indent +
@@ -97,7 +97,7 @@ double to_microseconds(std::uint64_t nanoseconds) {
 
 std::string stats_table(const SearchTotals& totals, const ProcessUsage& usage, const Style& style) {
   std::string text =
-      fmt::format("{}searches{}\n{}  {:<16} {:>8}  {:<12}  {:>12} {:>12} {:>12}{}\n", style.strong,
+      fmt::format("{}searches{}\n{}  {:<18} {:>8}  {:<12}  {:>11} {:>11} {:>11}{}\n", style.strong,
                   style.reset, style.faint, "event", "n", "", "mean", "min", "max", style.reset);
   for (std::size_t kind = 0; kind < SearchTotals::kinds.size(); ++kind) {
     text += rows(name_of_kind(SearchTotals::kinds[kind]), totals.of_kind(kind));

@@ -23,17 +23,26 @@ std::size_t width_of(std::string_view text) {
   return width;
 }
 
-std::string cut_to(std::size_t columns, std::string text) {
-  if (width_of(text) <= columns) return text;
-  std::size_t width = 0;
+std::string shorten(std::string text) {
+  std::size_t rest = width_of(text);  // from `offset` on
+  if (rest <= longest_name) return text;
+  constexpr std::string_view dots = "...";
+  constexpr std::size_t kept = longest_name - dots.size();
   std::size_t offset = 0;
-  while (offset < text.size()) {
+  const auto skip = [&] {
     const utf8::Decoded decoded = utf8::decode(text, offset);
-    width += utf8::display_width(decoded.character);
-    if (width > columns - 3) break;
+    rest -= utf8::display_width(decoded.character);
     offset += decoded.bytes;
+  };
+  const std::size_t width = rest;
+  std::size_t begin = 0;
+  while (width - rest <= kept / 2) {
+    begin = offset;
+    skip();
   }
-  return text.substr(0, offset) + "...";
+  while (rest > kept - kept / 2) skip();
+  return concat(std::string_view(text).substr(0, begin), dots,
+                std::string_view(text).substr(offset));
 }
 
 std::string_view without_end_blanks(std::string_view text) {

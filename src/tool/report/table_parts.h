@@ -11,15 +11,16 @@
 /// What tables are made of, as text and in pictures.
 namespace cbc {
 
-/// Tables as text are at most this wide, and cut names to `longest_name`.
+/// Tables as text are at most this wide, and shorten names to `longest_name`.
 inline constexpr std::size_t text_width = 80;
 inline constexpr std::size_t longest_name = 28;
 
 /// The number of columns that a text takes in a terminal.
 [[nodiscard]] std::size_t width_of(std::string_view text);
 
-/// A text of at most `columns` columns (4 or more): a longer one ends with "...".
-[[nodiscard]] std::string cut_to(std::size_t columns, std::string text);
+/// A text of at most `longest_name` columns: a longer one has "..." for its middle, as names often
+/// differ only at the end.
+[[nodiscard]] std::string shorten(std::string text);
 
 /// The text without the blanks at its end.
 [[nodiscard]] std::string_view without_end_blanks(std::string_view text);

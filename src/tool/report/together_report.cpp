@@ -112,7 +112,7 @@ class TextMatrix {
   TextMatrix(const CompiledCatalog& catalog, const TogetherTable& table, const Style& style)
       : matrix_(table), style_(style), digits_(std::to_string(table.tasks.size()).size()) {
     for (const TaskId task : table.tasks) {
-      names_.push_back(cut_to(longest_name, draw::label_of(catalog.name_of_task(task))));
+      names_.push_back(shorten(draw::label_of(catalog.name_of_task(task))));
       name_width_ = std::max(name_width_, width_of(names_.back()));
     }
   }
