@@ -156,6 +156,9 @@ TEST(JsonReader, SaysWhyATextIsNoJson) {
   };
   EXPECT_EQ(fault("{"), "it is not JSON, or it is damaged");
   EXPECT_EQ(fault(std::string_view("\0\0\0\0", 4)), "it is not JSON, or it is damaged");
+  EXPECT_EQ(fault(std::string_view("\x14\0\0\0CBC1", 8)), "it is not JSON, or it is damaged");
+  EXPECT_EQ(fault(std::string_view("P\0\0\0CBC1", 8)), "it is not JSON, or it is damaged");
+  EXPECT_EQ(fault(std::string_view("\0\0\0\x14", 4)), "it is not JSON, or it is damaged");
   EXPECT_EQ(fault(std::string_view("{\0}\0", 4)), "expected UTF-8, found UTF-16");
   EXPECT_EQ(fault(std::string_view("\0\0\0{\0\0\0}", 8)), "expected UTF-8, found UTF-32");
 }

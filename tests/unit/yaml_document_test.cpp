@@ -354,6 +354,9 @@ TEST(YamlDocument, NamesOtherEncodings) {
   EXPECT_EQ(found(std::string_view("\0\0\xfe\xff\0\0\0a", 8)), "UTF-32");
   EXPECT_EQ(found(std::string_view("a\0\0\0:\0\0\0", 8)), "UTF-32");
   EXPECT_EQ(found(std::string_view("\0\0\0a\0\0\0:", 8)), "UTF-32");
+  EXPECT_EQ(found(std::string_view("a\0\0\0\xac\x20\0\0", 8)), "UTF-32");
+  EXPECT_EQ(tree(std::string_view("a\0\0\0bcde", 8)), syntax_error("1:2-3", "a NUL byte"));
+  EXPECT_EQ(tree(std::string_view("\0\0\0abcde", 8)), syntax_error("1:1-2", "a NUL byte"));
 }
 
 // Bombs ---------------------------------------------------------------------------------------
