@@ -127,8 +127,8 @@ std::optional<InputFile> read_catalog_of(InputFiles& files, const std::string& p
       (!is_script(*file->document) && !is_property_file(*file->document))) {
     return file;
   }
-  const std::optional<std::string> named = path_of_catalog(path, *file->document);
-  return named ? read_if_readable(files, *named) : std::nullopt;
+  const std::optional<NamedCatalog> named = catalog_named_by(path, *file->document);
+  return named ? read_if_readable(files, named->path) : std::nullopt;
 }
 
 /// The tasks, and on request the behaviors, of the catalog in a file, or of the catalog that the

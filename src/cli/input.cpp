@@ -160,7 +160,8 @@ FoundFile recognize(std::string_view text) {
     return resembles_catalog(root) ? FoundFile::catalog : FoundFile::other;
   }
   if (!(is_of_properties ? has_properties(root) : is_script_surely(root))) return FoundFile::other;
-  return catalog_of_script(*document) ? FoundFile::script : FoundFile::script_without_catalog;
+  return catalog_of_script(*document) != nullptr ? FoundFile::script
+                                                 : FoundFile::script_without_catalog;
 }
 
 namespace {
@@ -296,6 +297,9 @@ bool is_known_kind(std::string_view text, const yaml::Document* document) {
   return resembles_catalog(document->root()) || is_script(*document) || is_property_file(*document);
 }
 
+/// Whether it begins as `cbc solve --format jsonl` writes it.
+bool is_log(std::string_view text) { return text.starts_with(R"({"schema":"cbc.events/1")"); }
+
 }  // namespace
 
 std::optional<InputFile> InputFiles::read(const std::string& path, NamedBy named_by) {
@@ -316,6 +320,11 @@ std::optional<InputFile> InputFiles::read(const std::string& path, NamedBy named
   }
   if (named_by == NamedBy::link && document == nullptr) {
     complain("{} is a link to a file elsewhere that is not valid YAML", quote(name));
+    return std::nullopt;
+  }
+  if (document == nullptr && is_log(entry->second)) {
+    complain("{} is the log of a stream; expected a catalog or a script here (see --replay)",
+             quote(name));
     return std::nullopt;
   }
   if (keeps_findings_) {
@@ -452,6 +461,14 @@ std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const std::string& pa
   return entry->second;
 }
 
+std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const NamedCatalog& named) {
+  auto catalog = load(named.path, NamedBy::file);
+  if (catalog == nullptr) {
+    complain("{}: the catalog {} cannot be used", named.place, quote(named.path));
+  }
+  return catalog;
+}
+
 std::optional<Catalog> CatalogLoader::understand(const std::string& path,
                                                  const yaml::Document& document,
                                                  InputFiles::Purpose purpose) {
@@ -502,14 +519,17 @@ std::optional<CompiledFile> load(const CatalogInput& input) {
   return std::move(result.file);
 }
 
-std::optional<std::string> path_of_catalog(const std::string& path,
-                                           const yaml::Document& document) {
-  const std::optional<std::string> named = catalog_of_script(document);
-  if (!named) return std::nullopt;
+std::optional<NamedCatalog> catalog_named_by(const std::string& path,
+                                             const yaml::Document& document) {
+  const yaml::Node* const named = catalog_of_script(document);
+  if (named == nullptr) return std::nullopt;
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  std::string found = (folder / *named).lexically_normal().string();
+  std::string found = (folder / named->text).lexically_normal().string();
   // In a file this is a name as any other: standard input is only what the command line names.
-  return found == "-" ? "./-" : found;
+  if (found == "-") found = "./-";
+  const Position& begin = named->range.begin;
+  return NamedCatalog{std::move(found), fmt::format("{}:{}:{}", printable(document.file()),
+                                                    begin.line, begin.column)};
 }
 
 namespace {

@@ -162,6 +162,15 @@ class InputFiles {
   SettingsFinder settings_;
 };
 
+/// A catalog that a script or a property file names (catalog: FILE).
+struct NamedCatalog {
+  std::string path;
+  std::string place;  ///< where it is named, "mission.yaml:3:10"
+};
+/// The catalog that the file at this path names. Empty if it names none.
+[[nodiscard]] std::optional<NamedCatalog> catalog_named_by(const std::string& path,
+                                                           const yaml::Document& document);
+
 /// What was compiled.
 struct CatalogSource {
   Catalog catalog;
@@ -189,6 +198,9 @@ class CatalogLoader {
   [[nodiscard]] std::shared_ptr<const CompiledCatalog> load(
       const std::string& path, NamedBy named_by = NamedBy::command_line);
 
+  /// The same for one that a file names; where it does is reported if the catalog cannot be used.
+  [[nodiscard]] std::shared_ptr<const CompiledCatalog> load(const NamedCatalog& named);
+
   /// Keeps a catalog that was read in another way, or null for one that cannot be used.
   void keep(const std::string& path, std::shared_ptr<const CompiledCatalog> catalog) {
     known_.insert_or_assign(key_of(path), std::move(catalog));
@@ -213,11 +225,6 @@ class CatalogLoader {
 
 /// Loads the only catalog of a command line. Null if it cannot be used; the reason is printed.
 [[nodiscard]] std::shared_ptr<const CompiledCatalog> load_catalog(const std::string& path);
-
-/// The path of the catalog that a script or property file at this path names (catalog: FILE). Empty
-/// if it names none.
-[[nodiscard]] std::optional<std::string> path_of_catalog(const std::string& path,
-                                                         const yaml::Document& document);
 
 /// The drawable part of a catalog, and its source.
 struct Drawable {

@@ -1,13 +1,16 @@
 #include "cli/linter.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
+#include <system_error>
 
 #include <fmt/core.h>
 
 #include "base/text.h"
 #include "cli/command_line.h"
 #include "cli/output.h"
+#include "cli/read_files.h"
 #include "compile/compile.h"
 #include "diagnostic/diagnostic.h"
 #include "lint/controls.h"
@@ -261,9 +264,10 @@ void Linter::lint_script_text(const std::string& path, std::string text,
 std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& document,
                                                           const std::string& given) {
   const bool is_of_properties = is_property_file(document);
-  const std::string catalog =
-      given.empty() ? path_of_catalog(document.file(), document).value_or("") : given;
-  if (catalog.empty()) {
+  const std::optional<NamedCatalog> named = given.empty()
+                                                ? catalog_named_by(document.file(), document)
+                                                : NamedCatalog{given, printable(document.file())};
+  if (!named) {
     complain(
         "{} is {} that names no catalog; give one: "
         "cbc lint --script {} CATALOG",
@@ -272,14 +276,19 @@ std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& 
     has_failed_ = true;
     return nullptr;
   }
-  const bool is_linted = catalogs_.knows(catalog);
+  const bool is_linted = catalogs_.knows(named->path);
   std::shared_ptr<const CompiledCatalog> compiled =
-      catalogs_.load(catalog, given.empty() ? NamedBy::file : NamedBy::command_line);
+      catalogs_.load(named->path, given.empty() ? NamedBy::file : NamedBy::command_line);
   if (compiled == nullptr) {
-    complain("{} {} is not checked, as its catalog {} cannot be used; {}",
-             is_of_properties ? "property file" : "script", quote(document.file()), quote(catalog),
-             is_linted ? "correct that first"
-                       : fmt::format("'cbc lint {}' says why", printable(catalog)));
+    std::error_code ignored;
+    std::string advice;
+    if (given == "-" ||
+        (!find_refusal(named->path) && std::filesystem::exists(named->path, ignored))) {
+      advice = is_linted ? "; correct that first"
+                         : fmt::format("; 'cbc lint {}' says why", printable(named->path));
+    }
+    complain("{}: this {} is not checked, as the catalog {} cannot be used{}", named->place,
+             is_of_properties ? "property file" : "script", quote(named->path), advice);
     // If it was linted, its errors are findings.
     if (!is_linted) has_failed_ = true;
   }

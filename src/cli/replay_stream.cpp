@@ -128,8 +128,8 @@ class Replay {
   /// Sets the options that the header has.
   [[nodiscard]] std::optional<EventLog::Header> read_header(const std::optional<Snapshot>& state,
                                                             CoordinatorOptions& of_coordinator) {
-    if (input_.next() != LineInput::Status::line) {
-      refuse("it has no header");
+    if (const auto status = input_.next(); status != LineInput::Status::line) {
+      refuse(status == LineInput::Status::failed ? input_.error() : "it has no header");
       return std::nullopt;
     }
     auto header = log_.read_header(input_.line());

@@ -40,14 +40,17 @@ std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::s
     }
     first_script = 1;
   }
-  for (std::size_t place = first_script; place < paths.size(); ++place) add_path(paths[place]);
+  for (std::size_t place = first_script; place < paths.size(); ++place) {
+    const std::size_t known = missions_.size();
+    add_path(paths[place]);
+    if (has_failed_ || missions_.size() > known) continue;
+    complain("found no event script in {}", quote(paths[place]));
+    has_failed_ = true;
+  }
   files_.print_findings();
   if (has_failed_) return std::nullopt;
   if (missions_.empty()) {
-    complain(given_catalog_ != nullptr && paths.size() == 1
-                 ? fmt::format("no event script given to solve on catalog {}",
-                               quote(display_name(paths.front())))
-                 : fmt::format("found no event script in {}", quote(paths.back())));
+    complain("no event script given to solve on catalog {}", quote(display_name(paths.front())));
     return std::nullopt;
   }
   return std::move(missions_);
@@ -135,7 +138,7 @@ void MissionLoader::add_script(const std::string& path, const yaml::Document& do
 std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_of(const std::string& script_path,
                                                                  const yaml::Document& script) {
   if (given_catalog_ != nullptr || is_given_catalog_bad_) return given_catalog_;
-  const std::optional<std::string> named = path_of_catalog(script_path, script);
+  const std::optional<NamedCatalog> named = catalog_named_by(script_path, script);
   if (!named) {
     complain(
         "script {} names no catalog, and none is given; give one on the command line, or write "
@@ -143,7 +146,7 @@ std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_of(const std::stri
         quote(display_name(script_path)));
     return nullptr;
   }
-  return catalogs_.load(*named, NamedBy::file);
+  return catalogs_.load(*named);
 }
 
 namespace {

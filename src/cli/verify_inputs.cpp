@@ -102,7 +102,7 @@ void QuestionLoader::add_properties(const std::string& path, const yaml::Documen
 /// Whether there is a usable catalog for this property file.
 bool QuestionLoader::find_catalog(const std::string& path, const yaml::Document& document) {
   if (is_given_) return questions_.catalog != nullptr;
-  const std::optional<std::string> named = path_of_catalog(path, document);
+  const std::optional<NamedCatalog> named = catalog_named_by(path, document);
   if (!named) {
     complain(
         "property file {} names no catalog, and none is given; give one on the command line, or "
@@ -111,12 +111,12 @@ bool QuestionLoader::find_catalog(const std::string& path, const yaml::Document&
     return false;
   }
   if (!questions_.named_catalog) {
-    questions_.named_catalog = named;
-    questions_.catalog = catalogs_.load(*named, NamedBy::file);
-  } else if (*named != *questions_.named_catalog &&
-             !is_same_file(*questions_.named_catalog, *named)) {
-    complain("property file {} is about another catalog, {}, than those before it, {}",
-             quote(display_name(path)), quote(*named), quote(*questions_.named_catalog));
+    questions_.named_catalog = named->path;
+    questions_.catalog = catalogs_.load(*named);
+  } else if (named->path != *questions_.named_catalog &&
+             !is_same_file(*questions_.named_catalog, named->path)) {
+    complain("{}: it is about another catalog, {}, than the property files before it, {}",
+             named->place, quote(named->path), quote(*questions_.named_catalog));
     return false;
   }
   return questions_.catalog != nullptr;

@@ -123,7 +123,11 @@ TEST_F(Confine, NothingIsShownOfANamedFileThatIsNoCatalog) {
     name_catalog(catalog);
     const Result result = cbc({"solve", "repository/missions/bad.yaml"});
     EXPECT_EQ(result.status, 2);
-    EXPECT_EQ(result.err, "cbc: '" + catalog.substr(6) + "' is not a catalog\n");
+    const std::string name = "'" + catalog.substr(6) + "'";
+    EXPECT_EQ(result.err, "cbc: " + name +
+                              " is not a catalog\n"
+                              "cbc: repository/missions/bad.yaml:1:10: the catalog " +
+                              name + " cannot be used\n");
     EXPECT_EQ(result.out, "");
   }
 }

@@ -190,10 +190,12 @@ TEST(ScriptReader, NullIsAbsent) {
 }
 
 TEST(ScriptReader, TheCatalogOfAScript) {
-  const auto catalog = [](std::string_view text) {
+  const auto catalog = [](std::string_view text) -> std::optional<std::string> {
     Diagnostics diagnostics;
     const auto document = yaml::parse(text, "s.yaml", diagnostics);
-    return document == nullptr ? std::nullopt : catalog_of_script(*document);
+    if (document == nullptr) return std::nullopt;
+    const yaml::Node* const named = catalog_of_script(*document);
+    return named == nullptr ? std::nullopt : std::optional(named->text);
   };
   EXPECT_EQ(catalog("catalog: ../a.yaml\nevents: []"), "../a.yaml");
   EXPECT_EQ(catalog("events: []"), std::nullopt);

@@ -450,14 +450,13 @@ class FaultChecks {
 
 }  // namespace
 
-std::optional<std::string> catalog_of_script(const yaml::Document& document) {
+const Node* catalog_of_script(const yaml::Document& document) {
   const Node& root = document.root();
-  if (root.kind != Kind::mapping) return std::nullopt;
-  const Node* catalog = root.find("catalog");
-  if (catalog == nullptr || catalog->kind != Kind::scalar || catalog->text.empty()) {
-    return std::nullopt;
-  }
-  return catalog->text;
+  if (root.kind != Kind::mapping) return nullptr;
+  const Node* const catalog = root.find("catalog");
+  const bool is_name =
+      catalog != nullptr && catalog->kind == Kind::scalar && !catalog->text.empty();
+  return is_name ? catalog : nullptr;
 }
 
 std::optional<Script> read_script(const yaml::Document& document, const CompiledCatalog& catalog,

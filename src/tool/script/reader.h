@@ -119,7 +119,7 @@ class StepReader {
 };
 
 /// The `catalog:` of a script or a property file, as written, if it names one.
-[[nodiscard]] std::optional<std::string> catalog_of_script(const yaml::Document& document);
+[[nodiscard]] const yaml::Node* catalog_of_script(const yaml::Document& document);
 
 /// Reads and checks a whole event script. Findings about parameters have the severity
 /// `of_parameters`, since a script has a meaning whatever they are. The script continues from
