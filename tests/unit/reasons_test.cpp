@@ -265,6 +265,11 @@ TEST(Reasons, NameEachRemovalOfMoreThanSixtyFourValues) {
   }
   EXPECT_TRUE(branch.domains().needed(required));
   branch.expect_reasons_suffice();
+  Branch other(catalog, problem);
+  other.decide(negate(ReasonTrail::runs(required)));
+  for (std::uint32_t index = 0; index < behaviors; ++index) {
+    EXPECT_EQ(other.trail().is_true(negate(other.trail().has_value(task, index))), index % 3 == 0);
+  }
 }
 
 std::string describe(const Domains& domains) {

@@ -608,6 +608,41 @@ TEST(Solver, ALimitOfNodesLeavesTheBestSoFar) {
   EXPECT_EQ(solve(catalog, problem).result.status, SearchStatus::optimal);
 }
 
+TEST(Solver, NothingIsLeftOfASearchThatALimitEnded) {
+  test::Random random(4);
+  test::Shape shape;
+  shape.tasks = 30;
+  shape.most_behaviors = 4;
+  shape.exclusivity_lists = 6;
+  shape.on_request = 0;
+  shape.is_deep = true;
+  const std::vector<std::uint32_t> ranks;
+  int ended = 0;
+  for (int round = 0; round < test::rounds(200); ++round) {
+    SCOPED_TRACE(round);
+    const CompiledCatalog catalog = compile(test::random_catalog(random, shape));
+    for (SearchOptions options : {learning_after(0, 0), restarting_after(0)}) {
+      options.max_nodes = 6;
+      Solver used(catalog, options, ranks);
+      for (int i = 0; i < 4; ++i) {
+        const Problem problem = test::random_open_problem(random, catalog);
+        Assignment found;
+        Assignment expected;
+        const SearchResult result = used.solve(problem, found);
+        const SearchResult alone = Solver(catalog, options, ranks).solve(problem, expected);
+        ASSERT_EQ(result.status, alone.status);
+        ASSERT_EQ(result.nodes, alone.nodes);
+        ASSERT_EQ(result.propagations, alone.propagations);
+        if (has_solution(result.status)) {
+          ASSERT_EQ(found, expected);
+        }
+        ended += result.nodes == options.max_nodes ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(ended, test::rounds(100));
+}
+
 TEST(Solver, ALimitOfTimeEndsTheSearch) {
   const CompiledCatalog catalog = catalog_with_choices();
   const Problem problem = demand_all(catalog);
