@@ -265,7 +265,7 @@ std::vector<std::string> list_folder(const std::string& path,
         folders.push_back(entry->path());
       } else if (std::find(suffixes.begin(), suffixes.end(), entry->path().extension()) !=
                      suffixes.end() &&
-                 entry->is_regular_file(ignored)) {
+                 (entry->is_regular_file(ignored) || find_refusal(entry->path().string()))) {
         files.push_back(entry->path().string());
       }
     }
@@ -297,10 +297,15 @@ bool is_known_kind(std::string_view text, const yaml::Document* document) {
   return resembles_catalog(document->root()) || is_script(*document) || is_property_file(*document);
 }
 
-/// Whether it begins as `cbc solve --format jsonl` writes it.
-bool is_log(std::string_view text) { return text.starts_with(R"({"schema":"cbc.events/1")"); }
-
 }  // namespace
+
+bool is_log(std::string_view text) {
+  return utf8::without_byte_order_mark(text).starts_with(R"({"schema":"cbc.events/1")");
+}
+
+void complain_of_log(const std::string& name) {
+  complain("{} is the log of a stream; 'cbc solve --replay' reads it", quote(name));
+}
 
 std::optional<InputFile> InputFiles::read(const std::string& path, NamedBy named_by) {
   if (named_by != NamedBy::command_line && is_special(path)) {
@@ -322,15 +327,17 @@ std::optional<InputFile> InputFiles::read(const std::string& path, NamedBy named
     complain("{} is a link to a file elsewhere that is not valid YAML", quote(name));
     return std::nullopt;
   }
-  if (document == nullptr && is_log(entry->second)) {
-    complain("{} is the log of a stream; expected a catalog or a script here (see --replay)",
-             quote(name));
+  if (is_log(entry->second)) {
+    complain_of_log(name);
     return std::nullopt;
   }
   if (keeps_findings_) {
     for (Diagnostic& finding : diagnostics.release()) findings_.push_back(std::move(finding));
   }
-  if (document == nullptr) return std::nullopt;
+  if (document == nullptr) {
+    ++faulty_;
+    return std::nullopt;
+  }
   return InputFile{path, std::move(document), {}};
 }
 
@@ -418,6 +425,7 @@ bool InputFiles::keep(std::vector<Diagnostic> findings, const SeveritySettings& 
     }
     if (keeps_findings_) findings_.push_back(std::move(finding));
   }
+  if (has_errors) ++faulty_;
   return !has_errors;
 }
 
@@ -453,17 +461,21 @@ std::string CatalogLoader::key_of(const std::string& path) {
 
 std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const std::string& path,
                                                            NamedBy named_by) {
-  const auto [entry, is_new] = known_.try_emplace(key_of(path), nullptr);
+  const auto [entry, is_new] = known_.try_emplace(key_of(path));
+  Known& known = entry->second;
   if (is_new) {
-    if (const std::optional<InputFile> file = files_.read_catalog(path, named_by))
-      entry->second = load(*file);
+    const std::size_t faulty = files_.faulty();
+    if (const std::optional<InputFile> file = files_.read_catalog(path, named_by)) {
+      known.catalog = load(*file);
+    }
+    known.fault = files_.faulty() > faulty ? Fault::in_findings : Fault::printed;
   }
-  return entry->second;
+  return known.catalog;
 }
 
 std::shared_ptr<const CompiledCatalog> CatalogLoader::load(const NamedCatalog& named) {
   auto catalog = load(named.path, NamedBy::file);
-  if (catalog == nullptr) {
+  if (catalog == nullptr && fault_of(named.path) == Fault::printed) {
     complain("{}: the catalog {} cannot be used", named.place, quote(named.path));
   }
   return catalog;

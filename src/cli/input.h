@@ -33,6 +33,10 @@ namespace cbc::cli {
 /// Whether it is a script, or would be one but for a misspelt key.
 [[nodiscard]] bool looks_like_script(const yaml::Document& document);
 
+/// Whether a text begins as `cbc solve --format jsonl` begins.
+[[nodiscard]] bool is_log(std::string_view text);
+void complain_of_log(const std::string& name);
+
 /// What a file is that was found in a folder.
 enum class FoundFile : std::uint8_t {
   catalog,
@@ -148,6 +152,9 @@ class InputFiles {
   /// The findings about all files.
   [[nodiscard]] const std::vector<Diagnostic>& findings() const { return findings_; }
 
+  /// How often there were errors among the findings about a file, even if they were dropped.
+  [[nodiscard]] std::size_t faulty() const { return faulty_; }
+
  private:
   [[nodiscard]] CheckedFile check_by_rules(const std::string& path, const yaml::Document& document,
                                            Purpose purpose, const SeveritySettings& settings);
@@ -157,6 +164,7 @@ class InputFiles {
   const bool keeps_findings_;
   std::map<std::string, std::string> texts_;  ///< by name in messages
   std::vector<Diagnostic> findings_;
+  std::size_t faulty_ = 0;
   /// By settings file, how many warnings it makes errors.
   std::map<std::string, std::size_t> strict_;
   SettingsFinder settings_;
@@ -198,15 +206,21 @@ class CatalogLoader {
   [[nodiscard]] std::shared_ptr<const CompiledCatalog> load(
       const std::string& path, NamedBy named_by = NamedBy::command_line);
 
-  /// The same for one that a file names; where it does is reported if the catalog cannot be used.
+  /// The same for one that a file names. If it cannot be used, and there are no findings that say
+  /// why, prints where it is named.
   [[nodiscard]] std::shared_ptr<const CompiledCatalog> load(const NamedCatalog& named);
 
   /// Keeps a catalog that was read in another way, or null for one that cannot be used.
   void keep(const std::string& path, std::shared_ptr<const CompiledCatalog> catalog) {
-    known_.insert_or_assign(key_of(path), std::move(catalog));
+    known_.insert_or_assign(key_of(path), Known{std::move(catalog), Fault::known_before});
   }
-  /// Whether the catalog of the path is kept.
-  [[nodiscard]] bool knows(const std::string& path) const { return known_.contains(key_of(path)); }
+
+  /// Who has said why a catalog cannot be used.
+  enum class Fault : std::uint8_t { printed, in_findings, known_before };
+  /// Of a catalog that was loaded or kept, and cannot be used.
+  [[nodiscard]] Fault fault_of(const std::string& path) const {
+    return known_.at(key_of(path)).fault;
+  }
 
   /// A catalog in YAML, fit to be compiled; empty if there are errors.
   [[nodiscard]] std::optional<Catalog> understand(
@@ -214,12 +228,17 @@ class CatalogLoader {
       InputFiles::Purpose purpose = InputFiles::Purpose::compilation);
 
  private:
+  struct Known {
+    std::shared_ptr<const CompiledCatalog> catalog;
+    Fault fault = Fault::printed;
+  };
+
   /// The same for './robot.yaml' and 'robot.yaml'.
   [[nodiscard]] static std::string key_of(const std::string& path);
 
   InputFiles& files_;
   bool keeps_sources_ = false;
-  std::map<std::string, std::shared_ptr<const CompiledCatalog>> known_;
+  std::map<std::string, Known> known_;
   std::map<const CompiledCatalog*, std::shared_ptr<const CatalogSource>> sources_;
 };
 

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
-#include <system_error>
 
 #include <fmt/core.h>
 
 #include "base/text.h"
 #include "cli/command_line.h"
 #include "cli/output.h"
-#include "cli/read_files.h"
 #include "compile/compile.h"
 #include "diagnostic/diagnostic.h"
 #include "lint/controls.h"
@@ -42,6 +40,9 @@ void Linter::lint_catalog(const std::string& path) {
   } else if (const std::string name = name_of(path);
              std::filesystem::path(name).filename() == settings_file_name) {
     lint_settings(name, std::move(input->content));
+  } else if (is_log(input->content)) {
+    complain_of_log(name);
+    has_failed_ = true;
   } else {
     lint_catalog_text(path, std::move(input->content));
   }
@@ -276,19 +277,19 @@ std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& 
     has_failed_ = true;
     return nullptr;
   }
-  const bool is_linted = catalogs_.knows(named->path);
   std::shared_ptr<const CompiledCatalog> compiled =
       catalogs_.load(named->path, given.empty() ? NamedBy::file : NamedBy::command_line);
   if (compiled == nullptr) {
-    std::error_code ignored;
-    std::string advice;
-    if (given == "-" ||
-        (!find_refusal(named->path) && std::filesystem::exists(named->path, ignored))) {
-      advice = is_linted ? "; correct that first"
-                         : fmt::format("; 'cbc lint {}' says why", printable(named->path));
-    }
+    using Fault = CatalogLoader::Fault;
+    const Fault fault = catalogs_.fault_of(named->path);
+    const bool is_linted = fault == Fault::known_before;
+    const std::string advice =
+        is_linted                 ? "; correct that first"
+        : fault == Fault::printed ? ""
+                                  : fmt::format("; 'cbc lint {}' says why", printable(named->path));
     complain("{}: this {} is not checked, as the catalog {} cannot be used{}", named->place,
-             is_of_properties ? "property file" : "script", quote(named->path), advice);
+             is_of_properties ? "property file" : "script", quote(display_name(named->path)),
+             advice);
     // If it was linted, its errors are findings.
     if (!is_linted) has_failed_ = true;
   }

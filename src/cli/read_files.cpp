@@ -42,12 +42,37 @@ ReadFiles& read_files() {
   return files;
 }
 
-/// Whether the file behind a path is in a folder, which is canonical, or below.
+/// Where a path leads if its first link to something that does not exist is followed; empty if it
+/// has no such link. `path` is what weakly_canonical makes of it.
+fs::path follow_dangling_link(const fs::path& path) {
+  fs::path link;
+  for (auto part = path.begin(); part != path.end(); ++part) {
+    link /= *part;
+    std::error_code error;
+    if (!fs::is_symlink(fs::symlink_status(link, error))) continue;
+    fs::path target = link.parent_path() / fs::read_symlink(link, error);
+    if (error) return {};
+    while (++part != path.end()) target /= *part;
+    return target;
+  }
+  return {};
+}
+
+/// Whether the file behind a path is in a folder, which is canonical, or below. What a link leads
+/// to need not exist.
 bool is_inside(const fs::path& folder, const std::string& path) {
+  constexpr int most_links = 40;
   std::error_code error;
-  const fs::path real = fs::weakly_canonical(fs::absolute(path, error), error);
-  return !error && std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first ==
-                       folder.end();
+  fs::path next = fs::absolute(path, error);
+  for (int links = 0; !error && links < most_links; ++links) {
+    const fs::path real = fs::weakly_canonical(next, error);
+    if (error) break;
+    next = follow_dangling_link(real);
+    if (!next.empty()) continue;
+    return std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first ==
+           folder.end();
+  }
+  return false;
 }
 
 }  // namespace

@@ -132,7 +132,8 @@ class Replay {
       refuse(status == LineInput::Status::failed ? input_.error() : "it has no header");
       return std::nullopt;
     }
-    auto header = log_.read_header(input_.line());
+    const std::string_view line = utf8::without_byte_order_mark(input_.line());
+    auto header = log_.read_header(line);
     if (!header) {
       refuse(log_.error());
       return std::nullopt;
@@ -145,8 +146,8 @@ class Replay {
                                      state ? state->variables : first.variables(), header->clock);
     output_.write(text);
     text.pop_back();
-    if (text != input_.line()) {
-      tell_difference(1, std::string(input_.line()), text, "the header differs");
+    if (text != line) {
+      tell_difference(1, std::string(line), text, "the header differs");
     }
     return header;
   }

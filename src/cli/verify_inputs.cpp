@@ -115,7 +115,7 @@ bool QuestionLoader::find_catalog(const std::string& path, const yaml::Document&
     questions_.catalog = catalogs_.load(*named);
   } else if (named->path != *questions_.named_catalog &&
              !is_same_file(*questions_.named_catalog, named->path)) {
-    complain("{}: it is about another catalog, {}, than the property files before it, {}",
+    complain("{}: this property file is about another catalog, {}, than those before it, {}",
              named->place, quote(named->path), quote(*questions_.named_catalog));
     return false;
   }

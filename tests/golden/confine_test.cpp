@@ -132,6 +132,37 @@ TEST_F(Confine, NothingIsShownOfANamedFileThatIsNoCatalog) {
   }
 }
 
+/// Otherwise a link would tell whether a file exists.
+TEST_F(Confine, LinksOutOfTheFolderAreRefusedWhetherOrNotTheyLeadToSomething) {
+  fs::create_directories(folder / "elsewhere");
+  folder.write("elsewhere/robot.yaml", robot);
+  fs::create_symlink("loop.yaml", folder / "repository/loop.yaml");
+  for (const std::string target :
+       {"../robot.yaml", "../missing.yaml", "second.yaml", "../none/x"}) {
+    fs::remove(folder / "repository/link.yaml");
+    fs::remove(folder / "repository/second.yaml");
+    fs::create_symlink(target, folder / "repository/link.yaml");
+    fs::create_symlink("../missing.yaml", folder / "repository/second.yaml");
+    SCOPED_TRACE(target);
+    expect_refusal({"lint", "repository"});
+    expect_refusal({"lint", "repository/link.yaml"});
+    name_catalog("../link.yaml");
+    expect_refusal({"solve", "repository/missions/bad.yaml"});
+  }
+  expect_refusal({"lint", "repository/loop.yaml"});
+  for (const std::string target : {"../elsewhere", "../missing"}) {
+    fs::remove(folder / "repository/linked");
+    fs::create_symlink(target, folder / "repository/linked");
+    name_catalog("../linked/robot.yaml");
+    expect_refusal({"solve", "repository/missions/bad.yaml"});
+  }
+  // Within the folder, what is missing is missing.
+  fs::remove(folder / "repository/link.yaml");
+  fs::create_symlink("missions/none.yaml", folder / "repository/link.yaml");
+  EXPECT_EQ(cbc({"lint", "repository/link.yaml", "--confine", "repository"}).err,
+            "cbc: cannot read 'repository/link.yaml': No such file or directory\n");
+}
+
 /// A pipe without a writer would block, also within the folder.
 TEST_F(Confine, NoPipeOrDeviceIsNamedByAFile) {
   ASSERT_EQ(::mkfifo((folder / "repository/pipe.yaml").c_str(), 0600), 0);

@@ -771,6 +771,8 @@ TEST_F(StreamTest, ReplayGivesTheLogAgain) {
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.out, log);
   }
+  folder_.write("log.jsonl", "\xEF\xBB\xBF" + log);
+  EXPECT_EQ(run(call({"--replay", "log.jsonl", "quadrotor.yaml"})).out, log);
 }
 
 TEST_F(StreamTest, ReplayAndContinuedStreamHaveNoTimeoutsIfTheScriptHasNone) {

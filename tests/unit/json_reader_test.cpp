@@ -148,6 +148,14 @@ TEST(JsonReader, RefusesWhatIsNoJson) {
   }
 }
 
+TEST(JsonReader, SkipsAByteOrderMark) {
+  yaml::JsonReader reader;
+  const yaml::Node* const root = reader.read("\xEF\xBB\xBF{\"a\": 1}");
+  ASSERT_NE(root, nullptr);
+  EXPECT_EQ(root->entries.size(), 1U);
+  EXPECT_EQ(reader.read("\xEF\xBB\xBF\xEF\xBB\xBF{}"), nullptr);
+}
+
 TEST(JsonReader, SaysWhyATextIsNoJson) {
   yaml::JsonReader reader;
   const auto fault = [&reader](std::string_view text) {
@@ -159,6 +167,8 @@ TEST(JsonReader, SaysWhyATextIsNoJson) {
   EXPECT_EQ(fault(std::string_view("\x14\0\0\0CBC1", 8)), "it is not JSON, or it is damaged");
   EXPECT_EQ(fault(std::string_view("P\0\0\0CBC1", 8)), "it is not JSON, or it is damaged");
   EXPECT_EQ(fault(std::string_view("\0\0\0\x14", 4)), "it is not JSON, or it is damaged");
+  EXPECT_EQ(fault(std::string_view("P\0\0\0CBC", 7)), "it is not JSON, or it is damaged");
+  EXPECT_EQ(fault(std::string_view("\xE9\0:\0", 4)), "expected UTF-8, found UTF-16");
   EXPECT_EQ(fault(std::string_view("{\0}\0", 4)), "expected UTF-8, found UTF-16");
   EXPECT_EQ(fault(std::string_view("\0\0\0{\0\0\0}", 8)), "expected UTF-8, found UTF-32");
 }

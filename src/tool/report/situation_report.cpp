@@ -135,10 +135,20 @@ class TextTable {
   TextTable(const CompiledCatalog& catalog, const SituationTable& table, const Style& style)
       : catalog_(catalog), table_(table), style_(style) {
     for (const BehaviorId behavior : table.behaviors()) {
-      names_.push_back(shorten(draw::label_of(catalog.name_of_behavior(behavior))));
-      left_ = std::max(left_, width_of(names_.back()));
+      names_.push_back(draw::label_of(catalog.name_of_behavior(behavior)));
     }
+    names_ = shorten(std::move(names_));
+    for (const std::string& name : names_) left_ = std::max(left_, width_of(name));
     left_ += gap.size();
+    for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+      variables_.push_back(draw::label_of(catalog.name_of_variable(variable)));
+      std::vector<std::string>& titles = titles_.emplace_back();
+      for (std::uint32_t value = 0; value < catalog.variables[variable].value_count; ++value) {
+        titles.push_back(draw::label_of(catalog.name_of_value({variable, value})));
+      }
+      titles = shorten(std::move(titles));
+    }
+    variables_ = shorten(std::move(variables_));
   }
 
   std::string write() && {
@@ -170,11 +180,11 @@ class TextTable {
   }
 
  private:
-  [[nodiscard]] std::string name_of(std::uint32_t variable) const {
-    return shorten(draw::label_of(catalog_.name_of_variable(variable)));
+  [[nodiscard]] const std::string& name_of(std::uint32_t variable) const {
+    return variables_[variable];
   }
-  [[nodiscard]] std::string title_of(VariableValue value) const {
-    return shorten(draw::label_of(catalog_.name_of_value(value)));
+  [[nodiscard]] const std::string& title_of(VariableValue value) const {
+    return titles_[value.variable][value.value];
   }
 
   static void pad(std::string& line, std::size_t width) {
@@ -243,7 +253,9 @@ class TextTable {
   const SituationTable& table_;
   const Style& style_;
   std::vector<std::string> names_;
-  std::size_t left_ = 0;  ///< width of the names
+  std::vector<std::string> variables_;            ///< their names
+  std::vector<std::vector<std::string>> titles_;  ///< of their values
+  std::size_t left_ = 0;                          ///< width of the names
   std::vector<VariableValue> values_;
   std::vector<std::size_t> widths_;
   std::size_t name_end_ = 0;

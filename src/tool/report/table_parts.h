@@ -18,9 +18,9 @@ inline constexpr std::size_t longest_name = 28;
 /// The number of columns that a text takes in a terminal.
 [[nodiscard]] std::size_t width_of(std::string_view text);
 
-/// A text of at most `longest_name` columns: a longer one has "..." for its middle, as names often
-/// differ only at the end.
-[[nodiscard]] std::string shorten(std::string text);
+/// The names of at most `longest_name` columns: longer ones have "..." for their middle. If names
+/// that differ became equal, they are twice as long, and so on.
+[[nodiscard]] std::vector<std::string> shorten(std::vector<std::string> names);
 
 /// The text without the blanks at its end.
 [[nodiscard]] std::string_view without_end_blanks(std::string_view text);

@@ -112,14 +112,15 @@ class TextMatrix {
   TextMatrix(const CompiledCatalog& catalog, const TogetherTable& table, const Style& style)
       : matrix_(table), style_(style), digits_(std::to_string(table.tasks.size()).size()) {
     for (const TaskId task : table.tasks) {
-      names_.push_back(shorten(draw::label_of(catalog.name_of_task(task))));
-      name_width_ = std::max(name_width_, width_of(names_.back()));
+      names_.push_back(draw::label_of(catalog.name_of_task(task)));
     }
+    names_ = shorten(std::move(names_));
+    for (const std::string& name : names_) name_width_ = std::max(name_width_, width_of(name));
   }
 
   std::string write() && {
     const std::size_t left = 2 + digits_ + 1 + name_width_ + 1;
-    const std::size_t width = text_width - left;
+    const std::size_t width = std::max(text_width, left + columns_in_a_block) - left;
     const std::size_t columns = matrix_.size() - 1;
     // A blank stands between each two blocks.
     std::size_t most = (width + 1) / (columns_in_a_block + 1) * columns_in_a_block;

@@ -612,15 +612,16 @@ void parse_document(std::string_view text, const PositionMap& positions, const s
 
 std::string fault_of_encoding(std::string_view text) {
   const std::string_view four = text.substr(0, 4);
-  const auto has_zeros = [four](std::string_view pattern) {  // '0' and 'x': a zero, or ASCII
+  const auto has_zeros = [four](std::string_view pattern) {  // '0' and 'x': a zero, or a character
     return four.size() >= pattern.size() &&
            std::equal(pattern.begin(), pattern.end(), four.begin(), [](char wanted, char byte) {
-             return wanted == '0' ? byte == '\0'
-                                  : byte > 0 && !is_forbidden(static_cast<unsigned char>(byte));
+             const bool is_zero = byte == '\0';
+             return wanted == '0' ? is_zero
+                                  : !is_zero && !is_forbidden(static_cast<unsigned char>(byte));
            });
   };
   const auto has_zero = [text](std::size_t place) {  // in the second character of UTF-32
-    return text.size() <= place || text[place] == '\0';
+    return text.size() < 8 ? text.size() == 4 : text[place] == '\0';
   };
   const std::string_view two = text.substr(0, 2);
   if ((has_zeros("000x") && has_zero(4)) || (has_zeros("x000") && has_zero(7)) ||

@@ -67,7 +67,7 @@ class JsonReader {
   /// deeper than YAML may be: then the YAML parser has the last word. All ranges lie in `line`;
   /// their columns count bytes.
   [[nodiscard]] const Node* read(std::string_view text, std::uint32_t line = 1);
-  /// After a text that is no JSON: why, as far as a few words can tell.
+  /// After a text that is no JSON, while it is still there: why, as far as a few words can tell.
   [[nodiscard]] std::string fault() const;
   /// Whether the text has a key '<<', which merges mappings in YAML and is a name in JSON.
   [[nodiscard]] bool has_merge_key() const { return has_merge_key_; }

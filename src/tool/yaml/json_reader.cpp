@@ -32,7 +32,7 @@ void append_utf8(std::string& text, std::uint32_t character) {
 
 const Node* JsonReader::read(std::string_view text, std::uint32_t line) {
   if (text_.size() > longest_kept) nodes_.clear();
-  text_ = text;
+  text_ = utf8::without_byte_order_mark(text);
   at_ = 0;
   line_ = line;
   used_ = 0;
