@@ -43,7 +43,7 @@ function catalogOf(file, text) {
   const found = names
     .filter((name) => typeof name === 'string')
     .map((name) => path.join(folder, name))
-    .find((name) => name !== file && fs.existsSync(name));
+    .find((name) => name !== file && fs.existsSync(name) && fs.statSync(name).isFile());
   return found === undefined ? undefined : fs.readFileSync(found, 'utf8');
 }
 
