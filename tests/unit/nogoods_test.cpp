@@ -1,6 +1,7 @@
 #include "solver/nogoods.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace {
 class FourNogoods {
  public:
   FourNogoods() {
-    nogoods_.clear(2 * count);
+    nogoods_.clear(std::size_t{2} * count);
     for (std::uint32_t number = 0; number < count; ++number) {
       const std::array<Literal, 2> literals = {positive(2 * number), positive(2 * number + 1)};
       nogoods_.add(literals, 3);

@@ -60,6 +60,7 @@ std::vector<std::string> shorten(std::vector<std::string> names) {
   const std::size_t different = std::set<std::string>(names.begin(), names.end()).size();
   for (std::size_t columns = longest_name; columns < widest; columns *= 2) {
     std::vector<std::string> shortened;
+    shortened.reserve(names.size());
     for (const std::string& name : names) shortened.push_back(shorten(name, columns));
     if (std::set<std::string>(shortened.begin(), shortened.end()).size() == different) {
       return shortened;
