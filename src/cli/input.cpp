@@ -32,6 +32,7 @@
 #include "diagnostic/rules.h"
 #include "lint/controls.h"
 #include "lint/lint.h"
+#include "script/event_lines.h"
 #include "script/reader.h"
 #include "support/wording.h"
 
@@ -298,10 +299,6 @@ bool is_known_kind(std::string_view text, const yaml::Document* document) {
 }
 
 }  // namespace
-
-bool is_log(std::string_view text) {
-  return utf8::without_byte_order_mark(text).starts_with(R"({"schema":"cbc.events/1")");
-}
 
 void complain_of_log(const std::string& name) {
   complain("{} is the log of a stream; 'cbc solve --replay' reads it", quote(name));

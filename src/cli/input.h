@@ -33,8 +33,7 @@ namespace cbc::cli {
 /// Whether it is a script, or would be one but for a misspelt key.
 [[nodiscard]] bool looks_like_script(const yaml::Document& document);
 
-/// Whether a text begins as `cbc solve --format jsonl` begins.
-[[nodiscard]] bool is_log(std::string_view text);
+/// Prints that a file is the log of a stream, and what reads it.
 void complain_of_log(const std::string& name);
 
 /// What a file is that was found in a folder.

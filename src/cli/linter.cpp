@@ -1,7 +1,6 @@
 #include "cli/linter.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 
 #include <fmt/core.h>
@@ -12,6 +11,7 @@
 #include "compile/compile.h"
 #include "diagnostic/diagnostic.h"
 #include "lint/controls.h"
+#include "script/event_lines.h"
 #include "script/reader.h"
 #include "support/wording.h"
 #include "verify/property_reader.h"
@@ -26,6 +26,19 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
 
 void complain_of_catalog(const std::string& name) {
   complain("{} is a catalog; expected an event script or a property file", quote(name));
+}
+
+/// What to do about a catalog that cannot be used, behind a message that says so.
+std::string advice_on(CatalogLoader::Fault fault, const std::string& path) {
+  switch (fault) {
+    case CatalogLoader::Fault::printed:
+      break;
+    case CatalogLoader::Fault::in_findings:
+      return fmt::format("; 'cbc lint {}' says why", printable(path));
+    case CatalogLoader::Fault::known_before:
+      return "; correct that first";
+  }
+  return {};
 }
 
 }  // namespace
@@ -280,18 +293,12 @@ std::shared_ptr<const CompiledCatalog> Linter::catalog_of(const yaml::Document& 
   std::shared_ptr<const CompiledCatalog> compiled =
       catalogs_.load(named->path, given.empty() ? NamedBy::file : NamedBy::command_line);
   if (compiled == nullptr) {
-    using Fault = CatalogLoader::Fault;
-    const Fault fault = catalogs_.fault_of(named->path);
-    const bool is_linted = fault == Fault::known_before;
-    const std::string advice =
-        is_linted                 ? "; correct that first"
-        : fault == Fault::printed ? ""
-                                  : fmt::format("; 'cbc lint {}' says why", printable(named->path));
+    const CatalogLoader::Fault fault = catalogs_.fault_of(named->path);
     complain("{}: this {} is not checked, as the catalog {} cannot be used{}", named->place,
              is_of_properties ? "property file" : "script", quote(display_name(named->path)),
-             advice);
+             advice_on(fault, named->path));
     // If it was linted, its errors are findings.
-    if (!is_linted) has_failed_ = true;
+    if (fault != CatalogLoader::Fault::known_before) has_failed_ = true;
   }
   return compiled;
 }

@@ -393,7 +393,7 @@ std::string stream_header(const CompiledCatalog& catalog, std::string_view catal
                           const CoordinatorOptions& options, const Situation& situation,
                           std::span<const std::uint32_t> variables, std::string_view clock) {
   return json_line([&](JsonWriter& json) {
-    json.write_members({{"schema", "cbc.events/1"},
+    json.write_members({{"schema", events_schema},
                         {"catalog", catalog_name},
                         {"digest", to_hex(identity_of(catalog))}});
     json.write_seconds("reactive_delay", options.reactive_delay);

@@ -55,8 +55,6 @@ namespace {
 
 using yaml::Node;
 
-constexpr std::string_view events_schema = "cbc.events/1";
-
 /// Reports a missing key.
 const Node* require(const Node& object, std::string_view key, Reporter& reporter) {
   const Node* const value = object.find(key);
@@ -80,6 +78,11 @@ bool has_times(const Node& line) {
 }
 
 }  // namespace
+
+bool is_log(std::string_view text) {
+  return utf8::without_byte_order_mark(text).starts_with(
+      concat(R"({"schema":")", events_schema, "\""));
+}
 
 std::optional<EventLog::Header> EventLog::read_header(std::string_view line) {
   Diagnostics diagnostics;

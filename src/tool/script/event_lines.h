@@ -45,6 +45,12 @@ class EventLines {
   StepReader reader_;
 };
 
+/// The schema that the first line of a stream of events names.
+inline constexpr std::string_view events_schema = "cbc.events/1";
+
+/// Whether a text begins as `cbc solve --format jsonl` begins.
+[[nodiscard]] bool is_log(std::string_view text);
+
 /// Reads the lines of a recorded stream of events (`cbc solve --format jsonl`).
 class EventLog {
  public:

@@ -118,7 +118,7 @@ class StepReader {
   bool knows_situation_ = true;
 };
 
-/// The `catalog:` of a script or a property file, as written, if it names one.
+/// The value of `catalog:` in a script or a property file; null if it names none.
 [[nodiscard]] const yaml::Node* catalog_of_script(const yaml::Document& document);
 
 /// Reads and checks a whole event script. Findings about parameters have the severity
