@@ -72,9 +72,10 @@ std::string find_differences(std::string_view logged, std::string_view found) {
   return names.empty() ? "the order or the spelling of the line" : names;
 }
 
-class Replay {
+class StreamReplay {
  public:
-  Replay(int descriptor, std::string name, CompiledCatalog catalog, const SolveOptions& options)
+  StreamReplay(int descriptor, std::string name, CompiledCatalog catalog,
+               const SolveOptions& options)
       : name_(std::move(name)),
         catalog_(std::move(catalog)),
         options_(options),
@@ -329,7 +330,7 @@ int replay_stream(const SolveOptions& options) {
   }
   note_read(path);
   if (!can_save_state(options.stream)) return exit_unusable;
-  const int status = Replay(file, display_name(path), *catalog, options).run(state);
+  const int status = StreamReplay(file, display_name(path), *catalog, options).run(state);
   if (file != STDIN_FILENO) ::close(file);
   return status;
 }

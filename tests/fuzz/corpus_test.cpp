@@ -23,7 +23,7 @@
 #include "verify/property_reader.h"
 #include "yaml/document.h"
 
-namespace cbc::fuzz {
+namespace cbc::fuzz::corpus_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -133,4 +133,4 @@ TEST(Dictionary, HasAllKeysAndRules) {
 }
 
 }  // namespace
-}  // namespace cbc::fuzz
+}  // namespace cbc::fuzz::corpus_test

@@ -12,7 +12,7 @@
 namespace cbc::fuzz {
 namespace {
 
-constexpr std::uint64_t most_nodes = 1000;
+constexpr std::uint64_t most_lint_nodes = 1000;
 
 }  // namespace
 
@@ -31,7 +31,7 @@ LintedCatalog lint(std::string text, const SeveritySettings& settings) {
     return linted;
   }
   CheckedCatalog checked = check_catalog(*document, linted.file.text, settings,
-                                         LintOptions{most_nodes}, std::move(diagnostics));
+                                         LintOptions{most_lint_nodes}, std::move(diagnostics));
   if (checked.compiled) linted.file.summary = summarize(*checked.compiled);
   linted.catalog = std::move(checked.reading.catalog);
   linted.compiled = std::move(checked.compiled);

@@ -22,7 +22,7 @@
 namespace cbc::fuzz {
 namespace {
 
-constexpr std::uint64_t most_nodes = 2000;
+constexpr std::uint64_t most_nodes_of_program = 2000;
 constexpr std::uint64_t most_clock_events = 300;
 
 void check(bool is_done, std::string_view what) {
@@ -144,14 +144,14 @@ ProgramRun run_program(std::string_view standard_input, const std::function<int(
 
 cli::SolveOptions bounded_options() {
   cli::SolveOptions options;
-  options.max_nodes = most_nodes;
+  options.max_nodes = most_nodes_of_program;
   options.max_clock_events = most_clock_events;
   return options;
 }
 
 CoordinatorOptions bounded_coordinator() {
   CoordinatorOptions options;
-  options.search.max_nodes = most_nodes;
+  options.search.max_nodes = most_nodes_of_program;
   options.max_clock_events = most_clock_events;
   return options;
 }

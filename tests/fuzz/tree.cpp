@@ -18,7 +18,7 @@ using oracle::Random;
 using yaml::Kind;
 
 /// Aliases may make many nodes of a few.
-constexpr std::size_t most_nodes = 5000;
+constexpr std::size_t most_tree_nodes = 5000;
 /// Deeper trees than this are refused anyway.
 constexpr std::size_t greatest_depth = yaml::maximum_depth + 2;
 constexpr std::size_t longest_scalar = 64;
@@ -258,7 +258,7 @@ std::optional<Tree> read_tree(std::string_view text) {
   Diagnostics diagnostics;
   const auto document = yaml::parse(text, "input", diagnostics);
   Tree tree;
-  std::size_t left = most_nodes;
+  std::size_t left = most_tree_nodes;
   if (document == nullptr || !copy(document->root(), tree, left)) return std::nullopt;
   return tree;
 }

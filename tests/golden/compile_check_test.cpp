@@ -14,7 +14,7 @@
 #include "golden/compiled_files.h"
 #include "support/content_place.h"
 
-namespace cbc::golden {
+namespace cbc::golden::compile_check_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,4 +159,4 @@ TEST_F(CompileDump, ListsNoDamagedFile) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::compile_check_test

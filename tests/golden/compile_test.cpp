@@ -20,7 +20,7 @@
 #include "compiled/compiled_file.h"
 #include "golden/compiled_files.h"
 
-namespace cbc::golden {
+namespace cbc::golden::compile_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -297,4 +297,4 @@ TEST_F(Compile, LeavesAWholeFileWhenASignalComes) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::compile_test

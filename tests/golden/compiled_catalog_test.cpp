@@ -14,7 +14,7 @@
 #include "golden/compiled_files.h"
 #include "support/read_file.h"
 
-namespace cbc::golden {
+namespace cbc::golden::compiled_catalog_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -178,4 +178,4 @@ TEST_F(CompiledCatalog, GivesLintACatalogForScripts) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::compiled_catalog_test

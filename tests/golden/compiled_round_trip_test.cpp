@@ -14,7 +14,7 @@
 #include "support/scratch_folder.h"
 #include "support/shared_folder.h"
 
-namespace cbc::golden {
+namespace cbc::golden::compiled_round_trip_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -135,4 +135,4 @@ TEST(RoundTrips, CoverTheSharedCatalogs) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::compiled_round_trip_test

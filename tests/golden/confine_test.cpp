@@ -8,7 +8,7 @@
 
 #include "golden/compiled_files.h"
 
-namespace cbc::golden {
+namespace cbc::golden::confine_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -186,4 +186,4 @@ TEST_F(Confine, NoPipeOrDeviceIsNamedByAFile) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::confine_test

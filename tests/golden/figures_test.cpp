@@ -16,7 +16,7 @@
 #include "golden/process.h"
 #include "support/read_file.h"
 
-namespace cbc::golden {
+namespace cbc::golden::figures_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -153,4 +153,4 @@ TEST(Figures, AreShown) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::figures_test

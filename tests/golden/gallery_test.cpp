@@ -12,7 +12,7 @@
 #include "golden/process.h"
 #include "support/catalog_files.h"
 
-namespace cbc::golden {
+namespace cbc::golden::gallery_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -79,4 +79,4 @@ INSTANTIATE_TEST_SUITE_P(Catalogs, Gallery, testing::ValuesIn(names_of_catalogs(
                          });
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::gallery_test

@@ -32,7 +32,7 @@
 #include "golden/process.h"
 #include "support/read_file.h"
 
-namespace cbc::golden {
+namespace cbc::golden::golden_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -155,4 +155,4 @@ INSTANTIATE_TEST_SUITE_P(Case, Golden, testing::ValuesIn(find_cases()),
                          [](const auto& tested) { return tested.param; });
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::golden_test

@@ -14,7 +14,7 @@
 #include "support/scratch_folder.h"
 #include "support/system.h"
 
-namespace cbc::golden {
+namespace cbc::golden::graph_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -262,4 +262,4 @@ TEST(Graph, BinaryPicturesAreNotWrittenToATerminal) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::graph_test

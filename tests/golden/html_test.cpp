@@ -9,7 +9,7 @@
 #include "support/read_file.h"
 #include "support/scratch_folder.h"
 
-namespace cbc::golden {
+namespace cbc::golden::html_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,4 +86,4 @@ TEST_F(Html, IsNotWrittenForBadInput) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::html_test

@@ -12,7 +12,7 @@
 #include "golden/process.h"
 #include "support/scratch_folder.h"
 
-namespace cbc::golden {
+namespace cbc::golden::init_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -137,4 +137,4 @@ TEST_F(Init, SaysWhyItCannotWrite) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::init_test

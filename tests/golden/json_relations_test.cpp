@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cbc::golden {
+namespace cbc::golden::json_relations_test {
 namespace {
 
 using Replacement = std::pair<std::string, std::string>;
@@ -129,4 +129,4 @@ TEST(JsonRelations, OfDiff) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::json_relations_test

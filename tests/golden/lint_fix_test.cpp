@@ -14,7 +14,7 @@
 #include "golden/process.h"
 #include "support/scratch_folder.h"
 
-namespace cbc::golden {
+namespace cbc::golden::lint_fix_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -259,4 +259,4 @@ TEST_F(LintFix, SaysWhatItCouldNotWrite) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::lint_fix_test

@@ -20,7 +20,7 @@
 #include "support/read_file.h"
 #include "support/scratch_folder.h"
 
-namespace cbc::golden {
+namespace cbc::golden::program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -408,4 +408,4 @@ TEST(Version, IsThatOfTheHeaders) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::program_test

@@ -7,7 +7,7 @@
 
 #include "golden/compiled_files.h"
 
-namespace cbc::golden {
+namespace cbc::golden::protected_inputs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -153,4 +153,4 @@ TEST_F(ProtectedInputs, MayBeReplacedWhereThatIsMeant) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::protected_inputs_test

@@ -17,7 +17,7 @@
 #include "support/scratch_folder.h"
 #include "support/shared_folder.h"
 
-namespace cbc::golden {
+namespace cbc::golden::published_lint_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -181,4 +181,4 @@ INSTANTIATE_TEST_SUITE_P(Catalogs, PublishedFix,
                          [](const auto& catalog) { return std::string(catalog.param); });
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::published_lint_test

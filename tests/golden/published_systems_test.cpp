@@ -13,7 +13,7 @@
 
 #include "golden/process.h"
 
-namespace cbc::golden {
+namespace cbc::golden::published_systems_test {
 namespace {
 
 using Names = std::set<std::string>;
@@ -231,4 +231,4 @@ TEST(Autoware, HasTheCutSetsOfItsSource) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::published_systems_test

@@ -13,7 +13,7 @@
 #include "golden/process.h"
 #include "support/read_file.h"
 
-namespace cbc::golden {
+namespace cbc::golden::rule_cases_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,4 +62,4 @@ TEST(RuleCases, BreakTheirRuleOnly) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::rule_cases_test

@@ -13,7 +13,7 @@
 #include "golden/process.h"
 #include "support/read_file.h"
 
-namespace cbc::golden {
+namespace cbc::golden::schema_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,4 +94,4 @@ TEST(Schemas, AreListed) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::schema_test

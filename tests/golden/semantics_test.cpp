@@ -16,7 +16,7 @@
 #include "support/read_file.h"
 #include "support/scratch_folder.h"
 
-namespace cbc::golden {
+namespace cbc::golden::semantics_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -214,4 +214,4 @@ TEST(Semantics, CommentsReferToNothingElse) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::semantics_test

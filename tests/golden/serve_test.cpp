@@ -18,7 +18,7 @@
 #include "support/http_client.h"
 #include "support/scratch_folder.h"
 
-namespace cbc::golden {
+namespace cbc::golden::serve_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -219,4 +219,4 @@ TEST_F(ServeTest, NeedsAFreePort) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::serve_test

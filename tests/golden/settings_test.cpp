@@ -10,7 +10,7 @@
 #include "diagnostic/rules.h"
 #include "golden/compiled_files.h"
 
-namespace cbc::golden {
+namespace cbc::golden::settings_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -156,4 +156,4 @@ TEST_F(Settings, OlderKeysAreOnlyCounted) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::settings_test

@@ -12,7 +12,7 @@
 #include "golden/process.h"
 #include "support/scratch_folder.h"
 
-namespace cbc::golden {
+namespace cbc::golden::solve_runs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -224,4 +224,4 @@ TEST_F(SolveRuns, HaveStatisticsInTheText) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::solve_runs_test

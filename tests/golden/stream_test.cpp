@@ -28,7 +28,7 @@
 #include "support/read_file.h"
 #include "support/scratch_folder.h"
 
-namespace cbc::golden {
+namespace cbc::golden::stream_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -1037,4 +1037,4 @@ TEST_F(StreamTest, LongLinesLeaveNothingBehind) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::stream_test

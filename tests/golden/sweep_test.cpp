@@ -11,7 +11,7 @@
 #include "golden/process.h"
 #include "support/scratch_folder.h"
 
-namespace cbc::golden {
+namespace cbc::golden::sweep_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -97,4 +97,4 @@ TEST_F(Sweep, RunsAsTheRecipeForParallelSays) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::sweep_test

@@ -14,7 +14,7 @@
 #include "support/exclusive_tasks.h"
 #include "support/scratch_folder.h"
 
-namespace cbc::golden {
+namespace cbc::golden::verify_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -266,4 +266,4 @@ TEST(PublishedProperties, Hold) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::verify_test

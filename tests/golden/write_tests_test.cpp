@@ -14,7 +14,7 @@
 #include "support/read_file.h"
 #include "support/scratch_folder.h"
 
-namespace cbc::golden {
+namespace cbc::golden::write_tests_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -334,4 +334,4 @@ TEST_F(WriteTests, SaysWhatALimitLeavesOpen) {
 }
 
 }  // namespace
-}  // namespace cbc::golden
+}  // namespace cbc::golden::write_tests_test

@@ -24,7 +24,7 @@
 #include "support/system.h"
 #include "yaml/document.h"
 
-namespace cbc::graph_test {
+namespace cbc::graph_test::dot_test {
 namespace {
 
 using nlohmann::json;
@@ -186,4 +186,4 @@ TEST(Dot, ReadsTablesOfSituationsWithHostileNames) {
 }
 
 }  // namespace
-}  // namespace cbc::graph_test
+}  // namespace cbc::graph_test::dot_test

@@ -11,7 +11,7 @@
 #include "manual/page.h"
 #include "script/script.h"
 
-namespace cbc::manual {
+namespace cbc::manual::keys_test {
 namespace {
 
 const std::string catalog_page = "cbc-catalog.5";
@@ -94,4 +94,4 @@ TEST(ManualTest, HasTheCausesAndOutcomesOfEvents) {
 }
 
 }  // namespace
-}  // namespace cbc::manual
+}  // namespace cbc::manual::keys_test

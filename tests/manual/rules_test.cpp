@@ -15,7 +15,7 @@
 #include "manual/page.h"
 #include "support/read_file.h"
 
-namespace cbc::manual {
+namespace cbc::manual::rules_test {
 namespace {
 
 const std::string page_name = "cbc-rules.7";
@@ -135,4 +135,4 @@ TEST(ManualTest, HasTheRules) {
 }
 
 }  // namespace
-}  // namespace cbc::manual
+}  // namespace cbc::manual::rules_test

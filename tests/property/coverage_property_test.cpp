@@ -30,7 +30,7 @@
 #include "yaml/document.h"
 #include "yaml_text.h"
 
-namespace cbc::oracle {
+namespace cbc::oracle::coverage_property_test {
 namespace {
 
 constexpr std::uint64_t default_cases = 150;
@@ -509,4 +509,4 @@ TEST(CoverageOfMissions, IsWhatFollowsFromItsDefinition) {
 }
 
 }  // namespace
-}  // namespace cbc::oracle
+}  // namespace cbc::oracle::coverage_property_test

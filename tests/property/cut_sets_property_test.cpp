@@ -34,7 +34,7 @@
 #include "verify/fault_tree.h"
 #include "yaml_text.h"
 
-namespace cbc::oracle {
+namespace cbc::oracle::cut_sets_property_test {
 namespace {
 
 constexpr std::uint64_t default_cases = 1000;
@@ -330,4 +330,4 @@ const LowerBound lower_bounds[] = {
 TEST(CutSets, AreThoseOfEnumeration) { run_random_cases(default_cases, run_case, lower_bounds); }
 
 }  // namespace
-}  // namespace cbc::oracle
+}  // namespace cbc::oracle::cut_sets_property_test

@@ -21,7 +21,7 @@
 #include "random.h"
 #include "yaml_text.h"
 
-namespace cbc::oracle {
+namespace cbc::oracle::diff_test {
 namespace {
 
 constexpr std::uint64_t default_diffs = 1000;
@@ -388,4 +388,4 @@ TEST(Diff, AndItsPictureAreThoseOfPlainSets) {
 }
 
 }  // namespace
-}  // namespace cbc::oracle
+}  // namespace cbc::oracle::diff_test

@@ -18,7 +18,7 @@
 #include "support/rounds.h"
 #include "yaml_text.h"
 
-namespace cbc::oracle {
+namespace cbc::oracle::explanation_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -141,4 +141,4 @@ TEST(Explanation, CheckSeesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace cbc::oracle
+}  // namespace cbc::oracle::explanation_test

@@ -22,7 +22,7 @@
 #include "random_cases.h"
 #include "verify_case.h"
 
-namespace cbc::plain {
+namespace cbc::plain::goal_proof_property_test {
 namespace {
 
 using oracle::demand;
@@ -183,4 +183,4 @@ tasks:
 }
 
 }  // namespace
-}  // namespace cbc::plain
+}  // namespace cbc::plain::goal_proof_property_test

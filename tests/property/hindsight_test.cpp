@@ -22,7 +22,7 @@
 #include "yaml/document.h"
 #include "yaml_text.h"
 
-namespace cbc::oracle {
+namespace cbc::oracle::hindsight_test {
 namespace {
 
 /// Runs a script, and after each event asks about all behaviors that are not active.
@@ -174,4 +174,4 @@ TEST(Hindsight, KnowsWhatTheEventExplained) {
 }
 
 }  // namespace
-}  // namespace cbc::oracle
+}  // namespace cbc::oracle::hindsight_test

@@ -27,7 +27,7 @@
 #include "support/shared_folder.h"
 #include "yaml/document.h"
 
-namespace cbc::mutation {
+namespace cbc::mutation::lint_mutation_test {
 namespace {
 
 constexpr std::uint64_t default_seed = 1;
@@ -274,4 +274,4 @@ TEST(LintMutation, EachMistakeIsFoundWhereItWasMade) {
 }
 
 }  // namespace
-}  // namespace cbc::mutation
+}  // namespace cbc::mutation::lint_mutation_test

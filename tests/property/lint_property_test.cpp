@@ -22,7 +22,7 @@
 #include "statistics.h"
 #include "yaml_text.h"
 
-namespace cbc::oracle {
+namespace cbc::oracle::lint_property_test {
 namespace {
 
 constexpr std::uint64_t default_lint_cases = 5000;
@@ -143,4 +143,4 @@ TEST(LintProperty, SameFindingsAsBruteForce) {
 }
 
 }  // namespace
-}  // namespace cbc::oracle
+}  // namespace cbc::oracle::lint_property_test

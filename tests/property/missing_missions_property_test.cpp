@@ -25,7 +25,7 @@
 #include "verify_case.h"
 #include "yaml/document.h"
 
-namespace cbc::plain {
+namespace cbc::plain::missing_missions_property_test {
 namespace {
 
 using oracle::demand;
@@ -150,4 +150,4 @@ TEST(MissingMissions, MeetWhatCanBeMet) {
 }
 
 }  // namespace
-}  // namespace cbc::plain
+}  // namespace cbc::plain::missing_missions_property_test

@@ -34,7 +34,7 @@
 #include "yaml/document.h"
 #include "yaml_text.h"
 
-namespace cbc::plain {
+namespace cbc::plain::mutants_property_test {
 namespace {
 
 using oracle::demand;
@@ -505,4 +505,4 @@ TEST(Mutants, AreThoseOfAPlainEnumerationAndNoticedByWhatFails) {
 }
 
 }  // namespace
-}  // namespace cbc::plain
+}  // namespace cbc::plain::mutants_property_test

@@ -9,7 +9,7 @@
 
 #include "enumeration.h"
 
-namespace cbc::oracle {
+namespace cbc::oracle::oracle_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -512,4 +512,4 @@ TEST(Oracle, FinishesWhateverPerformsATask) {
 }
 
 }  // namespace
-}  // namespace cbc::oracle
+}  // namespace cbc::oracle::oracle_test

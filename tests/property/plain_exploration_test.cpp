@@ -21,7 +21,7 @@
 #include "random_cases.h"
 #include "verify_case.h"
 
-namespace cbc::plain {
+namespace cbc::plain::plain_exploration_test {
 namespace {
 
 using oracle::demand;
@@ -295,4 +295,4 @@ TEST(PlainExploration, ScriptsEndAsStated) {
 }
 
 }  // namespace
-}  // namespace cbc::plain
+}  // namespace cbc::plain::plain_exploration_test

@@ -15,7 +15,7 @@
 #include "subject.h"
 #include "yaml_text.h"
 
-namespace cbc::oracle {
+namespace cbc::oracle::property_test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -200,4 +200,4 @@ TEST(Property, LimitsGiveAnswersWithinTheirBounds) {
 }
 
 }  // namespace
-}  // namespace cbc::oracle
+}  // namespace cbc::oracle::property_test

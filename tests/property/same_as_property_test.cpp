@@ -26,7 +26,7 @@
 #include "verify_case.h"
 #include "yaml_text.h"
 
-namespace cbc::plain {
+namespace cbc::plain::same_as_property_test {
 namespace {
 
 using oracle::demand;
@@ -234,4 +234,4 @@ TEST(SameAs, TheFirstDifferenceDoesNotDependOnTheNumberOfJobs) {
 }
 
 }  // namespace
-}  // namespace cbc::plain
+}  // namespace cbc::plain::same_as_property_test

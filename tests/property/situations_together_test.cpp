@@ -20,7 +20,7 @@
 #include "random_cases.h"
 #include "yaml/document.h"
 
-namespace cbc::oracle {
+namespace cbc::oracle::situations_together_test {
 namespace {
 
 constexpr std::uint64_t default_cases = 1000;
@@ -326,4 +326,4 @@ TEST(SituationsTogether, AreWhatAnEnumerationFinds) {
 }
 
 }  // namespace
-}  // namespace cbc::oracle
+}  // namespace cbc::oracle::situations_together_test

@@ -24,7 +24,7 @@
 #include "yaml/document.h"
 #include "yaml_text.h"
 
-namespace cbc::oracle {
+namespace cbc::oracle::stream_property_test {
 namespace {
 
 const std::uint64_t cases = test::rounds(300U);
@@ -237,4 +237,4 @@ TEST(StreamProperty, DamagedStatesAreRefusedOrHarmless) {
 }
 
 }  // namespace
-}  // namespace cbc::oracle
+}  // namespace cbc::oracle::stream_property_test

@@ -20,7 +20,7 @@
 #include "script/reader.h"
 #include "yaml/document.h"
 
-namespace cbc::plain {
+namespace cbc::plain::timeout_race_property_test {
 namespace {
 
 using oracle::demand;
@@ -137,4 +137,4 @@ TEST(TimeoutRace, IsLostInAllMissions) {
 }
 
 }  // namespace
-}  // namespace cbc::plain
+}  // namespace cbc::plain::timeout_race_property_test

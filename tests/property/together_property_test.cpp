@@ -25,7 +25,7 @@
 #include "yaml/document.h"
 #include "yaml_text.h"
 
-namespace cbc::oracle {
+namespace cbc::oracle::together_property_test {
 namespace {
 
 constexpr std::uint64_t default_cases = 1000;
@@ -252,4 +252,4 @@ const LowerBound lower_bounds[] = {
 TEST(Together, IsWhatBruteForceFinds) { run_random_cases(default_cases, run_case, lower_bounds); }
 
 }  // namespace
-}  // namespace cbc::oracle
+}  // namespace cbc::oracle::together_property_test

@@ -23,7 +23,7 @@
 #include "verify/explore.h"
 #include "verify_case.h"
 
-namespace cbc::plain {
+namespace cbc::plain::verify_test {
 namespace {
 
 using oracle::demand;
@@ -242,4 +242,4 @@ TEST(Verify, BeginsAsThePlainSearchOnLargerCatalogs) {
 }
 
 }  // namespace
-}  // namespace cbc::plain
+}  // namespace cbc::plain::verify_test

@@ -24,7 +24,7 @@
 #include "verify_case.h"
 #include "yaml_text.h"
 
-namespace cbc::plain {
+namespace cbc::plain::witness_property_test {
 namespace {
 
 using oracle::demand;
@@ -273,4 +273,4 @@ TEST(Witness, OfALongPathIsAScriptThatSolveRepeats) {
 }
 
 }  // namespace
-}  // namespace cbc::plain
+}  // namespace cbc::plain::witness_property_test

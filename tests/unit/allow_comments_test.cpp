@@ -15,7 +15,7 @@
 #include "lint/controls.h"
 #include "support/rounds.h"
 
-namespace cbc {
+namespace cbc::allow_comments_test {
 namespace {
 
 /// A finding of a rule, dead-task unless it says otherwise, at the beginning of a line.
@@ -638,4 +638,4 @@ TEST(Controls, PastTheNodeLimitNoAllowIsCalledUnused) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::allow_comments_test

@@ -10,7 +10,7 @@
 #include "unit/findings.h"
 #include "yaml/document.h"
 
-namespace cbc {
+namespace cbc::allowed_values_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -336,4 +336,4 @@ TEST(AllowedValues, LongNumbersAreCheap) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::allowed_values_test

@@ -9,7 +9,7 @@
 #include "lint/proofs.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::assignment_search_test {
 namespace {
 
 constexpr std::uint64_t most_nodes = 100'000;
@@ -55,4 +55,4 @@ TEST(AssignmentSearch, ConditionsCount) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::assignment_search_test

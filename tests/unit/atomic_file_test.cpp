@@ -19,7 +19,7 @@
 #include "support/scratch_folder.h"
 #include "support/system.h"
 
-namespace cbc {
+namespace cbc::atomic_file_test {
 namespace {
 
 using Names = std::set<std::string>;
@@ -280,4 +280,4 @@ TEST(AtomicFile, AReaderSeesNoPart) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::atomic_file_test

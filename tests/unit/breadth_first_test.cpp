@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cbc {
+namespace cbc::breadth_first_test {
 namespace {
 
 using Number = StateStore::Number;
@@ -250,4 +250,4 @@ TEST(BreadthFirst, AStateWithoutSuccessorsIsAll) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::breadth_first_test

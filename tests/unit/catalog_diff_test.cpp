@@ -10,7 +10,7 @@
 #include "compile/compile.h"
 #include "report/catalog_report.h"
 
-namespace cbc {
+namespace cbc::catalog_diff_test {
 namespace {
 
 CompiledCatalog compiled(const std::string& yaml) {
@@ -193,4 +193,4 @@ TEST(CatalogDiff, IsJson) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::catalog_diff_test

@@ -16,7 +16,7 @@
 #include "unit/compiled_bytes.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::catalog_json_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -232,4 +232,4 @@ INSTANTIATE_TEST_SUITE_P(Catalogs, PublishedCatalog,
                          });
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::catalog_json_test

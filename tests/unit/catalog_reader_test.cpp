@@ -6,7 +6,7 @@
 #include "catalog/reader.h"
 #include "unit/findings.h"
 
-namespace cbc {
+namespace cbc::catalog_reader_test {
 namespace {
 
 std::string findings(std::string_view text) {
@@ -858,4 +858,4 @@ TEST(CatalogReader, LargeCatalogsTakeLinearTime) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::catalog_reader_test

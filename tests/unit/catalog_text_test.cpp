@@ -7,7 +7,7 @@
 #include "unit/compiled_bytes.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::catalog_text_test {
 namespace {
 
 std::string list(const char* yaml) {
@@ -215,4 +215,4 @@ TEST(CatalogText, DoesNotSayWhereThingsStandInTheSource) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::catalog_text_test

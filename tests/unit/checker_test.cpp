@@ -11,7 +11,7 @@
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
 
-namespace cbc {
+namespace cbc::checker_test {
 namespace {
 
 using test::compile_text;
@@ -237,4 +237,4 @@ TEST(Checker, AgreesWithBruteForceOnChangedAnswers) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::checker_test

@@ -14,7 +14,7 @@
 #include "support/read_file.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::compile_test {
 namespace {
 
 /// By group.
@@ -479,4 +479,4 @@ TEST(Compile, TheReferenceCatalogHasThirtyThreeConstraints) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::compile_test

@@ -14,7 +14,7 @@
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
 
-namespace cbc {
+namespace cbc::compiled_file_test {
 namespace {
 
 TEST(CompiledFile, TellsWhatItWasMadeOfAndByWhom) {
@@ -148,4 +148,4 @@ TEST(CompiledFile, OfANewerFormatIsRefusedByItsNumber) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::compiled_file_test

@@ -18,7 +18,7 @@
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
 
-namespace cbc {
+namespace cbc::conflict_search_test {
 namespace {
 
 __extension__ using Wide = unsigned __int128;
@@ -313,4 +313,4 @@ TEST(ConflictSearch, StopsAtItsDeadline) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::conflict_search_test

@@ -10,7 +10,7 @@
 #include "script/runner.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::conflict_test {
 namespace {
 
 /// What a person reads of a mission in which X is rejected, as it requires C0, which requires C1,
@@ -65,4 +65,4 @@ TEST(Conflict, IsGivenUpWhereItTakesTooLong) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::conflict_test

@@ -7,7 +7,7 @@
 #include "unit/allocations.h"
 #include "unit/random_mission.h"
 
-namespace cbc {
+namespace cbc::coordinator_allocation_test {
 namespace {
 
 /// Counts what happens, and takes a fingerprint of all that is reported.
@@ -107,4 +107,4 @@ TEST(CoordinatorAllocation, NothingIsAllocatedOnEventsThatWereThereBefore) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::coordinator_allocation_test

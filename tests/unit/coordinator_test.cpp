@@ -14,7 +14,7 @@
 // One test for each rule of docs/semantics.md, "Events", "Application" and "Reactive tasks", that
 // is easy to get wrong.
 
-namespace cbc {
+namespace cbc::coordinator_test {
 namespace {
 
 using test::Stage;
@@ -1225,4 +1225,4 @@ TEST(TieSeed, OrdersBehaviorsOfEqualSuitability) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::coordinator_test

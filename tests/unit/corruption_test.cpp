@@ -11,7 +11,7 @@
 #include "unit/compiled_bytes.h"
 
 /// Damaged compiled catalogs: cut off anywhere, or with any byte changed.
-namespace cbc {
+namespace cbc::corruption_test {
 namespace {
 
 /// Whether a file was refused, with a reason; if not, it must hold the same as `bytes`.
@@ -82,4 +82,4 @@ TEST(Corruption, EveryChangedByteUnderANewDigestIsRefusedOrAGoodCatalog) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::corruption_test

@@ -23,7 +23,7 @@
 #include "unit/compiled_fixture.h"
 #include "yaml/document.h"
 
-namespace cbc {
+namespace cbc::coverage_test {
 namespace {
 
 using Texts = std::set<std::string>;
@@ -357,4 +357,4 @@ TEST(CoverageFormats, FollowTheEndOfTheName) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::coverage_test

@@ -17,7 +17,7 @@
 #include "support/read_file.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::cut_sets_test {
 namespace {
 
 using test::behavior_id;
@@ -283,4 +283,4 @@ TEST(CutSets, OfTheQuadrotor) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::cut_sets_test

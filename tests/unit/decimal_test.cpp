@@ -7,7 +7,7 @@
 
 #include "base/text.h"
 
-namespace cbc {
+namespace cbc::decimal_test {
 namespace {
 
 using enum DecimalError;
@@ -138,4 +138,4 @@ TEST(Decimal, FormatsTheShortestText) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::decimal_test

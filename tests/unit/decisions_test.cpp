@@ -16,7 +16,7 @@
 #include "unit/random_problems.h"
 #include "verify/model.h"
 
-namespace cbc {
+namespace cbc::decisions_test {
 namespace {
 
 using test::compile_text;
@@ -156,4 +156,4 @@ TEST(Decisions, ForgetsWhenThereAreTooMany) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::decisions_test

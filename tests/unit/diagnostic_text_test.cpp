@@ -6,7 +6,7 @@
 #include "diagnostic/diagnostic.h"
 #include "diagnostic/rules.h"
 
-namespace cbc {
+namespace cbc::diagnostic_text_test {
 namespace {
 
 std::string render_at(std::string_view text, const Range& range,
@@ -133,4 +133,4 @@ TEST(DiagnosticText, ColorsOnRequest) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::diagnostic_text_test

@@ -6,7 +6,7 @@
 #include "diagnostic/diagnostic.h"
 #include "diagnostic/rules.h"
 
-namespace cbc {
+namespace cbc::diagnostics_test {
 namespace {
 
 Diagnostic finding(std::string file, Position place, std::string_view rule, Severity severity,
@@ -72,4 +72,4 @@ TEST(Reporter, CountsOnlyItsOwnErrors) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::diagnostics_test

@@ -4,7 +4,7 @@
 
 #include "compiled/compiled_file.h"
 
-namespace cbc {
+namespace cbc::digest_test {
 namespace {
 
 // As xxh128sum of the xxhash project prints them.
@@ -17,4 +17,4 @@ TEST(Digest, IsXxh3Of128Bits) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::digest_test

@@ -15,7 +15,7 @@
 #include "report/catalog_report.h"
 #include "yaml/document.h"
 
-namespace cbc::draw {
+namespace cbc::draw::draw_test {
 namespace {
 
 /// A catalog, read and compiled; all that graphs have views of.
@@ -328,4 +328,4 @@ TEST(TaskView, LeavesOutWhatFollowsOnRequest) {
 }
 
 }  // namespace
-}  // namespace cbc::draw
+}  // namespace cbc::draw::draw_test

@@ -7,7 +7,7 @@
 
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::event_lines_test {
 namespace {
 
 class EventLinesTest : public testing::Test {
@@ -87,4 +87,4 @@ TEST_F(EventLinesTest, GoesOnFromTheStateAfterAnError) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::event_lines_test

@@ -6,7 +6,7 @@
 #include "property/random.h"
 #include "solver/objective.h"
 
-namespace cbc {
+namespace cbc::exact_product_test {
 namespace {
 
 ExactProduct product_of(const std::vector<Millionths>& degrees) {
@@ -83,4 +83,4 @@ TEST(ExactProduct, AgreesWithBigIntegers) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::exact_product_test

@@ -6,7 +6,7 @@
 #include "report/sentences.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::exact_values_test {
 namespace {
 
 double suitability(const std::vector<std::string>& percents) {
@@ -68,4 +68,4 @@ TEST(ExactValues, SecondsAreTheNearestNumber) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::exact_values_test

@@ -6,7 +6,7 @@
 #include "script/runner.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::expectation_test {
 namespace {
 
 // In groups the tasks stand as A C | B, so that places and ids differ.
@@ -100,4 +100,4 @@ TEST_F(ExpectationTest, TellsAllThatDoesNotHold) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::expectation_test

@@ -17,7 +17,7 @@
 #include "unit/compiled_fixture.h"
 #include "verify/cut_sets.h"
 
-namespace cbc {
+namespace cbc::fault_tree_test {
 namespace {
 
 using test::compile_text;
@@ -316,4 +316,4 @@ tasks: [{task: none}]
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::fault_tree_test

@@ -6,7 +6,7 @@
 #include "compiled/compiled_catalog.h"
 
 /// The structs of the schema are used as those of the solver: each field must lie in its place.
-namespace cbc {
+namespace cbc::file_layout_test {
 namespace {
 
 TEST(FileLayout, OfTasks) {
@@ -61,4 +61,4 @@ TEST(FileLayout, OfParameters) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::file_layout_test

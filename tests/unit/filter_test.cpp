@@ -5,7 +5,7 @@
 
 #include "support/system.h"
 
-namespace cbc {
+namespace cbc::filter_test {
 namespace {
 
 TEST(Filter, PassesAnyAmountThrough) {
@@ -44,4 +44,4 @@ TEST(Filter, TellsThatThereIsNoProgram) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::filter_test

@@ -22,7 +22,7 @@
 
 // Whole catalogs, mended: published ones, if they are at hand, and random ones.
 
-namespace cbc {
+namespace cbc::fixed_catalogs_test {
 namespace {
 
 struct Linted {
@@ -435,4 +435,4 @@ TEST(FixedCatalogs, DamagedOnesKeepTheirMeaning) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::fixed_catalogs_test

@@ -10,7 +10,7 @@
 #include "lint/lint.h"
 #include "unit/findings.h"
 
-namespace cbc {
+namespace cbc::fixes_test {
 namespace {
 
 std::vector<Diagnostic> findings_of(std::string_view text) {
@@ -423,4 +423,4 @@ TEST(ApplyFixes, NestedLists) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::fixes_test

@@ -14,7 +14,7 @@
 #include "support/exclusive_tasks.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::goal_facts_test {
 namespace {
 
 using Change = std::function<void(const CompiledCatalog&, Assumptions&)>;
@@ -295,4 +295,4 @@ tasks:
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::goal_facts_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cbc {
+namespace cbc::graph_test {
 namespace {
 
 using Vertices = std::vector<std::uint32_t>;
@@ -80,4 +80,4 @@ TEST(Graph, TransitiveEdgesAreThoseThatReachabilityHasAnyway) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::graph_test

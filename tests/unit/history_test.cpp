@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cbc::serve {
+namespace cbc::serve::history_test {
 namespace {
 
 /// Everything that a reader gets, in blocks of a size.
@@ -140,4 +140,4 @@ TEST(History, IsReadWhileItGrows) {
 }
 
 }  // namespace
-}  // namespace cbc::serve
+}  // namespace cbc::serve::history_test

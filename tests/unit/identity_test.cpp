@@ -7,7 +7,7 @@
 #include "compile/compile.h"
 #include "compiled/compiled_file.h"
 
-namespace cbc {
+namespace cbc::identity_test {
 namespace {
 
 constexpr std::string_view text =
@@ -56,4 +56,4 @@ TEST(Identity, DependsOnAllThatIsCompiled) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::identity_test

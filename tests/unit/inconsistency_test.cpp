@@ -12,7 +12,7 @@
 #include "coordinator/state.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::inconsistency_test {
 namespace {
 
 constexpr std::string_view catalog_text = R"(tasks:
@@ -263,4 +263,4 @@ TEST_F(Inconsistency, TheFirstOneIsTold) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::inconsistency_test

@@ -14,7 +14,7 @@
 #include "yaml/document.h"
 #include "yaml/json_value.h"
 
-namespace cbc {
+namespace cbc::json_reader_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -257,4 +257,4 @@ TEST(JsonReader, CanBeUsedAgain) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::json_reader_test

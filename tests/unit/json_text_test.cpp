@@ -13,7 +13,7 @@
 #include "support/json.h"
 #include "support/rounds.h"
 
-namespace cbc {
+namespace cbc::json_text_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -206,4 +206,4 @@ TEST(JsonText, SecondsAreExact) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::json_text_test

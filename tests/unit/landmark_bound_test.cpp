@@ -19,7 +19,7 @@
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
 
-namespace cbc {
+namespace cbc::landmark_bound_test {
 namespace {
 
 using test::Random;
@@ -362,4 +362,4 @@ TEST_F(LandmarkBoundTest, TheBoundOfAReportHoldsInAVeryLargeGroup) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::landmark_bound_test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cbc {
+namespace cbc::layers_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -116,4 +116,4 @@ TEST(Layers, TheRuntimeIncludesNoLibraries) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::layers_test

@@ -18,7 +18,7 @@
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
 
-namespace cbc {
+namespace cbc::learning_search_test {
 namespace {
 
 struct Answer {
@@ -238,4 +238,4 @@ TEST(Nogoods, CountLaterUsesMore) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::learning_search_test

@@ -10,7 +10,7 @@
 #include "lint/lint.h"
 #include "support/scratch_folder.h"
 
-namespace cbc {
+namespace cbc::line_diff_test {
 namespace {
 
 constexpr const char* head = "--- a/f.yaml\n+++ b/f.yaml\n";
@@ -212,4 +212,4 @@ TEST(LineDiff, OfTextsThatHaveNothingInCommonTakesNoTime) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::line_diff_test

@@ -9,7 +9,7 @@
 
 // What could not be understood is not judged: one fault gives one finding.
 
-namespace cbc {
+namespace cbc::lint_cascade_test {
 namespace {
 
 std::string findings(const std::string& text) {
@@ -240,4 +240,4 @@ TEST(LintCascade, LongChainsAboveADeadTaskHaveOneFinding) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::lint_cascade_test

@@ -6,7 +6,7 @@
 #include "diagnostic/rules.h"
 #include "report/lint_report.h"
 
-namespace cbc {
+namespace cbc::lint_gcc_test {
 namespace {
 
 std::string lint_gcc_of(const Diagnostic& finding) {
@@ -55,4 +55,4 @@ TEST(LintGcc, KeepsHostileNamesOnOneLine) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::lint_gcc_test

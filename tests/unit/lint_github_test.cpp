@@ -6,7 +6,7 @@
 #include "diagnostic/rules.h"
 #include "report/lint_report.h"
 
-namespace cbc {
+namespace cbc::lint_github_test {
 namespace {
 
 std::string lint_github_of(const Diagnostic& finding) {
@@ -87,4 +87,4 @@ TEST(LintGithub, MakesOtherControlCharactersHarmless) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::lint_github_test

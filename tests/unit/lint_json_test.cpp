@@ -7,7 +7,7 @@
 #include "diagnostic/rules.h"
 #include "report/lint_report.h"
 
-namespace cbc {
+namespace cbc::lint_json_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -102,4 +102,4 @@ TEST(LintJson, ReplacesInvalidBytes) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::lint_json_test

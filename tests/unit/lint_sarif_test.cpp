@@ -13,7 +13,7 @@
 #include "diagnostic/rules.h"
 #include "report/lint_report.h"
 
-namespace cbc {
+namespace cbc::lint_sarif_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -212,4 +212,4 @@ TEST(LintSarif, FingerprintsTellFindingsApart) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::lint_sarif_test

@@ -8,7 +8,7 @@
 
 #include "report/lint_report.h"
 
-namespace cbc {
+namespace cbc::lint_summary_test {
 namespace {
 
 std::string show(const CatalogSummary& summary, const std::string& name = "a.yaml") {
@@ -130,4 +130,4 @@ TEST(LintSummary, ColorsOnRequest) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::lint_summary_test

@@ -9,7 +9,7 @@
 #include "diagnostic/rules.h"
 #include "report/lint_report.h"
 
-namespace cbc {
+namespace cbc::lint_text_test {
 namespace {
 
 Diagnostic finding_at(std::uint32_t line, std::string message = "old",
@@ -163,4 +163,4 @@ TEST(LintText, ColorsOnRequest) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::lint_text_test

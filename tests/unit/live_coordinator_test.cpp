@@ -16,7 +16,7 @@
 #include "unit/loaded_fixture.h"
 #include "unit/random_mission.h"
 
-namespace cbc {
+namespace cbc::live_coordinator_test {
 namespace {
 
 using test::RandomMission;
@@ -637,4 +637,4 @@ TEST(LiveCoordinator, OfAnEmptyCatalogRefusesAllButWaiting) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::live_coordinator_test

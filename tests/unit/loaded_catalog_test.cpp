@@ -10,7 +10,7 @@
 #include "unit/compiled_fixture.h"
 #include "unit/loaded_fixture.h"
 
-namespace cbc {
+namespace cbc::loaded_catalog_test {
 namespace {
 
 // In groups the tasks stand as HOVER, LOCALIZE | BLINK.
@@ -97,4 +97,4 @@ TEST(LoadedCatalog, IsRefusedWithAReason) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::loaded_catalog_test

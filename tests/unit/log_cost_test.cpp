@@ -8,7 +8,7 @@
 #include "property/random.h"
 #include "support/rounds.h"
 
-namespace cbc {
+namespace cbc::log_cost_test {
 namespace {
 
 constexpr long double unit = 0x1p-40L;
@@ -103,4 +103,4 @@ TEST(LogCost, SumsFurtherApartThanTheErrorAreInTheRightOrder) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::log_cost_test

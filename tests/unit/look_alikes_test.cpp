@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cbc {
+namespace cbc::look_alikes_test {
 namespace {
 
 std::string look_alike(std::string_view name, std::string_view other) {
@@ -106,4 +106,4 @@ TEST(LookAlikes, AreFoundAmongAllNames) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::look_alikes_test

@@ -5,7 +5,7 @@
 
 #include "draw/catalog_graph.h"
 
-namespace cbc::draw {
+namespace cbc::draw::mark_test {
 namespace {
 
 constexpr std::array bits = {false, true};
@@ -51,4 +51,4 @@ TEST(Mark, OnlyPresenceAndUseCarryOver) {
 }
 
 }  // namespace
-}  // namespace cbc::draw
+}  // namespace cbc::draw::mark_test

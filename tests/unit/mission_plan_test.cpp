@@ -12,7 +12,7 @@
 
 #include "coverage/goal_graph.h"
 
-namespace cbc {
+namespace cbc::mission_plan_test {
 namespace {
 
 using Goals = MissionPlanner::Goals;
@@ -147,4 +147,4 @@ TEST(MissionPlan, AllowsTheEventsOfTheFurthestGoal) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::mission_plan_test

@@ -21,7 +21,7 @@
 #include "verify/same_as.h"
 #include "verify/verification.h"
 
-namespace cbc {
+namespace cbc::model_test {
 namespace {
 
 using test::compile_text;
@@ -199,4 +199,4 @@ TEST(Model, InteractionsAreThoseOfTheDefinition) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::model_test

@@ -5,7 +5,7 @@
 
 #include "support/wording.h"
 
-namespace cbc {
+namespace cbc::nearest_test {
 namespace {
 
 std::string find(std::string_view name, const std::vector<std::string_view>& names) {
@@ -127,4 +127,4 @@ TEST(Nearest, WorkIsBounded) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::nearest_test

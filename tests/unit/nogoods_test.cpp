@@ -9,7 +9,7 @@
 
 #include "solver/literal.h"
 
-namespace cbc {
+namespace cbc::nogoods_test {
 namespace {
 
 /// Four clauses, all of which may be forgotten, and which of them are kept.
@@ -90,4 +90,4 @@ TEST(Nogoods, ScalingDownIsForAll) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::nogoods_test

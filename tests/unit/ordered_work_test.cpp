@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cbc::cli {
+namespace cbc::cli::ordered_work_test {
 namespace {
 
 /// Later items are done earlier, as far as threads are free.
@@ -77,4 +77,4 @@ TEST(OrderedWork, SaysWhetherAnItemIsThere) {
 }
 
 }  // namespace
-}  // namespace cbc::cli
+}  // namespace cbc::cli::ordered_work_test

@@ -12,7 +12,7 @@
 #include "verify/properties.h"
 #include "yaml/document.h"
 
-namespace cbc {
+namespace cbc::property_reader_test {
 namespace {
 
 // In groups the tasks stand as HOVER LAND LOCALIZE | TALK | BOTH, so that places and ids differ.
@@ -501,4 +501,4 @@ properties:
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::property_reader_test

@@ -16,7 +16,7 @@
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
 
-namespace cbc {
+namespace cbc::pruning_test {
 namespace {
 
 using Cost = CostBound::Cost;
@@ -517,4 +517,4 @@ TEST(Pruning, LosesNoSolutionAndOftenDecidesAll) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::pruning_test

@@ -12,7 +12,7 @@
 
 // Catalogs published with the original tool, if they are at hand.
 
-namespace cbc {
+namespace cbc::published_test {
 namespace {
 
 /// The best suitability at which a task can be started while nothing runs: goes through all
@@ -132,4 +132,4 @@ INSTANTIATE_TEST_SUITE_P(Catalogs, Published,
                          [](const auto& catalog) { return std::string(catalog.param); });
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::published_test

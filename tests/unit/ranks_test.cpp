@@ -7,7 +7,7 @@
 #include "coordinator/problem_builder.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::ranks_test {
 namespace {
 
 CompiledCatalog two_tasks(const char* order) {
@@ -60,4 +60,4 @@ TEST(Ranks, TheSameSeedDrawsTheSameOrder) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::ranks_test

@@ -25,7 +25,7 @@
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
 
-namespace cbc {
+namespace cbc::reasons_test {
 namespace {
 
 using test::Random;
@@ -475,4 +475,4 @@ TEST(Reasons, NeverRuleOutTheBestSolution) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::reasons_test

@@ -9,7 +9,7 @@
 #include "solver/solver.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::repair_test {
 namespace {
 
 /// The answer after one decision, by a repair where there is none yet.
@@ -140,4 +140,4 @@ TEST(HighestProduct, AtTheEnds) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::repair_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cbc {
+namespace cbc::restarts_test {
 namespace {
 
 /// Numbers of conflicts up to each restart, in units of the first one.
@@ -60,4 +60,4 @@ TEST(Activities, OfWhatIsNotedTwiceAsOftenAreAboutTwiceAsHigh) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::restarts_test

@@ -4,7 +4,7 @@
 
 #include "report/lint_report.h"
 
-namespace cbc {
+namespace cbc::rule_markdown_test {
 namespace {
 
 Rule example_rule() {
@@ -50,4 +50,4 @@ TEST(RuleMarkdown, ShowsTheCatalogOfScripts) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::rule_markdown_test

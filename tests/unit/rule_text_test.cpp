@@ -8,7 +8,7 @@
 #include "report/lint_report.h"
 #include "support/lines.h"
 
-namespace cbc {
+namespace cbc::rule_text_test {
 namespace {
 
 using test::lines_of;
@@ -148,4 +148,4 @@ TEST(RuleList, BeginsWithTheErrors) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::rule_text_test

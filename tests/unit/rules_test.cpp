@@ -17,7 +17,7 @@
 #include "unit/compiled_fixture.h"
 #include "yaml/document.h"
 
-namespace cbc {
+namespace cbc::rules_test {
 namespace {
 
 using Names = std::set<std::string_view>;
@@ -206,4 +206,4 @@ TEST(RuleExamples, OfScriptsHaveAFaultlessCatalog) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::rules_test

@@ -11,7 +11,7 @@
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"
 
-namespace cbc {
+namespace cbc::runner_test {
 namespace {
 
 constexpr const char* catalog_text = R"(
@@ -352,4 +352,4 @@ TEST(Runner, EndsEarlyAfterTooManyEventsOfTheClock) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::runner_test

@@ -6,7 +6,7 @@
 #include "catalog/reader.h"
 #include "unit/findings.h"
 
-namespace cbc {
+namespace cbc::same_meaning_test {
 namespace {
 
 Catalog read(const std::string& text) {
@@ -98,4 +98,4 @@ TEST(SameMeaning, EverythingElseCounts) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::same_meaning_test

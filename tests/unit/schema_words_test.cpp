@@ -30,7 +30,7 @@
 #include "verify/property_reader.h"
 #include "yaml/values.h"
 
-namespace cbc {
+namespace cbc::schema_words_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -247,4 +247,4 @@ TEST(SchemaWords, OfPropertyFiles) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::schema_words_test

@@ -15,7 +15,7 @@
 #include "unit/findings.h"
 #include "yaml/document.h"
 
-namespace cbc {
+namespace cbc::script_reader_test {
 namespace {
 
 const CompiledCatalog& catalog() {
@@ -888,4 +888,4 @@ TEST(ScriptParameters, AliasesAreWrittenOut) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::script_reader_test

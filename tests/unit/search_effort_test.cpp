@@ -16,7 +16,7 @@
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
 
-namespace cbc {
+namespace cbc::search_effort_test {
 namespace {
 
 constexpr std::uint64_t never = UINT64_MAX;
@@ -182,4 +182,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::search_effort_test

@@ -11,7 +11,7 @@
 #include "support/json.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::search_totals_test {
 namespace {
 
 using nlohmann::json;
@@ -174,4 +174,4 @@ TEST(Search, NotesItsTimeOnlyIfItIsToBeMeasured) {
 TEST(Search, CountsPropagations) { EXPECT_EQ(LastSearch(false).search.result.propagations, 3U); }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::search_totals_test

@@ -12,7 +12,7 @@
 #include "unit/findings.h"
 #include "yaml/document.h"
 
-namespace cbc {
+namespace cbc::semantic_checks_test {
 namespace {
 
 /// All findings, but for never-started, on a catalog whose tasks start by themselves and go on. Its
@@ -601,4 +601,4 @@ exclusivity_constraints:
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::semantic_checks_test

@@ -4,7 +4,7 @@
 
 #include "serve/address.h"
 
-namespace cbc::serve {
+namespace cbc::serve::serve_address_test {
 namespace {
 
 std::string read(const std::string& text) {
@@ -69,4 +69,4 @@ TEST(ServeAddress, AnswersToItsOwnNames) {
 }
 
 }  // namespace
-}  // namespace cbc::serve
+}  // namespace cbc::serve::serve_address_test

@@ -14,7 +14,7 @@
 
 #include "support/http_client.h"
 
-namespace cbc::serve {
+namespace cbc::serve::server_test {
 namespace {
 
 using namespace std::string_literals;
@@ -189,4 +189,4 @@ TEST_F(ServerTest, SpeaksIpv6) {
 }
 
 }  // namespace
-}  // namespace cbc::serve
+}  // namespace cbc::serve::server_test

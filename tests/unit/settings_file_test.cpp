@@ -13,7 +13,7 @@
 #include "lint/controls.h"
 #include "support/scratch_folder.h"
 
-namespace cbc {
+namespace cbc::settings_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -287,4 +287,4 @@ TEST_F(SettingsPlaces, StrangePaths) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::settings_file_test

@@ -7,7 +7,7 @@
 
 #include "lint/controls.h"
 
-namespace cbc {
+namespace cbc::severity_settings_test {
 namespace {
 
 std::string severity(const SeveritySettings& settings, std::string_view rule,
@@ -154,4 +154,4 @@ TEST(SeveritySettings, NeedASearchOnlyForWhatMayFail) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::severity_settings_test

@@ -4,7 +4,7 @@
 
 // Situation variables, finishes by task, and reactive tasks that wait.
 
-namespace cbc {
+namespace cbc::situation_test {
 namespace {
 
 using test::Stage;
@@ -170,4 +170,4 @@ TEST(WaitingTasks, AreEventsIfAnActivationFailed) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::situation_test

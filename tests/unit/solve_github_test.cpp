@@ -6,7 +6,7 @@
 #include "report/solve_report.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::solve_github_test {
 namespace {
 
 /// Runs a script with the expectation that a task runs, which it does not.
@@ -43,4 +43,4 @@ TEST(SolveGithub, WritesACommandForARunThatEndedEarly) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::solve_github_test

@@ -10,7 +10,7 @@
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"
 
-namespace cbc {
+namespace cbc::solve_html_test {
 namespace {
 
 using nlohmann::json;
@@ -243,4 +243,4 @@ TEST(SolveHtml, WithoutRunsIsAPageStill) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::solve_html_test

@@ -9,7 +9,7 @@
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
 
-namespace cbc {
+namespace cbc::solver_allocation_test {
 namespace {
 
 TEST(SolverAllocation, TheCounterCounts) {
@@ -53,4 +53,4 @@ TEST(SolverAllocation, NothingIsAllocatedInTheSearch) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::solver_allocation_test

@@ -16,7 +16,7 @@
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
 
-namespace cbc {
+namespace cbc::solver_test {
 namespace {
 
 using test::compile_text;
@@ -710,4 +710,4 @@ behaviors:
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::solver_test

@@ -10,7 +10,7 @@
 #include "support/rounds.h"
 #include "yaml/source.h"
 
-namespace cbc::yaml {
+namespace cbc::yaml::source_lines_test {
 namespace {
 
 /// A line for each line: its depth, whether it has content, and its comment.
@@ -99,4 +99,4 @@ TEST(SourceLines, CommentsAreWhatTheParserPassesOver) {
 }
 
 }  // namespace
-}  // namespace cbc::yaml
+}  // namespace cbc::yaml::source_lines_test

@@ -13,7 +13,7 @@
 #include "unit/findings.h"
 #include "unit/random_mission.h"
 
-namespace cbc {
+namespace cbc::state_marks_test {
 namespace {
 
 using draw::CatalogGraph;
@@ -435,4 +435,4 @@ TEST(StateMarks, AgreeWithTheCoordinator) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::state_marks_test

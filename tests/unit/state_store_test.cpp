@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cbc {
+namespace cbc::state_store_test {
 namespace {
 
 /// A state of three words that only `number` has.
@@ -67,4 +67,4 @@ TEST(StateStore, CountsStatesParentsAndIndex) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::state_store_test

@@ -7,7 +7,7 @@
 
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::state_test {
 namespace {
 
 TEST(State, ATimeoutThatWasHandledIsDueAgainOnlyAfterAnotherActivation) {
@@ -43,4 +43,4 @@ TEST(State, ListsRunningTasksOfLargeCatalogs) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::state_test

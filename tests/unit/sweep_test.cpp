@@ -22,7 +22,7 @@
 #include "unit/findings.h"
 #include "unit/random_mission.h"
 
-namespace cbc {
+namespace cbc::sweep_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -571,4 +571,4 @@ TEST(SweepHistogram, RoundsLargeNumbersALittle) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::sweep_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cbc {
+namespace cbc::table_parts_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -54,4 +54,4 @@ TEST(Shorten, PutsNoCombiningCharacterBehindTheDots) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::table_parts_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cbc {
+namespace cbc::threads_test {
 namespace {
 
 TEST(Threads, EachDoesItsShareOnce) {
@@ -53,4 +53,4 @@ TEST(Threads, AnErrorOfThisThreadWaitsForTheOthers) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::threads_test

@@ -6,7 +6,7 @@
 #include "coordinator/state.h"
 #include "property/random.h"
 
-namespace cbc {
+namespace cbc::timers_test {
 namespace {
 
 TEST(Timers, AgreeWithAnOrderedSet) {
@@ -44,4 +44,4 @@ TEST(Timers, AgreeWithAnOrderedSet) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::timers_test

@@ -10,7 +10,7 @@
 #include "unit/findings.h"
 #include "yaml/document.h"
 
-namespace cbc {
+namespace cbc::together_checks_test {
 namespace {
 
 std::string lint(std::string_view yaml, std::string_view settings_text = "",
@@ -213,4 +213,4 @@ TEST(CanRunTogether, PassesOverNamesOfOtherCatalogs) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::together_checks_test

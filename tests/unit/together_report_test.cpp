@@ -14,7 +14,7 @@
 #include "report/lint_report.h"
 #include "unit/compiled_fixture.h"
 
-namespace cbc {
+namespace cbc::together_report_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -396,4 +396,4 @@ TEST(LintJson, HasTasksThatCanRunTogether) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::together_report_test

@@ -7,7 +7,7 @@
 #include "unit/compiled_fixture.h"
 #include "unit/stage.h"
 
-namespace cbc {
+namespace cbc::transition_test {
 namespace {
 
 using test::Stage;
@@ -246,4 +246,4 @@ TEST(Transition, ARestartOnlyActivatesABehaviorThatIsInactiveByThen) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::transition_test

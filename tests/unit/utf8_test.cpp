@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "diagnostic/diagnostic.h"
 
-namespace cbc {
+namespace cbc::utf8_test {
 namespace {
 
 TEST(Utf8, CountsCharacters) {
@@ -138,4 +138,4 @@ TEST(PositionMap, ExcerptOfALongLine) {
   EXPECT_EQ(map.excerpt({4, 1}, 10).text, "");
 }
 
-}  // namespace cbc
+}  // namespace cbc::utf8_test

@@ -13,7 +13,7 @@
 #include "unit/compiled_fixture.h"
 #include "verify/verification.h"
 
-namespace cbc {
+namespace cbc::verify_report_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -125,4 +125,4 @@ TEST(VerifyReport, ListsThePairsOfTasksUnlessTheyAreMillions) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::verify_report_test

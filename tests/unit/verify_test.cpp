@@ -21,7 +21,7 @@
 #include "unit/editable_catalog.h"
 #include "unit/random_problems.h"
 
-namespace cbc {
+namespace cbc::verify_test {
 namespace {
 
 using test::compile_text;
@@ -756,4 +756,4 @@ TEST(Verify, SeveralRandomChangesMakeAFaultOrAnotherCatalog) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::verify_test

@@ -9,7 +9,7 @@
 
 #include "support/read_file.h"
 
-namespace cbc {
+namespace cbc::version_test {
 namespace {
 
 std::string source_text(const std::string& name) {
@@ -35,4 +35,4 @@ TEST(Version, IsTheOneToUseInPipelines) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::version_test

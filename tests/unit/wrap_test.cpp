@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cbc {
+namespace cbc::wrap_test {
 namespace {
 
 TEST(WrapLine, KeepsWhatFits) {
@@ -56,4 +56,4 @@ TEST(WrapLine, LeavesANarrowTerminalAlone) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::wrap_test

@@ -4,7 +4,7 @@
 
 #include "report/solve_report.h"
 
-namespace cbc {
+namespace cbc::xml_text_test {
 namespace {
 
 TEST(XmlText, EscapesWhatIsMarkup) {
@@ -33,4 +33,4 @@ TEST(XmlText, MakesPrintableWhatXmlCannotHold) {
 }
 
 }  // namespace
-}  // namespace cbc
+}  // namespace cbc::xml_text_test

@@ -9,7 +9,7 @@
 #include "unit/findings.h"
 #include "yaml/document.h"
 
-namespace cbc::yaml {
+namespace cbc::yaml::yaml_document_test {
 namespace {
 
 // A tree as text: "ok" or what was found instead of it. Plain scalars stand as they are, others in
@@ -473,4 +473,4 @@ TEST(YamlDocument, SurvivesEveryTruncation) {
 }
 
 }  // namespace
-}  // namespace cbc::yaml
+}  // namespace cbc::yaml::yaml_document_test

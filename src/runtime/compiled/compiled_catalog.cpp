@@ -3,38 +3,28 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/fixed_point.h"
+
 namespace cbc {
 namespace {
-
-// Logarithms are computed with integers: those of a math library may differ in the last bit from
-// machine to machine, and compiled catalogs must not.
-
-__extension__ using Wide = unsigned __int128;  // -Wpedantic knows no such type
-
-constexpr unsigned bits = 60;  ///< after the binary point
-constexpr std::uint64_t one = std::uint64_t{1} << bits;
-constexpr std::uint64_t log_of_two = 799'144'290'325'165'979;  ///< ln(2) * 2^60
-
-std::uint64_t multiply(std::uint64_t a, std::uint64_t b) {
-  return static_cast<std::uint64_t>((Wide{a} * b) >> bits);
-}
 
 /// ln(m) = 2 artanh(z) = 2 (z + z^3 / 3 + z^5 / 5 + ...) with z = (m - 1) / (m + 1), for
 /// n = m * 2^exponent and m in [1, 2), so that z is at most 1/3.
 std::int64_t log_of_prime(Millionths prime) {
   const auto exponent = static_cast<unsigned>(std::bit_width(prime)) - 1;
-  const std::uint64_t m = std::uint64_t{prime} << (bits - exponent);
-  const auto z = static_cast<std::uint64_t>((Wide{m - one} << bits) / (m + one));
-  const std::uint64_t square = multiply(z, z);
+  const std::uint64_t m = std::uint64_t{prime} << (fixed::bits - exponent);
+  const auto z =
+      static_cast<std::uint64_t>((fixed::Wide{m - fixed::one} << fixed::bits) / (m + fixed::one));
+  const std::uint64_t square = fixed::multiply(z, z);
   std::uint64_t sum = 0;
   std::uint64_t divisor = 1;
-  for (std::uint64_t power = z; power > 0; power = multiply(power, square)) {
+  for (std::uint64_t power = z; power > 0; power = fixed::multiply(power, square)) {
     sum += power / divisor;
     divisor += 2;
   }
-  const Wide log = Wide{exponent} * log_of_two + 2 * Wide{sum};
-  constexpr unsigned surplus = bits - 40;
-  return static_cast<std::int64_t>((log + (Wide{1} << (surplus - 1))) >> surplus);
+  const fixed::Wide log = fixed::Wide{exponent} * fixed::log_of_two + 2 * fixed::Wide{sum};
+  constexpr unsigned surplus = fixed::bits - 40;
+  return static_cast<std::int64_t>((log + (fixed::Wide{1} << (surplus - 1))) >> surplus);
 }
 
 std::int64_t sum_of_prime_logs(Millionths number) {

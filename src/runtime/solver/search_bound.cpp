@@ -3,27 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/fixed_point.h"
 #include "compiled/compiled_catalog.h"
 
 namespace cbc {
 namespace {
 
-// With integers, as the functions of a math library may differ in the last bit.
-
-__extension__ using Wide = unsigned __int128;  // -Wpedantic knows no such type
-
-constexpr unsigned bits = 60;  ///< after the binary point
-constexpr std::uint64_t one = std::uint64_t{1} << bits;
-constexpr std::uint64_t log_of_two = 799'144'290'325'165'979;  ///< ln(2) * 2^60
-
 /// e^-x for x below ln(2), rounded up. The terms of the series are less than a unit off each.
 std::uint64_t exponential(std::uint64_t x) {
   constexpr std::uint64_t error = 32;
-  std::uint64_t sum = one;
-  std::uint64_t term = one;
+  std::uint64_t sum = fixed::one;
+  std::uint64_t term = fixed::one;
   bool is_added = false;
   for (std::uint64_t divisor = 1; term > 0; ++divisor, is_added = !is_added) {
-    term = static_cast<std::uint64_t>((Wide{term} * x) >> bits) / divisor;
+    term = fixed::multiply(term, x) / divisor;
     sum = is_added ? sum + term : sum - term;
   }
   return sum + error;
@@ -39,11 +32,11 @@ double highest_product(std::int64_t cost, std::uint32_t factors) {
   if (least <= 0) return 1;
   constexpr double e_to_minus_700 = 1e-304;  // rounded up
   if (least >= 700 * unit) return e_to_minus_700;
-  const Wide log = Wide{static_cast<std::uint64_t>(least)} << (bits - 40);
-  const auto halvings = static_cast<int>(log / log_of_two);
-  const auto rest = static_cast<std::uint64_t>(log % log_of_two);
+  const fixed::Wide log = fixed::Wide{static_cast<std::uint64_t>(least)} << (fixed::bits - 40);
+  const auto halvings = static_cast<int>(log / fixed::log_of_two);
+  const auto rest = static_cast<std::uint64_t>(log % fixed::log_of_two);
   const double product =
-      std::ldexp(static_cast<double>(exponential(rest)), -static_cast<int>(bits) - halvings);
+      std::ldexp(static_cast<double>(exponential(rest)), -static_cast<int>(fixed::bits) - halvings);
   return std::min(1.0, std::nextafter(product, 1.0));
 }
 

@@ -23,11 +23,11 @@ struct Type {
   bool is_list = false;
 };
 
-struct Word {
+struct TypeWord {
   std::string_view name;
   Item item;
 };
-constexpr Word words[] = {
+constexpr TypeWord words[] = {
     {"string", Item::string},   {"text", Item::string},   {"str", Item::string},
     {"boolean", Item::boolean}, {"bool", Item::boolean},  {"integer", Item::integer},
     {"int", Item::integer},     {"number", Item::number}, {"float", Item::number},
@@ -75,8 +75,9 @@ std::optional<Type> type_of(std::string_view name) {
     type.is_list = true;
     text.erase(text.size() - suffix.size());
   }
-  const auto* const found = std::find_if(std::begin(words), std::end(words),
-                                         [&text](const Word& word) { return word.name == text; });
+  const auto* const found =
+      std::find_if(std::begin(words), std::end(words),
+                   [&text](const TypeWord& word) { return word.name == text; });
   if (found == std::end(words)) return std::nullopt;
   type.item = found->item;
   return type;
@@ -183,18 +184,18 @@ std::string value_text(const Number& number) {
 }
 
 // As `quote`, without the quotes.
-std::string shorten(std::string_view text) {
+std::string shorten_value(std::string_view text) {
   const std::string quoted = quote(text);
   return quoted.substr(1, quoted.size() - 2);
 }
 
 std::string describe_choice(const std::vector<std::string>& values) {
   constexpr std::size_t most = 12;
-  if (values.size() == 1) return shorten(values[0]);
+  if (values.size() == 1) return shorten_value(values[0]);
   std::string text = "one of ";
   for (std::size_t place = 0; place < std::min(values.size(), most); ++place) {
     if (place > 0) text += ", ";
-    text += shorten(values[place]);
+    text += shorten_value(values[place]);
   }
   if (values.size() > most) text += " and " + std::to_string(values.size() - most) + " more";
   return text;
@@ -231,7 +232,7 @@ AllowedValues::AllowedValues(const Parameter& parameter)
     form_ = Form::range;
     lowest_ = std::move(range->lowest);
     highest_ = std::move(range->highest);
-    expected_ = "a number from " + shorten(values[0]) + " to " + shorten(values[1]);
+    expected_ = "a number from " + shorten_value(values[0]) + " to " + shorten_value(values[1]);
   } else if (has_type_name(parameter)) {
     if (type_of(values[0])) form_ = Form::type;
   } else if (!values.empty()) {

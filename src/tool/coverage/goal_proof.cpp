@@ -10,8 +10,6 @@
 namespace cbc {
 namespace {
 
-using Number = GroupWalk::Number;
-
 /// Where reactive tasks give way, and start by themselves.
 class Returns final : private GroupWalk::Listener {
  public:
@@ -34,35 +32,37 @@ class Returns final : private GroupWalk::Listener {
   }
 
  private:
-  void on_move(Number from, Number to, const Move& /*move*/, const StateReplay& replay) override {
+  void on_move(GroupWalk::Number from, GroupWalk::Number to, const Move& /*move*/,
+               const StateReplay& replay) override {
     if (next_.size() <= from) next_.resize(from + 1);
     next_[from].push_back(to);
     for (const TaskId task : replay.gave_way()) left_behind_[task].push_back(to);
     for (const TaskId task : replay.started()) starts_from_[task].push_back(from);
   }
 
-  [[nodiscard]] bool leads_to_any(const std::vector<Number>& from,
-                                  const std::vector<Number>& to) const {
+  [[nodiscard]] bool leads_to_any(const std::vector<GroupWalk::Number>& from,
+                                  const std::vector<GroupWalk::Number>& to) const {
     std::vector<std::uint8_t> is_wanted(next_.size(), 0);
-    for (const Number state : to) is_wanted[state] = 1;
+    for (const GroupWalk::Number state : to) is_wanted[state] = 1;
     std::vector<std::uint8_t> is_seen(next_.size(), 0);
-    std::vector<Number> waiting;
-    const auto add = [&](Number state) {
+    std::vector<GroupWalk::Number> waiting;
+    const auto add = [&](GroupWalk::Number state) {
       if (std::exchange(is_seen[state], std::uint8_t{1}) == 0) waiting.push_back(state);
     };
-    for (const Number state : from) add(state);
+    for (const GroupWalk::Number state : from) add(state);
     while (!waiting.empty()) {
-      const Number state = waiting.back();
+      const GroupWalk::Number state = waiting.back();
       waiting.pop_back();
       if (is_wanted[state] != 0) return true;
-      for (const Number reached : next_[state]) add(reached);
+      for (const GroupWalk::Number reached : next_[state]) add(reached);
     }
     return false;
   }
 
-  std::deque<std::vector<Number>> next_;
-  std::map<TaskId, std::vector<Number>> left_behind_;  ///< states after a task gave way
-  std::map<TaskId, std::vector<Number>> starts_from_;  ///< states before a task started by itself
+  std::deque<std::vector<GroupWalk::Number>> next_;
+  std::map<TaskId, std::vector<GroupWalk::Number>> left_behind_;  ///< states after a task gave way
+  std::map<TaskId, std::vector<GroupWalk::Number>>
+      starts_from_;  ///< states before a task started by itself
 };
 
 /// The groups that a goal is about: of a variable those whose behaviors name it.

@@ -18,7 +18,7 @@ struct KindName {
 };
 
 /// In the order of the enumerators.
-constexpr std::array<KindName, Goal::kinds> kind_names{{
+constexpr std::array<KindName, Goal::kinds> goal_kinds{{
     {"task_ran", GoalSection::tasks},
     {"behavior_active", GoalSection::behaviors},
     {"behavior_succeeded", GoalSection::behaviors},
@@ -316,7 +316,7 @@ class LineFinder {
 }  // namespace
 
 std::string_view name_of(Goal::Kind kind) {
-  return kind_names[static_cast<std::size_t>(kind)].name;
+  return goal_kinds[static_cast<std::size_t>(kind)].name;
 }
 
 std::string_view name_of(GoalSection section) {
@@ -324,7 +324,7 @@ std::string_view name_of(GoalSection section) {
 }
 
 GoalSection section_of(Goal::Kind kind) {
-  return kind_names[static_cast<std::size_t>(kind)].section;
+  return goal_kinds[static_cast<std::size_t>(kind)].section;
 }
 
 std::optional<std::string> find_too_many_pairs(const CompiledCatalog& catalog) {

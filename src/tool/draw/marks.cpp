@@ -327,7 +327,7 @@ class ExclusionMarker {
 
 using ChangeKind = CatalogChange::Kind;
 using ChangeSubject = CatalogChange::Subject;
-using Places = std::unordered_map<std::string_view, std::uint32_t>;
+using PlaceByName = std::unordered_map<std::string_view, std::uint32_t>;
 
 Mark mark_of(ChangeKind kind) {
   constexpr Mark marks[] = {Mark::removed, Mark::added, Mark::changed};
@@ -514,8 +514,8 @@ class Union {
   const CompiledCatalog& before_;
   const CatalogDiff& diff_;
   CatalogGraph graph_;
-  Places tasks_;
-  Places behaviors_;
+  PlaceByName tasks_;
+  PlaceByName behaviors_;
   std::size_t performances_;  ///< of the newer catalog
   std::size_t requirements_;
 };

@@ -22,7 +22,7 @@ using yaml::Kind;
 using yaml::Node;
 using yaml::Span;
 
-constexpr std::string_view blanks = " \t\r\n";
+constexpr std::string_view blanks_and_breaks = " \t\r\n";
 
 /// Whether a comment for this program stands above a line: it would be about what follows.
 bool has_control_above(std::string_view text, std::size_t line_begin) {
@@ -65,7 +65,7 @@ Line line_at(std::string_view text, std::size_t begin) {
   line.begin = begin;
   const std::size_t line_break = text.find('\n', begin);
   line.end = line_break == std::string_view::npos ? text.size() : line_break + 1;
-  line.content = std::min(text.find_first_not_of(blanks, begin), line.end);
+  line.content = std::min(text.find_first_not_of(blanks_and_breaks, begin), line.end);
   return line;
 }
 
@@ -204,7 +204,7 @@ std::optional<Span> EntrySpans::lines_of(const Entry& entry) const {
   const std::size_t dash = first.content;
   if (dash >= begin || !is_dash(text_, dash)) return std::nullopt;
   if (has_control_above(text_, first.begin)) return std::nullopt;
-  if (text_.find_first_not_of(blanks, dash + 1) != begin) return std::nullopt;
+  if (text_.find_first_not_of(blanks_and_breaks, dash + 1) != begin) return std::nullopt;
 
   const std::size_t indentation = dash - first.begin;
   const bool is_last = entry.place + 1 == entry.list->items.size();
@@ -243,7 +243,7 @@ std::optional<Span> EntrySpans::item_and_comma(const Entry& entry) const {
   if (!before || *before > begin || !is_one_comma(text_.substr(*before, begin - *before))) {
     return std::nullopt;
   }
-  const std::size_t after = text_.find_first_not_of(blanks, *end);
+  const std::size_t after = text_.find_first_not_of(blanks_and_breaks, *end);
   if (after == std::string_view::npos || (text_[after] != ',' && text_[after] != ']')) {
     return std::nullopt;
   }
@@ -251,7 +251,7 @@ std::optional<Span> EntrySpans::item_and_comma(const Entry& entry) const {
 }
 
 /// An edit whose place in the text is known.
-struct Change {
+struct PlacedEdit {
   Span span;
   std::string_view text;
   const yaml::Node* list = nullptr;  ///< from which it removes an entry
@@ -260,7 +260,7 @@ struct Change {
 /// All changes that mend one finding.
 struct Fix {
   std::size_t finding = 0;
-  std::vector<Change> changes;  ///< at least one
+  std::vector<PlacedEdit> changes;  ///< at least one
 
   [[nodiscard]] bool removes() const { return changes.front().list != nullptr; }
 };
@@ -273,10 +273,10 @@ bool has_removal(std::span<const Diagnostic> findings) {
 }
 
 /// Finds the places of edits in a text.
-class Placement {
+class FixPlacement {
  public:
   /// `body` is the text without its byte order mark, as places are counted.
-  Placement(std::string_view text, std::string_view body, std::span<const Diagnostic> findings)
+  FixPlacement(std::string_view text, std::string_view body, std::span<const Diagnostic> findings)
       : positions_(body) {
     if (!has_removal(findings)) return;
     Diagnostics ignored;
@@ -289,7 +289,7 @@ class Placement {
     Fix fix;
     fix.finding = number;
     for (const Edit& edit : finding.edits) {
-      const std::optional<Change> change =
+      const std::optional<PlacedEdit> change =
           edit.kind == Edit::Kind::replace ? replacement(edit) : removal(edit);
       if (!change) return std::nullopt;
       fix.changes.push_back(*change);
@@ -298,19 +298,19 @@ class Placement {
   }
 
  private:
-  [[nodiscard]] std::optional<Change> replacement(const Edit& edit) const {
+  [[nodiscard]] std::optional<PlacedEdit> replacement(const Edit& edit) const {
     const Span span{positions_.offset(edit.range.begin), positions_.offset(edit.range.end)};
     if (span.begin >= span.end) return std::nullopt;
-    return Change{span, edit.text, nullptr};
+    return PlacedEdit{span, edit.text, nullptr};
   }
 
-  [[nodiscard]] std::optional<Change> removal(const Edit& edit) const {
+  [[nodiscard]] std::optional<PlacedEdit> removal(const Edit& edit) const {
     if (!entries_) return std::nullopt;
     const std::optional<EntrySpans::Entry> entry = entries_->find(edit.range.begin);
     if (!entry) return std::nullopt;
     const std::optional<Span> span = entries_->span_of(*entry);
     if (!span) return std::nullopt;
-    return Change{*span, {}, entry->list};
+    return PlacedEdit{*span, {}, entry->list};
   }
 
   PositionMap positions_;
@@ -324,14 +324,14 @@ class Selection {
   /// Whether a fix could be taken, or is no longer needed.
   bool take(const Fix& fix) {
     if (std::all_of(fix.changes.begin(), fix.changes.end(),
-                    [this](const Change& change) { return is_removed(change.span); })) {
+                    [this](const PlacedEdit& change) { return is_removed(change.span); })) {
       return true;
     }
     if (!std::all_of(fix.changes.begin(), fix.changes.end(),
-                     [this](const Change& change) { return is_possible(change); })) {
+                     [this](const PlacedEdit& change) { return is_possible(change); })) {
       return false;
     }
-    for (const Change& change : fix.changes) {
+    for (const PlacedEdit& change : fix.changes) {
       changes_.emplace(change.span.begin, change);
       if (change.list != nullptr) ++removed_[change.list];
     }
@@ -354,12 +354,12 @@ class Selection {
   [[nodiscard]] bool is_removed(const Span& span) const {
     const auto next = changes_.upper_bound(span.begin);
     if (next == changes_.begin()) return false;
-    const Change& before = std::prev(next)->second;
+    const PlacedEdit& before = std::prev(next)->second;
     return before.list != nullptr && span.end <= before.span.end;
   }
 
   /// A list must keep an entry: an empty one means something else.
-  [[nodiscard]] bool is_possible(const Change& change) const {
+  [[nodiscard]] bool is_possible(const PlacedEdit& change) const {
     const auto next = changes_.lower_bound(change.span.begin);
     if (next != changes_.end() && next->first < change.span.end) return false;
     if (next != changes_.begin() && std::prev(next)->second.span.end > change.span.begin) {
@@ -371,7 +371,7 @@ class Selection {
     return gone + 1 < change.list->items.size();
   }
 
-  std::map<std::size_t, Change> changes_;  // by their begin; they do not overlap
+  std::map<std::size_t, PlacedEdit> changes_;  // by their begin; they do not overlap
   std::map<const yaml::Node*, std::size_t> removed_;
 };
 
@@ -398,7 +398,7 @@ FixedText apply_fixes(std::string_view text, std::span<const Diagnostic> finding
   FixedText fixed;
   const std::string_view body = utf8::without_byte_order_mark(text);
   fixed.text = text.substr(0, text.size() - body.size());
-  const Placement placement(text, body, findings);
+  const FixPlacement placement(text, body, findings);
   std::vector<Fix> fixes;
   for (std::size_t number = 0; number < findings.size(); ++number) {
     if (auto fix = placement.place(number, findings[number])) fixes.push_back(std::move(*fix));

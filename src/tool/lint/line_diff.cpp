@@ -17,11 +17,11 @@ constexpr std::size_t context = 3;
 constexpr int most_changes = 200;
 constexpr int sure_match = 32;
 
-using Lines = std::vector<std::string_view>;
+using TextLines = std::vector<std::string_view>;
 
 /// Each with its line break; the last one may lack it.
-Lines split(std::string_view text) {
-  Lines lines;
+TextLines split_lines(std::string_view text) {
+  TextLines lines;
   while (!text.empty()) {
     const std::size_t line_break = text.find('\n');
     const std::size_t size = line_break == std::string_view::npos ? text.size() : line_break + 1;
@@ -45,7 +45,8 @@ struct LineChange {
 /// in common, which no library at hand ensures.
 class LineComparison {
  public:
-  LineComparison(const Lines& before, const Lines& after) : before_(before), after_(after) {}
+  LineComparison(const TextLines& before, const TextLines& after)
+      : before_(before), after_(after) {}
 
   std::vector<LineChange> run() {
     skip_equal();
@@ -157,8 +158,8 @@ class LineComparison {
     }
   }
 
-  const Lines& before_;
-  const Lines& after_;
+  const TextLines& before_;
+  const TextLines& after_;
   std::size_t x_ = 0;  // lines that were compared
   std::size_t y_ = 0;
   std::vector<Reach> furthest_;
@@ -178,8 +179,9 @@ std::string extent(std::size_t begin, std::size_t end) {
 }
 
 /// A hunk: changes [first, last), which are close together, and the lines around them.
-void add_hunk(const Lines& before, const Lines& after, const std::vector<LineChange>& changes,
-              std::size_t first, std::size_t last, std::string& diff) {
+void add_hunk(const TextLines& before, const TextLines& after,
+              const std::vector<LineChange>& changes, std::size_t first, std::size_t last,
+              std::string& diff) {
   const std::size_t lead = std::min(context, changes[first].old_begin);
   const std::size_t tail = std::min(context, before.size() - changes[last - 1].old_end);
   diff += "@@ -" + extent(changes[first].old_begin - lead, changes[last - 1].old_end + tail) +
@@ -231,8 +233,8 @@ std::string name_in_head(std::string_view prefix, std::string_view file) {
 }  // namespace
 
 std::string unified_diff(std::string_view before, std::string_view after, std::string_view file) {
-  const Lines old_lines = split(before);
-  const Lines new_lines = split(after);
+  const TextLines old_lines = split_lines(before);
+  const TextLines new_lines = split_lines(after);
   const std::vector<LineChange> changes = LineComparison(old_lines, new_lines).run();
   if (changes.empty()) return {};
   std::string diff = "--- " + name_in_head("a/", file) + "\n+++ " + name_in_head("b/", file) + "\n";

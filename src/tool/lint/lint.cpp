@@ -485,13 +485,13 @@ void check_exclusivity(const Catalog& catalog, Reporter& reporter) {
 }
 
 /// The places of findings.
-using Places = std::set<Position>;
+using Positions = std::set<Position>;
 
 /// Finds behaviors that require two tasks which exclude one another.
 class ConflictCheck {
  public:
   /// `exclusive`: the requirements that the findings of exclusive-requirement are about.
-  ConflictCheck(const Catalog& catalog, const Places& exclusive, Reporter& reporter)
+  ConflictCheck(const Catalog& catalog, const Positions& exclusive, Reporter& reporter)
       : catalog_(catalog), exclusive_(exclusive), reporter_(reporter), exclusions_(catalog) {}
 
   /// Reports each requirement that conflicts with an earlier one, once. Whether a finding says that
@@ -536,15 +536,15 @@ class ConflictCheck {
   }
 
   const Catalog& catalog_;
-  const Places& exclusive_;
+  const Positions& exclusive_;
   Reporter& reporter_;
   Exclusions exclusions_;
 };
 
 /// The requirements that are reported because the task excludes what requires it. The reader has
 /// found them.
-Places find_exclusive_requirements(const Diagnostics& diagnostics, const std::string& file,
-                                   const LintOptions& options) {
+Positions find_exclusive_requirements(const Diagnostics& diagnostics, const std::string& file,
+                                      const LintOptions& options) {
   std::vector<Diagnostic> findings;
   for (const Diagnostic& finding : diagnostics.all()) {
     if (finding.rule == rule::exclusive_requirement.name && finding.file == file) {
@@ -552,7 +552,7 @@ Places find_exclusive_requirements(const Diagnostics& diagnostics, const std::st
     }
   }
   if (options.control && !findings.empty()) findings = options.control(std::move(findings));
-  Places places;
+  Positions places;
   for (const Diagnostic& finding : findings) {
     if (finding.rule == rule::exclusive_requirement.name) places.insert(finding.range.begin);
   }
@@ -561,7 +561,7 @@ Places find_exclusive_requirements(const Diagnostics& diagnostics, const std::st
 
 /// Returns, by behavior, whether a finding says that it can never be active: because of conflicting
 /// requirements, or because it requires a task that excludes its own.
-std::vector<bool> check_conflicting_requirements(const Catalog& catalog, const Places& exclusive,
+std::vector<bool> check_conflicting_requirements(const Catalog& catalog, const Positions& exclusive,
                                                  Reporter& reporter) {
   ConflictCheck check(catalog, exclusive, reporter);
   std::vector<bool> conflicts;
@@ -582,7 +582,7 @@ LintResult lint_catalog(const yaml::Document& document, const LintOptions& optio
   check_behaviors(catalog, reading.is_complete, reporter);
   check_exclusivity(catalog, reporter);
   check_names(catalog, reporter);
-  const Places exclusive = find_exclusive_requirements(diagnostics, document.file(), options);
+  const Positions exclusive = find_exclusive_requirements(diagnostics, document.file(), options);
   const std::vector<bool> conflicts = check_conflicting_requirements(catalog, exclusive, reporter);
   if (!reading.has_all_names || !reading.is_acyclic) {
     // Anything else that could be found may be due to what is missing.

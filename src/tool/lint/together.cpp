@@ -13,7 +13,7 @@ namespace cbc {
 namespace {
 
 /// Reasons that may be examined in total.
-constexpr std::uint64_t most_effort_of_reasons = 400'000'000;
+constexpr std::uint64_t most_effort_of_all_pairs = 400'000'000;
 
 std::uint64_t key_of(TaskId a, TaskId b) {
   return (std::uint64_t{std::min(a, b)} << 32U) | std::max(a, b);
@@ -77,7 +77,7 @@ TogetherSearch::TogetherSearch(AssignmentSearch& search, const Liveness& livenes
       liveness_(liveness),
       catalog_(search.catalog()),
       nothing_present_(most_in_a_group(catalog_.group_tasks), none),
-      effort_left_(most_effort_of_reasons) {}
+      effort_left_(most_effort_of_all_pairs) {}
 
 std::optional<std::uint32_t> TogetherSearch::find_list(TaskId a, TaskId b) const {
   const auto of_b = catalog_.task_cliques[b];

@@ -13,7 +13,7 @@ namespace cbc {
 namespace {
 
 /// In the order of the enumerators.
-constexpr std::array<std::string_view, Mutant::kinds> kind_names = {
+constexpr std::array<std::string_view, Mutant::kinds> mutant_kinds = {
     "behavior_removed",        "suitability_lowered",   "requirement_removed",   "minimum_removed",
     "condition_removed",       "exclusion_removed",     "exclusion_narrowed",    "timeout_removed",
     "start_on_request_turned", "reactive_start_turned", "execution_goal_turned",
@@ -234,7 +234,7 @@ std::string describe_flag(std::string_view flag, const std::string& task, bool b
 
 }  // namespace
 
-std::string_view name_of(Mutant::Kind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
+std::string_view name_of(Mutant::Kind kind) { return mutant_kinds[static_cast<std::size_t>(kind)]; }
 
 std::vector<Mutant> find_mutants(const Catalog& catalog) { return MutantFinder(catalog).find(); }
 

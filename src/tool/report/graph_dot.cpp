@@ -19,7 +19,6 @@ using draw::Edge;
 using draw::EdgeKind;
 using draw::LegendEntry;
 using draw::Mark;
-using draw::Node;
 using draw::NodeKind;
 
 constexpr std::size_t line_length = 10;  // characters, about
@@ -44,7 +43,7 @@ void append_shown(std::string& dot, std::string_view text) {
 }
 
 /// The attributes of a node or an edge: "[a=b, c=d]", or nothing.
-class Attributes {
+class DotAttributes {
  public:
   void add(std::string_view name, std::string_view value) {
     text_ += text_.empty() ? " [" : ", ";
@@ -61,7 +60,7 @@ class Attributes {
     add(name, value + '"');
   }
   /// Long names are broken into lines, since pictures tend to be wide rather than high.
-  void add_label(const Node& node) {
+  void add_label(const draw::Node& node) {
     std::string value = "\"";
     std::vector<std::string_view> lines = wrap_name(node.label, line_length);
     lines.insert(lines.end(), node.notes.begin(), node.notes.end());
@@ -185,7 +184,7 @@ class DotWriter {
   }
 
   void add_nodes() {
-    for (const Node& node : diagram_.nodes) {
+    for (const draw::Node& node : diagram_.nodes) {
       if (node.cluster == none) add_node(node, "  ");
     }
     const auto members = draw::cluster_members(diagram_);
@@ -198,13 +197,13 @@ class DotWriter {
       dot_ += fmt::format(
           "\"; labeljust=l; style=\"rounded,filled\"; color=\"{}\"; fillcolor=\"{}\";\n",
           palette::frame, palette::framed);
-      for (const Node* const node : members[place]) add_node(*node, "    ");
+      for (const draw::Node* const node : members[place]) add_node(*node, "    ");
       dot_ += "  }\n";
     }
   }
 
-  void add_node(const Node& node, std::string_view indent) {
-    Attributes attributes;
+  void add_node(const draw::Node& node, std::string_view indent) {
+    DotAttributes attributes;
     if (node.kind == NodeKind::hub) {
       add_hub(node, attributes);
     } else {
@@ -216,7 +215,7 @@ class DotWriter {
   }
 
   /// A dot, or a box if it has a label. (An xlabel beside a dot does not work with pack.)
-  static void add_hub(const Node& node, Attributes& attributes) {
+  static void add_hub(const draw::Node& node, DotAttributes& attributes) {
     const std::optional<palette::Look> look = palette::look_of(node.mark);
     const std::string_view color = look ? look->color.line : palette::exclusion;
     if (node.label.empty()) {
@@ -237,7 +236,7 @@ class DotWriter {
     attributes.add_color("color", color);
   }
 
-  static void add_shape(const Node& node, Attributes& attributes) {
+  static void add_shape(const draw::Node& node, DotAttributes& attributes) {
     const bool is_task = node.kind == NodeKind::task;
     palette::Color color = is_task ? palette::task : palette::behavior;
     if (node.color != none) color = palette::of_group(node.color);
@@ -256,7 +255,7 @@ class DotWriter {
   }
 
   void add_edge(const Edge& edge) {
-    Attributes attributes;
+    DotAttributes attributes;
     if (!edge.label.empty()) attributes.add_shown("label", edge.label);
     const std::optional<palette::Look> look = palette::look_of(edge.mark);
     const bool is_thick = look && look->is_thick;

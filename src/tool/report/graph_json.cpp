@@ -16,7 +16,6 @@ namespace {
 using draw::Edge;
 using draw::EdgeKind;
 using draw::Mark;
-using draw::Node;
 using draw::NodeKind;
 
 std::string_view name_of(draw::View view) {
@@ -53,7 +52,7 @@ void write_moment(JsonWriter& json, const draw::Moment& moment) {
   json.close('}');
 }
 
-void write_node(JsonWriter& json, const Node& node, bool has_state) {
+void write_node(JsonWriter& json, const draw::Node& node, bool has_state) {
   json.on_new_line().open('{');
   const bool is_unnamed = node.name.empty() && node.kind != NodeKind::task;
   json.write_members({{"id", node.id}, {"kind", name_of(node.kind)}});
@@ -93,8 +92,9 @@ std::string graph_json(const draw::Diagram& diagram) {
     json.write_members(
         {{"schema", "cbc.graph/1"}, {"catalog", diagram.file}, {"view", name_of(diagram.view)}});
     if (diagram.moment) write_moment(json, *diagram.moment);
-    json.write_list("nodes", diagram.nodes,
-                    [&](const Node& node) { write_node(json, node, diagram.moment.has_value()); });
+    json.write_list("nodes", diagram.nodes, [&](const draw::Node& node) {
+      write_node(json, node, diagram.moment.has_value());
+    });
     json.write_list("edges", diagram.edges,
                     [&](const Edge& edge) { write_edge(json, diagram, edge); });
   });

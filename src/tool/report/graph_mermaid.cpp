@@ -20,7 +20,6 @@ using draw::Edge;
 using draw::EdgeKind;
 using draw::LegendEntry;
 using draw::Mark;
-using draw::Node;
 using draw::NodeKind;
 
 constexpr std::array standing_out = {Mark::faulty, Mark::added,   Mark::removed, Mark::changed,
@@ -111,7 +110,7 @@ std::string class_of_group(std::size_t group) {
   return "group" + std::to_string(group % palette::groups.size());
 }
 
-std::string class_of(const Node& node) {
+std::string class_of(const draw::Node& node) {
   if (node.mark == Mark::faint) return "faint";
   if (node.mark != Mark::plain)
     return node.is_defined ? std::string(name_of(node.mark)) : "undefined";
@@ -158,7 +157,7 @@ class MermaidWriter {
   }
 
   void add_nodes() {
-    for (const Node& node : diagram_.nodes) {
+    for (const draw::Node& node : diagram_.nodes) {
       if (node.cluster == none) add_node(node, "  ");
     }
     const auto members = draw::cluster_members(diagram_);
@@ -168,7 +167,7 @@ class MermaidWriter {
       text_ += "[\"";
       append_mermaid_label(text_, diagram_.clusters[place].label);
       text_ += "\"]\n";
-      for (const Node* const node : members[place]) add_node(*node, "    ");
+      for (const draw::Node* const node : members[place]) add_node(*node, "    ");
       text_ += "  end\n";
     }
   }
@@ -184,7 +183,7 @@ class MermaidWriter {
     text_ += "\"]:::faint\n";
   }
 
-  void add_node(const Node& node, std::string_view indent) {
+  void add_node(const draw::Node& node, std::string_view indent) {
     text_ += indent;
     append_mermaid_id(text_, node.id);
     switch (node.kind) {
@@ -201,7 +200,7 @@ class MermaidWriter {
     text_ += ":::" + class_of(node) + '\n';
   }
 
-  void add_text(std::string_view open, const Node& node, std::string_view close) {
+  void add_text(std::string_view open, const draw::Node& node, std::string_view close) {
     text_ += open;
     if (node.label.empty()) {
       text_ += ' ';
@@ -253,7 +252,7 @@ class MermaidWriter {
   /// Fills, lines and texts have colors, so that the nodes look alike on light and dark pages.
   void add_classes() {
     std::set<std::string> used;
-    for (const Node& node : diagram_.nodes) used.insert(class_of(node));
+    for (const draw::Node& node : diagram_.nodes) used.insert(class_of(node));
     if (!diagram_.legend.empty()) used.insert("faint");
     const auto add = [&](std::string_view name, const palette::Look& look) {
       if (used.contains(std::string(name))) add_class(name, look);

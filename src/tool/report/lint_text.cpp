@@ -117,7 +117,7 @@ namespace {
 
 // Columns of a terminal.
 constexpr std::size_t tasks_width = 60;
-constexpr std::size_t longest_name = 40;
+constexpr std::size_t longest_shown_name = 40;
 constexpr std::size_t label_width = 20;
 constexpr std::size_t number_width = 8;
 
@@ -137,7 +137,7 @@ Cut cut_name(std::string_view name) {
   for (std::size_t offset = 0; offset < whole.size();) {
     const utf8::Decoded decoded = utf8::decode(whole, offset);
     const std::size_t width = utf8::display_width(decoded.character);
-    if (columns + width > longest_name) return {whole.substr(0, offset) + "...", columns + 3};
+    if (columns + width > longest_shown_name) return {whole.substr(0, offset) + "...", columns + 3};
     columns += width;
     offset += decoded.bytes;
   }

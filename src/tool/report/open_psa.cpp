@@ -12,8 +12,6 @@
 namespace cbc {
 namespace {
 
-using Node = FaultTree::Node;
-
 constexpr bool is_plain(char byte) {
   return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') ||
          (byte >= '0' && byte <= '9') || byte == '_';
@@ -28,9 +26,10 @@ std::string identifier(std::string_view name, std::uint32_t place) {
   return id == name ? id : fmt::format("{}-{}", id, place + 1);
 }
 
-class Writer {
+class OpenPsaWriter {
  public:
-  Writer(const CompiledCatalog& catalog, const FaultTree& tree) : catalog_(catalog), tree_(tree) {}
+  OpenPsaWriter(const CompiledCatalog& catalog, const FaultTree& tree)
+      : catalog_(catalog), tree_(tree) {}
 
   std::string write() {
     add("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
@@ -75,16 +74,16 @@ class Writer {
     const bool is_alone = gate.inputs.size() == 1;
     const std::string_view formula = gate.needs_all ? "and" : "or";
     if (!is_alone) add("<{}>\n", formula);
-    for (const Node& input : gate.inputs) {
-      add("<{} name=\"{}\"/>\n", input.kind == Node::Kind::fault ? "basic-event" : "gate",
-          name_of(input));
+    for (const FaultTree::Node& input : gate.inputs) {
+      add("<{} name=\"{}\"/>\n",
+          input.kind == FaultTree::Node::Kind::fault ? "basic-event" : "gate", name_of(input));
     }
     if (!is_alone) add("</{}>\n", formula);
     add("</define-gate>\n");
   }
 
   void add_impossible() {
-    const Node top{Node::Kind::task, tree_.task};
+    const FaultTree::Node top{FaultTree::Node::Kind::task, tree_.task};
     add("<define-gate name=\"{}\">\n<label>{}</label>\n<house-event name=\"always\"/>\n"
         "</define-gate>\n<define-house-event name=\"always\">\n<constant value=\"true\"/>\n"
         "</define-house-event>\n",
@@ -92,21 +91,21 @@ class Writer {
   }
 
   void add_event(BehaviorId behavior) {
-    const Node fault{Node::Kind::fault, behavior};
+    const FaultTree::Node fault{FaultTree::Node::Kind::fault, behavior};
     add("<define-basic-event name=\"{}\">\n<label>{}</label>\n</define-basic-event>\n",
         name_of(fault), label_of(fault));
   }
 
-  [[nodiscard]] std::string name_of(const Node& node) const {
+  [[nodiscard]] std::string name_of(const FaultTree::Node& node) const {
     switch (node.kind) {
-      case Node::Kind::fault:
+      case FaultTree::Node::Kind::fault:
         return "fault-" + behavior_identifier(node.number);
-      case Node::Kind::behavior:
+      case FaultTree::Node::Kind::behavior:
         return "behavior-" + behavior_identifier(node.number);
-      case Node::Kind::task:
+      case FaultTree::Node::Kind::task:
         return "task-" + identifier(catalog_.name_of_task(node.number),
                                     catalog_.tasks[node.number].catalog_index);
-      case Node::Kind::way:
+      case FaultTree::Node::Kind::way:
         break;
     }
     return fmt::format("way-{}", node.number + 1);
@@ -117,15 +116,15 @@ class Writer {
                       catalog_.behaviors[behavior].catalog_index);
   }
 
-  [[nodiscard]] std::string label_of(const Node& node) const {
+  [[nodiscard]] std::string label_of(const FaultTree::Node& node) const {
     switch (node.kind) {
-      case Node::Kind::fault:
+      case FaultTree::Node::Kind::fault:
         return xml_text(catalog_.name_of_behavior(node.number)) + " is faulty";
-      case Node::Kind::behavior:
+      case FaultTree::Node::Kind::behavior:
         return xml_text(catalog_.name_of_behavior(node.number)) + " is lost";
-      case Node::Kind::task:
+      case FaultTree::Node::Kind::task:
         return xml_text(catalog_.name_of_task(node.number)) + " is lost";
-      case Node::Kind::way:
+      case FaultTree::Node::Kind::way:
         break;
     }
     return fmt::format("way {} is lost", node.number + 1);
@@ -139,7 +138,7 @@ class Writer {
 }  // namespace
 
 std::string open_psa_text(const CompiledCatalog& catalog, const FaultTree& tree) {
-  return Writer(catalog, tree).write();
+  return OpenPsaWriter(catalog, tree).write();
 }
 
 }  // namespace cbc

@@ -606,13 +606,13 @@ namespace {
 /// Digits shown after the common beginning of two long numbers.
 constexpr std::size_t digits_beyond = 6;
 
-std::string shorten(const std::string& number, std::size_t length) {
+std::string cut_digits(const std::string& number, std::size_t length) {
   return number.size() <= length + 1 ? number : number.substr(0, length) + "...";
 }
 
 std::string shorten_alone(const std::string& number) {
   const std::size_t first = std::min(number.find_first_not_of("0."), number.size());
-  return shorten(number, std::max<std::size_t>(first, 2) + digits_beyond);
+  return cut_digits(number, std::max<std::size_t>(first, 2) + digits_beyond);
 }
 
 }  // namespace
@@ -621,7 +621,7 @@ std::pair<std::string, std::string> shorten_both(const std::string& a, const std
   const auto differs = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
   const auto equal = static_cast<std::size_t>(differs.first - a.begin());
   const std::size_t length = std::max<std::size_t>(equal, 2) + digits_beyond;
-  return {shorten(a, length), shorten(b, length)};
+  return {cut_digits(a, length), cut_digits(b, length)};
 }
 
 std::string supporting_text(const ObjectiveValues& objective) {

@@ -350,7 +350,7 @@ namespace {
 
 using yaml::JsonFault;
 using yaml::JsonValue;
-using Places = std::unordered_map<std::string, std::uint32_t>;
+using PlaceByName = std::unordered_map<std::string, std::uint32_t>;
 
 class SweepReader {
  public:
@@ -527,14 +527,14 @@ class SweepReader {
     return static_cast<Millionths>(std::lround(value.number(0, 1, "from 0 to 1") * one_million));
   }
 
-  static void add_name(std::string name, std::vector<std::string>& names, Places& places) {
+  static void add_name(std::string name, std::vector<std::string>& names, PlaceByName& places) {
     if (!places.emplace(name, static_cast<std::uint32_t>(names.size())).second) {
       throw JsonFault(quote(name) + " occurs twice");
     }
     names.push_back(std::move(name));
   }
 
-  [[nodiscard]] static std::uint32_t find_place(const JsonValue& value, const Places& places) {
+  [[nodiscard]] static std::uint32_t find_place(const JsonValue& value, const PlaceByName& places) {
     const std::string name = value.text();
     const auto found = places.find(name);
     if (found == places.end()) {
@@ -551,8 +551,8 @@ class SweepReader {
   }
 
   SweepResult result_;
-  Places places_of_tasks_;
-  Places places_of_behaviors_;
+  PlaceByName places_of_tasks_;
+  PlaceByName places_of_behaviors_;
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ std::size_t width_of(std::string_view text) {
 namespace {
 
 /// Replaces the middle of a text that is wider than `columns` by "...".
-std::string shorten(const std::string& text, std::size_t columns) {
+std::string shorten_text(const std::string& text, std::size_t columns) {
   std::size_t rest = width_of(text);  // from `offset` on
   if (rest <= columns) return text;
   constexpr std::string_view dots = "...";
@@ -61,7 +61,7 @@ std::vector<std::string> shorten(std::vector<std::string> names) {
   for (std::size_t columns = longest_name; columns < widest; columns *= 2) {
     std::vector<std::string> shortened;
     shortened.reserve(names.size());
-    for (const std::string& name : names) shortened.push_back(shorten(name, columns));
+    for (const std::string& name : names) shortened.push_back(shorten_text(name, columns));
     if (std::set<std::string>(shortened.begin(), shortened.end()).size() == different) {
       return shortened;
     }

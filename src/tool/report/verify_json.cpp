@@ -11,9 +11,9 @@
 namespace cbc {
 namespace {
 
-class Writer {
+class VerifyWriter {
  public:
-  Writer(JsonWriter& json, const VerifyResult& result)
+  VerifyWriter(JsonWriter& json, const VerifyResult& result)
       : json_(json), result_(result), catalog_(*result.catalog) {}
 
   void write() {
@@ -150,7 +150,7 @@ class Writer {
 }  // namespace
 
 std::string verify_to_json(const VerifyResult& result) {
-  return json_line([&](JsonWriter& json) { Writer(json, result).write(); });
+  return json_line([&](JsonWriter& json) { VerifyWriter(json, result).write(); });
 }
 
 }  // namespace cbc

@@ -170,7 +170,7 @@ void sync_folder(const fs::path& folder) {
   ::close(descriptor);
 }
 
-fs::path folder_of(const fs::path& path) {
+fs::path folder_with(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
@@ -187,7 +187,7 @@ std::optional<std::string> find_target(const std::string& path, Target& target) 
   target.path = path;
   if (auto obstacle = follow_links(target.path)) return obstacle;
   if (!target.path.has_filename()) return reason(EISDIR);
-  target.folder = folder_of(target.path);
+  target.folder = folder_with(target.path);
 
   target.exists = stat(target.path.c_str(), &target.existing) == 0;
   if (!target.exists) return errno == ENOENT ? std::nullopt : std::optional(reason());
@@ -214,7 +214,7 @@ std::optional<std::string> write_atomically(const std::string& path, std::string
 }
 
 std::optional<std::string> create_atomically(const std::string& path, std::string_view content) {
-  const fs::path folder = folder_of(path);
+  const fs::path folder = folder_with(path);
   const SignalsHeld signals_held;
   TemporaryFile file(folder);
   if (!file.exists()) return reason();

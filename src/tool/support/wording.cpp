@@ -13,7 +13,7 @@ namespace cbc {
 namespace {
 
 // Nobody types longer names, so it is not worth the time to compare them.
-constexpr std::size_t longest_name = 200;
+constexpr std::size_t longest_compared = 200;
 // What shorter names have in common is no reason for a suggestion.
 constexpr std::size_t shortest_part = 3;
 // Two names that are divided into words in different ways are compared as a whole from here on.
@@ -203,7 +203,7 @@ std::optional<std::string_view> search(std::string_view name,
                                        std::span<const std::vector<std::string>> words,
                                        const Suggestions::IsTaken& is_taken,
                                        std::size_t& work_left) {
-  if (name.empty() || name.size() > longest_name || work_left == 0) return std::nullopt;
+  if (name.empty() || name.size() > longest_compared || work_left == 0) return std::nullopt;
 
   const Wanted wanted(name);
   std::optional<std::string_view> best;
@@ -213,7 +213,7 @@ std::optional<std::string_view> search(std::string_view name,
   std::size_t work = names.size();
   for (std::size_t place = 0; place < names.size(); ++place) {
     const std::string_view candidate = names[place];
-    if (words[place].empty() || candidate.size() > longest_name || candidate == name) continue;
+    if (words[place].empty() || candidate.size() > longest_compared || candidate == name) continue;
     const auto cost = wanted.cost_of(candidate, words[place], work);
     const std::size_t part = cost || best ? 0 : wanted.common_part(words[place]);
     const bool is_better = cost ? !best || *cost < best_cost : part > best_part_length;

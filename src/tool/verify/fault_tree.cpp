@@ -9,8 +9,6 @@
 namespace cbc {
 namespace {
 
-using Node = FaultTree::Node;
-
 /// The tasks below a task, itself included, with the values that can be part of an assignment as
 /// far as requirements alone tell.
 class Cone {
@@ -246,7 +244,7 @@ class WaySearch {
   }
 
   /// The inputs of each way; false if they are too many.
-  [[nodiscard]] bool find(std::vector<std::vector<Node>>& ways) {
+  [[nodiscard]] bool find(std::vector<std::vector<FaultTree::Node>>& ways) {
     need(tasks_.front());
     stack_.push_back({});
     while (!stack_.empty()) {
@@ -334,13 +332,14 @@ class WaySearch {
     return ExactProduct::compare(performance, limit) >= 0;
   }
 
-  [[nodiscard]] std::vector<Node> inputs() const {
-    std::vector<Node> found;
+  [[nodiscard]] std::vector<FaultTree::Node> inputs() const {
+    std::vector<FaultTree::Node> found;
     for (const Choice& choice : stack_) {
       const BehaviorId behavior = chosen_[tasks_[choice.place]]->behavior;
-      found.push_back({Node::Kind::fault, behavior});
+      found.push_back({FaultTree::Node::Kind::fault, behavior});
       for (const CompiledRequirement& rule : catalog_.requirements[behavior]) {
-        if (chosen_[rule.task] == nullptr) found.push_back({Node::Kind::task, rule.task});
+        if (chosen_[rule.task] == nullptr)
+          found.push_back({FaultTree::Node::Kind::task, rule.task});
       }
     }
     std::sort(found.begin(), found.end());
@@ -393,8 +392,8 @@ class PlainGates {
   void add() {
     if (tree_.gates.empty()) is_input_[tree_.task] = true;
     for (const FaultTree::Gate& gate : tree_.gates) {
-      for (const Node& input : gate.inputs) {
-        if (input.kind == Node::Kind::task) is_input_[input.number] = true;
+      for (const FaultTree::Node& input : gate.inputs) {
+        if (input.kind == FaultTree::Node::Kind::task) is_input_[input.number] = true;
       }
     }
     for (const TaskId task : cone_.tasks()) {
@@ -404,25 +403,30 @@ class PlainGates {
 
  private:
   void add_task(TaskId task) {
-    FaultTree::Gate gate{{Node::Kind::task, task}, true, {}};
+    FaultTree::Gate gate{{FaultTree::Node::Kind::task, task}, true, {}};
     for (const Value* value : cone_.values(task)) {
       const bool is_leaf = catalog_.requirements[value->behavior].empty();
-      gate.inputs.push_back({is_leaf ? Node::Kind::fault : Node::Kind::behavior, value->behavior});
+      gate.inputs.push_back(
+          {is_leaf ? FaultTree::Node::Kind::fault : FaultTree::Node::Kind::behavior,
+           value->behavior});
     }
-    std::sort(gate.inputs.begin(), gate.inputs.end(),
-              [](const Node& a, const Node& b) { return a.number < b.number; });
+    std::sort(
+        gate.inputs.begin(), gate.inputs.end(),
+        [](const FaultTree::Node& a, const FaultTree::Node& b) { return a.number < b.number; });
     tree_.gates.push_back(gate);
-    for (const Node& input : gate.inputs) {
-      if (input.kind == Node::Kind::behavior) add_behavior(input.number);
+    for (const FaultTree::Node& input : gate.inputs) {
+      if (input.kind == FaultTree::Node::Kind::behavior) add_behavior(input.number);
     }
   }
 
   void add_behavior(BehaviorId behavior) {
     if (has_gate_[behavior]) return;
     has_gate_[behavior] = true;
-    FaultTree::Gate gate{{Node::Kind::behavior, behavior}, false, {{Node::Kind::fault, behavior}}};
+    FaultTree::Gate gate{{FaultTree::Node::Kind::behavior, behavior},
+                         false,
+                         {{FaultTree::Node::Kind::fault, behavior}}};
     for (const CompiledRequirement& rule : catalog_.requirements[behavior]) {
-      gate.inputs.push_back({Node::Kind::task, rule.task});
+      gate.inputs.push_back({FaultTree::Node::Kind::task, rule.task});
       is_input_[rule.task] = true;
     }
     tree_.gates.push_back(std::move(gate));
@@ -437,8 +441,8 @@ class PlainGates {
 
 void collect_faults(FaultTree& tree) {
   for (const FaultTree::Gate& gate : tree.gates) {
-    for (const Node& input : gate.inputs) {
-      if (input.kind == Node::Kind::fault) tree.faults.push_back(input.number);
+    for (const FaultTree::Node& input : gate.inputs) {
+      if (input.kind == FaultTree::Node::Kind::fault) tree.faults.push_back(input.number);
     }
   }
   std::sort(tree.faults.begin(), tree.faults.end());
@@ -457,7 +461,7 @@ std::variant<FaultTree, std::string> make_fault_tree(const CompiledCatalog& cata
   const Minimums minimums(catalog, cone);
   const std::vector<bool> tangled = find_tangled(catalog, cone, minimums);
   if (tangled[task]) {
-    std::vector<std::vector<Node>> ways;
+    std::vector<std::vector<FaultTree::Node>> ways;
     if (!WaySearch(catalog, cone, tangled, minimums, limits).find(ways)) {
       return concat("exclusivity and minimum performances leave too many ways to run task ",
                     quote(catalog.name_of_task(task)), " for a fault tree");
@@ -465,12 +469,12 @@ std::variant<FaultTree, std::string> make_fault_tree(const CompiledCatalog& cata
     if (ways.empty()) return tree;
     tree.ways = ways.size();
     FaultTree::Gate& top =
-        tree.gates.emplace_back(FaultTree::Gate{{Node::Kind::task, task}, true, {}});
+        tree.gates.emplace_back(FaultTree::Gate{{FaultTree::Node::Kind::task, task}, true, {}});
     for (std::uint32_t way = 0; way < ways.size(); ++way) {
-      top.inputs.push_back({Node::Kind::way, way});
+      top.inputs.push_back({FaultTree::Node::Kind::way, way});
     }
     for (std::uint32_t way = 0; way < ways.size(); ++way) {
-      tree.gates.push_back({{Node::Kind::way, way}, false, std::move(ways[way])});
+      tree.gates.push_back({{FaultTree::Node::Kind::way, way}, false, std::move(ways[way])});
     }
   }
   PlainGates(catalog, cone, tree).add();
