@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-/// Numbers of 64 bits, with a fixed binary point: the functions of a math library may
-/// differ in the last bit from machine to machine, and compiled catalogs must not.
+/// Numbers of 64 bits with a fixed binary point: the functions of a math library may differ in the
+/// last bit from machine to machine, and compiled catalogs must not.
 namespace cbc::fixed {
 
 __extension__ using Wide = unsigned __int128;  // -Wpedantic knows no such type

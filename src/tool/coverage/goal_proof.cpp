@@ -60,9 +60,10 @@ class Returns final : private GroupWalk::Listener {
   }
 
   std::deque<std::vector<GroupWalk::Number>> next_;
-  std::map<TaskId, std::vector<GroupWalk::Number>> left_behind_;  ///< states after a task gave way
-  std::map<TaskId, std::vector<GroupWalk::Number>>
-      starts_from_;  ///< states before a task started by itself
+  /// The states after a task gave way.
+  std::map<TaskId, std::vector<GroupWalk::Number>> left_behind_;
+  /// The states before a task started by itself.
+  std::map<TaskId, std::vector<GroupWalk::Number>> starts_from_;
 };
 
 /// The groups that a goal is about: of a variable those whose behaviors name it.

@@ -12,7 +12,8 @@ namespace cbc {
 
 namespace {
 
-constexpr StateStore::Number never_seen = UINT32_MAX;
+using Number = StateStore::Number;
+constexpr Number never_seen = UINT32_MAX;
 
 /// A condition on the states of a model.
 class StateTest {
@@ -132,25 +133,23 @@ class Goal {
 
 /// The lowest numbers of states in which something was seen.
 struct Sightings {
-  std::vector<StateStore::Number> runs;           ///< by task
-  std::vector<StateStore::Number> active;         ///< by behavior
-  std::vector<StateStore::Number> start_refused;  ///< by task
-  std::vector<StateStore::Number> together;       ///< by two tasks
-  std::vector<StateStore::Number> goals;
+  std::vector<Number> runs;           ///< by task
+  std::vector<Number> active;         ///< by behavior
+  std::vector<Number> start_refused;  ///< by task
+  std::vector<Number> together;       ///< by two tasks
+  std::vector<Number> goals;
 
   /// Drops what was seen in this state and in later ones.
-  void drop_from(StateStore::Number end) {
-    for (std::vector<StateStore::Number>* const numbers :
-         {&runs, &active, &start_refused, &together, &goals}) {
-      for (StateStore::Number& number : *numbers) {
+  void drop_from(Number end) {
+    for (std::vector<Number>* const numbers : {&runs, &active, &start_refused, &together, &goals}) {
+      for (Number& number : *numbers) {
         if (number >= end) number = never_seen;
       }
     }
   }
 
   void add(const Sightings& other) {
-    const auto lower = [](std::vector<StateStore::Number>& mine,
-                          const std::vector<StateStore::Number>& theirs) {
+    const auto lower = [](std::vector<Number>& mine, const std::vector<Number>& theirs) {
       for (std::size_t place = 0; place < mine.size(); ++place) {
         mine[place] = std::min(mine[place], theirs[place]);
       }
@@ -177,8 +176,7 @@ class GroupExpander final : public Expander {
     find_unasked_starts();
   }
 
-  void expand(const std::uint32_t* state, StateStore::Number number,
-              Successors& successors) override {
+  void expand(const std::uint32_t* state, Number number, Successors& successors) override {
     stepper_.load(state);
     look(number, successors);
     for (const Model::Choice& choice : model_.moves()) {
@@ -210,16 +208,16 @@ class GroupExpander final : public Expander {
     }
   }
 
-  static void note(StateStore::Number& first, StateStore::Number number) {
+  static void note(Number& first, Number number) {
     if (first == never_seen) first = number;
   }
-  void note_refusal(std::uint32_t task, StateStore::Number number) {
+  void note_refusal(std::uint32_t task, Number number) {
     if (stepper_.cells()[task] == 0 && model_.tasks()[task].start_on_request) {
       note(seen_.start_refused[task], number);
     }
   }
 
-  void look(StateStore::Number number, Successors& successors) {
+  void look(Number number, Successors& successors) {
     const auto& running = stepper_.running();
     const std::size_t words = running.size();
     const std::size_t tasks = model_.tasks().size();
@@ -270,11 +268,11 @@ Move find_move(const Model& model, Stepper& stepper, const std::uint32_t* from,
   return {};
 }
 
-std::vector<Move> moves_to(const Model& model, const BreadthFirst& search,
-                           StateStore::Number number, bool reduce) {
+std::vector<Move> moves_to(const Model& model, const BreadthFirst& search, Number number,
+                           bool reduce) {
   Stepper stepper(model, {.reduce = reduce});
   std::vector<Move> moves;
-  const std::vector<StateStore::Number> path = search.path_to(number);
+  const std::vector<Number> path = search.path_to(number);
   for (std::size_t place = 1; place < path.size(); ++place) {
     moves.push_back(find_move(model, stepper, search.store().state(path[place - 1]),
                               search.store().state(path[place])));
@@ -304,7 +302,7 @@ void report_sightings(const Model& model, const BreadthFirst& search, const Sigh
   const auto& tasks = model.tasks_in_order();
   for (auto a = tasks.begin(); a != tasks.end(); ++a) {
     for (auto b = a + 1; b != tasks.end(); ++b) {
-      const StateStore::Number first = seen.together[*a * tasks.size() + *b];
+      const Number first = seen.together[*a * tasks.size() + *b];
       if (first == never_seen) continue;
       result.together.push_back({index_of(*a), index_of(*b), search.depth_of(first)});
     }
@@ -312,7 +310,7 @@ void report_sightings(const Model& model, const BreadthFirst& search, const Sigh
 }
 
 Verdict verdict_of(const Model& model, const BreadthFirst& search, const Property& property,
-                   StateStore::Number first, bool reduce) {
+                   Number first, bool reduce) {
   Verdict verdict;
   const bool is_reachable = property.kind == Property::Kind::reachable;
   if (first == never_seen) {
@@ -335,7 +333,7 @@ Verdict verdict_of(const Model& model, const BreadthFirst& search, const Propert
 /// the rivals; for each job, what was seen to run together, and where first.
 std::uint64_t bytes_of_pairs(const Model& model, unsigned jobs) {
   const std::uint64_t pairs = std::uint64_t{model.tasks().size()} * model.tasks().size();
-  return pairs / 4 + jobs * (pairs / 8 + pairs * sizeof(StateStore::Number));
+  return pairs / 4 + jobs * (pairs / 8 + pairs * sizeof(Number));
 }
 
 /// Sets apart a quarter of the memory for remembered decisions.

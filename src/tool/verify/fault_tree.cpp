@@ -338,8 +338,9 @@ class WaySearch {
       const BehaviorId behavior = chosen_[tasks_[choice.place]]->behavior;
       found.push_back({FaultTree::Node::Kind::fault, behavior});
       for (const CompiledRequirement& rule : catalog_.requirements[behavior]) {
-        if (chosen_[rule.task] == nullptr)
+        if (chosen_[rule.task] == nullptr) {
           found.push_back({FaultTree::Node::Kind::task, rule.task});
+        }
       }
     }
     std::sort(found.begin(), found.end());

@@ -21,6 +21,8 @@ namespace cbc {
 
 namespace {
 
+using Number = StateStore::Number;
+
 /// The numbers that one catalog's tasks, behaviors and variables have in another; none: it does not
 /// have them. From TaskId to TaskId, BehaviorId to BehaviorId, place to place.
 struct Translation {
@@ -414,8 +416,7 @@ class PairExpander final : public Expander {
     stepper_.set_traces(new_trace_, old_trace_);
   }
 
-  void expand(const std::uint32_t* state, StateStore::Number number,
-              Successors& successors) override {
+  void expand(const std::uint32_t* state, Number number, Successors& successors) override {
     const std::size_t new_words = models_.new_model.packed_words();
     stepper_.load(state);
     for (const ModelPair::PairedMove& move : models_.moves) {
@@ -436,7 +437,7 @@ class PairExpander final : public Expander {
   [[nodiscard]] bool is_done() const override { return first_difference_ != UINT32_MAX; }
 
   /// The first state with a move that is decided differently, and that move; UINT32_MAX: none.
-  [[nodiscard]] StateStore::Number first_difference() const { return first_difference_; }
+  [[nodiscard]] Number first_difference() const { return first_difference_; }
   [[nodiscard]] const Move& difference() const { return difference_; }
 
  private:
@@ -547,16 +548,16 @@ class PairExpander final : public Expander {
   PairStepper stepper_;
   MoveTrace old_trace_;
   MoveTrace new_trace_;
-  StateStore::Number first_difference_ = UINT32_MAX;
+  Number first_difference_ = UINT32_MAX;
   Move difference_;
 };
 
 /// The moves along a path of pairs, as the new catalog names them.
-std::vector<Move> moves_along(const ModelPair& models, const BreadthFirst& search,
-                              StateStore::Number number, bool reduce) {
+std::vector<Move> moves_along(const ModelPair& models, const BreadthFirst& search, Number number,
+                              bool reduce) {
   PairStepper stepper(models, reduce);
   std::vector<std::uint32_t> packed(search.store().words());
-  const std::vector<StateStore::Number> path = search.path_to(number);
+  const std::vector<Number> path = search.path_to(number);
   std::vector<Move> moves;
   for (std::size_t place = 1; place < path.size(); ++place) {
     const std::uint32_t* const to = search.store().state(path[place]);
