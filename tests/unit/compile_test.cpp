@@ -11,6 +11,7 @@
 
 #include "catalog/allowed_values.h"
 #include "compiled/compiled_catalog.h"
+#include "compiled/log_cost.h"
 #include "support/read_file.h"
 #include "unit/compiled_fixture.h"
 

@@ -1,10 +1,11 @@
+#include "compiled/log_cost.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "compiled/compiled_catalog.h"
 #include "property/random.h"
 #include "support/rounds.h"
 

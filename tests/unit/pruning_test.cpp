@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "compile/compile.h"
+#include "compiled/log_cost.h"
 #include "solver/components.h"
 #include "solver/cost_bound.h"
 #include "solver/objective.h"

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "compiled/log_cost.h"
 #include "property/random.h"
 #include "solver/solver.h"
 #include "unit/compiled_fixture.h"

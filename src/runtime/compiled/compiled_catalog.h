@@ -18,18 +18,6 @@
 /// stand in compiled files as they are in memory. Their meaning: docs/semantics.md, "Catalog".
 namespace cbc {
 
-/// -ln(degree / 10^6) in units of 2^-40, for degree in [1, 10^6]; 0 for degree 0, which callers
-/// handle separately.
-///
-/// It is built from the rounded logarithms of the prime factors, so equal products of degrees have
-/// equal sums of costs, to the bit; sums of different products that are further apart than
-/// log_cost_error for each factor other than 1 are in the right order. Closer sums are compared by
-/// exact products; see docs/semantics.md, "Performance".
-[[nodiscard]] std::int64_t log_cost(Millionths degree);
-
-/// Bound on the error of one log_cost: at most 19 + 12 prime factors, each half a unit off.
-inline constexpr std::int64_t log_cost_error = 16;
-
 /// Number of a task or a behavior in a compiled catalog: group by group, and within a group in
 /// catalog order, so that everything that one event touches lies side by side.
 using TaskId = std::uint32_t;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "compiled/log_cost.h"
+
 namespace cbc {
 
 CostBound::Cost& CostBound::Cost::operator+=(const Cost& other) {

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "compiled/compiled_catalog.h"
+#include "compiled/log_cost.h"
 
 namespace cbc {
 

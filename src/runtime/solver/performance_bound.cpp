@@ -1,5 +1,7 @@
 #include "solver/performance_bound.h"
 
+#include "compiled/log_cost.h"
+
 namespace cbc {
 
 PerformanceBound::PerformanceBound(const CompiledCatalog& catalog, const Domains& domains)

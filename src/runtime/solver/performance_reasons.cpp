@@ -1,5 +1,7 @@
 #include "solver/performance_reasons.h"
 
+#include "compiled/log_cost.h"
+
 namespace cbc {
 
 PerformanceReasons::PerformanceReasons(const CompiledCatalog& catalog, const Domains& domains,

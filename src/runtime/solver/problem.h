@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "compiled/compiled_catalog.h"
-#include "solver/search_bound.h"
 
 namespace cbc {
 
@@ -37,6 +36,16 @@ enum class SearchStatus : std::uint8_t {
 [[nodiscard]] constexpr bool has_solution(SearchStatus status) {
   return status == SearchStatus::optimal || status == SearchStatus::feasible;
 }
+
+/// How good the best solution of a problem may be at most, where a limit ended the search before
+/// the proof (docs/semantics.md, "Search limits").
+struct SearchBound {
+  std::uint32_t more_requests = 0;  ///< that it may serve beyond as many as the answer serves
+  /// Whether it serves the same requests as the answer, so that f2 is the first to be better.
+  bool same_requests = false;
+  /// Of its f2 within the group; by rounding and by the search, that of the answer may be higher.
+  double suitability = 1;
+};
 
 struct SearchResult {
   SearchStatus status = SearchStatus::infeasible;

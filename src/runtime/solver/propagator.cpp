@@ -1,6 +1,7 @@
 #include "solver/propagator.h"
 
 #include "compiled/compiled_catalog.h"
+#include "compiled/log_cost.h"
 
 namespace cbc {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compiled/compiled_catalog.h"
+#include "compiled/log_cost.h"
 
 namespace cbc {
 
