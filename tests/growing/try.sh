@@ -5,8 +5,8 @@
 # Help texts and lists of rules follow from the tables that a patch extends. Their expectations are
 # not part of the patches, but written anew here; the case that a patch brings must pass as it is.
 #
-# Each source is compiled alone and without precompiled headers here, as in no other build of ./dev: it is
-# seen that it includes what it uses.
+# Each source is compiled alone and without precompiled headers, which no other build does, so that it is
+# seen whether it includes what it uses.
 set -euo pipefail
 
 origin=$(realpath -- "$(dirname -- "${BASH_SOURCE[0]}")/../..")

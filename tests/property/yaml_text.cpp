@@ -57,7 +57,7 @@ bool is_number(const std::string& value) {
 // Writes a tree in block style with some parts in flow style, or all of it as JSON.
 class Printer {
  public:
-  Printer(Random& random, bool json) : random_(random), json_(json) {}
+  Printer(Random& random, bool as_json) : random_(random), json_(as_json) {}
 
   std::string print(const Node& node) {
     return json_ || inline_only(node) ? flow(node) + "\n" : block(node, 0);
@@ -155,7 +155,7 @@ class Printer {
 // What the writers of catalogs and of scripts share.
 class Writer {
  public:
-  Writer(Random& random, bool json) : random_(random), json_(json) {}
+  Writer(Random& random, bool as_json) : random_(random), json_(as_json) {}
 
  protected:
   Node boolean(bool value) {
@@ -209,8 +209,8 @@ class Writer {
 
 class CatalogWriter : public Writer {
  public:
-  CatalogWriter(const Catalog& catalog, Random& random, bool json)
-      : Writer(random, json),
+  CatalogWriter(const Catalog& catalog, Random& random, bool as_json)
+      : Writer(random, as_json),
         catalog_(catalog),
         chance_of_old_names_(random.percent(40)   ? 60
                              : random.percent(30) ? 10
@@ -548,8 +548,8 @@ class CatalogWriter : public Writer {
 
 class ScriptWriter : public Writer {
  public:
-  ScriptWriter(const Catalog& catalog, const Script& script, Random& random, bool json)
-      : Writer(random, json), catalog_(catalog), script_(script) {}
+  ScriptWriter(const Catalog& catalog, const Script& script, Random& random, bool as_json)
+      : Writer(random, as_json), catalog_(catalog), script_(script) {}
 
   Node write() {
     Node events = sequence();
@@ -665,15 +665,15 @@ class ScriptWriter : public Writer {
 }  // namespace
 
 std::string catalog_yaml(const Catalog& catalog, Random& random) {
-  const bool json = random.percent(5);
-  const Node root = CatalogWriter(catalog, random, json).write();
-  return Printer(random, json).print(root);
+  const bool as_json = random.percent(5);
+  const Node root = CatalogWriter(catalog, random, as_json).write();
+  return Printer(random, as_json).print(root);
 }
 
 std::string script_yaml(const Catalog& catalog, const Script& script, Random& random) {
-  const bool json = random.percent(10);
-  const Node root = ScriptWriter(catalog, script, random, json).write();
-  return Printer(random, json).print(root);
+  const bool as_json = random.percent(10);
+  const Node root = ScriptWriter(catalog, script, random, as_json).write();
+  return Printer(random, as_json).print(root);
 }
 
 }  // namespace cbc::oracle

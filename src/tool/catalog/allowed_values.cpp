@@ -27,7 +27,7 @@ struct TypeWord {
   std::string_view name;
   Item item;
 };
-constexpr TypeWord words[] = {
+constexpr TypeWord type_words[] = {
     {"string", Item::string},   {"text", Item::string},   {"str", Item::string},
     {"boolean", Item::boolean}, {"bool", Item::boolean},  {"integer", Item::integer},
     {"int", Item::integer},     {"number", Item::number}, {"float", Item::number},
@@ -76,9 +76,9 @@ std::optional<Type> type_of(std::string_view name) {
     text.erase(text.size() - suffix.size());
   }
   const auto* const found =
-      std::find_if(std::begin(words), std::end(words),
+      std::find_if(std::begin(type_words), std::end(type_words),
                    [&text](const TypeWord& word) { return word.name == text; });
-  if (found == std::end(words)) return std::nullopt;
+  if (found == std::end(type_words)) return std::nullopt;
   type.item = found->item;
   return type;
 }

@@ -95,7 +95,7 @@ using Vertex = std::uint32_t;
 
 // Steps that the search for the shortest cycles may take; enough for every catalog that people
 // write.
-constexpr std::size_t most_work = 10'000'000;
+constexpr std::size_t most_cycle_work = 10'000'000;
 
 // The vertices are the tasks, then the behaviors. Edges lead from a task to the behaviors that
 // perform it, and from a behavior to the tasks it requires, so there are no more edges than lines
@@ -150,7 +150,7 @@ class RequirementGraph {
   Cycle shortest_cycle(const std::vector<Vertex>& members) {
     std::vector<Vertex> best;
     for (const Vertex start : members) {
-      if (!best.empty() && work_ > most_work) break;
+      if (!best.empty() && work_ > most_cycle_work) break;
       const std::size_t bound = best.empty() ? component_.size() + 1 : best.size();
       if (auto found = shortest_cycle_through(start, bound)) best = std::move(*found);
       if (best.size() == 2) break;

@@ -7,7 +7,7 @@
 namespace cbc {
 namespace {
 
-constexpr std::uint32_t never = UINT32_MAX;
+constexpr std::uint32_t never_reached = UINT32_MAX;
 constexpr std::uint64_t first_weight = std::uint64_t{1} << 32U;
 /// Of the search for a path that meets most: the partial paths that are kept of each length.
 constexpr std::size_t beam_width = 48;
@@ -76,12 +76,12 @@ std::uint32_t MissionPlanner::end_of(std::uint32_t part) const {
 
 /// States are numbered breadth first, so the first edge to a state is of a shortest path.
 void MissionPlanner::find_depths() {
-  depths_.assign(graph_.state_count(), never);
+  depths_.assign(graph_.state_count(), never_reached);
   entrance_.assign(graph_.state_count(), none);
   for (const GoalGraph::Part& part : graph_.parts) depths_[part.first_state] = 0;
   for (std::uint32_t edge = 0; edge < graph_.edges.size(); ++edge) {
     const std::uint32_t to = graph_.edges[edge].to;
-    if (depths_[to] != never) continue;
+    if (depths_[to] != never_reached) continue;
     depths_[to] = depths_[source_[edge]] + 1;
     entrance_[to] = edge;
   }
@@ -90,7 +90,7 @@ void MissionPlanner::find_depths() {
 /// Each goal counts in the group where it is nearest.
 void MissionPlanner::find_limits(std::uint32_t events) {
   limits_.assign(graph_.parts.size(), events);
-  std::vector<std::uint32_t> least(graph_.goal_count, never);
+  std::vector<std::uint32_t> least(graph_.goal_count, never_reached);
   std::vector<std::uint32_t> nearest(graph_.goal_count, 0);
   for (std::uint32_t part = 0; part < graph_.parts.size(); ++part) {
     const auto note = [&](std::uint32_t goal, std::uint32_t length) {
@@ -121,7 +121,7 @@ void MissionPlanner::find_limits(std::uint32_t events) {
     }
   }
   for (std::size_t goal = 0; goal < graph_.goal_count; ++goal) {
-    if (least[goal] == never) continue;
+    if (least[goal] == never_reached) continue;
     limits_[nearest[goal]] = std::max(limits_[nearest[goal]], least[goal]);
   }
   for (const std::uint32_t limit : limits_) longest_ = std::max(longest_, limit);

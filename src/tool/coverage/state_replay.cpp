@@ -9,7 +9,7 @@ namespace cbc {
 namespace {
 
 /// The present instant. What is in the queue comes due in the microseconds after it, set by set.
-constexpr Microseconds present = second;
+constexpr Microseconds present_instant = second;
 
 CoordinatorOptions without_times() {
   CoordinatorOptions options;
@@ -28,7 +28,7 @@ void StateReplay::load(const Stepper& stepper) {
   const CompiledCatalog& catalog = model_.catalog();
   const std::uint16_t* const cells = stepper.cells();
   state_ = {};
-  state_.now = present;
+  state_.now = present_instant;
   state_.reactive_delay = CoordinatorOptions{}.reactive_delay;
   state_.timeouts = false;
   state_.events = layout.request_count;
@@ -59,7 +59,7 @@ void StateReplay::load(const Stepper& stepper) {
   for (std::uint32_t reactive = 0; reactive < layout.reactive_count; ++reactive) {
     const TaskId task = model_.tasks()[model_.reactive()[reactive]].id;
     const std::uint16_t set = cells[layout.queue + reactive];
-    if (set != 0) state_.queue.emplace_back(task, present + set);
+    if (set != 0) state_.queue.emplace_back(task, present_instant + set);
     if (cells[layout.waiting + reactive] != 0) state_.waiting.push_back(task);
   }
   coordinator_.resume(state_);
@@ -72,7 +72,7 @@ void StateReplay::take(const Move& move) {
   started_.clear();
   if (move.kind == Move::Kind::due) {
     // Before the second set.
-    static_cast<void>(coordinator_.advance_to(present + 2));
+    static_cast<void>(coordinator_.advance_to(present_instant + 2));
   } else {
     const Step step = step_of(move);
     static_cast<void>(coordinator_.handle(event_of(step)));
@@ -87,7 +87,7 @@ void StateReplay::take(const Move& move) {
 /// What was there before has been there since the beginning.
 bool StateReplay::goes_on(TaskId task) const {
   const State& state = coordinator_.state();
-  return std::max(state.taken_at(task), state.activated_at(state.behavior(task))) < present;
+  return std::max(state.taken_at(task), state.activated_at(state.behavior(task))) < present_instant;
 }
 
 void StateReplay::on_decision(const EventRecord& record, const Circumstances& circumstances,

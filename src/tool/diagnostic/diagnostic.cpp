@@ -163,7 +163,7 @@ PositionMap::Excerpt PositionMap::excerpt(const Position& place, std::size_t rad
 namespace {
 
 constexpr std::string_view replacement_character = "\xEF\xBF\xBD";
-constexpr std::string_view indentation = "  ";
+constexpr std::string_view excerpt_indentation = "  ";
 constexpr std::string_view ellipsis = "...";
 
 // Characters of a line that are shown, and how many of them come before the place.
@@ -214,8 +214,8 @@ std::string render_line(const Range& range, const PositionMap::Excerpt& line, co
     last = first + longest_line;
   }
 
-  std::string source(indentation);
-  std::string blank(indentation);
+  std::string source(excerpt_indentation);
+  std::string blank(excerpt_indentation);
   std::size_t tail = 0;
   if (first > 0 || line.characters_before > 0) {
     source += ellipsis;

@@ -352,10 +352,9 @@ void check_never_together_names(const std::vector<NeverTogether>& lists,
 
 namespace {
 
-constexpr std::string_view mark = "cbc:";
-constexpr std::string_view verb = "allow";
+constexpr std::string_view comment_mark = "cbc:";
+constexpr std::string_view allow_verb = "allow";
 constexpr std::string_view reason_mark = "--";
-constexpr std::string_view blanks = " \t";
 
 /// Lines, counted from 1, the last one included.
 struct Lines {
@@ -423,7 +422,7 @@ class CommentReader {
 
   std::vector<Allow> read(const yaml::Document* document) {
     // Most files have no such comment, and need no closer look.
-    if (text_.find(mark) == std::string_view::npos) return {};
+    if (text_.find(comment_mark) == std::string_view::npos) return {};
     const std::vector<yaml::SourceLine> lines = yaml::split_lines(text_, document);
     const Scopes scopes(lines);
     for (std::size_t number = 1; number <= lines.size(); ++number) {
@@ -438,11 +437,11 @@ class CommentReader {
     next_ = begin + 1;
     end_ = end;
     skip_blanks();
-    if (!rest().starts_with(mark)) return;
-    next_ += mark.size();
+    if (!rest().starts_with(comment_mark)) return;
+    next_ += comment_mark.size();
     skip_blanks();
     const std::string_view word = next_word();
-    if (word != verb) {
+    if (word != allow_verb) {
       report_other_word(word, begin);
     } else if (!read_rules(lines)) {
       report(range_of(text_.substr(begin, end - begin)),
@@ -481,7 +480,7 @@ class CommentReader {
              "the comment is empty: expected 'cbc: allow RULE'");
       return;
     }
-    const std::string_view known[] = {verb};
+    const std::string_view known[] = {allow_verb};
     std::string message = "expected 'allow' after 'cbc:', found " + quote(word);
     if (nearest(word, known)) message += "; did you mean 'allow'?";
     report(range_of(word), std::move(message));
@@ -491,7 +490,7 @@ class CommentReader {
     reporter_.report(rule::unknown_rule, range, std::move(message));
   }
 
-  static bool is_blank(char byte) { return blanks.find(byte) != std::string_view::npos; }
+  static bool is_blank(char byte) { return byte == ' ' || byte == '\t'; }
 
   [[nodiscard]] std::string_view rest() const { return text_.substr(next_, end_ - next_); }
 

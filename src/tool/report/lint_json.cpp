@@ -190,7 +190,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view schema =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
-constexpr std::string_view root = "%SRCROOT%";
+constexpr std::string_view sources_root = "%SRCROOT%";
 constexpr std::string_view standard_input = "<stdin>";
 
 /// "dead-behavior" as "DeadBehavior".
@@ -288,7 +288,7 @@ class SarifRun {
   void write_location(std::string_view name, const FileUri& place) {
     json_.open(name, '{');
     json_.write("uri", place.uri);
-    if (place.is_relative) json_.write("uriBaseId", root);
+    if (place.is_relative) json_.write("uriBaseId", sources_root);
     if (place.is_standard_input) json_.write_object("description", {{"text", "standard input"}});
     json_.close('}');
   }

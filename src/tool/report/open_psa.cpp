@@ -12,6 +12,7 @@
 namespace cbc {
 namespace {
 
+using TreeNode = FaultTree::Node;
 constexpr bool is_plain(char byte) {
   return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') ||
          (byte >= '0' && byte <= '9') || byte == '_';
@@ -74,16 +75,16 @@ class OpenPsaWriter {
     const bool is_alone = gate.inputs.size() == 1;
     const std::string_view formula = gate.needs_all ? "and" : "or";
     if (!is_alone) add("<{}>\n", formula);
-    for (const FaultTree::Node& input : gate.inputs) {
-      add("<{} name=\"{}\"/>\n",
-          input.kind == FaultTree::Node::Kind::fault ? "basic-event" : "gate", name_of(input));
+    for (const TreeNode& input : gate.inputs) {
+      add("<{} name=\"{}\"/>\n", input.kind == TreeNode::Kind::fault ? "basic-event" : "gate",
+          name_of(input));
     }
     if (!is_alone) add("</{}>\n", formula);
     add("</define-gate>\n");
   }
 
   void add_impossible() {
-    const FaultTree::Node top{FaultTree::Node::Kind::task, tree_.task};
+    const TreeNode top{TreeNode::Kind::task, tree_.task};
     add("<define-gate name=\"{}\">\n<label>{}</label>\n<house-event name=\"always\"/>\n"
         "</define-gate>\n<define-house-event name=\"always\">\n<constant value=\"true\"/>\n"
         "</define-house-event>\n",
@@ -91,21 +92,21 @@ class OpenPsaWriter {
   }
 
   void add_event(BehaviorId behavior) {
-    const FaultTree::Node fault{FaultTree::Node::Kind::fault, behavior};
+    const TreeNode fault{TreeNode::Kind::fault, behavior};
     add("<define-basic-event name=\"{}\">\n<label>{}</label>\n</define-basic-event>\n",
         name_of(fault), label_of(fault));
   }
 
-  [[nodiscard]] std::string name_of(const FaultTree::Node& node) const {
+  [[nodiscard]] std::string name_of(const TreeNode& node) const {
     switch (node.kind) {
-      case FaultTree::Node::Kind::fault:
+      case TreeNode::Kind::fault:
         return "fault-" + behavior_identifier(node.number);
-      case FaultTree::Node::Kind::behavior:
+      case TreeNode::Kind::behavior:
         return "behavior-" + behavior_identifier(node.number);
-      case FaultTree::Node::Kind::task:
+      case TreeNode::Kind::task:
         return "task-" + identifier(catalog_.name_of_task(node.number),
                                     catalog_.tasks[node.number].catalog_index);
-      case FaultTree::Node::Kind::way:
+      case TreeNode::Kind::way:
         break;
     }
     return fmt::format("way-{}", node.number + 1);
@@ -116,15 +117,15 @@ class OpenPsaWriter {
                       catalog_.behaviors[behavior].catalog_index);
   }
 
-  [[nodiscard]] std::string label_of(const FaultTree::Node& node) const {
+  [[nodiscard]] std::string label_of(const TreeNode& node) const {
     switch (node.kind) {
-      case FaultTree::Node::Kind::fault:
+      case TreeNode::Kind::fault:
         return xml_text(catalog_.name_of_behavior(node.number)) + " is faulty";
-      case FaultTree::Node::Kind::behavior:
+      case TreeNode::Kind::behavior:
         return xml_text(catalog_.name_of_behavior(node.number)) + " is lost";
-      case FaultTree::Node::Kind::task:
+      case TreeNode::Kind::task:
         return xml_text(catalog_.name_of_task(node.number)) + " is lost";
-      case FaultTree::Node::Kind::way:
+      case TreeNode::Kind::way:
         break;
     }
     return fmt::format("way {} is lost", node.number + 1);

@@ -126,7 +126,7 @@ std::vector<std::string> describe_gaps(const CompiledCatalog& catalog,
 
 constexpr std::string_view gaps_title = "tasks without a behavior that fits";
 
-constexpr std::string_view gap = "  ";
+constexpr std::string_view column_gap = "  ";
 
 /// The rows and columns as text, in as many parts as it takes for the columns to fit. A part has
 /// the rows of the behaviors that name one of its variables.
@@ -139,7 +139,7 @@ class TextTable {
     }
     names_ = shorten(std::move(names_));
     for (const std::string& name : names_) left_ = std::max(left_, width_of(name));
-    left_ += gap.size();
+    left_ += column_gap.size();
     for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
       variables_.push_back(draw::label_of(catalog.name_of_variable(variable)));
       std::vector<std::string>& titles = titles_.emplace_back();
@@ -156,23 +156,24 @@ class TextTable {
     for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
       const std::vector<VariableValue> values = table_.values_of(variable);
       std::size_t together = 0;
-      for (const VariableValue value : values) together += gap.size() + width_of(title_of(value));
-      together = std::max(together, gap.size() + width_of(name_of(variable)));
+      for (const VariableValue value : values)
+        together += column_gap.size() + width_of(title_of(value));
+      together = std::max(together, column_gap.size() + width_of(name_of(variable)));
       // A variable stays in one part if it can.
       if (width + together > text_width) flush(width);
       for (const VariableValue value : values) {
         std::size_t column = width_of(title_of(value));
-        if (width + gap.size() + column > text_width) flush(width);
+        if (width + column_gap.size() + column > text_width) flush(width);
         // The name of the variable stands above its first value.
         if (values_.empty() || values_.back().variable != variable) {
-          name_end_ = width + gap.size() + width_of(name_of(variable));
+          name_end_ = width + column_gap.size() + width_of(name_of(variable));
         }
-        if (value == values.back() && width + gap.size() + column < name_end_) {
-          column = name_end_ - width - gap.size();
+        if (value == values.back() && width + column_gap.size() + column < name_end_) {
+          column = name_end_ - width - column_gap.size();
         }
         values_.push_back(value);
         widths_.push_back(column);
-        width += gap.size() + column;
+        width += column_gap.size() + column;
       }
     }
     flush(width);
@@ -211,7 +212,7 @@ class TextTable {
     std::size_t end = left_;
     for (std::size_t column = 0; column < values_.size(); ++column) {
       const VariableValue value = values_[column];
-      end += gap.size();
+      end += column_gap.size();
       pad(titles, end);
       titles += title_of(value);
       if (column == 0 || values_[column - 1].variable != value.variable) {
@@ -237,7 +238,7 @@ class TextTable {
     std::size_t blanks = 0;
     for (std::size_t column = 0; column < values_.size(); ++column) {
       const Fit fit = table_.fit(table_.behaviors()[row], values_[column]);
-      line.append(blanks + gap.size(), ' ');
+      line.append(blanks + column_gap.size(), ' ');
       line += style_.paint(color_of(fit), std::string(1, sign_of(fit)));
       blanks = widths_[column] - 1;
     }

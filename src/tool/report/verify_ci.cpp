@@ -14,7 +14,7 @@
 namespace cbc {
 namespace {
 
-constexpr std::string_view command = "cbc verify";
+constexpr std::string_view verify_command = "cbc verify";
 
 std::string file_of(const VerifyPart& part) { return part.file->path; }
 
@@ -59,7 +59,7 @@ std::string test_case(const VerifyResult& result, const VerifyPart& part,
 }  // namespace
 
 std::string verify_to_junit(const VerifyResult& result) {
-  std::string text = open_junit(command);
+  std::string text = open_junit(verify_command);
   for (const VerifyPart& part : result.parts) {
     text += open_suite(file_of(part), part.answers.size(), count(part, Verdict::Result::violated),
                        count(part, Verdict::Result::undecided), 0);
@@ -100,7 +100,7 @@ std::span<const VerifyFormat> verify_formats() {
       {"json", [](Result result, const Style& /*style*/) { return verify_to_json(result); }},
       {"junit", [](Result result, const Style& /*style*/) { return verify_to_junit(result); }, true,
        [](const std::vector<Diagnostic>& findings) {
-         return junit_of_unreadable(command, findings);
+         return junit_of_unreadable(verify_command, findings);
        }},
       {"github", [](Result result, const Style& /*style*/) { return verify_to_github(result); },
        true,

@@ -9,6 +9,7 @@
 namespace cbc {
 namespace {
 
+using TreeNode = FaultTree::Node;
 /// The tasks below a task, itself included, with the values that can be part of an assignment as
 /// far as requirements alone tell.
 class Cone {
@@ -244,7 +245,7 @@ class WaySearch {
   }
 
   /// The inputs of each way; false if they are too many.
-  [[nodiscard]] bool find(std::vector<std::vector<FaultTree::Node>>& ways) {
+  [[nodiscard]] bool find(std::vector<std::vector<TreeNode>>& ways) {
     need(tasks_.front());
     stack_.push_back({});
     while (!stack_.empty()) {
@@ -332,15 +333,13 @@ class WaySearch {
     return ExactProduct::compare(performance, limit) >= 0;
   }
 
-  [[nodiscard]] std::vector<FaultTree::Node> inputs() const {
-    std::vector<FaultTree::Node> found;
+  [[nodiscard]] std::vector<TreeNode> inputs() const {
+    std::vector<TreeNode> found;
     for (const Choice& choice : stack_) {
       const BehaviorId behavior = chosen_[tasks_[choice.place]]->behavior;
-      found.push_back({FaultTree::Node::Kind::fault, behavior});
+      found.push_back({TreeNode::Kind::fault, behavior});
       for (const CompiledRequirement& rule : catalog_.requirements[behavior]) {
-        if (chosen_[rule.task] == nullptr) {
-          found.push_back({FaultTree::Node::Kind::task, rule.task});
-        }
+        if (chosen_[rule.task] == nullptr) found.push_back({TreeNode::Kind::task, rule.task});
       }
     }
     std::sort(found.begin(), found.end());
@@ -393,8 +392,8 @@ class PlainGates {
   void add() {
     if (tree_.gates.empty()) is_input_[tree_.task] = true;
     for (const FaultTree::Gate& gate : tree_.gates) {
-      for (const FaultTree::Node& input : gate.inputs) {
-        if (input.kind == FaultTree::Node::Kind::task) is_input_[input.number] = true;
+      for (const TreeNode& input : gate.inputs) {
+        if (input.kind == TreeNode::Kind::task) is_input_[input.number] = true;
       }
     }
     for (const TaskId task : cone_.tasks()) {
@@ -404,30 +403,27 @@ class PlainGates {
 
  private:
   void add_task(TaskId task) {
-    FaultTree::Gate gate{{FaultTree::Node::Kind::task, task}, true, {}};
+    FaultTree::Gate gate{{TreeNode::Kind::task, task}, true, {}};
     for (const Value* value : cone_.values(task)) {
       const bool is_leaf = catalog_.requirements[value->behavior].empty();
       gate.inputs.push_back(
-          {is_leaf ? FaultTree::Node::Kind::fault : FaultTree::Node::Kind::behavior,
-           value->behavior});
+          {is_leaf ? TreeNode::Kind::fault : TreeNode::Kind::behavior, value->behavior});
     }
-    std::sort(
-        gate.inputs.begin(), gate.inputs.end(),
-        [](const FaultTree::Node& a, const FaultTree::Node& b) { return a.number < b.number; });
+    std::sort(gate.inputs.begin(), gate.inputs.end(),
+              [](const TreeNode& a, const TreeNode& b) { return a.number < b.number; });
     tree_.gates.push_back(gate);
-    for (const FaultTree::Node& input : gate.inputs) {
-      if (input.kind == FaultTree::Node::Kind::behavior) add_behavior(input.number);
+    for (const TreeNode& input : gate.inputs) {
+      if (input.kind == TreeNode::Kind::behavior) add_behavior(input.number);
     }
   }
 
   void add_behavior(BehaviorId behavior) {
     if (has_gate_[behavior]) return;
     has_gate_[behavior] = true;
-    FaultTree::Gate gate{{FaultTree::Node::Kind::behavior, behavior},
-                         false,
-                         {{FaultTree::Node::Kind::fault, behavior}}};
+    FaultTree::Gate gate{
+        {TreeNode::Kind::behavior, behavior}, false, {{TreeNode::Kind::fault, behavior}}};
     for (const CompiledRequirement& rule : catalog_.requirements[behavior]) {
-      gate.inputs.push_back({FaultTree::Node::Kind::task, rule.task});
+      gate.inputs.push_back({TreeNode::Kind::task, rule.task});
       is_input_[rule.task] = true;
     }
     tree_.gates.push_back(std::move(gate));
@@ -442,8 +438,8 @@ class PlainGates {
 
 void collect_faults(FaultTree& tree) {
   for (const FaultTree::Gate& gate : tree.gates) {
-    for (const FaultTree::Node& input : gate.inputs) {
-      if (input.kind == FaultTree::Node::Kind::fault) tree.faults.push_back(input.number);
+    for (const TreeNode& input : gate.inputs) {
+      if (input.kind == TreeNode::Kind::fault) tree.faults.push_back(input.number);
     }
   }
   std::sort(tree.faults.begin(), tree.faults.end());
@@ -462,7 +458,7 @@ std::variant<FaultTree, std::string> make_fault_tree(const CompiledCatalog& cata
   const Minimums minimums(catalog, cone);
   const std::vector<bool> tangled = find_tangled(catalog, cone, minimums);
   if (tangled[task]) {
-    std::vector<std::vector<FaultTree::Node>> ways;
+    std::vector<std::vector<TreeNode>> ways;
     if (!WaySearch(catalog, cone, tangled, minimums, limits).find(ways)) {
       return concat("exclusivity and minimum performances leave too many ways to run task ",
                     quote(catalog.name_of_task(task)), " for a fault tree");
@@ -470,12 +466,12 @@ std::variant<FaultTree, std::string> make_fault_tree(const CompiledCatalog& cata
     if (ways.empty()) return tree;
     tree.ways = ways.size();
     FaultTree::Gate& top =
-        tree.gates.emplace_back(FaultTree::Gate{{FaultTree::Node::Kind::task, task}, true, {}});
+        tree.gates.emplace_back(FaultTree::Gate{{TreeNode::Kind::task, task}, true, {}});
     for (std::uint32_t way = 0; way < ways.size(); ++way) {
-      top.inputs.push_back({FaultTree::Node::Kind::way, way});
+      top.inputs.push_back({TreeNode::Kind::way, way});
     }
     for (std::uint32_t way = 0; way < ways.size(); ++way) {
-      tree.gates.push_back({{FaultTree::Node::Kind::way, way}, false, std::move(ways[way])});
+      tree.gates.push_back({{TreeNode::Kind::way, way}, false, std::move(ways[way])});
     }
   }
   PlainGates(catalog, cone, tree).add();
