@@ -18,8 +18,8 @@
 namespace cbc::bench {
 namespace {
 
-constexpr const char* source = CBC_SOURCE_DIR "/catalogs/quadrotor.yaml";
-constexpr const char* mission = CBC_SOURCE_DIR "/catalogs/quadrotor.mission.yaml";
+constexpr const char* catalog_path = CBC_SOURCE_DIR "/catalogs/quadrotor.yaml";
+constexpr const char* mission_path = CBC_SOURCE_DIR "/catalogs/quadrotor.mission.yaml";
 
 /// Starts a program of which the output goes nowhere.
 class QuietProgram {
@@ -56,11 +56,11 @@ class QuietProgram {
 /// Whole processes, one after the other on the YAML and on the compiled catalog.
 void time_processes(benchmark::State& state, const TemporaryFile& compiled) {
   const QuietProgram program;
-  const std::array<std::string, 2> catalogs{source, compiled.path()};
+  const std::array<std::string, 2> catalogs{catalog_path, compiled.path()};
   std::array<std::vector<double>, 2> times;
   // The first runs read the program from the disk.
   for (const std::string& catalog : catalogs) {
-    const int status = program.run({CBC_PROGRAM_PATH, "solve", catalog, mission});
+    const int status = program.run({CBC_PROGRAM_PATH, "solve", catalog, mission_path});
     if (status == 0) continue;
     const std::string message = "cbc solve fails on " + catalog;
     state.SkipWithError(message.c_str());
@@ -69,7 +69,7 @@ void time_processes(benchmark::State& state, const TemporaryFile& compiled) {
   while (state.KeepRunning()) {
     for (std::size_t form = 0; form < catalogs.size(); ++form) {
       const auto begin = std::chrono::steady_clock::now();
-      program.run({CBC_PROGRAM_PATH, "solve", catalogs[form], mission});
+      program.run({CBC_PROGRAM_PATH, "solve", catalogs[form], mission_path});
       const auto end = std::chrono::steady_clock::now();
       times[form].push_back(std::chrono::duration<double>(end - begin).count());
     }
@@ -98,7 +98,7 @@ void time_loading(benchmark::State& state, const std::string& path) {
 
 void register_compiled_benchmarks() {
   const auto compiled = std::make_shared<const TemporaryFile>(
-      compile_to_bytes(test::read_file(source), source).bytes);
+      compile_to_bytes(test::read_file(catalog_path), catalog_path).bytes);
   benchmark::RegisterBenchmark("compiled/quadrotor/load", [compiled](benchmark::State& state) {
     time_loading(state, compiled->path());
   })->UseManualTime();

@@ -21,14 +21,14 @@
 namespace cbc::bench {
 namespace {
 
-constexpr const char* catalog = CBC_SOURCE_DIR "/catalogs/quadrotor.yaml";
-constexpr int events = 200'000;
+constexpr const char* quadrotor = CBC_SOURCE_DIR "/catalogs/quadrotor.yaml";
+constexpr int stream_events = 200'000;
 
 /// Starts of motions, and stops, most of which are accepted and change something.
 std::string make_events() {
   constexpr std::array motions{"TAKE_OFF", "HOVER", "ROTATE", "FOLLOW_PATH", "HOVER", "LAND"};
   std::string text;
-  for (int event = 0; event < events; ++event) {
+  for (int event = 0; event < stream_events; ++event) {
     const std::string motion = motions[static_cast<std::size_t>(event) % motions.size()];
     if (event % 16 == 0) {
       text += R"({"stop":"TAKE_OFF","wait":0.5})";
@@ -47,7 +47,7 @@ std::string make_mixed_events() {
   std::mt19937_64 random(1);
   const auto below = [&random](std::uint64_t bound) { return random() % bound; };
   std::string text;
-  for (int event = 0; event < events; ++event) {
+  for (int event = 0; event < stream_events; ++event) {
     const std::string motion = motions[below(motions.size())];
     const std::uint64_t kind = below(20);
     if (kind < 11) {
@@ -70,7 +70,8 @@ rusage run_stream(const std::string& input, const std::string& output) {
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, input.c_str(), O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_TRUNC, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  std::vector<std::string> arguments{CBC_PROGRAM_PATH, "solve", catalog, "-", "--format", "jsonl"};
+  std::vector<std::string> arguments{CBC_PROGRAM_PATH, "solve", quadrotor, "-",
+                                     "--format",       "jsonl"};
   std::vector<char*> pointers;
   pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
@@ -99,7 +100,7 @@ double find_share(const std::string& log) {
        place = log.find(change, place + 1)) {
     ++count;
   }
-  return static_cast<double>(count) / events;
+  return static_cast<double>(count) / stream_events;
 }
 
 /// Time is that of the processor, as other programs are on the machine.
@@ -114,7 +115,7 @@ void time_stream(benchmark::State& state, const TemporaryFile& input) {
   }
   const double time = median(std::move(times));
   state.SetIterationTime(time * static_cast<double>(state.iterations()));
-  state.counters["events_per_s"] = events / time;
+  state.counters["events_per_s"] = stream_events / time;
 }
 
 }  // namespace
