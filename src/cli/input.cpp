@@ -536,9 +536,8 @@ std::optional<NamedCatalog> catalog_named_by(const std::string& path,
   std::string found = (folder / named->text).lexically_normal().string();
   // In a file this is a name as any other: standard input is only what the command line names.
   if (found == "-") found = "./-";
-  const Position& begin = named->range.begin;
-  return NamedCatalog{std::move(found), fmt::format("{}:{}:{}", printable(document.file()),
-                                                    begin.line, begin.column)};
+  return NamedCatalog{std::move(found),
+                      format_place(printable(document.file()), named->range.begin)};
 }
 
 namespace {

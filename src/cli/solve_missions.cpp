@@ -19,6 +19,7 @@
 #include "cli/output.h"
 #include "cli/read_files.h"
 #include "cli/solve.h"
+#include "diagnostic/diagnostic.h"
 #include "report/solve_report.h"
 #include "script/reader.h"
 #include "script/runner.h"
@@ -272,8 +273,8 @@ void complain_of_run(const Mission& mission, const RunResult& result, const std:
 /// Coverage alone is reported, but failures should not go unnoticed.
 void complain_of_failures(const Mission& mission, const RunResult& result) {
   for (const FailedExpectation& failure : result.failures) {
-    fmt::print(stderr, "{}:{}:{}: {}\n", printable(mission.script.file), failure.range.begin.line,
-               failure.range.begin.column, failure.message);
+    fmt::print(stderr, "{}: {}\n",
+               format_place(printable(mission.script.file), failure.range.begin), failure.message);
   }
 }
 

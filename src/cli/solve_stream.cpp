@@ -285,7 +285,7 @@ int solve_mission(const SolveOptions& options) {
   const auto missions = MissionLoader().load(options.paths);
   if (!missions) return exit_unusable;
   if (missions->size() != 1) {
-    return complain("--format jsonl runs one script at a time");
+    return complain("--format jsonl runs one script at a time, found {}", missions->size());
   }
   return run_script_of(missions->front().script, *missions->front().catalog, options, {});
 }
@@ -326,6 +326,10 @@ int solve_stream(const SolveOptions& options) {
   if (paths.size() == 1) {
     if (!is_stream) return solve_mission(options);
     return complain("a stream of events needs a catalog: cbc solve CATALOG - --format jsonl");
+  }
+  if (is_folder(paths.back())) {
+    return complain("--format jsonl runs one script at a time, and {} is a folder",
+                    quote(display_name(paths.back())));
   }
   const auto catalog = load_catalog(paths.front());
   std::optional<Snapshot> state;

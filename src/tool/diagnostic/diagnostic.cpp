@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "base/text.h"
 #include "diagnostic/rules.h"
 
@@ -16,6 +18,10 @@ namespace cbc {
 std::string_view name_of(Severity severity) {
   constexpr std::string_view names[] = {"note", "warning", "error"};
   return names[static_cast<std::size_t>(severity)];
+}
+
+std::string format_place(std::string_view file, const Position& place) {
+  return fmt::format("{}:{}:{}", file, place.line, place.column);
 }
 
 void Diagnostics::add(Diagnostic diagnostic) { all_.push_back(std::move(diagnostic)); }

@@ -38,6 +38,10 @@ struct Range {
   auto operator<=>(const Range&) const = default;
 };
 
+/// "file:line:column", as compilers write places and editors read them. The file's name is written
+/// as it is given.
+[[nodiscard]] std::string format_place(std::string_view file, const Position& place);
+
 /// Another place that a finding is about ("first defined here").
 struct Note {
   std::string file;

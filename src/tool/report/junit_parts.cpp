@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "diagnostic/diagnostic.h"
 #include "report/solve_report.h"
 
 namespace cbc {
@@ -80,8 +81,7 @@ std::string broken_case(const std::string& name, const std::string& file,
 namespace {
 
 std::string describe_finding(const Diagnostic& finding) {
-  return fmt::format("{}:{}:{}: {}", finding.file, finding.range.begin.line,
-                     finding.range.begin.column, finding.message);
+  return fmt::format("{}: {}", format_place(finding.file, finding.range.begin), finding.message);
 }
 
 std::string unreadable_suite(const std::string& file, const std::string& message,

@@ -12,6 +12,7 @@
 
 #include "base/text.h"
 #include "cbc/version.h"
+#include "diagnostic/diagnostic.h"
 #include "diagnostic/rules.h"
 #include "report/catalog_report.h"
 #include "report/lint_report.h"
@@ -68,8 +69,7 @@ std::string_view command_of(Severity severity) {
 std::string message_of(const Diagnostic& finding) {
   std::string message = finding.message;
   for (const Note& note : finding.notes) {
-    message += fmt::format("\n{}:{}:{}: {}", note.file, note.range.begin.line,
-                           note.range.begin.column, note.message);
+    message += fmt::format("\n{}: {}", format_place(note.file, note.range.begin), note.message);
   }
   return message;
 }

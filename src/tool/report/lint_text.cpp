@@ -93,8 +93,8 @@ namespace {
 
 std::string describe(const std::string& file, const Position& place, Severity severity,
                      const std::string& message) {
-  return fmt::format("{}:{}:{}: {}: {}", printable(file), place.line, place.column,
-                     name_of(severity), printable(message));
+  return fmt::format("{}: {}: {}", format_place(printable(file), place), name_of(severity),
+                     printable(message));
 }
 
 }  // namespace

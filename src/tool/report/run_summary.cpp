@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "diagnostic/diagnostic.h"
 #include "report/sentences.h"
 #include "report/table_parts.h"
 
@@ -17,10 +18,6 @@ namespace {
 /// Longer lists would hide what comes before them.
 constexpr std::size_t most_places = 20;
 constexpr std::size_t place_indent = 8;
-
-std::string describe_place(const std::string& file, const Range& range) {
-  return fmt::format("{}:{}:{}", file, range.begin.line, range.begin.column);
-}
 
 std::string row(std::string_view what, std::uint64_t count) {
   return fmt::format("  {:<19} {:>7}", what, count);
@@ -34,8 +31,9 @@ void add_rest(std::size_t total, std::vector<SummaryLine>& lines) {
 void add_failures(const std::string& file, std::span<const FailedExpectation> failures,
                   std::vector<SummaryLine>& lines) {
   for (const FailedExpectation& failed : failures.first(std::min(failures.size(), most_places))) {
-    lines.push_back({fmt::format("    {}: {}", describe_place(file, failed.range), failed.message),
-                     place_indent, true});
+    lines.push_back(
+        {fmt::format("    {}: {}", format_place(file, failed.range.begin), failed.message),
+         place_indent, true});
   }
   add_rest(failures.size(), lines);
 }
@@ -54,7 +52,7 @@ void RunSummary::add(const EventRecord& record, const Step* step) {
   if (record.origin == Origin::timeout) note_timeout(record);
   if (record.origin == Origin::script && record.verb != Verb::wait) end_timeouts();
   if (record.outcome != Outcome::rejected || rejected_.size() == most_places) return;
-  const std::string place = step == nullptr ? file_ : describe_place(file_, step->range);
+  const std::string place = step == nullptr ? file_ : format_place(file_, step->range.begin);
   rejected_.push_back(fmt::format("    {}: at {} s, {}", place, format_time(record.time),
                                   describe_event(*catalog_, record, nullptr)));
 }

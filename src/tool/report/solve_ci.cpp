@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnostic/diagnostic.h"
 #include "report/junit_parts.h"
 #include "report/lint_report.h"
 #include "report/sentences.h"
@@ -31,8 +32,8 @@ void JunitReport::on_event(const EventRecord& record, const Step* step, const St
 
 void JunitReport::on_failure(const Failure& failure) {
   std::string details =
-      fmt::format("{}:{}:{}: {}\n", xml_text(script_->file), failure.range.begin.line,
-                  failure.range.begin.column, xml_text(failure.message));
+      fmt::format("{}: {}\n", format_place(xml_text(script_->file), failure.range.begin),
+                  xml_text(failure.message));
   for (const std::string& line : story_.tell(failure)) details += xml_text(line) + "\n";
   failed_.push_back({failure.step, failure.message, std::move(details)});
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
+#include "diagnostic/diagnostic.h"
 #include "report/answer_bound.h"
 #include "report/sentences.h"
 #include "report/solve_report.h"
@@ -358,8 +359,8 @@ void TextReport::write_line(const std::string& line, std::size_t indent) {
 }
 
 void TextReport::on_failure(const Failure& failure) {
-  write_line(fmt::format("{}{}:{}:{}: {}{}", style_.bad, script_file_, failure.range.begin.line,
-                         failure.range.begin.column, failure.message, style_.reset),
+  write_line(fmt::format("{}{}: {}{}", style_.bad, format_place(script_file_, failure.range.begin),
+                         failure.message, style_.reset),
              text_column);
   for (const Sentences& sentences : story_.explain(failure)) write(sentences);
 }

@@ -343,6 +343,17 @@ void read_steps(const Node& list, StepReader& reader, Script& script, Reporter& 
   for (const Node* item : list.items) script.steps.push_back(reader.read(*item, reporter));
 }
 
+/// A mapping that is an event, such as a line of a stream, and not a script. "situation" is a key
+/// of both.
+bool is_event(const Node& root) {
+  const auto has = [&root](std::string_view key) { return root.find(key) != nullptr; };
+  const bool has_script_key =
+      std::any_of(std::begin(shape::script_keys), std::end(shape::script_keys),
+                  [&has](const yaml::Key& key) { return has(key.name); });
+  return !has_script_key && std::any_of(verb_forms.begin(), verb_forms.end(),
+                                        [&has](const VerbForm& form) { return has(form.name); });
+}
+
 void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter& reporter) {
   Fields fields(root, shape::script, reporter);
   if (const Node* catalog = fields.find("catalog")) {
@@ -486,6 +497,12 @@ std::optional<Script> read_script(const yaml::Document& document, const Compiled
       read_steps(root, reader, script, reporter);
       break;
     case Kind::mapping:
+      if (is_event(root)) {
+        reporter.report(rule::wrong_type, root.range,
+                        "a script must be a list of events, found one event; one event on each "
+                        "line needs --format jsonl");
+        break;
+      }
       read_mapping(root, reader, script, reporter);
       break;
   }
