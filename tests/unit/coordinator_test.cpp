@@ -73,6 +73,24 @@ TEST(Start, ChoosesAmongMoreThanSixtyFourBehaviors) {
   }
 }
 
+TEST(Start, LeavesOneOfMoreThanSixtyFourBehaviorsRunning) {
+  constexpr int behaviors = 130;
+  std::string catalog = "behaviors:\n- {behavior: b, task: B, requires: [{task: A}]}\n";
+  for (int i = 0; i < behaviors; ++i) {
+    catalog += fmt::format("- {{behavior: a{0}, task: A, suitability: {1}}}\n", i, 100 - i * 0.5);
+  }
+  Stage stage(catalog);
+  for (int i = 0; i + 1 < behaviors; ++i) {
+    stage.set({{fmt::format("a{}", i), false}});
+    stage.start("A");
+    EXPECT_EQ(stage.start("B"), "accepted");
+    EXPECT_EQ(stage.running(), fmt::format("B=b A=a{}", i + 1));
+    EXPECT_EQ(stage.changes(), "+b requested 1");
+    stage.stop("A");
+    EXPECT_EQ(stage.running(), "");
+  }
+}
+
 TEST(Start, TakesTheFieldFromAnEqualPriorityNotFromAHigherOne) {
   Stage stage(rivals);
   stage.start("A", 2);

@@ -474,5 +474,42 @@ TEST(Reasons, NeverRuleOutTheBestSolution) {
   EXPECT_GE(conflicts, test::rounds(5'000));
 }
 
+/// The products of (1 - n / 1,000,000) over `first` and over `second` are equal but for 1e-31,
+/// since the sums of their powers up to the fifth are. No cost tells them apart, only exact
+/// arithmetic.
+TEST(Reasons, OfAnAlmostEqualSuitabilityHoldOnlyWhereItIs) {
+  constexpr int first[] = {0, 5, 6, 16, 17, 22};
+  constexpr int second[] = {1, 2, 10, 12, 20, 21};
+  std::string text = "behaviors:\n";
+  const auto add = [&text](std::string_view name, std::span<const int> missing, int less) {
+    std::string required;
+    std::string required_behaviors;
+    for (std::size_t place = 0; place < missing.size(); ++place) {
+      const int suitability = 1'000'000 - 1 - missing[place] + (place == 1 ? less : 0);
+      required += fmt::format("{}{{task: {}{}}}", place == 0 ? "" : ", ", name, place);
+      required_behaviors +=
+          fmt::format("- {{behavior: {0}{1}, task: {2}{1}, suitability: {3}.{4:04}}}\n", name,
+                      place, name, suitability / 10'000, suitability % 10'000);
+    }
+    text += fmt::format("- {{behavior: by_{0}, task: MISSION, requires: [{1}]}}\n{2}", name,
+                        required, required_behaviors);
+  };
+  add("a", first, 0);
+  add("b", second, 0);
+  add("c", second, 1);
+  const CompiledCatalog catalog = test::compile_text(text);
+  Problem problem = test::open_problem(catalog);
+  test::request(problem, catalog, "MISSION");
+  const std::vector<std::uint32_t> ranks;
+  const auto optimum = test::BruteForce(catalog, problem, ranks).best();
+  ASSERT_TRUE(optimum);
+  Random random(4);
+  for (int round = 0; round < 50; ++round) {
+    RandomSearch search(catalog, ranks, problem, *optimum);
+    EXPECT_TRUE(search.run(random));
+    EXPECT_EQ(search.best(), *optimum) << "round " << round;
+  }
+}
+
 }  // namespace
 }  // namespace cbc::reasons_test

@@ -52,6 +52,32 @@ TEST(Repair, KeepsWhatRuns) {
   EXPECT_EQ(repair(catalog, problem), "A=a P=p2 Q=q1");
 }
 
+TEST(Repair, GivesUpTheBestBehaviorWhereWhatItRequiresIsExcluded) {
+  const CompiledCatalog catalog = test::compile_text(R"(
+default_values: {tasks: {start_on_request: false}}
+behaviors:
+- {behavior: a, task: A, requires: [{task: P}, {task: Q}, {task: U}, {task: V}]}
+- {behavior: p1, task: P, suitability: 90, requires: [{task: S}]}
+- {behavior: p2, task: P, suitability: 50}
+- {behavior: q1, task: Q, suitability: 80, requires: [{task: T}]}
+- {behavior: q2, task: Q, suitability: 70}
+- {behavior: u1, task: U, suitability: 90, requires: [{task: W}]}
+- {behavior: u2, task: U, suitability: 50}
+- {behavior: v1, task: V, suitability: 80, requires: [{task: X}]}
+- {behavior: v2, task: V, suitability: 70}
+- {behavior: s, task: S}
+- {behavior: t, task: T}
+- {behavior: w, task: W}
+- {behavior: x, task: X}
+exclusivity_constraints:
+- mutually_exclusive: [S, T]
+- mutually_exclusive: [W, X]
+)");
+  Problem problem = test::open_problem(catalog);
+  test::demand(problem, catalog, "A");
+  EXPECT_EQ(repair(catalog, problem), "A=a P=p1 Q=q2 U=u1 V=v2 S=s W=w");
+}
+
 TEST(Repair, ServesTheMoreImportantRequest) {
   const CompiledCatalog catalog = test::compile_text(pairs);
   for (const bool c_first : {true, false}) {

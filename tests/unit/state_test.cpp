@@ -42,5 +42,31 @@ TEST(State, ListsRunningTasksOfLargeCatalogs) {
   EXPECT_EQ(state.running(), running);
 }
 
+TEST(State, LeavesNothingBehindWhenAnotherOneIsRestored) {
+  const CompiledCatalog catalog = test::compile_text(
+      "tasks:\n- {task: A, reactive_start: true}\n- {task: B, reactive_start: true, timeout: 10}\n"
+      "behaviors:\n- {behavior: a, task: A}\n- {behavior: b, task: B}\n");
+  const TaskId task = test::task_id(catalog, "A");
+  const TaskId other = test::task_id(catalog, "B");
+  const BehaviorId behavior = catalog.values[other][0].behavior;
+  State state(catalog);
+  state.set_waiting(task, true);
+  state.enqueue(task, second);
+  state.set_value(other, 0, second);
+  state.set_active(behavior, second);
+  state.update_timeout(other, second);
+  state.set_faulty(behavior, true);
+  state.set_denied(behavior, true);
+  state.restore(Snapshot());
+  EXPECT_FALSE(state.is_waiting(task));
+  EXPECT_EQ(state.waiting_count(), 0U);
+  EXPECT_TRUE(state.queue().empty());
+  EXPECT_FALSE(state.is_running(other));
+  EXPECT_FALSE(state.is_active(behavior));
+  EXPECT_TRUE(state.timeouts().empty());
+  EXPECT_FALSE(state.is_faulty(behavior));
+  EXPECT_TRUE(state.is_available(behavior));
+}
+
 }  // namespace
 }  // namespace cbc::state_test
