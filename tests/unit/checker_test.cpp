@@ -189,6 +189,8 @@ behaviors:
 - {behavior: c1, task: C, suitability: 60}
 - {behavior: c2, task: C, suitability: 80}
 - {behavior: d, task: D}
+- {behavior: e, task: E, requires: [{task: D}]}
+- {behavior: e_alone, task: E}
 exclusivity_constraints:
 - mutually_exclusive: [C, D]
 )");
@@ -203,6 +205,7 @@ exclusivity_constraints:
   EXPECT_EQ(what_is_left("A=a B=b C=c1"), "C=c1");
   EXPECT_EQ(what_is_left("A=a B=b C=c2 D=d"), "A=a B=b C=c2");
   EXPECT_EQ(what_is_left("A=a B=b D=d"), "D=d");
+  EXPECT_EQ(what_is_left("C=c2 D=d E=e_alone"), "C=c2 E=e_alone") << "D comes behind C";
 }
 
 TEST(Checker, AgreesWithBruteForceOnChangedAnswers) {

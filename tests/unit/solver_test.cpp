@@ -11,6 +11,7 @@
 
 #include "catalog/catalog.h"
 #include "compile/compile.h"
+#include "solver/checker.h"
 #include "support/rounds.h"
 #include "unit/brute_force.h"
 #include "unit/compiled_fixture.h"
@@ -305,7 +306,9 @@ class Agreement {
     }
     for (const std::size_t m : {std::size_t{1}, std::size_t{1 + random.below(8)},
                                 std::max<std::size_t>(1, truth.solutions().size())}) {
-      const Answer answer = solve(catalog, problem, first_solutions(m), ranks);
+      SearchOptions first = first_solutions(m);
+      if (random.percent(50)) first.easy_nodes = 0;
+      const Answer answer = solve(catalog, problem, first, ranks);
       const std::optional<Assignment> expected = truth.best(m);
       ASSERT_EQ(answer.result.solutions, std::min(m, truth.solutions().size()));
       if (!expected) {
@@ -567,6 +570,99 @@ TEST(Solver, FindsTheSameWithAndWithoutComponentsWithinComponents) {
     }
   }
   EXPECT_GT(solved, test::rounds(600));
+}
+
+TEST(Solver, AnySolutionIsOneOfTheWholeWithComponentsWithinComponents) {
+  test::Random random(13);
+  const std::vector<std::uint32_t> ranks;
+  SearchOptions any = restarting_after(0);
+  any.any_solution = true;
+  int solved = 0;
+  for (int round = 0; round < test::rounds(300); ++round) {
+    SCOPED_TRACE(round);
+    const CompiledCatalog catalog = test::random_nested_components(random);
+    Checker checker(catalog);
+    for (int i = 0; i < 4; ++i) {
+      Problem problem = test::random_open_problem(random, catalog);
+      if (i > 0) test::demand(problem, catalog, "T0");
+      const SearchStatus status = solve(catalog, problem).result.status;
+      const Answer answer = solve(catalog, problem, any);
+      ASSERT_EQ(has_solution(answer.result.status), has_solution(status));
+      if (has_solution(status)) {
+        ++solved;
+        ASSERT_EQ(checker.find_violation(problem, answer.assignment), std::nullopt);
+      } else {
+        ASSERT_EQ(answer.result.status, SearchStatus::infeasible);
+      }
+    }
+  }
+  EXPECT_GT(solved, test::rounds(600));
+}
+
+/// Puts a group of two tasks and two behaviors, one of which requires the other, before the rest.
+void put_behind_another_group(Catalog& catalog) {
+  constexpr TaskIndex before = 2;
+  const auto move = [](TaskIndex& task) { task += before; };
+  for (Behavior& behavior : catalog.behaviors) {
+    for (Performance& performance : behavior.performs) move(performance.task);
+    for (Requirement& requirement : behavior.requirements) move(requirement.task);
+  }
+  for (ExclusivityList& list : catalog.exclusivity) {
+    for (TaskIndex& task : list.tasks) move(task);
+  }
+  std::vector<Task> tasks(before);
+  std::vector<Behavior> behaviors(before);
+  for (TaskIndex task = 0; task < before; ++task) {
+    tasks[task].name = fmt::format("X{}", task);
+    behaviors[task].name = fmt::format("x{}", task);
+    behaviors[task].performs.emplace_back().task = task;
+  }
+  behaviors[0].requirements.emplace_back().task = 1;
+  catalog.tasks.insert(catalog.tasks.begin(), tasks.begin(), tasks.end());
+  catalog.behaviors.insert(catalog.behaviors.begin(), behaviors.begin(), behaviors.end());
+}
+
+TEST(Solver, TakesTheSameWorkBehindAnotherGroup) {
+  test::Random random(14);
+  int decided = 0;
+  for (int round = 0; round < test::rounds(300); ++round) {
+    SCOPED_TRACE(round);
+    test::Shape shape;
+    shape.tasks = static_cast<std::uint32_t>(random.between(10, 25));
+    shape.most_behaviors = random.percent(10) ? 80 : 4;
+    shape.exclusivity_lists = static_cast<std::uint32_t>(random.below(6));
+    shape.most_exclusive = 4;
+    shape.minimum = 10;
+    shape.on_request = 0;
+    shape.any_percent = 60;
+    shape.is_deep = true;
+    Catalog written = test::random_catalog(random, shape);
+    const CompiledCatalog first = compile(written);
+    const Problem problem = test::random_open_problem(random, first);
+    put_behind_another_group(written);
+    const CompiledCatalog second = compile(written);
+    Problem moved = problem;
+    ++moved.group;
+    const BehaviorId further =
+        second.group_behaviors[moved.group] - first.group_behaviors[problem.group];
+    for (BehaviorId& behavior : moved.active) behavior += further;
+    SearchOptions limited = learning_after(0, 0);
+    limited.max_nodes = 1;
+    for (const SearchOptions& options :
+         {SearchOptions(), restarting_after(0), learning_after(0, 0), limited}) {
+      const Answer answer = solve(first, problem, options);
+      const Answer other = solve(second, moved, options);
+      ASSERT_EQ(other.result.status, answer.result.status);
+      ASSERT_EQ(other.assignment, answer.assignment);
+      ASSERT_EQ(other.result.nodes, answer.result.nodes);
+      ASSERT_EQ(other.result.propagations, answer.result.propagations);
+      ASSERT_EQ(other.result.performance_effort, answer.result.performance_effort);
+      ASSERT_EQ(other.result.bound.more_requests, answer.result.bound.more_requests);
+      ASSERT_EQ(other.result.bound.suitability, answer.result.bound.suitability);
+      decided += answer.result.nodes > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(decided, test::rounds(400));
 }
 
 // Limits ---------------------------------------------------------------------------------------
