@@ -194,7 +194,7 @@ behaviors:
 exclusivity_constraints:
 - mutually_exclusive: [C, D]
 )");
-  const Problem problem = open_problem(catalog, 1);
+  Problem problem = open_problem(catalog, 1);
   Checker checker(catalog);
   const auto what_is_left = [&](std::string_view text) {
     Assignment answer = test::answer_of(catalog, text, 1);
@@ -206,6 +206,8 @@ exclusivity_constraints:
   EXPECT_EQ(what_is_left("A=a B=b C=c2 D=d"), "A=a B=b C=c2");
   EXPECT_EQ(what_is_left("A=a B=b D=d"), "D=d");
   EXPECT_EQ(what_is_left("C=c2 D=d E=e_alone"), "C=c2 E=e_alone") << "D comes behind C";
+  test::leave_out(problem, catalog, "B", "b");
+  EXPECT_EQ(what_is_left("A=a B=b C=c2"), "C=c2");
 }
 
 TEST(Checker, AgreesWithBruteForceOnChangedAnswers) {

@@ -274,6 +274,7 @@ TEST(Verify, RefusesTexts) {
          c.arrays.texts.items[0] = '\xC3';
          c.arrays.texts.items[1] = '\xA9';
        }},
+      {"the name of task 0 is empty", [](auto& c) { c.arrays.texts.begin[1] = 0; }},
       {"the name of task 2 is empty", [](auto& c) { c.arrays.texts.begin[2] = 3; }},
       {"two tasks have the name 'B'", [](auto& c) { c.arrays.texts.items[0] = 'B'; }},
       {"two behaviors have the name 'w00'",
