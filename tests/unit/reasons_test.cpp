@@ -272,6 +272,32 @@ TEST(Reasons, NameEachRemovalOfMoreThanSixtyFourValues) {
   }
 }
 
+/// M requires a performance of A that A reaches only without B, as B requires C.
+TEST(Reasons, OfPerformancesNameEachRemovalOfMoreThanSixtyFourValues) {
+  constexpr int behaviors = 129;
+  std::string text =
+      "behaviors:\n"
+      "- {behavior: m, task: M, requires: [{task: A, minimum_performance: 90}]}\n"
+      "- {behavior: b, task: B, requires: [{task: C}]}\n"
+      "- {behavior: c, task: C, suitability: 50}\n";
+  for (int i = 0; i < behaviors; ++i) {
+    const char* const requirement = i % 3 == 0 ? "" : ", requires: [{task: B}]";
+    text += fmt::format("- {{behavior: a{}, task: A{}}}\n", i, requirement);
+  }
+  const CompiledCatalog catalog = test::compile_text(text);
+  const Problem problem = test::open_problem(catalog);
+  const std::uint32_t task = test::local_task(catalog, "A");
+  Branch branch(catalog, problem);
+  branch.decide(ReasonTrail::runs(test::local_task(catalog, "M")));
+  for (std::uint32_t index = 0; index < behaviors; index += 3) {
+    ASSERT_TRUE(branch.is_consistent());
+    branch.expect_reasons_suffice();
+    branch.decide(negate(branch.trail().has_value(task, index)));
+  }
+  EXPECT_FALSE(branch.is_consistent());
+  branch.expect_conflict_is_right();
+}
+
 std::string describe(const Domains& domains) {
   std::string text;
   for (std::uint32_t task = 0; task < domains.task_count(); ++task) {
