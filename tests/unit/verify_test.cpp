@@ -1,4 +1,5 @@
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -585,11 +586,19 @@ TEST(Verify, RefusesSituationVariables) {
       {"'fitting_values' do not ascend",
        [](auto& c) { c.arrays.fitting_values[1] = c.arrays.fitting_values[0]; }},
   });
-  for (auto FittingValue::*part :
-       {&FittingValue::behavior, &FittingValue::variable, &FittingValue::value}) {
-    EditableCatalog edited(rich_catalog());
-    edited.arrays.fitting_values.back().*part = none;
-    EXPECT_NE(fault_of(edited.catalog()).find("but there is no such behavior"), std::string::npos);
+  const CompiledCatalog catalog = rich_catalog();
+  const std::uint32_t last_variable = catalog.fitting_values.back().variable;
+  const std::pair<std::uint32_t FittingValue::*, std::size_t> counts[] = {
+      {&FittingValue::behavior, catalog.behaviors.size()},
+      {&FittingValue::variable, catalog.variables.size()},
+      {&FittingValue::value, catalog.variables[last_variable].value_count}};
+  for (const auto& [part, count] : counts) {
+    for (const std::uint32_t number : {static_cast<std::uint32_t>(count), none}) {
+      EditableCatalog edited(rich_catalog());
+      edited.arrays.fitting_values.back().*part = number;
+      EXPECT_NE(fault_of(edited.catalog()).find("but there is no such behavior"),
+                std::string::npos);
+    }
   }
 }
 
