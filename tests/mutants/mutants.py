@@ -43,8 +43,8 @@ def main():
 def read_options():
     parser = argparse.ArgumentParser(prog="./dev mutants", description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("paths", nargs="*", metavar="FILE", default=[schemata.ROOT / path for path in DEFAULT_PATHS],
-                        help="sources and folders in src (default: the solver, the coordinator and the verification of "
-                             "compiled files)")
+                        help="sources and folders in src (default: the solver, the coordinator, the verification of "
+                             "compiled files, and costs)")
     parser.add_argument("--sample", type=read_count, metavar="N", help="N of the mutants, always the same ones")
     parser.add_argument("--shard", type=read_shard, metavar="I/N", default=(1, 1),
                         help="the I-th of N parts; concatenate their results.tsv")

@@ -53,14 +53,20 @@ TEST(Start, IsRejectedByAHigherRequestOfTheTaskItself) {
   EXPECT_EQ(stage.requests(), "A:6");
 }
 
-TEST(Start, ChoosesAmongMoreThanSixtyFourBehaviors) {
-  constexpr int behaviors = 130;
+constexpr int many = 130;
+
+/// That many behaviors b0, b1, ... of A, the best first.
+std::string many_behaviors() {
   std::string catalog = "behaviors:\n";
-  for (int i = 0; i < behaviors; ++i) {
+  for (int i = 0; i < many; ++i) {
     catalog += fmt::format("- {{behavior: b{0}, task: A, suitability: {1}}}\n", i, 100 - i * 0.5);
   }
-  Stage stage(catalog);
-  for (int i = 0; i + 1 < behaviors; ++i) {
+  return catalog;
+}
+
+TEST(Start, ChoosesAmongMoreThanSixtyFourBehaviors) {
+  Stage stage(many_behaviors());
+  for (int i = 0; i + 1 < many; ++i) {
     stage.fault(fmt::format("b{}", i));
     EXPECT_EQ(stage.start("A"), "accepted");
     EXPECT_EQ(stage.running(), fmt::format("A=b{}", i + 1));
@@ -74,18 +80,13 @@ TEST(Start, ChoosesAmongMoreThanSixtyFourBehaviors) {
 }
 
 TEST(Start, LeavesOneOfMoreThanSixtyFourBehaviorsRunning) {
-  constexpr int behaviors = 130;
-  std::string catalog = "behaviors:\n- {behavior: b, task: B, requires: [{task: A}]}\n";
-  for (int i = 0; i < behaviors; ++i) {
-    catalog += fmt::format("- {{behavior: a{0}, task: A, suitability: {1}}}\n", i, 100 - i * 0.5);
-  }
-  Stage stage(catalog);
-  for (int i = 0; i + 1 < behaviors; ++i) {
-    stage.set({{fmt::format("a{}", i), false}});
+  Stage stage(many_behaviors() + "- {behavior: c, task: C, requires: [{task: A}]}\n");
+  for (int i = 0; i + 1 < many; ++i) {
+    stage.set({{fmt::format("b{}", i), false}});
     stage.start("A");
-    EXPECT_EQ(stage.start("B"), "accepted");
-    EXPECT_EQ(stage.running(), fmt::format("B=b A=a{}", i + 1));
-    EXPECT_EQ(stage.changes(), "+b requested 1");
+    EXPECT_EQ(stage.start("C"), "accepted");
+    EXPECT_EQ(stage.running(), fmt::format("A=b{} C=c", i + 1));
+    EXPECT_EQ(stage.changes(), "+c requested 1");
     stage.stop("A");
     EXPECT_EQ(stage.running(), "");
   }

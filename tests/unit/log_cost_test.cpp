@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -101,6 +102,35 @@ TEST(LogCost, SumsFurtherApartThanTheErrorAreInTheRightOrder) {
   EXPECT_LE(std::abs(difference), 3 * log_cost_error);
   // Neighbors are far enough apart.
   EXPECT_GT(log_cost(999'999) - log_cost(one_million), 2 * log_cost_error);
+}
+
+TEST(HighestProduct, IsJustAboveTheProduct) {
+  oracle::Random random(3);
+  for (int round = 0; round < 2'000; ++round) {
+    const auto factors = static_cast<std::uint32_t>(random.between(1, 200));
+    std::int64_t cost = 0;
+    long double product = 1;
+    for (std::uint32_t factor = 0; factor < factors; ++factor) {
+      const auto degree = static_cast<Millionths>(random.between(30'000, 1'000'000));
+      cost += log_cost(degree);
+      product *= static_cast<long double>(degree) / one_million;
+    }
+    if (product < 1e-300L) continue;
+    const double highest = highest_product(cost, factors);
+    ASSERT_GE(highest, product);
+    ASSERT_LT(highest, product * (1 + 1e-8L));
+  }
+}
+
+TEST(HighestProduct, AtTheEnds) {
+  EXPECT_EQ(highest_product(0, 800), 1);
+  EXPECT_EQ(highest_product(1, 1), 1) << "less than the error of one cost";
+  EXPECT_EQ(highest_product(std::int64_t{1} << 61, 5), 0) << "a suitability of 0";
+  for (const double log : {698.5, 699.5, 699.999, 700.0, 700.001}) {
+    EXPECT_GE(highest_product(static_cast<std::int64_t>(log / unit), 5), std::exp(-log)) << log;
+  }
+  EXPECT_GT(highest_product(std::int64_t{1} << 50, 5), 0) << "e^-1024";
+  EXPECT_LT(highest_product(std::int64_t{1} << 50, 5), 1e-300);
 }
 
 }  // namespace

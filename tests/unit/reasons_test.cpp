@@ -246,50 +246,55 @@ TEST(Reasons, LeaveNoOtherSolutionOnRandomBranches) {
   EXPECT_GE(counts.without_solution, test::rounds(20));
 }
 
-TEST(Reasons, NameEachRemovalOfMoreThanSixtyFourValues) {
-  constexpr int behaviors = 129;
-  std::string text = "behaviors:\n- {behavior: b, task: B}\n";
-  for (int i = 0; i < behaviors; ++i) {
-    const char* const requirement = i % 3 == 0 ? ", requires: [{task: B}]" : "";
+constexpr std::uint32_t many = 129;
+
+bool requires_b(std::uint32_t index) { return index % 3 == 1; }
+
+/// That many behaviors of A, of which each third one requires B.
+std::string many_behaviors() {
+  std::string text = "behaviors:\n";
+  for (std::uint32_t i = 0; i < many; ++i) {
+    const char* const requirement = requires_b(i) ? ", requires: [{task: B}]" : "";
     text += fmt::format("- {{behavior: a{}, task: A{}}}\n", i, requirement);
   }
-  const CompiledCatalog catalog = test::compile_text(text);
+  return text;
+}
+
+TEST(Reasons, NameEachRemovalOfMoreThanSixtyFourValues) {
+  const CompiledCatalog catalog =
+      test::compile_text(many_behaviors() + "- {behavior: b, task: B}\n");
   const Problem problem = test::open_problem(catalog);
   const std::uint32_t task = test::local_task(catalog, "A");
   Branch branch(catalog, problem);
   const std::uint32_t required = test::local_task(catalog, "B");
   branch.decide(ReasonTrail::runs(task));
-  for (std::uint32_t index = 0; index < behaviors; ++index) {
+  for (std::uint32_t index = 0; index < many; ++index) {
     EXPECT_FALSE(branch.domains().needed(required));
-    if (index % 3 != 0) branch.decide(negate(branch.trail().has_value(task, index)));
+    if (!requires_b(index)) branch.decide(negate(branch.trail().has_value(task, index)));
   }
   EXPECT_TRUE(branch.domains().needed(required));
   branch.expect_reasons_suffice();
   Branch other(catalog, problem);
   other.decide(negate(ReasonTrail::runs(required)));
-  for (std::uint32_t index = 0; index < behaviors; ++index) {
-    EXPECT_EQ(other.trail().is_true(negate(other.trail().has_value(task, index))), index % 3 == 0);
+  for (std::uint32_t index = 0; index < many; ++index) {
+    EXPECT_EQ(other.trail().is_true(negate(other.trail().has_value(task, index))),
+              requires_b(index));
   }
 }
 
 /// M requires a performance of A that A reaches only without B, as B requires C.
 TEST(Reasons, OfPerformancesNameEachRemovalOfMoreThanSixtyFourValues) {
-  constexpr int behaviors = 129;
-  std::string text =
-      "behaviors:\n"
+  const CompiledCatalog catalog = test::compile_text(
+      many_behaviors() +
       "- {behavior: m, task: M, requires: [{task: A, minimum_performance: 90}]}\n"
       "- {behavior: b, task: B, requires: [{task: C}]}\n"
-      "- {behavior: c, task: C, suitability: 50}\n";
-  for (int i = 0; i < behaviors; ++i) {
-    const char* const requirement = i % 3 == 0 ? "" : ", requires: [{task: B}]";
-    text += fmt::format("- {{behavior: a{}, task: A{}}}\n", i, requirement);
-  }
-  const CompiledCatalog catalog = test::compile_text(text);
+      "- {behavior: c, task: C, suitability: 50}\n");
   const Problem problem = test::open_problem(catalog);
   const std::uint32_t task = test::local_task(catalog, "A");
   Branch branch(catalog, problem);
   branch.decide(ReasonTrail::runs(test::local_task(catalog, "M")));
-  for (std::uint32_t index = 0; index < behaviors; index += 3) {
+  for (std::uint32_t index = 0; index < many; ++index) {
+    if (requires_b(index)) continue;
     ASSERT_TRUE(branch.is_consistent());
     branch.expect_reasons_suffice();
     branch.decide(negate(branch.trail().has_value(task, index)));
@@ -500,22 +505,22 @@ TEST(Reasons, NeverRuleOutTheBestSolution) {
   EXPECT_GE(conflicts, test::rounds(5'000));
 }
 
-/// The products of (1 - n / 1,000,000) over `first` and over `second` are equal but for 1e-31,
-/// since the sums of their powers up to the fifth are. No cost tells them apart, only exact
+/// The products of (999,999 - n) / 1,000,000 over `first` and over `second` are equal but for
+/// 1e-31, since the sums of their powers up to the fifth are. No cost tells them apart, only exact
 /// arithmetic.
 TEST(Reasons, OfAnAlmostEqualSuitabilityHoldOnlyWhereItIs) {
   constexpr int first[] = {0, 5, 6, 16, 17, 22};
   constexpr int second[] = {1, 2, 10, 12, 20, 21};
   std::string text = "behaviors:\n";
-  const auto add = [&text](std::string_view name, std::span<const int> missing, int less) {
+  const auto add = [&text](std::string_view name, std::span<const int> missing, int more) {
     std::string required;
     std::string required_behaviors;
     for (std::size_t place = 0; place < missing.size(); ++place) {
-      const int suitability = 1'000'000 - 1 - missing[place] + (place == 1 ? less : 0);
+      const int suitability = 999'999 - missing[place] + (place == 1 ? more : 0);
       required += fmt::format("{}{{task: {}{}}}", place == 0 ? "" : ", ", name, place);
       required_behaviors +=
-          fmt::format("- {{behavior: {0}{1}, task: {2}{1}, suitability: {3}.{4:04}}}\n", name,
-                      place, name, suitability / 10'000, suitability % 10'000);
+          fmt::format("- {{behavior: {0}{1}, task: {0}{1}, suitability: {2}.{3:04}}}\n", name,
+                      place, suitability / 10'000, suitability % 10'000);
     }
     text += fmt::format("- {{behavior: by_{0}, task: MISSION, requires: [{1}]}}\n{2}", name,
                         required, required_behaviors);

@@ -658,6 +658,7 @@ TEST(Solver, TakesTheSameWorkBehindAnotherGroup) {
       ASSERT_EQ(other.result.propagations, answer.result.propagations);
       ASSERT_EQ(other.result.performance_effort, answer.result.performance_effort);
       ASSERT_EQ(other.result.bound.more_requests, answer.result.bound.more_requests);
+      ASSERT_EQ(other.result.bound.same_requests, answer.result.bound.same_requests);
       ASSERT_EQ(other.result.bound.suitability, answer.result.bound.suitability);
       decided += answer.result.nodes > 0 ? 1 : 0;
     }

@@ -13,6 +13,7 @@ namespace cbc {
 namespace {
 
 using TreeNode = FaultTree::Node;
+
 constexpr bool is_plain(char byte) {
   return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') ||
          (byte >= '0' && byte <= '9') || byte == '_';

@@ -156,8 +156,9 @@ class TextTable {
     for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
       const std::vector<VariableValue> values = table_.values_of(variable);
       std::size_t together = 0;
-      for (const VariableValue value : values)
+      for (const VariableValue value : values) {
         together += column_gap.size() + width_of(title_of(value));
+      }
       together = std::max(together, column_gap.size() + width_of(name_of(variable)));
       // A variable stays in one part if it can.
       if (width + together > text_width) flush(width);

@@ -346,12 +346,9 @@ void read_steps(const Node& list, StepReader& reader, Script& script, Reporter& 
 /// A mapping that is an event, such as a line of a stream, and not a script. "situation" is a key
 /// of both.
 bool is_event(const Node& root) {
-  const auto has = [&root](std::string_view key) { return root.find(key) != nullptr; };
-  const bool has_script_key =
-      std::any_of(std::begin(shape::script_keys), std::end(shape::script_keys),
-                  [&has](const yaml::Key& key) { return has(key.name); });
-  return !has_script_key && std::any_of(verb_forms.begin(), verb_forms.end(),
-                                        [&has](const VerbForm& form) { return has(form.name); });
+  const auto has = [&root](const auto& key) { return root.find(key.name) != nullptr; };
+  return std::none_of(std::begin(shape::script_keys), std::end(shape::script_keys), has) &&
+         std::any_of(verb_forms.begin(), verb_forms.end(), has);
 }
 
 void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter& reporter) {
