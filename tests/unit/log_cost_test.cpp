@@ -126,7 +126,7 @@ TEST(HighestProduct, AtTheEnds) {
   EXPECT_EQ(highest_product(0, 800), 1);
   EXPECT_EQ(highest_product(1, 1), 1) << "less than the error of one cost";
   EXPECT_EQ(highest_product(std::int64_t{1} << 61, 5), 0) << "a suitability of 0";
-  for (const double log : {698.5, 699.5, 699.999, 700.0, 700.001}) {
+  for (const long double log : {698.5L, 699.5L, 699.999L, 700.0L, 700.001L}) {
     EXPECT_GE(highest_product(static_cast<std::int64_t>(log / unit), 5), std::exp(-log)) << log;
   }
   EXPECT_GT(highest_product(std::int64_t{1} << 50, 5), 0) << "e^-1024";
