@@ -12,7 +12,7 @@
 #include "bench/benchmarks.h"
 #include "bench/compiled_inputs.h"
 #include "bench/inputs.h"
-#include "compiled/compiled_file.h"
+#include "runtime/compiled/compiled_file.h"
 #include "support/read_file.h"
 
 namespace cbc::bench {

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "bench/inputs.h"
-#include "catalog/reader.h"
-#include "compile/compile.h"
-#include "compiled/compiled_file.h"
-#include "yaml/document.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
+#include "core/yaml/document.h"
+#include "runtime/compiled/compiled_file.h"
 
 namespace cbc::bench {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "bench/benchmarks.h"
 #include "bench/inputs.h"
-#include "verify/cut_sets.h"
+#include "verify/engine/cut_sets.h"
 
 namespace cbc::bench {
 namespace {

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "bench/benchmarks.h"
-#include "compile/compile.h"
+#include "core/compile/compile.h"
 
 namespace cbc::bench {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "bench/benchmarks.h"
 #include "bench/inputs.h"
-#include "verify/explore.h"
+#include "verify/engine/explore.h"
 
 namespace cbc::bench {
 namespace {

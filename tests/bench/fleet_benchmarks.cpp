@@ -11,11 +11,11 @@
 #include "bench/benchmarks.h"
 #include "bench/compiled_inputs.h"
 #include "bench/fleet_generator.h"
-#include "compiled/compiled_file.h"
-#include "coordinator/coordinator.h"
-#include "draw/catalog_graph.h"
-#include "draw/diagram.h"
-#include "report/catalog_report.h"
+#include "graph/engine/catalog_graph.h"
+#include "graph/engine/diagram.h"
+#include "graph/report/graph_report.h"
+#include "runtime/compiled/compiled_file.h"
+#include "runtime/coordinator/coordinator.h"
 
 namespace cbc::bench {
 namespace {

@@ -5,12 +5,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
-#include "diagnostic/diagnostic.h"
-#include "script/reader.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/script/reader.h"
+#include "core/yaml/document.h"
 #include "support/read_file.h"
-#include "yaml/document.h"
 
 namespace cbc::bench {
 namespace {

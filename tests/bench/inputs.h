@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "compiled/compiled_catalog.h"
-#include "diagnostic/diagnostic.h"
-#include "script/script.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/script/script.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc::bench {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "script/runner.h"
+#include "core/script/runner.h"
 
 namespace cbc::bench {
 namespace {

@@ -11,9 +11,9 @@
 #include "bench/inputs.h"
 #include "cbc/event.h"
 #include "cbc/units.h"
-#include "coordinator/coordinator.h"
-#include "coordinator/problem_builder.h"
-#include "coordinator/record.h"
+#include "runtime/coordinator/coordinator.h"
+#include "runtime/coordinator/problem_builder.h"
+#include "runtime/coordinator/record.h"
 
 namespace cbc::bench {
 

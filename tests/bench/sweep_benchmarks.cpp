@@ -8,7 +8,7 @@
 #include "bench/benchmarks.h"
 #include "bench/catalog_generator.h"
 #include "bench/inputs.h"
-#include "sweep/sweep.h"
+#include "sweep/engine/sweep.h"
 
 namespace cbc::bench {
 namespace {

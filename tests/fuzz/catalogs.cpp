@@ -7,16 +7,16 @@
 #include <tuple>
 #include <utility>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
-#include "diagnostic/diagnostic.h"
-#include "diagnostic/rules.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/diagnostic/rules.h"
+#include "core/script/reader.h"
+#include "core/yaml/document.h"
 #include "fuzz/tree.h"
-#include "script/reader.h"
 #include "support/catalog_files.h"
 #include "support/read_file.h"
 #include "support/rich_catalog.h"
-#include "yaml/document.h"
 
 namespace cbc::fuzz {
 namespace {

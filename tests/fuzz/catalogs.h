@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "script/script.h"
+#include "core/script/script.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc::fuzz {
 

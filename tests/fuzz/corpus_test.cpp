@@ -12,16 +12,16 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/draft.h"
-#include "diagnostic/diagnostic.h"
-#include "diagnostic/rules.h"
+#include "core/catalog/draft.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/diagnostic/rules.h"
+#include "core/property/property_reader.h"
+#include "core/script/script.h"
+#include "core/yaml/document.h"
 #include "fuzz/mutator.h"
 #include "fuzz/target.h"
-#include "script/script.h"
 #include "support/read_file.h"
 #include "support/rounds.h"
-#include "verify/property_reader.h"
-#include "yaml/document.h"
 
 namespace cbc::fuzz::corpus_test {
 namespace {

@@ -12,9 +12,9 @@
 
 #include <fmt/core.h>
 
-#include "compiled/compiled_file.h"
 #include "fuzz/mutator.h"
 #include "fuzz/target.h"
+#include "runtime/compiled/compiled_file.h"
 
 using namespace cbc::fuzz;
 

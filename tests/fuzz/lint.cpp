@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "diagnostic/diagnostic.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/yaml/document.h"
 #include "fuzz/target.h"
-#include "report/lint_report.h"
-#include "yaml/document.h"
+#include "lint/report/lint_report.h"
 
 namespace cbc::fuzz {
 namespace {

@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "catalog/catalog.h"
-#include "compiled/compiled_catalog.h"
-#include "lint/controls.h"
-#include "lint/lint.h"
+#include "core/catalog/catalog.h"
+#include "core/check/check.h"
+#include "core/check/controls.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc::fuzz {
 

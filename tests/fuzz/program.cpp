@@ -14,10 +14,10 @@
 
 #include <fmt/core.h>
 
-#include "cli/output.h"
-#include "compiled/compiled_file.h"
+#include "core/files/output.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/target.h"
+#include "runtime/compiled/compiled_file.h"
 
 namespace cbc::fuzz {
 namespace {

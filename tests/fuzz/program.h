@@ -1,4 +1,4 @@
-// Runs functions of the program (src/cli) within this process, as a shell would run the program:
+// Runs functions of the program within this process, as a shell would run the program:
 // with files in memory, standard input and standard output.
 #pragma once
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/solve.h"
+#include "solve/solve.h"
 
 namespace cbc::fuzz {
 

@@ -8,8 +8,8 @@
 
 #include <fmt/core.h>
 
-#include "base/text.h"
-#include "diagnostic/diagnostic.h"
+#include "core/diagnostic/diagnostic.h"
+#include "runtime/base/text.h"
 
 namespace cbc::fuzz {
 namespace {

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/yaml/document.h"
 #include "fuzz/target.h"
 #include "property/random.h"
-#include "yaml/document.h"
 
 namespace cbc::fuzz {
 

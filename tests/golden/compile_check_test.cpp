@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cbc/version.h"
-#include "compiled/compiled_file.h"
 #include "golden/compiled_files.h"
+#include "runtime/compiled/compiled_file.h"
 #include "support/content_place.h"
 
 namespace cbc::golden::compile_check_test {

@@ -17,8 +17,8 @@
 #include <gtest/gtest.h>
 
 #include "cbc/version.h"
-#include "compiled/compiled_file.h"
 #include "golden/compiled_files.h"
+#include "runtime/compiled/compiled_file.h"
 
 namespace cbc::golden::compile_test {
 namespace {

@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/support/system.h"
 #include "golden/process.h"
 #include "support/scratch_folder.h"
-#include "support/system.h"
 
 namespace cbc::golden::graph_test {
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "diagnostic/rules.h"
+#include "core/diagnostic/rules.h"
 #include "golden/process.h"
 #include "support/read_file.h"
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnostic/rules.h"
+#include "core/diagnostic/rules.h"
 #include "golden/compiled_files.h"
 
 namespace cbc::golden::settings_test {

@@ -11,18 +11,18 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
-#include "compiled/compiled_catalog.h"
-#include "diagnostic/diagnostic.h"
-#include "draw/diagram.h"
+#include "core/catalog/reader.h"
+#include "core/check/together.h"
+#include "core/compile/compile.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/support/system.h"
+#include "core/yaml/document.h"
+#include "graph/engine/diagram.h"
 #include "graph/hostile_catalog.h"
+#include "graph/report/situation_report.h"
+#include "graph/report/together_report.h"
 #include "graph/samples.h"
-#include "lint/together.h"
-#include "report/situation_report.h"
-#include "report/together_report.h"
-#include "support/system.h"
-#include "yaml/document.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc::graph_test::dot_test {
 namespace {

@@ -10,19 +10,19 @@
 
 #include <nlohmann/json.hpp>
 
-#include "catalog/reader.h"
-#include "catalog/situation.h"
-#include "compile/compile.h"
-#include "diff/catalog_diff.h"
-#include "draw/catalog_graph.h"
-#include "draw/diagram.h"
+#include "core/catalog/reader.h"
+#include "core/catalog/situation.h"
+#include "core/compile/compile.h"
+#include "core/script/runner.h"
+#include "core/yaml/document.h"
+#include "graph/engine/catalog_diff.h"
+#include "graph/engine/catalog_graph.h"
+#include "graph/engine/diagram.h"
+#include "graph/engine/state_recorder.h"
 #include "graph/hostile_catalog.h"
-#include "report/catalog_report.h"
-#include "report/solve_report.h"
-#include "script/runner.h"
+#include "graph/report/graph_report.h"
 #include "support/read_file.h"
 #include "support/shared_folder.h"
-#include "yaml/document.h"
 
 namespace cbc::graph_test {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/allowed_values.h"
-#include "catalog/draft.h"
 #include "cbc/event.h"
+#include "core/catalog/allowed_values.h"
+#include "core/catalog/draft.h"
+#include "core/script/script.h"
 #include "manual/page.h"
-#include "script/script.h"
 
 namespace cbc::manual::keys_test {
 namespace {

@@ -2,7 +2,7 @@
 // it anew:
 //
 //   CBC_UPDATE_GOLDEN=1 build/release/tests/cbc_manual_tests
-#include "diagnostic/rules.h"
+#include "core/diagnostic/rules.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -4,7 +4,7 @@
 include("${CMAKE_BINARY_DIR}/mutated.cmake" OPTIONAL) # mutated_sources, affected_sources: paths from the root
 
 function(cbc_mutate_sources)
-  foreach(target cbc_runtime cbc_exploration cbc_tool cbc)
+  foreach(target cbc_runtime cbc_exploration cbc_core cbc)
     get_target_property(sources ${target} SOURCES)
     set(changed)
     foreach(source IN LISTS sources)
@@ -19,8 +19,7 @@ function(cbc_mutate_sources)
         set_property(
           SOURCE "${source}"
           APPEND
-          PROPERTY INCLUDE_DIRECTORIES "${CMAKE_BINARY_DIR}/mutated/src/runtime"
-                   "${CMAKE_BINARY_DIR}/mutated/src/tool" "${CMAKE_BINARY_DIR}/mutated/src"
+          PROPERTY INCLUDE_DIRECTORIES "${CMAKE_BINARY_DIR}/mutated/src"
                    "${CMAKE_SOURCE_DIR}/tests/mutants")
       endif()
       list(APPEND changed "${source}")

@@ -13,8 +13,7 @@ import points
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "mutants"
 PROGRAMS = {"unit": "cbc_unit_tests", "property": "cbc_property_tests", "golden": "cbc_golden_tests"}
-FLAGS = ["-std=c++20", *(f"-I{folder}" for folder in (ROOT / "include", ROOT / "src/runtime", ROOT / "src/tool",
-                                                      ROOT / "src", BUILD / "include", BUILD / "generated"))]
+FLAGS = ["-std=c++20", *(f"-I{folder}" for folder in (ROOT / "include", ROOT / "src", BUILD / "include", BUILD / "generated"))]
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 
 
@@ -60,21 +59,16 @@ def describe(source, path, digest, number, change):
 
 
 def find_affected(mutated):
-    """The sources (.cpp) that are compiled with the mutated ones: these, and what includes a mutated header in its
-    own library. What others make of the inline functions in such a header stays as it was."""
+    """The sources (.cpp) that are compiled with the mutated ones: these, and what includes a mutated header."""
     texts = {str(path.relative_to(ROOT)): path.read_text() for path in (ROOT / "src").rglob("*")
              if path.suffix in (".h", ".cpp")}
     affected = set(mutated)
     while True:
         more = {path for path, text in texts.items() if path not in affected and any(
-            library_of(path) + name in affected for name in INCLUDE.findall(text))}
+            "src/" + name in affected for name in INCLUDE.findall(text))}
         if not more:
             return sorted(path for path in affected if path.endswith(".cpp"))
         affected |= more
-
-
-def library_of(path):
-    return next(folder for folder in ("src/runtime/", "src/tool/", "src/") if path.startswith(folder))
 
 
 def write_if_new(path, text):

@@ -1,8 +1,8 @@
 #include "compiled_text.h"
 
-#include "diagnostic/diagnostic.h"
-#include "lint/lint.h"
-#include "yaml/document.h"
+#include "core/check/check.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/yaml/document.h"
 
 namespace cbc::oracle {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "compiled/compiled_catalog.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc::oracle {
 

@@ -16,18 +16,18 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
-#include "coverage/goal_watch.h"
-#include "coverage/goals.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
+#include "core/script/reader.h"
+#include "core/script/runner.h"
+#include "core/yaml/document.h"
+#include "coverage/engine/goal_watch.h"
+#include "coverage/engine/goals.h"
 #include "demand.h"
 #include "generator.h"
 #include "oracle.h"
 #include "random.h"
 #include "random_cases.h"
-#include "script/reader.h"
-#include "script/runner.h"
-#include "yaml/document.h"
 #include "yaml_text.h"
 
 namespace cbc::oracle::coverage_property_test {

@@ -20,7 +20,6 @@
 #include <boost/property_tree/xml_parser.hpp>
 #include <gtest/gtest.h>
 
-#include "compiled/compiled_catalog.h"
 #include "compiled_text.h"
 #include "demand.h"
 #include "enumeration.h"
@@ -28,10 +27,11 @@
 #include "lint_oracle.h"
 #include "random.h"
 #include "random_cases.h"
-#include "report/open_psa.h"
+#include "runtime/compiled/compiled_catalog.h"
 #include "statistics.h"
-#include "verify/cut_sets.h"
-#include "verify/fault_tree.h"
+#include "verify/engine/cut_sets.h"
+#include "verify/engine/fault_tree.h"
+#include "verify/report/open_psa.h"
 #include "yaml_text.h"
 
 namespace cbc::oracle::cut_sets_property_test {

@@ -12,12 +12,12 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
-#include "diff/catalog_diff.h"
-#include "draw/catalog_graph.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
 #include "environment.h"
 #include "generator.h"
+#include "graph/engine/catalog_diff.h"
+#include "graph/engine/catalog_graph.h"
 #include "random.h"
 #include "yaml_text.h"
 

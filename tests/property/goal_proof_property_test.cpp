@@ -13,9 +13,9 @@
 #include <gtest/gtest.h>
 
 #include "compiled_text.h"
-#include "coverage/goal_proof.h"
-#include "coverage/goal_watch.h"
-#include "coverage/goals.h"
+#include "coverage/engine/goal_proof.h"
+#include "coverage/engine/goal_watch.h"
+#include "coverage/engine/goals.h"
 #include "demand.h"
 #include "move_replay.h"
 #include "plain_model.h"

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cbc/event.h"
-#include "compiled/compiled_catalog.h"
-#include "coordinator/record.h"
-#include "coordinator/state.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/record.h"
+#include "runtime/coordinator/state.h"
 
 // What one event of a coordinator did to some groups, as far as a robot or a comparison of two
 // catalogs can see it.

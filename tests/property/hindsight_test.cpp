@@ -9,17 +9,17 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
-#include "coordinator/coordinator.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
+#include "core/script/reader.h"
+#include "core/script/runner.h"
+#include "core/yaml/document.h"
 #include "environment.h"
 #include "generator.h"
 #include "random.h"
-#include "script/reader.h"
-#include "script/runner.h"
+#include "runtime/coordinator/coordinator.h"
 #include "statistics.h"
 #include "support/rounds.h"
-#include "yaml/document.h"
 #include "yaml_text.h"
 
 namespace cbc::oracle::hindsight_test {

@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/check/check.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/yaml/document.h"
 #include "demand.h"
-#include "diagnostic/diagnostic.h"
-#include "lint/lint.h"
-#include "yaml/document.h"
 
 namespace cbc::oracle {
 namespace {

@@ -17,15 +17,15 @@
 
 #include "block_text.h"
 #include "catalog_outline.h"
-#include "diagnostic/rules.h"
+#include "core/check/check.h"
+#include "core/diagnostic/rules.h"
+#include "core/yaml/document.h"
 #include "environment.h"
-#include "lint/lint.h"
 #include "lint_catalogs.h"
 #include "lint_mutations.h"
 #include "support/catalog_files.h"
 #include "support/read_file.h"
 #include "support/shared_folder.h"
-#include "yaml/document.h"
 
 namespace cbc::mutation::lint_mutation_test {
 namespace {

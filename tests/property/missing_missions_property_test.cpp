@@ -14,16 +14,16 @@
 
 #include <gtest/gtest.h>
 
-#include "coverage/goal_proof.h"
-#include "coverage/goals.h"
-#include "coverage/missing_missions.h"
-#include "coverage/watched_run.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/script/reader.h"
+#include "core/yaml/document.h"
+#include "coverage/engine/goal_proof.h"
+#include "coverage/engine/goals.h"
+#include "coverage/engine/missing_missions.h"
+#include "coverage/engine/watched_run.h"
 #include "demand.h"
-#include "diagnostic/diagnostic.h"
 #include "random_cases.h"
-#include "script/reader.h"
 #include "verify_case.h"
-#include "yaml/document.h"
 
 namespace cbc::plain::missing_missions_property_test {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "coordinator/coordinator.h"
 #include "demand.h"
+#include "runtime/coordinator/coordinator.h"
 
 namespace cbc::plain {
 

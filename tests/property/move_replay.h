@@ -5,9 +5,9 @@
 
 #include "cbc/event.h"
 #include "cbc/units.h"
-#include "coordinator/state.h"
 #include "plain_model.h"
-#include "verify/explore.h"
+#include "runtime/coordinator/state.h"
+#include "verify/engine/explore.h"
 
 namespace cbc::plain {
 

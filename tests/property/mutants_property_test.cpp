@@ -16,22 +16,22 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
 #include "compiled_text.h"
-#include "coverage/goal_proof.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
+#include "core/script/reader.h"
+#include "core/script/runner.h"
+#include "core/yaml/document.h"
+#include "coverage/engine/goal_proof.h"
+#include "coverage/engine/mutants/judge.h"
+#include "coverage/engine/mutants/mutants.h"
 #include "demand.h"
 #include "model.h"
-#include "mutate/judge.h"
-#include "mutate/mutants.h"
 #include "plain_comparison.h"
 #include "plain_exploration.h"
 #include "random.h"
 #include "random_cases.h"
-#include "script/reader.h"
-#include "script/runner.h"
 #include "verify_case.h"
-#include "yaml/document.h"
 #include "yaml_text.h"
 
 namespace cbc::plain::mutants_property_test {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
+#include "core/property/properties.h"
 #include "happening.h"
-#include "verify/explore.h"
-#include "verify/properties.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "verify/engine/explore.h"
 
 // What compare_catalogs() is held against: two plain models in lockstep.
 

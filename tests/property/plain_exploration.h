@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
+#include "core/property/properties.h"
 #include "plain_model.h"
-#include "verify/explore.h"
-#include "verify/properties.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "verify/engine/explore.h"
 
 // What explore() is held against: a search without any means but a set of states.
 

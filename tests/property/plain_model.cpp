@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "cbc/event.h"
-#include "coordinator/record.h"
 #include "demand.h"
+#include "runtime/coordinator/record.h"
 
 namespace cbc::plain {
 

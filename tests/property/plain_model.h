@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "coordinator/coordinator.h"
-#include "coordinator/state.h"
+#include "core/property/properties.h"
 #include "happening.h"
-#include "verify/explore.h"
-#include "verify/properties.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/coordinator.h"
+#include "runtime/coordinator/state.h"
+#include "verify/engine/explore.h"
 
 namespace cbc::plain {
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
+#include "core/property/properties.h"
 #include "random.h"
-#include "verify/properties.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc::plain {
 

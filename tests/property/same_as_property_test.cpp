@@ -22,7 +22,7 @@
 #include "random_cases.h"
 #include "script_run.h"
 #include "support/read_file.h"
-#include "verify/same_as.h"
+#include "verify/engine/same_as.h"
 #include "verify_case.h"
 #include "yaml_text.h"
 

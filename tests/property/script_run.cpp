@@ -1,11 +1,11 @@
 #include "script_run.h"
 
-#include "coordinator/coordinator.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/script/reader.h"
+#include "core/script/runner.h"
+#include "core/yaml/document.h"
 #include "demand.h"
-#include "diagnostic/diagnostic.h"
-#include "script/reader.h"
-#include "script/runner.h"
-#include "yaml/document.h"
+#include "runtime/coordinator/coordinator.h"
 
 namespace cbc::plain {
 

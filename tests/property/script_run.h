@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
 #include "happening.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc::plain {
 

@@ -11,14 +11,14 @@
 
 #include <gtest/gtest.h>
 
-#include "compiled/compiled_catalog.h"
+#include "core/check/check.h"
+#include "core/check/together.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/yaml/document.h"
 #include "demand.h"
-#include "diagnostic/diagnostic.h"
-#include "lint/lint.h"
-#include "lint/together.h"
 #include "random.h"
 #include "random_cases.h"
-#include "yaml/document.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc::oracle::situations_together_test {
 namespace {

@@ -12,16 +12,16 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
+#include "core/report/event_json.h"
+#include "core/script/event_lines.h"
+#include "core/script/reader.h"
+#include "core/script/runner.h"
+#include "core/yaml/document.h"
 #include "generator.h"
 #include "random.h"
-#include "report/solve_report.h"
-#include "script/event_lines.h"
-#include "script/reader.h"
-#include "script/runner.h"
 #include "support/rounds.h"
-#include "yaml/document.h"
 #include "yaml_text.h"
 
 namespace cbc::oracle::stream_property_test {

@@ -4,15 +4,15 @@
 #include <stdexcept>
 #include <utility>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
-#include "compiled/compiled_file.h"
-#include "report/answer_bound.h"
-#include "report/sentences.h"
-#include "report/solve_report.h"
-#include "script/reader.h"
-#include "script/runner.h"
-#include "yaml/document.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
+#include "core/report/answer_bound.h"
+#include "core/report/event_json.h"
+#include "core/report/sentences.h"
+#include "core/script/reader.h"
+#include "core/script/runner.h"
+#include "core/yaml/document.h"
+#include "runtime/compiled/compiled_file.h"
 
 namespace cbc::oracle {
 namespace {

@@ -10,19 +10,19 @@
 
 #include <gtest/gtest.h>
 
-#include "compile/compile.h"
-#include "compiled/compiled_catalog.h"
+#include "core/check/check.h"
+#include "core/check/together.h"
+#include "core/compile/compile.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/yaml/document.h"
 #include "demand.h"
-#include "diagnostic/diagnostic.h"
 #include "enumeration.h"
-#include "lint/lint.h"
-#include "lint/together.h"
 #include "lint_generator.h"
 #include "lint_oracle.h"
 #include "random.h"
 #include "random_cases.h"
+#include "runtime/compiled/compiled_catalog.h"
 #include "statistics.h"
-#include "yaml/document.h"
 #include "yaml_text.h"
 
 namespace cbc::oracle::together_property_test {

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
+#include "core/property/properties.h"
 #include "model.h"
 #include "question_generator.h"
-#include "verify/explore.h"
-#include "verify/properties.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "verify/engine/explore.h"
 
 namespace cbc::plain {
 

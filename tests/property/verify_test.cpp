@@ -20,7 +20,7 @@
 #include "random.h"
 #include "random_cases.h"
 #include "support/read_file.h"
-#include "verify/explore.h"
+#include "verify/engine/explore.h"
 #include "verify_case.h"
 
 namespace cbc::plain::verify_test {

@@ -19,8 +19,8 @@
 #include "random.h"
 #include "random_cases.h"
 #include "script_run.h"
-#include "verify/verification.h"
-#include "verify/witness.h"
+#include "verify/engine/verification.h"
+#include "verify/engine/witness.h"
 #include "verify_case.h"
 #include "yaml_text.h"
 

@@ -12,11 +12,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/text.h"
-#include "lint/lint.h"
+#include "core/check/check.h"
+#include "core/yaml/document.h"
 #include "property/lint_catalogs.h"
 #include "property/lint_mutations.h"
-#include "yaml/document.h"
+#include "runtime/base/text.h"
 
 namespace {
 

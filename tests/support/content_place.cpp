@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "compiled/compiled_file.h"
+#include "runtime/compiled/compiled_file.h"
 
 namespace cbc::test {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "coordinator/coordinator.h"
+#include "runtime/coordinator/coordinator.h"
 
 namespace cbc::test {
 namespace {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "compiled/compiled_catalog.h"
-#include "coordinator/state.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/state.h"
 
 namespace cbc::test {
 

@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnostic/rules.h"
+#include "core/check/controls.h"
+#include "core/diagnostic/rules.h"
 #include "findings.h"
-#include "lint/controls.h"
 #include "support/rounds.h"
 
 namespace cbc::allow_comments_test {

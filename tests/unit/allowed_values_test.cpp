@@ -1,4 +1,4 @@
-#include "catalog/allowed_values.h"
+#include "core/catalog/allowed_values.h"
 
 #include <memory>
 #include <string>
@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/yaml/document.h"
 #include "unit/findings.h"
-#include "yaml/document.h"
 
 namespace cbc::allowed_values_test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lint/proofs.h"
+#include "core/check/proofs.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::assignment_search_test {

@@ -16,8 +16,8 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include "core/support/system.h"
 #include "support/scratch_folder.h"
-#include "support/system.h"
 
 namespace cbc::atomic_file_test {
 namespace {

@@ -1,5 +1,5 @@
 // Breadth-first search over numbers instead of catalogs' states, against a plain one.
-#include "verify/breadth_first.h"
+#include "verify/engine/breadth_first.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
 #include "property/enumeration.h"
-#include "solver/problem.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/problem.h"
 
 namespace cbc::test {
 

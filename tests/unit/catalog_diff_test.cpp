@@ -1,4 +1,4 @@
-#include "diff/catalog_diff.h"
+#include "graph/engine/catalog_diff.h"
 
 #include <string>
 #include <string_view>
@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
-#include "report/catalog_report.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
+#include "graph/report/graph_report.h"
 
 namespace cbc::catalog_diff_test {
 namespace {

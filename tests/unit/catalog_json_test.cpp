@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
-#include "report/catalog_report.h"
+#include "compile/catalog_dump.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
 #include "support/read_file.h"
 #include "unit/compiled_bytes.h"
 #include "unit/compiled_fixture.h"

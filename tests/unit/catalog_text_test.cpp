@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "report/catalog_report.h"
+#include "compile/catalog_dump.h"
 #include "unit/compiled_bytes.h"
 #include "unit/compiled_fixture.h"
 

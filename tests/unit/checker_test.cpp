@@ -1,11 +1,11 @@
-#include "solver/checker.h"
+#include "runtime/solver/checker.h"
 
 #include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "compile/compile.h"
+#include "core/compile/compile.h"
 #include "support/rounds.h"
 #include "unit/brute_force.h"
 #include "unit/compiled_fixture.h"

@@ -1,4 +1,4 @@
-#include "compile/compile.h"
+#include "core/compile/compile.h"
 
 #include <random>
 #include <set>
@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "catalog/allowed_values.h"
-#include "compiled/compiled_catalog.h"
-#include "compiled/log_cost.h"
+#include "core/catalog/allowed_values.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/compiled/log_cost.h"
 #include "support/read_file.h"
 #include "unit/compiled_fixture.h"
 

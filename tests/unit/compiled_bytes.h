@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "compiled/compiled_file.h"
+#include "runtime/compiled/compiled_file.h"
 #include "support/rich_catalog.h"
 
 namespace cbc::test {

@@ -1,4 +1,4 @@
-#include "compiled/compiled_file.h"
+#include "runtime/compiled/compiled_file.h"
 
 #include <cstring>
 #include <string>
@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "cbc/version.h"
-#include "compile/compile.h"
+#include "core/compile/compile.h"
 #include "property/random.h"
 #include "support/content_place.h"
 #include "support/scratch_folder.h"

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
 #include "unit/findings.h"
 
 namespace cbc::test {

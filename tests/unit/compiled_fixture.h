@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "compiled/compiled_catalog.h"
-#include "solver/problem.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/problem.h"
 
 /// What the tests of the modules behind the readers share: catalogs from text, and names instead of
 /// numbers. A name that is not there fails the test.

@@ -5,9 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "coordinator/explainer.h"
-#include "report/solve_report.h"
-#include "script/runner.h"
+#include "core/report/run_text.h"
+#include "core/script/runner.h"
+#include "core/support/memory_file.h"
+#include "runtime/coordinator/explainer.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::conflict_test {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "coordinator/coordinator.h"
+#include "runtime/coordinator/coordinator.h"
 #include "unit/allocations.h"
 #include "unit/random_mission.h"
 

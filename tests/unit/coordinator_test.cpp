@@ -1,4 +1,4 @@
-#include "coordinator/coordinator.h"
+#include "runtime/coordinator/coordinator.h"
 
 #include <chrono>
 #include <cstddef>

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "compiled/compiled_file.h"
+#include "runtime/compiled/compiled_file.h"
 #include "support/content_place.h"
 #include "support/exercise.h"
 #include "unit/compiled_bytes.h"

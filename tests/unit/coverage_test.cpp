@@ -1,5 +1,5 @@
 // Each kind of goal: a mission that meets it, and one that just misses it.
-#include "coverage/coverage.h"
+#include "coverage/engine/coverage.h"
 
 #include <cstdint>
 #include <map>
@@ -12,16 +12,16 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
-#include "coverage/goal_watch.h"
-#include "coverage/goals.h"
-#include "diagnostic/diagnostic.h"
-#include "report/coverage_report.h"
-#include "script/reader.h"
-#include "script/runner.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/script/reader.h"
+#include "core/script/runner.h"
+#include "core/yaml/document.h"
+#include "coverage/engine/goal_watch.h"
+#include "coverage/engine/goals.h"
+#include "coverage/report/coverage_report.h"
 #include "unit/compiled_fixture.h"
-#include "yaml/document.h"
 
 namespace cbc::coverage_test {
 namespace {

@@ -1,5 +1,5 @@
 // Minimal cut sets on catalogs that a person can check.
-#include "verify/cut_sets.h"
+#include "verify/engine/cut_sets.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "compiled/compiled_catalog.h"
+#include "runtime/compiled/compiled_catalog.h"
 #include "support/read_file.h"
 #include "unit/compiled_fixture.h"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/text.h"
+#include "runtime/base/text.h"
 
 namespace cbc::decimal_test {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnostic/diagnostic.h"
-#include "diagnostic/rules.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/diagnostic/rules.h"
 
 namespace cbc::diagnostics_test {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "compiled/compiled_file.h"
+#include "runtime/compiled/compiled_file.h"
 
 namespace cbc::digest_test {
 namespace {

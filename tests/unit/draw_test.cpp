@@ -6,14 +6,14 @@
 
 #include <gtest/gtest.h>
 
-#include "base/text.h"
-#include "catalog/reader.h"
-#include "compile/compile.h"
-#include "draw/catalog_graph.h"
-#include "draw/diagram.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
+#include "core/yaml/document.h"
+#include "graph/engine/catalog_graph.h"
+#include "graph/engine/diagram.h"
+#include "graph/report/graph_report.h"
 #include "property/random.h"
-#include "report/catalog_report.h"
-#include "yaml/document.h"
+#include "runtime/base/text.h"
 
 namespace cbc::draw::draw_test {
 namespace {

@@ -6,8 +6,8 @@
 #include <set>
 #include <type_traits>
 
-#include "catalog/allowed_values.h"
-#include "compiled/compiled_file.h"
+#include "core/catalog/allowed_values.h"
+#include "runtime/compiled/compiled_file.h"
 
 namespace cbc::test {
 namespace {

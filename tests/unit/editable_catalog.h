@@ -6,10 +6,10 @@
 #include <tuple>
 #include <vector>
 
-#include "catalog/catalog.h"
 #include "catalog_generated.h"
-#include "compiled/compiled_catalog.h"
-#include "compiled/derive.h"
+#include "core/catalog/catalog.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/compiled/derive.h"
 
 namespace cbc::test {
 

@@ -1,4 +1,4 @@
-#include "script/event_lines.h"
+#include "core/script/event_lines.h"
 
 #include <string>
 #include <string_view>

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "property/random.h"
-#include "solver/objective.h"
+#include "runtime/solver/objective.h"
 
 namespace cbc::exact_product_test {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "compile/compile.h"
-#include "report/sentences.h"
+#include "core/compile/compile.h"
+#include "core/report/sentences.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::exact_values_test {

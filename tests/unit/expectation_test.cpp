@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "script/runner.h"
+#include "core/script/runner.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::expectation_test {

@@ -1,5 +1,5 @@
 // Fault trees, and the XML that other programs read.
-#include "verify/fault_tree.h"
+#include "verify/engine/fault_tree.h"
 
 #include <cstdlib>
 #include <string>
@@ -10,12 +10,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "compiled/compiled_catalog.h"
-#include "report/open_psa.h"
+#include "runtime/compiled/compiled_catalog.h"
 #include "support/read_file.h"
 #include "support/scratch_folder.h"
 #include "unit/compiled_fixture.h"
-#include "verify/cut_sets.h"
+#include "verify/engine/cut_sets.h"
+#include "verify/report/open_psa.h"
 
 namespace cbc::fault_tree_test {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "catalog_generated.h"
-#include "compiled/compiled_catalog.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 /// The structs of the schema are used as those of the solver: each field must lie in its place.
 namespace cbc::file_layout_test {

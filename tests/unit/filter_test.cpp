@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/system.h"
+#include "core/support/system.h"
 
 namespace cbc::filter_test {
 namespace {

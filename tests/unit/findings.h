@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "diagnostic/diagnostic.h"
+#include "core/diagnostic/diagnostic.h"
 
 namespace cbc {
 

@@ -11,9 +11,9 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/catalog.h"
-#include "diagnostic/rules.h"
-#include "lint/lint.h"
+#include "core/catalog/catalog.h"
+#include "core/check/check.h"
+#include "core/diagnostic/rules.h"
 #include "support/catalog_files.h"
 #include "support/read_file.h"
 #include "support/rounds.h"

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnostic/rules.h"
-#include "lint/lint.h"
+#include "core/check/check.h"
+#include "core/diagnostic/rules.h"
 #include "unit/findings.h"
 
 namespace cbc::fixes_test {

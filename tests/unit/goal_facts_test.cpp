@@ -1,5 +1,5 @@
 // Why no mission can meet a goal: a catalog for each reason.
-#include "coverage/goal_facts.h"
+#include "coverage/engine/goal_facts.h"
 
 #include <cstdint>
 #include <functional>
@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "coverage/goal_proof.h"
+#include "coverage/engine/goal_proof.h"
 #include "support/exclusive_tasks.h"
 #include "unit/compiled_fixture.h"
 

@@ -1,4 +1,4 @@
-#include "support/graph.h"
+#include "core/support/graph.h"
 
 #include <algorithm>
 

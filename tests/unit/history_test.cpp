@@ -1,4 +1,4 @@
-#include "serve/history.h"
+#include "page/serve/history.h"
 
 #include <cstddef>
 #include <cstdint>

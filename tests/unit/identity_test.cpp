@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
-#include "compiled/compiled_file.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
+#include "runtime/compiled/compiled_file.h"
 
 namespace cbc::identity_test {
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "cbc/units.h"
-#include "coordinator/state.h"
+#include "runtime/coordinator/state.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::inconsistency_test {

@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/yaml/document.h"
+#include "core/yaml/json_value.h"
 #include "support/rounds.h"
-#include "yaml/document.h"
-#include "yaml/json_value.h"
 
 namespace cbc::json_reader_test {
 namespace {

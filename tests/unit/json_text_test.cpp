@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "base/text.h"
-#include "support/json.h"
+#include "core/support/json.h"
+#include "runtime/base/text.h"
 #include "support/rounds.h"
 
 namespace cbc::json_text_test {

@@ -1,6 +1,6 @@
 // The bound of the search that learns: answers alone show neither how strong it is, nor whether its
 // grounds suffice.
-#include "solver/landmark_bound.h"
+#include "runtime/solver/landmark_bound.h"
 
 #include <algorithm>
 #include <chrono>
@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
-#include "compile/compile.h"
-#include "solver/cost_bound.h"
-#include "solver/domains.h"
-#include "solver/reason_trail.h"
-#include "solver/search_budget.h"
+#include "core/compile/compile.h"
+#include "runtime/solver/cost_bound.h"
+#include "runtime/solver/domains.h"
+#include "runtime/solver/reason_trail.h"
+#include "runtime/solver/search_budget.h"
 #include "support/rounds.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "solver/checker.h"
-#include "solver/nogoods.h"
-#include "solver/solver.h"
+#include "runtime/solver/checker.h"
+#include "runtime/solver/nogoods.h"
+#include "runtime/solver/solver.h"
 #include "support/rounds.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"

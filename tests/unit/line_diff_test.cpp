@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lint/lint.h"
+#include "core/check/check.h"
 #include "support/scratch_folder.h"
 
 namespace cbc::line_diff_test {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnostic/rules.h"
-#include "lint/lint.h"
+#include "core/check/check.h"
+#include "core/diagnostic/rules.h"
 #include "unit/findings.h"
 
 // What could not be understood is not judged: one fault gives one finding.

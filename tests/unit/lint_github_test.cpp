@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnostic/rules.h"
-#include "report/lint_report.h"
+#include "core/diagnostic/rules.h"
+#include "lint/report/lint_report.h"
 
 namespace cbc::lint_github_test {
 namespace {

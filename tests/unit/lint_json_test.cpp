@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "diagnostic/rules.h"
-#include "report/lint_report.h"
+#include "core/diagnostic/rules.h"
+#include "lint/report/lint_report.h"
 
 namespace cbc::lint_json_test {
 namespace {

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cbc/version.h"
-#include "diagnostic/rules.h"
-#include "report/lint_report.h"
+#include "core/diagnostic/rules.h"
+#include "lint/report/lint_report.h"
 
 namespace cbc::lint_sarif_test {
 namespace {

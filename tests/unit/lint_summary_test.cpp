@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "report/lint_report.h"
+#include "lint/report/lint_report.h"
 
 namespace cbc::lint_summary_test {
 namespace {

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "coordinator/coordinator.h"
-#include "coordinator/record.h"
+#include "runtime/coordinator/coordinator.h"
+#include "runtime/coordinator/record.h"
 #include "unit/allocations.h"
 #include "unit/compiled_fixture.h"
 #include "unit/loaded_fixture.h"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "compiled/compiled_file.h"
+#include "runtime/compiled/compiled_file.h"
 #include "support/scratch_folder.h"
 #include "unit/compiled_fixture.h"
 #include "unit/loaded_fixture.h"

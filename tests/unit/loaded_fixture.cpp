@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "compiled/compiled_file.h"
+#include "runtime/compiled/compiled_file.h"
 #include "support/scratch_folder.h"
 #include "unit/compiled_fixture.h"
 

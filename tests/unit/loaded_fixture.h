@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "cbc/loaded_catalog.h"
-#include "compiled/compiled_catalog.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc::test {
 

@@ -1,4 +1,4 @@
-#include "compiled/log_cost.h"
+#include "runtime/compiled/log_cost.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "support/look_alikes.h"
+#include "core/support/look_alikes.h"
 
 #include <optional>
 #include <string>

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "draw/catalog_graph.h"
+#include "graph/engine/catalog_graph.h"
 
 namespace cbc::draw::mark_test {
 namespace {

@@ -1,5 +1,5 @@
 // Paths planned in small random graphs of goals, against all paths.
-#include "coverage/mission_plan.h"
+#include "coverage/engine/mission_plan.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "coverage/goal_graph.h"
+#include "coverage/engine/goal_graph.h"
 
 namespace cbc::mission_plan_test {
 namespace {

@@ -1,5 +1,5 @@
 // What a model can hold, and which requests interact, compared with the definition.
-#include "verify/model.h"
+#include "verify/engine/model.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -10,16 +10,16 @@
 
 #include <gtest/gtest.h>
 
-#include "base/disjoint_sets.h"
-#include "compile/compile.h"
-#include "compiled/compiled_catalog.h"
+#include "core/compile/compile.h"
+#include "runtime/base/disjoint_sets.h"
+#include "runtime/compiled/compiled_catalog.h"
 #include "support/exclusive_tasks.h"
 #include "support/rounds.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
-#include "verify/explore.h"
-#include "verify/same_as.h"
-#include "verify/verification.h"
+#include "verify/engine/explore.h"
+#include "verify/engine/same_as.h"
+#include "verify/engine/verification.h"
 
 namespace cbc::model_test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/wording.h"
+#include "core/support/wording.h"
 
 namespace cbc::nearest_test {
 namespace {

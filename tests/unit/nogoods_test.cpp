@@ -1,4 +1,4 @@
-#include "solver/nogoods.h"
+#include "runtime/solver/nogoods.h"
 
 #include <array>
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/literal.h"
+#include "runtime/solver/literal.h"
 
 namespace cbc::nogoods_test {
 namespace {

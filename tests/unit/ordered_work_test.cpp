@@ -1,4 +1,4 @@
-#include "cli/ordered_work.h"
+#include "core/files/ordered_work.h"
 
 #include <atomic>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "verify/property_reader.h"
+#include "core/property/property_reader.h"
 
 #include <optional>
 #include <string>
@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnostic/diagnostic.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/property/properties.h"
+#include "core/yaml/document.h"
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"
-#include "verify/properties.h"
-#include "yaml/document.h"
 
 namespace cbc::property_reader_test {
 namespace {

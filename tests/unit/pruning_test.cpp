@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "compile/compile.h"
-#include "compiled/log_cost.h"
-#include "solver/components.h"
-#include "solver/cost_bound.h"
-#include "solver/objective.h"
-#include "solver/propagator.h"
+#include "core/compile/compile.h"
+#include "runtime/compiled/log_cost.h"
+#include "runtime/solver/components.h"
+#include "runtime/solver/cost_bound.h"
+#include "runtime/solver/objective.h"
+#include "runtime/solver/propagator.h"
 #include "support/rounds.h"
 #include "unit/brute_force.h"
 #include "unit/compiled_fixture.h"

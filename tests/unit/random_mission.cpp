@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "compile/compile.h"
+#include "core/compile/compile.h"
 
 namespace cbc::test {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cbc/event.h"
-#include "compiled/compiled_catalog.h"
+#include "runtime/compiled/compiled_catalog.h"
 #include "unit/random_problems.h"
 
 namespace cbc::test {

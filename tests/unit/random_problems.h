@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
-#include "catalog/catalog.h"
-#include "compiled/compiled_catalog.h"
+#include "core/catalog/catalog.h"
 #include "property/random.h"
-#include "solver/problem.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/problem.h"
 
 namespace cbc::test {
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "coordinator/problem_builder.h"
+#include "runtime/coordinator/problem_builder.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::ranks_test {

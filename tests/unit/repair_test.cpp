@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/solver.h"
+#include "runtime/solver/solver.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::repair_test {

@@ -1,5 +1,5 @@
 // When a search that learns restarts, and what it looks at first.
-#include "solver/restarts.h"
+#include "runtime/solver/restarts.h"
 
 #include <vector>
 

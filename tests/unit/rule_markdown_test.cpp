@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "report/lint_report.h"
+#include "lint/report/lint_report.h"
 
 namespace cbc::rule_markdown_test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "report/lint_report.h"
+#include "lint/report/lint_report.h"
 #include "support/lines.h"
 
 namespace cbc::rule_text_test {

@@ -1,4 +1,4 @@
-#include "diagnostic/rules.h"
+#include "core/diagnostic/rules.h"
 
 #include <algorithm>
 #include <cctype>
@@ -10,12 +10,12 @@
 
 #include <gtest/gtest.h>
 
-#include "compiled/compiled_catalog.h"
-#include "lint/controls.h"
-#include "lint/lint.h"
-#include "script/reader.h"
+#include "core/check/check.h"
+#include "core/check/controls.h"
+#include "core/script/reader.h"
+#include "core/yaml/document.h"
+#include "runtime/compiled/compiled_catalog.h"
 #include "unit/compiled_fixture.h"
-#include "yaml/document.h"
 
 namespace cbc::rules_test {
 namespace {

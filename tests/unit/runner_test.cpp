@@ -1,4 +1,4 @@
-#include "script/runner.h"
+#include "core/script/runner.h"
 
 #include <string>
 #include <utility>
@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "script/event_lines.h"
-#include "script/reader.h"
+#include "core/script/event_lines.h"
+#include "core/script/reader.h"
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"
 

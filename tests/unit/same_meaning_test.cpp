@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "catalog/reader.h"
+#include "core/catalog/reader.h"
 #include "unit/findings.h"
 
 namespace cbc::same_meaning_test {

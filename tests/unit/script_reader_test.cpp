@@ -8,12 +8,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "base/text.h"
-#include "diagnostic/diagnostic.h"
-#include "script/reader.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/script/reader.h"
+#include "core/yaml/document.h"
+#include "runtime/base/text.h"
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"
-#include "yaml/document.h"
 
 namespace cbc::script_reader_test {
 namespace {

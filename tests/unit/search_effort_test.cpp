@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "compile/compile.h"
-#include "solver/solver.h"
+#include "core/compile/compile.h"
+#include "runtime/solver/solver.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
 

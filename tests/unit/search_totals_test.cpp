@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "coordinator/coordinator.h"
-#include "report/solve_report.h"
-#include "script/runner.h"
-#include "support/json.h"
+#include "core/report/search_stats.h"
+#include "core/script/runner.h"
+#include "core/support/json.h"
+#include "runtime/coordinator/coordinator.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::search_totals_test {

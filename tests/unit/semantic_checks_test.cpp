@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnostic/rules.h"
-#include "lint/lint.h"
+#include "core/check/check.h"
+#include "core/diagnostic/rules.h"
+#include "core/yaml/document.h"
 #include "unit/findings.h"
-#include "yaml/document.h"
 
 namespace cbc::semantic_checks_test {
 namespace {

@@ -1,5 +1,5 @@
 // The server of live pages, spoken to over sockets.
-#include "serve/server.h"
+#include "page/serve/server.h"
 
 #include <chrono>
 #include <cstddef>

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnostic/rules.h"
+#include "core/check/controls.h"
+#include "core/diagnostic/rules.h"
 #include "findings.h"
-#include "lint/controls.h"
 #include "support/scratch_folder.h"
 
 namespace cbc::settings_file_test {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lint/controls.h"
+#include "core/check/controls.h"
 
 namespace cbc::severity_settings_test {
 namespace {

@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "report/solve_report.h"
+#include "core/support/memory_file.h"
+#include "solve/report/solve_report.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::solve_github_test {

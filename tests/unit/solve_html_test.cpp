@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "report/solve_report.h"
-#include "script/reader.h"
+#include "core/report/run_json.h"
+#include "core/report/run_report.h"
+#include "core/script/reader.h"
+#include "core/support/memory_file.h"
+#include "page/html_report.h"
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"
 

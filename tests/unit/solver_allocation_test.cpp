@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "compile/compile.h"
-#include "solver/checker.h"
-#include "solver/solver.h"
+#include "core/compile/compile.h"
+#include "runtime/solver/checker.h"
+#include "runtime/solver/solver.h"
 #include "unit/allocations.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"

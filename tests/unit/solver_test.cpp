@@ -1,4 +1,4 @@
-#include "solver/solver.h"
+#include "runtime/solver/solver.h"
 
 #include <algorithm>
 #include <numeric>
@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "catalog/catalog.h"
-#include "compile/compile.h"
-#include "solver/checker.h"
+#include "core/catalog/catalog.h"
+#include "core/compile/compile.h"
+#include "runtime/solver/checker.h"
 #include "support/rounds.h"
 #include "unit/brute_force.h"
 #include "unit/compiled_fixture.h"

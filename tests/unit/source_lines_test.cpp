@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/yaml/source.h"
 #include "support/rounds.h"
-#include "yaml/source.h"
 
 namespace cbc::yaml::source_lines_test {
 namespace {

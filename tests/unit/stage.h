@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "coordinator/coordinator.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/coordinator.h"
 
 namespace cbc::test {
 

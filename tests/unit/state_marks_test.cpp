@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "draw/catalog_graph.h"
-#include "draw/diagram.h"
-#include "report/solve_report.h"
-#include "script/reader.h"
-#include "script/runner.h"
+#include "core/script/reader.h"
+#include "core/script/runner.h"
+#include "graph/engine/catalog_graph.h"
+#include "graph/engine/diagram.h"
+#include "graph/engine/state_recorder.h"
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"
 #include "unit/random_mission.h"

@@ -1,4 +1,4 @@
-#include "verify/state_store.h"
+#include "verify/engine/state_store.h"
 
 #include <cstddef>
 #include <cstdint>

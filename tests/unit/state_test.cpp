@@ -1,4 +1,4 @@
-#include "coordinator/state.h"
+#include "runtime/coordinator/state.h"
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "sweep/sweep.h"
+#include "sweep/engine/sweep.h"
 
 #include <algorithm>
 #include <functional>
@@ -12,12 +12,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "report/solve_report.h"
-#include "script/reader.h"
-#include "script/runner.h"
-#include "script/writer.h"
+#include "core/report/event_json.h"
+#include "core/script/reader.h"
+#include "core/script/runner.h"
+#include "core/script/writer.h"
 #include "support/read_file.h"
-#include "sweep/sequence.h"
+#include "sweep/engine/sequence.h"
+#include "sweep/report/sweep_report.h"
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"
 #include "unit/random_mission.h"

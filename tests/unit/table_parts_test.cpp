@@ -1,4 +1,4 @@
-#include "report/table_parts.h"
+#include "core/report/table_parts.h"
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "support/threads.h"
+#include "core/support/threads.h"
 
 #include <atomic>
 #include <stdexcept>

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "coordinator/state.h"
 #include "property/random.h"
+#include "runtime/coordinator/state.h"
 
 namespace cbc::timers_test {
 namespace {

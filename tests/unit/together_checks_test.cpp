@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "lint/controls.h"
-#include "lint/lint.h"
+#include "core/check/check.h"
+#include "core/check/controls.h"
+#include "core/yaml/document.h"
 #include "unit/findings.h"
-#include "yaml/document.h"
 
 namespace cbc::together_checks_test {
 namespace {

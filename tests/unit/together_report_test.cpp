@@ -1,5 +1,5 @@
 // The table of tasks that can run together, as text, JSON and DOT.
-#include "report/together_report.h"
+#include "graph/report/together_report.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "lint/together.h"
-#include "report/lint_report.h"
+#include "core/check/together.h"
+#include "lint/report/lint_report.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::together_report_test {

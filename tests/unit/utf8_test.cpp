@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "base/text.h"
-#include "diagnostic/diagnostic.h"
+#include "core/diagnostic/diagnostic.h"
+#include "runtime/base/text.h"
 
 namespace cbc::utf8_test {
 namespace {

@@ -1,5 +1,5 @@
 // What the golden cases of `cbc verify` cannot show, as it takes limits that depend on the machine.
-#include "report/verify_report.h"
+#include "verify/report/verify_report.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 #include "support/exclusive_tasks.h"
 #include "unit/compiled_fixture.h"
-#include "verify/verification.h"
+#include "verify/engine/verification.h"
 
 namespace cbc::verify_report_test {
 namespace {

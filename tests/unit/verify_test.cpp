@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "catalog/reader.h"
-#include "compile/compile.h"
-#include "compiled/compiled_catalog.h"
-#include "compiled/compiled_file.h"
+#include "core/catalog/reader.h"
+#include "core/compile/compile.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/compiled/compiled_file.h"
 #include "support/catalog_files.h"
 #include "support/read_file.h"
 #include "support/rounds.h"

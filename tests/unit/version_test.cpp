@@ -24,7 +24,7 @@ TEST(Version, IsTheNewestOfTheChangelog) {
 }
 
 TEST(Version, IsTheOneToUseInPipelines) {
-  const std::string page = source_text("docs/ci.md") + source_text("src/cli/init/ci.sh");
+  const std::string page = source_text("docs/ci.md") + source_text("src/init/files/ci.sh");
   const std::regex tag(R"(\bv([0-9]+\.[0-9]+\.[0-9]+)\b)");
   std::size_t count = 0;
   for (std::sregex_iterator found(page.begin(), page.end(), tag), end; found != end; ++found) {

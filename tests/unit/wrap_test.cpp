@@ -1,4 +1,4 @@
-#include "report/wrap.h"
+#include "core/report/wrap.h"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "report/solve_report.h"
+#include "core/report/junit_parts.h"
 
 namespace cbc::xml_text_test {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/yaml/document.h"
 #include "unit/findings.h"
-#include "yaml/document.h"
 
 namespace cbc::yaml::yaml_document_test {
 namespace {

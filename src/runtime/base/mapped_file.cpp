@@ -1,4 +1,4 @@
-#include "base/mapped_file.h"
+#include "runtime/base/mapped_file.h"
 
 #include <algorithm>
 #include <cerrno>

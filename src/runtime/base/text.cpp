@@ -1,4 +1,4 @@
-#include "base/text.h"
+#include "runtime/base/text.h"
 
 #include <algorithm>
 #include <array>

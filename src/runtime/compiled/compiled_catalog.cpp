@@ -1,4 +1,4 @@
-#include "compiled/compiled_catalog.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "compiled/compiled_file.h"
+#include "runtime/compiled/compiled_file.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "base/mapped_file.h"
+#include "runtime/base/mapped_file.h"
 
 namespace cbc {
 Digest digest_of(std::string_view content) {

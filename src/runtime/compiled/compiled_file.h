@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "compiled/compiled_catalog.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 /// Compiled catalogs as files: reading with verification, writing, and digests.
 namespace cbc {

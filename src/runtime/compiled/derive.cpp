@@ -1,4 +1,4 @@
-#include "compiled/derive.h"
+#include "runtime/compiled/derive.h"
 
 #include <algorithm>
 #include <memory>
@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "base/text.h"
+#include "runtime/base/text.h"
 
 namespace cbc {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "base/disjoint_sets.h"
-#include "compiled/compiled_catalog.h"
-#include "compiled/log_cost.h"
+#include "runtime/base/disjoint_sets.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/compiled/log_cost.h"
 
 /// Compiled catalogs while they are made: their arrays as vectors, and how most of these arrays
 /// follow from the others. The compiler fills them in with these functions, and the verification of

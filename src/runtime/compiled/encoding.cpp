@@ -10,10 +10,10 @@
 
 #include <flatbuffers/flatbuffers.h>
 
-#include "base/text.h"
 #include "catalog_generated.h"
 #include "cbc/version.h"
-#include "compiled/compiled_file.h"
+#include "runtime/base/text.h"
+#include "runtime/compiled/compiled_file.h"
 
 namespace cbc {
 namespace {

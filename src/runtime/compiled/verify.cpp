@@ -8,11 +8,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/disjoint_sets.h"
-#include "base/text.h"
-#include "compiled/compiled_catalog.h"
-#include "compiled/compiled_file.h"
-#include "compiled/derive.h"
+#include "runtime/base/disjoint_sets.h"
+#include "runtime/base/text.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/compiled/compiled_file.h"
+#include "runtime/compiled/derive.h"
 
 // A compiled file may hold anything. First all arrays are checked from which the others follow:
 // that indexes are in range, and orders and values as the compiler makes them. Then the other

@@ -1,13 +1,13 @@
-#include "coordinator/coordinator.h"
+#include "runtime/coordinator/coordinator.h"
 
 #include <algorithm>
 #include <bit>
 #include <chrono>
 #include <functional>
 
-#include "base/text.h"
-#include "coordinator/explainer.h"
-#include "coordinator/problem_builder.h"
+#include "runtime/base/text.h"
+#include "runtime/coordinator/explainer.h"
+#include "runtime/coordinator/problem_builder.h"
 
 namespace cbc {
 

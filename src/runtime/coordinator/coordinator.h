@@ -10,15 +10,15 @@
 
 #include "cbc/event.h"
 #include "cbc/units.h"
-#include "compiled/compiled_catalog.h"
-#include "coordinator/explainer.h"
-#include "coordinator/hindsight.h"
-#include "coordinator/problem_builder.h"
-#include "coordinator/record.h"
-#include "coordinator/state.h"
-#include "coordinator/transition.h"
-#include "solver/checker.h"
-#include "solver/solver.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/explainer.h"
+#include "runtime/coordinator/hindsight.h"
+#include "runtime/coordinator/problem_builder.h"
+#include "runtime/coordinator/record.h"
+#include "runtime/coordinator/state.h"
+#include "runtime/coordinator/transition.h"
+#include "runtime/solver/checker.h"
+#include "runtime/solver/solver.h"
 
 namespace cbc {
 

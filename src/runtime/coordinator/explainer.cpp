@@ -1,11 +1,11 @@
-#include "coordinator/explainer.h"
+#include "runtime/coordinator/explainer.h"
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
-#include "explain/conflict_search.h"
-#include "explain/reasons.h"
+#include "runtime/explain/conflict_search.h"
+#include "runtime/explain/reasons.h"
 
 namespace cbc {
 namespace {

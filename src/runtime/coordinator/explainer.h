@@ -6,13 +6,13 @@
 #include <span>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "coordinator/problem_builder.h"
-#include "coordinator/record.h"
-#include "coordinator/state.h"
-#include "explain/alternatives.h"
-#include "explain/reasons.h"
-#include "solver/problem.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/problem_builder.h"
+#include "runtime/coordinator/record.h"
+#include "runtime/coordinator/state.h"
+#include "runtime/explain/alternatives.h"
+#include "runtime/explain/reasons.h"
+#include "runtime/solver/problem.h"
 
 namespace cbc {
 

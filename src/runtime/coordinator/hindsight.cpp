@@ -1,4 +1,4 @@
-#include "coordinator/hindsight.h"
+#include "runtime/coordinator/hindsight.h"
 
 #include <algorithm>
 #include <string_view>

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "cbc/units.h"
-#include "compiled/compiled_catalog.h"
-#include "coordinator/explainer.h"
-#include "coordinator/problem_builder.h"
-#include "coordinator/record.h"
-#include "coordinator/state.h"
-#include "explain/reasons.h"
-#include "solver/problem.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/explainer.h"
+#include "runtime/coordinator/problem_builder.h"
+#include "runtime/coordinator/record.h"
+#include "runtime/coordinator/state.h"
+#include "runtime/explain/reasons.h"
+#include "runtime/solver/problem.h"
 
 // Questions that come after the events: why tasks do not have the values that somebody expected.
 

@@ -1,4 +1,4 @@
-#include "coordinator/problem_builder.h"
+#include "runtime/coordinator/problem_builder.h"
 
 #include <algorithm>
 #include <numeric>

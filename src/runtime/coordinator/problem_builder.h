@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cbc/event.h"
-#include "compiled/compiled_catalog.h"
-#include "coordinator/state.h"
-#include "solver/problem.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/state.h"
+#include "runtime/solver/problem.h"
 
 namespace cbc {
 

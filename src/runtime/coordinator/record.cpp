@@ -1,4 +1,4 @@
-#include "coordinator/record.h"
+#include "runtime/coordinator/record.h"
 
 #include <array>
 

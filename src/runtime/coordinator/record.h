@@ -12,10 +12,10 @@
 
 #include "cbc/event.h"
 #include "cbc/units.h"
-#include "compiled/compiled_catalog.h"
-#include "explain/alternatives.h"
-#include "explain/reasons.h"
-#include "solver/problem.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/explain/alternatives.h"
+#include "runtime/explain/reasons.h"
+#include "runtime/solver/problem.h"
 
 // The vocabulary of events, and the records of what they did. The words of scripts, streams, logs,
 // saved states and reports are in `verb_forms` and in the tables of record.cpp, and nowhere else.

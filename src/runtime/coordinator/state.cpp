@@ -1,12 +1,12 @@
-#include "coordinator/state.h"
+#include "runtime/coordinator/state.h"
 
 #include <algorithm>
 #include <bit>
 #include <set>
 #include <string_view>
 
-#include "base/text.h"
-#include "solver/checker.h"
+#include "runtime/base/text.h"
+#include "runtime/solver/checker.h"
 
 namespace cbc {
 

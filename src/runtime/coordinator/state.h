@@ -10,7 +10,7 @@
 
 #include "cbc/event.h"
 #include "cbc/units.h"
-#include "compiled/compiled_catalog.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc {
 

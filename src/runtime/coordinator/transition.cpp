@@ -1,4 +1,4 @@
-#include "coordinator/transition.h"
+#include "runtime/coordinator/transition.h"
 
 #include <algorithm>
 

@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "coordinator/problem_builder.h"
-#include "coordinator/record.h"
-#include "coordinator/state.h"
-#include "solver/problem.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/problem_builder.h"
+#include "runtime/coordinator/record.h"
+#include "runtime/coordinator/state.h"
+#include "runtime/solver/problem.h"
 
 namespace cbc {
 

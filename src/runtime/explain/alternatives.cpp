@@ -1,4 +1,4 @@
-#include "explain/alternatives.h"
+#include "runtime/explain/alternatives.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <iterator>
 #include <utility>
 
-#include "explain/reasons.h"
+#include "runtime/explain/reasons.h"
 
 namespace cbc {
 namespace {

@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "explain/reasons.h"
-#include "solver/objective.h"
-#include "solver/problem.h"
-#include "solver/solver.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/explain/reasons.h"
+#include "runtime/solver/objective.h"
+#include "runtime/solver/problem.h"
+#include "runtime/solver/solver.h"
 
 namespace cbc {
 

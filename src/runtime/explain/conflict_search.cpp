@@ -1,4 +1,4 @@
-#include "explain/conflict_search.h"
+#include "runtime/explain/conflict_search.h"
 
 #include <algorithm>
 #include <utility>

@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "explain/reasons.h"
-#include "explain/relaxed_trail.h"
-#include "solver/conflict_analysis.h"
-#include "solver/objective.h"
-#include "solver/restarts.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/explain/reasons.h"
+#include "runtime/explain/relaxed_trail.h"
+#include "runtime/solver/conflict_analysis.h"
+#include "runtime/solver/objective.h"
+#include "runtime/solver/restarts.h"
 
 namespace cbc {
 

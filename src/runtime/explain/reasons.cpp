@@ -1,4 +1,4 @@
-#include "explain/reasons.h"
+#include "runtime/explain/reasons.h"
 
 #include <algorithm>
 #include <cstddef>

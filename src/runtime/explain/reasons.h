@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cbc/units.h"
-#include "compiled/compiled_catalog.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc {
 

@@ -1,4 +1,4 @@
-#include "explain/relaxed_trail.h"
+#include "runtime/explain/relaxed_trail.h"
 
 #include <algorithm>
 

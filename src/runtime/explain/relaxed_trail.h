@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "explain/reasons.h"
-#include "solver/conflict_analysis.h"
-#include "solver/literal.h"
-#include "solver/nogoods.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/explain/reasons.h"
+#include "runtime/solver/conflict_analysis.h"
+#include "runtime/solver/literal.h"
+#include "runtime/solver/nogoods.h"
 
 namespace cbc {
 

@@ -11,10 +11,10 @@
 
 #include "cbc/event.h"
 #include "cbc/loaded_catalog.h"
-#include "compiled/compiled_catalog.h"
-#include "compiled/compiled_file.h"
-#include "coordinator/coordinator.h"
-#include "coordinator/record.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/compiled/compiled_file.h"
+#include "runtime/coordinator/coordinator.h"
+#include "runtime/coordinator/record.h"
 
 namespace cbc {
 

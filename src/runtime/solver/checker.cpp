@@ -1,6 +1,6 @@
-#include "solver/checker.h"
+#include "runtime/solver/checker.h"
 
-#include "base/text.h"
+#include "runtime/base/text.h"
 
 namespace cbc {
 

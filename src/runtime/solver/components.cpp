@@ -1,4 +1,4 @@
-#include "solver/components.h"
+#include "runtime/solver/components.h"
 
 #include <algorithm>
 

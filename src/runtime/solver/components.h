@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "solver/domains.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/domains.h"
 
 namespace cbc {
 

@@ -1,4 +1,4 @@
-#include "solver/conflict_analysis.h"
+#include "runtime/solver/conflict_analysis.h"
 
 #include <algorithm>
 #include <iterator>

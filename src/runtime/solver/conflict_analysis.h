@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/literal.h"
+#include "runtime/solver/literal.h"
 
 namespace cbc {
 

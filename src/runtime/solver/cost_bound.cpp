@@ -1,8 +1,8 @@
-#include "solver/cost_bound.h"
+#include "runtime/solver/cost_bound.h"
 
 #include <algorithm>
 
-#include "compiled/log_cost.h"
+#include "runtime/compiled/log_cost.h"
 
 namespace cbc {
 

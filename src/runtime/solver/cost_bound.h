@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "solver/components.h"
-#include "solver/domains.h"
-#include "solver/objective.h"
-#include "solver/problem.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/components.h"
+#include "runtime/solver/domains.h"
+#include "runtime/solver/objective.h"
+#include "runtime/solver/problem.h"
 
 namespace cbc {
 

@@ -1,4 +1,4 @@
-#include "solver/domains.h"
+#include "runtime/solver/domains.h"
 
 #include <algorithm>
 #include <bit>

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "solver/problem.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/problem.h"
 
 namespace cbc {
 

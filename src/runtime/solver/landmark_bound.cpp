@@ -1,10 +1,10 @@
-#include "solver/landmark_bound.h"
+#include "runtime/solver/landmark_bound.h"
 
 #include <algorithm>
 #include <bit>
 #include <utility>
 
-#include "solver/cost_bound.h"
+#include "runtime/solver/cost_bound.h"
 
 namespace cbc {
 namespace {

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "solver/domains.h"
-#include "solver/reason_trail.h"
-#include "solver/search_budget.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/domains.h"
+#include "runtime/solver/reason_trail.h"
+#include "runtime/solver/search_budget.h"
 
 namespace cbc {
 

@@ -1,4 +1,4 @@
-#include "solver/learning_search.h"
+#include "runtime/solver/learning_search.h"
 
 namespace cbc {
 namespace {

@@ -3,17 +3,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "solver/conflict_analysis.h"
-#include "solver/domains.h"
-#include "solver/landmark_bound.h"
-#include "solver/objective.h"
-#include "solver/objective_reasons.h"
-#include "solver/performance_reasons.h"
-#include "solver/problem.h"
-#include "solver/reason_trail.h"
-#include "solver/restarts.h"
-#include "solver/search_budget.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/conflict_analysis.h"
+#include "runtime/solver/domains.h"
+#include "runtime/solver/landmark_bound.h"
+#include "runtime/solver/objective.h"
+#include "runtime/solver/objective_reasons.h"
+#include "runtime/solver/performance_reasons.h"
+#include "runtime/solver/problem.h"
+#include "runtime/solver/reason_trail.h"
+#include "runtime/solver/restarts.h"
+#include "runtime/solver/search_budget.h"
 
 namespace cbc {
 

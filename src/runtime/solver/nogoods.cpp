@@ -1,4 +1,4 @@
-#include "solver/nogoods.h"
+#include "runtime/solver/nogoods.h"
 
 #include <algorithm>
 

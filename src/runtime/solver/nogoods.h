@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/literal.h"
+#include "runtime/solver/literal.h"
 
 namespace cbc {
 

@@ -1,10 +1,10 @@
-#include "solver/objective.h"
+#include "runtime/solver/objective.h"
 
 #include <algorithm>
 #include <bit>
 
-#include "compiled/compiled_catalog.h"
-#include "compiled/log_cost.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/compiled/log_cost.h"
 
 namespace cbc {
 

@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/natural.h"
 #include "cbc/units.h"
-#include "compiled/compiled_catalog.h"
-#include "solver/components.h"
-#include "solver/domains.h"
-#include "solver/problem.h"
+#include "runtime/base/natural.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/components.h"
+#include "runtime/solver/domains.h"
+#include "runtime/solver/problem.h"
 
 namespace cbc {
 

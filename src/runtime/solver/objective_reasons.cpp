@@ -1,4 +1,4 @@
-#include "solver/objective_reasons.h"
+#include "runtime/solver/objective_reasons.h"
 
 #include <algorithm>
 

@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/cost_bound.h"
-#include "solver/domains.h"
-#include "solver/landmark_bound.h"
-#include "solver/objective.h"
-#include "solver/problem.h"
-#include "solver/reason_trail.h"
-#include "solver/search_budget.h"
+#include "runtime/solver/cost_bound.h"
+#include "runtime/solver/domains.h"
+#include "runtime/solver/landmark_bound.h"
+#include "runtime/solver/objective.h"
+#include "runtime/solver/problem.h"
+#include "runtime/solver/reason_trail.h"
+#include "runtime/solver/search_budget.h"
 
 namespace cbc {
 

@@ -1,6 +1,6 @@
-#include "solver/performance_bound.h"
+#include "runtime/solver/performance_bound.h"
 
-#include "compiled/log_cost.h"
+#include "runtime/compiled/log_cost.h"
 
 namespace cbc {
 

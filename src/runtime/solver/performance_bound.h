@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "solver/domains.h"
-#include "solver/objective.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/domains.h"
+#include "runtime/solver/objective.h"
 
 namespace cbc {
 

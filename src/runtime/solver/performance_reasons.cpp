@@ -1,6 +1,6 @@
-#include "solver/performance_reasons.h"
+#include "runtime/solver/performance_reasons.h"
 
-#include "compiled/log_cost.h"
+#include "runtime/compiled/log_cost.h"
 
 namespace cbc {
 

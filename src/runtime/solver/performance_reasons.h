@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "solver/domains.h"
-#include "solver/performance_bound.h"
-#include "solver/reason_trail.h"
-#include "solver/search_budget.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/domains.h"
+#include "runtime/solver/performance_bound.h"
+#include "runtime/solver/reason_trail.h"
+#include "runtime/solver/search_budget.h"
 
 namespace cbc {
 

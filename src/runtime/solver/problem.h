@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
+#include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc {
 

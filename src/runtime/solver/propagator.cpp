@@ -1,7 +1,7 @@
-#include "solver/propagator.h"
+#include "runtime/solver/propagator.h"
 
-#include "compiled/compiled_catalog.h"
-#include "compiled/log_cost.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/compiled/log_cost.h"
 
 namespace cbc {
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "solver/domains.h"
-#include "solver/performance_bound.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/domains.h"
+#include "runtime/solver/performance_bound.h"
 
 namespace cbc {
 

@@ -1,4 +1,4 @@
-#include "solver/reason_trail.h"
+#include "runtime/solver/reason_trail.h"
 
 #include <algorithm>
 

@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "solver/conflict_analysis.h"
-#include "solver/domains.h"
-#include "solver/literal.h"
-#include "solver/nogoods.h"
-#include "solver/problem.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/conflict_analysis.h"
+#include "runtime/solver/domains.h"
+#include "runtime/solver/literal.h"
+#include "runtime/solver/nogoods.h"
+#include "runtime/solver/problem.h"
 
 namespace cbc {
 

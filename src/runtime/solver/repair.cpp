@@ -1,4 +1,4 @@
-#include "solver/repair.h"
+#include "runtime/solver/repair.h"
 
 #include <algorithm>
 

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "solver/domains.h"
-#include "solver/problem.h"
-#include "solver/propagator.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/domains.h"
+#include "runtime/solver/problem.h"
+#include "runtime/solver/propagator.h"
 
 namespace cbc {
 

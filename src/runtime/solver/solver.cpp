@@ -1,9 +1,9 @@
-#include "solver/solver.h"
+#include "runtime/solver/solver.h"
 
 #include <algorithm>
 
-#include "compiled/compiled_catalog.h"
-#include "compiled/log_cost.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/compiled/log_cost.h"
 
 namespace cbc {
 

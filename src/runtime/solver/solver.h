@@ -6,16 +6,16 @@
 #include <optional>
 #include <vector>
 
-#include "compiled/compiled_catalog.h"
-#include "solver/components.h"
-#include "solver/cost_bound.h"
-#include "solver/domains.h"
-#include "solver/learning_search.h"
-#include "solver/objective.h"
-#include "solver/problem.h"
-#include "solver/propagator.h"
-#include "solver/repair.h"
-#include "solver/search_budget.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/solver/components.h"
+#include "runtime/solver/cost_bound.h"
+#include "runtime/solver/domains.h"
+#include "runtime/solver/learning_search.h"
+#include "runtime/solver/objective.h"
+#include "runtime/solver/problem.h"
+#include "runtime/solver/propagator.h"
+#include "runtime/solver/repair.h"
+#include "runtime/solver/search_budget.h"
 
 namespace cbc {
 

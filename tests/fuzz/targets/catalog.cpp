@@ -2,15 +2,16 @@
 #include <utility>
 #include <vector>
 
-#include "compile/compile.h"
-#include "compiled/compiled_file.h"
-#include "diagnostic/rules.h"
-#include "draw/catalog_graph.h"
-#include "draw/diagram.h"
+#include "compile/catalog_dump.h"
+#include "core/compile/compile.h"
+#include "core/diagnostic/rules.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/lint.h"
 #include "fuzz/target.h"
-#include "report/catalog_report.h"
+#include "graph/engine/catalog_graph.h"
+#include "graph/engine/diagram.h"
+#include "graph/report/graph_report.h"
+#include "runtime/compiled/compiled_file.h"
 #include "support/exercise.h"
 
 // A catalog in YAML, as `cbc lint --fix`, `cbc compile --dump` and `cbc graph` take it.

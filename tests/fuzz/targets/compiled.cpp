@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "compiled/compiled_file.h"
+#include "compile/catalog_dump.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/target.h"
-#include "report/catalog_report.h"
+#include "runtime/compiled/compiled_file.h"
 #include "support/content_place.h"
 #include "support/exercise.h"
 

@@ -2,13 +2,13 @@
 #include <string>
 #include <vector>
 
-#include "cli/output.h"
-#include "cli/solve.h"
+#include "core/files/output.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/program.h"
 #include "fuzz/target.h"
-#include "report/solve_report.h"
-#include "sweep/sweep.h"
+#include "solve/solve.h"
+#include "sweep/engine/sweep.h"
+#include "sweep/report/sweep_report.h"
 
 // The shards of a sweep, for `cbc solve --merge`.
 namespace cbc::fuzz {

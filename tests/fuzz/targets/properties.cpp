@@ -1,10 +1,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/verify.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/program.h"
 #include "fuzz/target.h"
+#include "verify/verify.h"
 
 // A property file on a catalog, as `cbc verify` takes it: it runs what it finds as scripts, and
 // says so (exit status 3) if one does not break its property.

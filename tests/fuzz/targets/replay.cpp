@@ -1,10 +1,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/solve.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/program.h"
 #include "fuzz/target.h"
+#include "solve/solve.h"
 
 // The log of a stream, for `cbc solve --replay`.
 namespace cbc::fuzz {

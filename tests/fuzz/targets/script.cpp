@@ -3,14 +3,17 @@
 #include <string>
 #include <vector>
 
-#include "diagnostic/diagnostic.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/report/run_report.h"
+#include "core/script/reader.h"
+#include "core/script/runner.h"
+#include "core/support/memory_file.h"
+#include "core/yaml/document.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/program.h"
 #include "fuzz/target.h"
-#include "report/solve_report.h"
-#include "script/reader.h"
-#include "script/runner.h"
-#include "yaml/document.h"
+#include "page/html_report.h"
+#include "solve/report/solve_report.h"
 
 // A script on a catalog, run and reported.
 namespace cbc::fuzz {

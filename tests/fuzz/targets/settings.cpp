@@ -2,11 +2,11 @@
 #include <string_view>
 #include <vector>
 
-#include "diagnostic/diagnostic.h"
+#include "core/check/controls.h"
+#include "core/diagnostic/diagnostic.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/lint.h"
 #include "fuzz/target.h"
-#include "lint/controls.h"
 
 // A settings file, and a catalog with comments that allow findings.
 namespace cbc::fuzz {

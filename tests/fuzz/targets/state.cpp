@@ -2,11 +2,11 @@
 #include <string>
 #include <vector>
 
+#include "core/script/event_lines.h"
+#include "core/script/runner.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/program.h"
 #include "fuzz/target.h"
-#include "script/event_lines.h"
-#include "script/runner.h"
 #include "support/exercise.h"
 
 // A saved state, from which a mission goes on.

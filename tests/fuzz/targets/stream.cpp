@@ -1,11 +1,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/output.h"
-#include "cli/solve.h"
+#include "core/files/output.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/program.h"
 #include "fuzz/target.h"
+#include "solve/solve.h"
 
 // Lines of events from standard input. What comes out is a log, of which a replay must be the same.
 namespace cbc::fuzz {

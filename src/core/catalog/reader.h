@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/catalog/catalog.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/yaml/document.h"
+
+/// Reads catalogs.
+namespace cbc {
+
+/// The name of a required or excluded task that no task has.
+struct UndefinedTask {
+  std::string name;
+  std::optional<BehaviorIndex> behavior;  ///< that requires it; empty: an exclusivity list has it
+  Millionths minimum_performance = 0;     ///< of the requirement; 0: none
+  std::size_t list = 0;                   ///< place in Catalog::exclusivity, if one has it
+};
+
+/// What could be made of a catalog.
+struct CatalogReading {
+  /// As far as it was understood.
+  Catalog catalog;
+  /// The names in requirements and exclusivity lists that it leaves out.
+  std::vector<UndefinedTask> undefined_tasks;
+  /// Whether all of it was understood, though it may break rules about its meaning.
+  bool is_complete = false;
+  /// Whether all entries and names were understood. Values may be missing, and then exclude
+  /// nothing.
+  bool has_all_names = false;
+  /// Whether all behaviors were understood, except that named ones may lack their tasks.
+  bool has_all_behaviors = false;
+  /// Whether its requirements have no cycle.
+  bool is_acyclic = false;
+};
+
+/// Understands as much of a catalog as possible. All problems of the text are reported into
+/// `diagnostics` at once.
+[[nodiscard]] CatalogReading understand_catalog(const yaml::Document& document,
+                                                Diagnostics& diagnostics);
+
+/// Understands a catalog. All problems of the text are reported into `diagnostics` at once; the
+/// result is empty if one of them is an error.
+[[nodiscard]] std::optional<Catalog> read_catalog(const yaml::Document& document,
+                                                  Diagnostics& diagnostics);
+
+/// The same from YAML text. `file` is the name used in messages.
+[[nodiscard]] std::optional<Catalog> read_catalog(std::string_view text, std::string file,
+                                                  Diagnostics& diagnostics);
+
+}  // namespace cbc

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/catalog/reader.h"
+#include "core/check/controls.h"
+#include "core/check/together.h"
+#include "core/compile/compile.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/yaml/document.h"
+#include "runtime/compiled/compiled_catalog.h"
+
+/// Checks catalogs by all rules, mends texts by the edits of findings, and shows what that changes.
+namespace cbc {
+
+struct LintOptions {
+  /// Decisions that the search for one answer may take; past them there is a finding `undecided`.
+  std::uint64_t max_nodes = 100'000;
+  /// What the rule `can-run-together` checks; must outlive the check.
+  std::span<const NeverTogether> never_together = {};
+  /// Whether rules that need a search are checked.
+  bool searches = true;
+  /// Whether rules that are off unless settings ask for them are checked, too.
+  bool checks_off_rules = false;
+  /// Returns those of some findings that are reported; empty: all of them are. What is wrong behind
+  /// a finding is looked for if it is not reported.
+  std::function<std::vector<Diagnostic>(std::vector<Diagnostic>)> control = {};
+};
+
+/// What lint knows about a catalog, besides its findings.
+struct LintResult {
+  CatalogReading reading;
+  std::optional<CompiledCatalog> compiled;  ///< if all of it was understood, and searched
+};
+
+/// Reports everything that is wrong with a catalog, by all rules, into `diagnostics`.
+[[nodiscard]] LintResult lint_catalog(const yaml::Document& document, const LintOptions& options,
+                                      Diagnostics& diagnostics);
+
+/// A catalog, checked under the control of its comments and of settings.
+struct CheckedCatalog {
+  CatalogReading reading;
+  std::optional<CompiledCatalog> compiled;  ///< as in LintResult
+  std::vector<Diagnostic> findings;         ///< what is to be reported, as by control_findings
+  std::size_t errors = 0;                   ///< whatever comments and settings say
+};
+
+/// Checks a catalog by all rules. `text` is that of the document; `diagnostics` has what was found
+/// before. What `options` says about settings is replaced by `settings`.
+[[nodiscard]] CheckedCatalog check_catalog(const yaml::Document& document, std::string_view text,
+                                           const SeveritySettings& settings, LintOptions options,
+                                           Diagnostics diagnostics);
+
+/// What lint has to say about one file.
+struct LintedFile {
+  /// What the file is. `unknown`: it is not valid YAML.
+  enum class Kind : std::uint8_t { catalog, script, properties, settings, unknown };
+  std::string file;                              ///< name in messages
+  std::string text;                              ///< as it was read
+  std::vector<Diagnostic> findings;              ///< in the order of Diagnostics::sort
+  std::optional<CatalogSummary> summary;         ///< of a catalog that was understood
+  std::optional<TogetherSummary> together = {};  ///< the same, if it was asked for
+  Kind kind = Kind::catalog;                     ///< only a catalog has a summary
+};
+
+/// Number of findings of a severity in a file, in all files.
+[[nodiscard]] std::size_t count(const LintedFile& file, Severity severity);
+[[nodiscard]] std::size_t count(const std::vector<LintedFile>& files, Severity severity);
+
+/// A text with the edits of some findings applied.
+struct FixedText {
+  std::string text;
+  /// Indices of the findings that are mended, ascending. The others have no edits, or edits that
+  /// are not safe to apply or conflict with others.
+  std::vector<std::size_t> mended;
+};
+
+/// Applies the edits of findings about a text: for each finding all of them, or none. Nothing else
+/// is changed: comments, order, layout, line breaks, a byte order mark, and whether the last line
+/// has a line break stay as they are. Findings in a removed entry are mended with it. Removals
+/// come first; of edits that overlap otherwise those of the first finding count.
+///
+/// Mended text may have new findings with edits: repeat until nothing is mended. This ends, since
+/// the text loses entries or older names each time.
+[[nodiscard]] FixedText apply_fixes(std::string_view text, std::span<const Diagnostic> findings);
+
+/// The difference of two texts in the unified format, with three lines of context, for `patch -p1`
+/// and `git apply`; empty if there is none. `file` is the name in its head. The work is
+/// bounded: where much has changed in one place the difference may not be the shortest.
+[[nodiscard]] std::string unified_diff(std::string_view before, std::string_view after,
+                                       std::string_view file);
+
+}  // namespace cbc

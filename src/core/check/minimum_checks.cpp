@@ -1,0 +1,125 @@
+// See proofs.h: minimum performances that are reached anyway.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/check/proofs.h"
+#include "core/diagnostic/rules.h"
+#include "runtime/base/text.h"
+#include "runtime/explain/conflict_search.h"
+#include "runtime/explain/reasons.h"
+
+namespace cbc {
+namespace {
+
+class RedundantMinimumCheck {
+ public:
+  explicit RedundantMinimumCheck(ProofContext& proof) : proof_(proof), catalog_(proof.compiled()) {}
+
+  void check() {
+    for (TaskId task = 0; task < catalog_.tasks.size(); ++task) check_task(task);
+    for (BehaviorId id = 0; id < catalog_.behaviors.size(); ++id) check_behavior(id);
+  }
+
+ private:
+  void check_task(TaskId id) {
+    const Millionths minimum = catalog_.tasks[id].minimum_performance;
+    if (minimum == 0 || proof_.liveness().of_task(id) != Liveness::State::live) return;
+    RelevantTasks relevant(catalog_, catalog_.tasks[id].group);
+    relevant.add(id);
+    const Task& task = proof_.task(id);
+    report({{id, none}}, none, {id, minimum}, relevant, task.minimum_performance_range,
+           "task " + quote(task.name) + " runs");
+  }
+
+  void check_behavior(BehaviorId id) {
+    if (proof_.liveness().of_behavior(id) != Liveness::State::live) return;
+    std::vector<ProofContext::Goal> goals;
+    RelevantTasks relevant(catalog_, catalog_.group_of(id));
+    for (const ValueId value : catalog_.performs[id]) {
+      const TaskId task = catalog_.task_of(value);
+      goals.push_back({task, value - catalog_.values.begin[task]});
+      relevant.add(task);
+    }
+    for (const CompiledRequirement& requirement : catalog_.requirements[id]) {
+      if (requirement.minimum_performance == 0) continue;
+      const Behavior& behavior = proof_.behavior(id);
+      const TaskIndex task = catalog_.tasks[requirement.task].catalog_index;
+      report(goals, id, {requirement.task, requirement.minimum_performance}, relevant,
+             strongest_requirement(behavior, task).minimum_performance_range,
+             "behavior " + quote(behavior.name) + " is active");
+    }
+  }
+
+  struct Minimum {
+    TaskId task = none;
+    Millionths performance = 0;
+  };
+
+  /// Reports a minimum if the task reaches it wherever one of the goals is reached under the other
+  /// constraints. `owner`: the behavior that has it, or none.
+  void report(const std::vector<ProofContext::Goal>& goals, BehaviorId owner,
+              const Minimum& minimum, RelevantTasks relevant, const Range& range,
+              const std::string& condition) {
+    const std::string task = quote(proof_.task(minimum.task).name);
+    switch (is_missed(goals, minimum, other_constraints(owner, minimum, relevant))) {
+      case Feasibility::yes:
+        break;
+      case Feasibility::no:
+        proof_.reporter().report(rule::redundant_minimum, range,
+                                 "this minimum decides nothing: wherever " + condition + ", " +
+                                     task + " performs with at least " +
+                                     format_percent(minimum.performance) + " anyway");
+        break;
+      case Feasibility::unknown:
+        proof_.report_undecided(
+            range, "whether this minimum performance of " + task + " decides anything");
+        break;
+    }
+  }
+
+  /// The constraints that bear on the tasks and on what they may require, but for the minimum.
+  std::vector<Reason> other_constraints(BehaviorId owner, const Minimum& minimum,
+                                        RelevantTasks& relevant) const {
+    relevant.close();
+    std::vector<Reason> constraints;
+    for (const TaskId task : relevant.tasks()) {
+      add_exclusions(catalog_, task, relevant, most_constraints, constraints);
+      add_minimum(catalog_, task, constraints);
+    }
+    for (const BehaviorId behavior : relevant.behaviors()) {
+      add_requirements(catalog_, behavior, constraints);
+    }
+    const auto is_the_minimum = [&](const Reason& reason) {
+      return reason.kind == Reason::Kind::performance && reason.behavior == owner &&
+             reason.task == minimum.task;
+    };
+    constraints.erase(std::remove_if(constraints.begin(), constraints.end(), is_the_minimum),
+                      constraints.end());
+    return constraints;
+  }
+
+  /// Whether the task can run below the minimum while one of the goals is reached.
+  Feasibility is_missed(const std::vector<ProofContext::Goal>& goals, const Minimum& minimum,
+                        const std::vector<Reason>& constraints) {
+    if (constraints.size() >= most_constraints) return Feasibility::unknown;
+    Feasibility answer = Feasibility::no;
+    for (const ProofContext::Goal& goal : goals) {
+      ConflictSearch problem = proof_.relaxed(goal);
+      problem.keep_below(minimum.task, minimum.performance);
+      const Feasibility one = proof_.solve(problem, constraints);
+      if (one == Feasibility::yes) return one;
+      if (one == Feasibility::unknown) answer = one;
+    }
+    return answer;
+  }
+
+  ProofContext& proof_;
+  const CompiledCatalog& catalog_;
+};
+
+}  // namespace
+
+void check_redundant_minimums(ProofContext& proof) { RedundantMinimumCheck(proof).check(); }
+
+}  // namespace cbc

@@ -1,0 +1,264 @@
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "cbc/units.h"
+
+/// Declares a command line: the commands of a program, their options and arguments, which values
+/// these accept, and what does not go together. Parsing, --help, the complaints about a wrong
+/// command line, and completion all follow from the declarations.
+namespace cbc::cli {
+
+/// What completion offers for a value.
+enum class ValueKind : std::uint8_t {
+  text,               ///< its choices or names, if it has any
+  catalog,            ///< a file with a catalog, or a folder of them
+  script,             ///< a file with a script
+  catalog_or_script,  ///< either, or a folder of scripts
+  shard,              ///< a file with the result of a shard
+  file,               ///< any file
+  task,               ///< the name of a task of the catalog on the line
+  task_or_behavior,   ///< the name of either
+};
+
+struct NameWithHelp {
+  std::string name;
+  std::string help;  ///< on one line; may be empty
+};
+
+/// The values that an option or an argument accepts.
+struct Values {
+  std::string placeholder;  ///< in --help: "FILE"
+  std::string expected;     ///< "a file", for complaints
+  ValueKind kind = ValueKind::text;
+  bool is_input = false;             ///< names a file to read, "-" being standard input
+  bool is_output = false;            ///< names a file to write, "-" being standard output
+  std::string replaced_by;           ///< the option whose output may replace this input, or none
+  std::vector<std::string> choices;  ///< if not empty, no other value is accepted
+  /// Names that completion offers; may be null.
+  std::function<std::vector<NameWithHelp>()> names;
+  /// Says what is wrong with a value, empty if nothing is. Null: all are right.
+  std::function<std::string(const std::string& value)> check;
+};
+
+/// Of a file to read.
+[[nodiscard]] Values input(std::string placeholder, ValueKind kind);
+/// Of a file to write, "-" being standard output.
+[[nodiscard]] Values output(std::string placeholder);
+/// Of a file to write beside the report, which has standard output.
+[[nodiscard]] Values further_output(std::string placeholder);
+/// Of a task or behavior, or of a file that need not exist.
+[[nodiscard]] Values name_of(std::string placeholder, ValueKind kind);
+[[nodiscard]] Values one_of(std::string placeholder, std::vector<std::string> choices);
+[[nodiscard]] Values whole_number(std::string placeholder, std::int64_t least,
+                                  std::int64_t most = std::numeric_limits<std::int64_t>::max());
+/// Of a time of at least so many microseconds, written in seconds.
+[[nodiscard]] Values seconds(Microseconds least = 1);
+/// Of a part of a whole, from 0 to 100, with at most one decimal.
+[[nodiscard]] Values percent();
+/// The tenths of a percent in such a value.
+[[nodiscard]] std::uint64_t tenths_in(const std::string& percent);
+/// Such a value as it is written: "50 %", "99.5 %".
+[[nodiscard]] std::string describe_percent(const std::string& percent);
+
+/// The parts between separators; at least one, which may be empty.
+[[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
+[[nodiscard]] std::string join(const std::vector<std::string>& words, std::string_view separator);
+/// "text, json or gcc"
+[[nodiscard]] std::string join_with_or(const std::vector<std::string>& words);
+
+/// The names in a table, such as that of the formats of a report.
+template <typename Table>
+[[nodiscard]] std::vector<std::string> names_in(const Table& table) {
+  std::vector<std::string> names;
+  for (const auto& row : table) names.emplace_back(row.name);
+  return names;
+}
+/// Null if the table has no such name.
+template <typename Table>
+[[nodiscard]] auto* find_named(const Table& table, std::string_view name) {
+  for (const auto& row : table) {
+    if (row.name == name) return &row;
+  }
+  return static_cast<decltype(&*table.begin())>(nullptr);
+}
+
+/// An option, a flag or an argument of a command. `others` below are names of options ("--script")
+/// or arguments ("CATALOG"), or an option with one of its values ("--format json").
+struct Option {
+  std::vector<std::string> names;  ///< with their dashes; of an argument its only name
+  std::string help;
+  std::string group;
+  Values values;  ///< of a flag empty, but for `kind`: what the flag makes of the arguments
+  bool is_flag = false;
+  bool is_argument = false;
+  bool is_repeatable = false;
+  bool is_required = false;
+  char separator = '\0';  ///< between the values of a list
+  /// What stands for a value that is missing, at the end of the line or before another option;
+  /// empty: it may not be missing.
+  std::string missing_value;
+  std::function<void(const std::string& value)> store;
+
+  /// The longest one, which messages use.
+  [[nodiscard]] const std::string& name() const { return names.back(); }
+
+  Option& required();
+  /// Lets the value be missing, which is then this one.
+  Option& value_or(std::string value);
+  /// Lets several values be given at once.
+  Option& separated_by(char character);
+  /// Makes a flag turn the arguments into files of this kind.
+  Option& makes_arguments(ValueKind kind);
+  /// Refuses it beside any of the others. The reason follows a colon; it may be empty.
+  Option& not_with(std::vector<std::string> others, std::string reason = {});
+  /// Refuses it unless one of the others is there, too.
+  Option& only_with(std::vector<std::string> others);
+  /// Refuses it beside other values of an option; the option may be missing.
+  Option& only_with_values(std::string other, std::vector<std::string> accepted);
+
+  struct Exclusion {
+    std::vector<std::string> others;
+    std::string reason;
+  };
+  struct AcceptedValues {
+    std::string other;
+    std::vector<std::string> values;
+  };
+  std::vector<Exclusion> exclusions;
+  std::vector<std::vector<std::string>> requirements;
+  std::vector<AcceptedValues> accepted_values;
+};
+
+/// What --help shows of a command beside its options.
+struct HelpText {
+  std::vector<std::string> usages;  ///< what follows the name of the command, a line each
+  std::string examples;             ///< the most common ones: whole lines, indented
+  /// Paragraphs, which are wrapped; lines that begin with a blank are left alone.
+  std::string footer;
+};
+
+/// Sets a target to a value that its check has accepted.
+inline void assign(std::string& target, const std::string& value) { target = value; }
+inline void assign(std::vector<std::string>& target, const std::string& value) {
+  target.push_back(value);
+}
+template <typename Number>
+requires std::is_integral_v<Number>
+void assign(Number& target, const std::string& value) {
+  std::from_chars(value.data(), value.data() + value.size(), target);
+}
+template <typename Value>
+void assign(std::optional<Value>& target, const std::string& value) {
+  assign(target.emplace(), value);
+}
+
+class Command {
+ public:
+  Command(std::string name, std::string description, HelpText text);
+
+  /// The targets must live as long as `action`. A vector takes all values of a repeatable option.
+  template <typename Target>
+  Option& option(const char* names, Target& target, Values values, std::string help) {
+    Option& added = add(names, std::move(values), std::move(help));
+    added.is_repeatable = std::is_same_v<Target, std::vector<std::string>>;
+    added.store = [&target](const std::string& value) { assign(target, value); };
+    return added;
+  }
+  Option& flag(const char* names, bool& target, std::string help);
+  Option& flag(const char* names, std::string help);
+  template <typename Target>
+  Option& argument(const char* name, Target& target, Values values, std::string help) {
+    Option& added = option(name, target, std::move(values), std::move(help));
+    added.is_argument = true;
+    return added;
+  }
+  /// --confine, for commands that read files.
+  void add_confinement();
+  /// The heading in --help of the options declared next.
+  void group(std::string title) { group_ = std::move(title); }
+  /// What the command does. Returns the exit status.
+  void action(std::function<int()> run) { run_ = std::move(run); }
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const std::string& description() const { return description_; }
+  [[nodiscard]] const HelpText& text() const { return text_; }
+  [[nodiscard]] const std::deque<Option>& options() const { return options_; }
+  /// Null if it has none of this name.
+  [[nodiscard]] const Option* find(std::string_view name) const;
+  [[nodiscard]] int run() const { return run_(); }
+
+ private:
+  Option& add(std::string_view names, Values values, std::string help);
+
+  std::string name_;
+  std::string description_;
+  HelpText text_;
+  std::string group_ = "Options";
+  std::deque<Option> options_;  ///< a deque, as references to them are handed out
+  std::function<int()> run_;
+};
+
+class Program {
+ public:
+  /// `version`: what --version prints. `called_as`: the path or name under which the program was
+  /// called, which its completion scripts complete.
+  Program(std::string description, std::string version, std::string called_as, HelpText text);
+
+  Command& add_command(std::string name, std::string description, HelpText text);
+
+  /// Does what a command line says, or complains of it. Returns the exit status.
+  [[nodiscard]] int run(const std::vector<std::string>& arguments) const;
+
+  [[nodiscard]] const std::string& called_as() const { return called_as_; }
+  /// With the options that need no command.
+  [[nodiscard]] const Command& itself() const { return itself_; }
+  /// In the order of --help.
+  [[nodiscard]] const std::deque<Command>& commands() const { return commands_; }
+  /// Null if there is none of this name.
+  [[nodiscard]] const Command* find(std::string_view name) const;
+
+ private:
+  Command itself_;
+  std::deque<Command> commands_;
+  std::string version_;
+  std::string called_as_;
+};
+
+/// The text that --help prints of a command, or of the program itself.
+[[nodiscard]] std::string help_of(const Program& program, const Command& command);
+
+/// What is printed where there is no command: the form of a command line, and all commands.
+[[nodiscard]] std::string usage_of(const Program& program);
+
+/// The complaint about a name that no command has.
+[[nodiscard]] std::string describe_unknown_command(const Program& program, const std::string& name);
+
+/// The first argument by which the scripts of `cbc completion` call the program.
+inline constexpr const char* complete_argument = "__complete";
+
+/// Answers such a call with the words that fit where a word is being typed.
+///
+/// The arguments are the shell; the part of the typed word that the shell does not replace (bash
+/// replaces what follows '=' or ':', or begins with '@'); the number of the typed word; and all
+/// words after the name of the program. The typed word has the quotes of the shell; for bash all
+/// words do.
+///
+/// The first line of the answer is "words" or "files". After "words" each line has a candidate,
+/// with a tab before its help; for bash, which shows no help, the candidate is quoted for
+/// insertion. "files" is followed on its line by the accepted suffixes; two more lines have the
+/// beginning of the path, and the part of it that the shell does not replace. Names with line
+/// breaks or with characters that could harm a terminal are left out.
+void reply_to_shell(const Program& program, const std::vector<std::string>& arguments);
+
+}  // namespace cbc::cli

@@ -1,0 +1,419 @@
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "core/command_line/command_line.h"
+#include "core/files/input.h"
+#include "runtime/base/text.h"
+
+namespace cbc::cli {
+namespace {
+
+/// The words around the one that is being typed, as far as they can be understood.
+struct TypedLine {
+  const Command* command = nullptr;   ///< null: it is being typed
+  bool is_unknown = false;            ///< there is no such command
+  const Option* pending = nullptr;    ///< what is being typed is its value
+  bool has_separator = false;         ///< "--" is before it: no options follow
+  std::size_t positionals = 0;        ///< the number of arguments before it
+  std::vector<std::string> files;     ///< the arguments before and after it
+  std::vector<std::string> scripts;   ///< that options before and after it name
+  std::optional<ValueKind> argument;  ///< what a flag makes of the arguments
+};
+
+bool is_option(const std::string& word) { return word.size() > 1 && word.front() == '-'; }
+
+void add_value(const Option& option, const std::string& value, TypedLine& line) {
+  if (option.values.kind == ValueKind::script) line.scripts.push_back(value);
+}
+
+void add_option(const std::string& word, TypedLine& line) {
+  const std::size_t equals = word.find('=');
+  const Option* const option = line.command->find(word.substr(0, equals));
+  if (option == nullptr) return;
+  if (option->is_flag) {
+    if (option->values.kind != ValueKind::text) line.argument = option->values.kind;
+  } else if (equals == std::string::npos) {
+    line.pending = option;
+  } else {
+    add_value(*option, word.substr(equals + 1), line);
+  }
+}
+
+/// Whether a word after an option is its value.
+bool is_value_of(const Option* option, const std::string& word) {
+  return option != nullptr && (option->missing_value.empty() || !is_option(word));
+}
+
+void add_word(const std::string& word, TypedLine& line) {
+  if (is_value_of(line.pending, word)) {
+    add_value(*std::exchange(line.pending, nullptr), word, line);
+    return;
+  }
+  line.pending = nullptr;
+  if (line.has_separator || !is_option(word)) {
+    line.files.push_back(word);
+  } else if (word == "--") {
+    line.has_separator = true;
+  } else {
+    add_option(word, line);
+  }
+}
+
+/// `words` follow the name of the program; the last one is being typed. `behind` follow that one.
+TypedLine understand_line(const Program& program, const std::vector<std::string>& words,
+                          const std::vector<std::string>& behind) {
+  TypedLine line;
+  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+    if (line.command != nullptr) {
+      add_word(words[i], line);
+    } else if (!is_option(words[i])) {
+      line.command = program.find(words[i]);
+      line.is_unknown = line.command == nullptr;
+      if (line.is_unknown) return line;
+    }
+  }
+  if (line.command == nullptr) return line;
+  line.positionals = line.files.size();
+  TypedLine whole = line;
+  whole.pending = nullptr;
+  for (const std::string& word : behind) add_word(word, whole);
+  line.files = std::move(whole.files);
+  line.scripts = std::move(whole.scripts);
+  line.argument = whole.argument;
+  return line;
+}
+
+/// Larger files would take longer to read than somebody who presses a key waits.
+constexpr std::uintmax_t largest_completed = std::uintmax_t{2} << 20U;
+constexpr std::uintmax_t largest_compiled = std::uintmax_t{64} << 20U;
+
+std::string expand_home(const std::string& path) {
+  const char* const home = std::getenv("HOME");
+  return home != nullptr && path.starts_with("~/") ? home + path.substr(1) : path;
+}
+
+/// Only regular files with a size are read: pipes and files of the kernel might never end.
+bool is_readable_file(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  return !error && size > 0 &&
+         size <= (path.ends_with(".cbc") ? largest_compiled : largest_completed);
+}
+
+std::optional<InputFile> read_if_readable(InputFiles& files, const std::string& path) {
+  return is_readable_file(path) ? files.read(path) : std::nullopt;
+}
+
+/// The catalog at the path, or the one that the script or property file there names.
+std::optional<InputFile> read_catalog_of(InputFiles& files, const std::string& path) {
+  std::optional<InputFile> file = read_if_readable(files, path);
+  if (!file || file->document == nullptr ||
+      (!is_script(*file->document) && !is_property_file(*file->document))) {
+    return file;
+  }
+  const std::optional<NamedCatalog> named = catalog_named_by(path, *file->document);
+  return named ? read_if_readable(files, named->path) : std::nullopt;
+}
+
+/// The tasks, and on request the behaviors, of the catalog in a file, or of the catalog that the
+/// script in it names. A catalog with errors is used as far as it is understood. Messages go to
+/// standard error.
+std::vector<NameWithHelp> names_of_file(const std::string& path, bool with_behaviors) {
+  InputFiles files;
+  const std::optional<InputFile> catalog = read_catalog_of(files, expand_home(path));
+  if (!catalog) return {};
+  std::vector<NameWithHelp> names;
+  std::set<std::string> known;
+  const auto add = [&](std::string_view name, const char* what) {
+    if (known.emplace(name).second) names.push_back({std::string(name), what});
+  };
+  if (catalog->document == nullptr) {
+    const std::optional<CompiledFile> compiled = load(catalog->compiled);
+    if (!compiled) return {};
+    for (const std::string_view name : compiled->catalog.task_names) add(name, "task");
+    if (!with_behaviors) return names;
+    for (const std::string_view name : compiled->catalog.behavior_names) add(name, "behavior");
+    return names;
+  }
+  const CatalogReading reading =
+      files.check_catalog(catalog->path, *catalog->document, InputFiles::Purpose::drawing).reading;
+  for (const Task& task : reading.catalog.tasks) add(task.name, "task");
+  for (const UndefinedTask& task : reading.undefined_tasks) add(task.name, "task");
+  if (!with_behaviors) return names;
+  for (const Behavior& behavior : reading.catalog.behaviors) add(behavior.name, "behavior");
+  return names;
+}
+
+/// The words that fit where a word of a command line is being typed.
+struct Completion {
+  std::vector<NameWithHelp> candidates;    ///< without `prefix`
+  bool is_file = false;                    ///< the shell offers files
+  std::vector<std::string_view> suffixes;  ///< of the files, without dots; empty: all files
+  std::string prefix;                      ///< of the last word, before the value: "--format="
+};
+
+/// The first few words of the help of an option or a command.
+std::string first_words(std::string text) {
+  std::size_t end = text.size();
+  for (const char* const stop : {". ", "; ", ": ", " ("}) end = std::min(end, text.find(stop));
+  text.resize(end);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+void offer_commands(const Program& program, Completion& completion) {
+  for (const Command& command : program.commands()) {
+    completion.candidates.push_back({command.name(), first_words(command.description())});
+  }
+}
+
+void offer_options(const Command& command, Completion& completion) {
+  for (const Option& option : command.options()) {
+    if (option.is_argument) continue;
+    const std::vector<std::string>& choices = option.values.choices;
+    const std::string help = choices.empty() ? first_words(option.help) : join(choices, ", ");
+    for (auto name = option.names.rbegin(); name != option.names.rend(); ++name) {
+      completion.candidates.push_back({*name, help});
+    }
+  }
+}
+
+void offer_names(std::vector<NameWithHelp> names, Completion& completion) {
+  std::move(names.begin(), names.end(), std::back_inserter(completion.candidates));
+}
+
+void offer_files(std::vector<std::string_view> suffixes, Completion& completion) {
+  completion.is_file = true;
+  completion.suffixes = std::move(suffixes);
+}
+
+/// Offers names of the catalog on the line, or of the one that a script on the line names.
+void offer_names_of(const TypedLine& line, bool with_behaviors, Completion& completion) {
+  const std::vector<std::string>& paths = line.files.empty() ? line.scripts : line.files;
+  if (!paths.empty()) offer_names(names_of_file(paths.front(), with_behaviors), completion);
+}
+
+void offer_kind(ValueKind kind, const TypedLine& line, Completion& completion) {
+  switch (kind) {
+    case ValueKind::text:
+      return;
+    case ValueKind::catalog:
+      return offer_files({"yaml", "yml", "cbc"}, completion);
+    case ValueKind::script:
+      return offer_files({"yaml", "yml", "json"}, completion);
+    case ValueKind::catalog_or_script:
+      return offer_files({"yaml", "yml", "json", "cbc"}, completion);
+    case ValueKind::shard:
+      return offer_files({"json"}, completion);
+    case ValueKind::file:
+      return offer_files({}, completion);
+    case ValueKind::task:
+      return offer_names_of(line, false, completion);
+    case ValueKind::task_or_behavior:
+      return offer_names_of(line, true, completion);
+  }
+}
+
+void offer_values(const Option& option, const TypedLine& line, const std::string& typed,
+                  Completion& completion) {
+  if (option.separator != '\0') {
+    completion.prefix += typed.substr(0, typed.rfind(option.separator) + 1);
+  }
+  for (const std::string& choice : option.values.choices) {
+    completion.candidates.push_back({choice, ""});
+  }
+  if (option.values.names) offer_names(option.values.names(), completion);
+  offer_kind(option.values.kind, line, completion);
+}
+
+/// The argument that comes next; null if all are given.
+const Option* next_argument(const Command& command, std::size_t given) {
+  for (const Option& option : command.options()) {
+    if (option.is_argument && (option.is_repeatable || given-- == 0)) return &option;
+  }
+  return nullptr;
+}
+
+/// Follows from the declarations of the command line. `words` follow the name of the program; the
+/// last one, which may be empty, is being typed. `behind` follow that one. Where names of a catalog
+/// fit, the catalog is read.
+Completion complete(const Program& program, const std::vector<std::string>& words,
+                    const std::vector<std::string>& behind) {
+  Completion completion;
+  if (words.empty()) return completion;
+  const std::string& last = words.back();
+  const TypedLine line = understand_line(program, words, behind);
+  if (line.is_unknown) return completion;
+  const bool is_dash = last.starts_with('-') && !line.has_separator;
+  if (line.command == nullptr) {
+    is_dash ? offer_options(program.itself(), completion) : offer_commands(program, completion);
+    return completion;
+  }
+  if (is_value_of(line.pending, last)) {
+    offer_values(*line.pending, line, last, completion);
+    return completion;
+  }
+  const std::size_t equals = last.find('=');
+  if (is_dash && equals != std::string::npos) {
+    if (!last.starts_with("--")) return completion;  // short options take no '='
+    const Option* const option = line.command->find(last.substr(0, equals));
+    if (option == nullptr || option->is_flag) return completion;
+    completion.prefix = last.substr(0, equals + 1);
+    offer_values(*option, line, last.substr(equals + 1), completion);
+    return completion;
+  }
+  const Option* const positional = next_argument(*line.command, line.positionals);
+  if (is_dash || (positional == nullptr && last.empty() && !line.has_separator)) {
+    offer_options(*line.command, completion);
+  } else if (positional != nullptr && line.argument) {
+    offer_kind(*line.argument, line, completion);
+  } else if (positional != nullptr) {
+    offer_values(*positional, line, last, completion);
+  }
+  return completion;
+}
+
+/// Removes the quotes of a word, which may be unfinished, as a shell does; expands nothing.
+std::string unquote(std::string_view word) {
+  std::string plain;
+  char quote_mark = '\0';
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    const char character = word[i];
+    if (quote_mark == '\0' && (character == '\'' || character == '"')) {
+      quote_mark = character;
+    } else if (character == quote_mark) {
+      quote_mark = '\0';
+    } else if (character == '\\' && quote_mark != '\'') {
+      if (i + 1 == word.size()) break;
+      const bool is_literal =
+          quote_mark == '"' && std::string_view("$`\"\\").find(word[i + 1]) == std::string::npos;
+      if (is_literal) plain += character;
+      plain += word[++i];
+    } else {
+      plain += character;
+    }
+  }
+  return plain;
+}
+
+bool is_harmless(char character) {
+  return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
+         (character >= '0' && character <= '9') ||
+         std::string_view("_-./+,@%:=").find(character) != std::string_view::npos ||
+         static_cast<unsigned char>(character) >= 0x80;
+}
+
+/// A text as it has to stand in bash after an opening quote, or without one. Empty if it cannot be
+/// quoted in this way.
+std::optional<std::string> quote_for_bash(std::string_view text, char quote_mark) {
+  std::string quoted;
+  for (const char character : text) {
+    if (quote_mark == '\'') {
+      quoted += character == '\'' ? R"('\'')" : std::string(1, character);
+    } else if (quote_mark == '"') {
+      if (character == '!') return std::nullopt;  // bash would expand the history
+      if (std::string_view("$`\"\\").find(character) != std::string_view::npos) quoted += '\\';
+      quoted += character;
+    } else {
+      if (!is_harmless(character)) quoted += '\\';
+      quoted += character;
+    }
+  }
+  return quoted;
+}
+
+/// A word that is being typed.
+struct TypedWord {
+  std::string plain;       ///< the whole word without quotes
+  std::string kept;        ///< the part that the shell does not replace, without quotes
+  char quote_mark = '\0';  ///< that opens the part that it replaces
+};
+
+TypedWord typed_word(const std::string& word, const std::string& kept) {
+  TypedWord typed{unquote(word), unquote(kept), '\0'};
+  if (word.size() > kept.size() && (word[kept.size()] == '"' || word[kept.size()] == '\'')) {
+    typed.quote_mark = word[kept.size()];
+  }
+  return typed;
+}
+
+char to_lower(char character) {
+  return character >= 'A' && character <= 'Z' ? static_cast<char>(character - 'A' + 'a')
+                                              : character;
+}
+
+/// Whether a candidate has all typed letters, in this order and in any case. Such a candidate is
+/// accepted by fish if it is the only one; fish itself would look for the letters in the help, too.
+bool has_letters_of(std::string_view candidate, std::string_view typed) {
+  for (const char character : candidate) {
+    if (!typed.empty() && to_lower(character) == to_lower(typed.front())) typed.remove_prefix(1);
+  }
+  return typed.empty();
+}
+
+void print_words(const Completion& completion, const TypedWord& typed, std::string_view shell) {
+  fmt::print("words\n");
+  for (const auto& [text, help] : completion.candidates) {
+    const std::string whole = completion.prefix + text;
+    if (text.empty() || printable(whole) != whole) continue;
+    if (shell == "bash") {
+      if (!whole.starts_with(typed.plain) || !whole.starts_with(typed.kept)) continue;
+      const auto quoted = quote_for_bash(whole.substr(typed.kept.size()), typed.quote_mark);
+      if (quoted) fmt::print("{}\n", *quoted);
+    } else if (shell == "zsh" || has_letters_of(whole, typed.plain)) {
+      fmt::print("{}\t{}\n", whole, printable(help));
+    }
+  }
+}
+
+void print_files(const Completion& completion, const TypedWord& typed) {
+  fmt::print("files");
+  for (const std::string_view suffix : completion.suffixes) fmt::print(" {}", suffix);
+  const std::size_t skipped = completion.prefix.size();
+  const std::string kept = typed.kept.size() > skipped ? typed.kept.substr(skipped) : "";
+  fmt::print("\n{}\n{}\n", printable(typed.plain.substr(skipped)), printable(kept));
+}
+
+/// 0 if the text is not a number.
+std::size_t parse_place(std::string_view text) {
+  std::size_t place = 0;
+  std::from_chars(text.data(), text.data() + text.size(), place);
+  return place;
+}
+
+}  // namespace
+
+void reply_to_shell(const Program& program, const std::vector<std::string>& arguments) {
+  constexpr std::size_t first_word = 3;
+  if (arguments.size() <= first_word) return;
+  const std::size_t place = parse_place(arguments[2]);
+  if (place == 0 || place > arguments.size() - first_word) return;
+  const std::string& shell = arguments[0];
+  std::vector<std::string> words(arguments.begin() + first_word, arguments.end());
+  const TypedWord typed = typed_word(words[place - 1], arguments[1]);
+  if (shell == "bash") {
+    for (std::string& word : words) word = unquote(word);
+  }
+  const auto behind = words.begin() + static_cast<std::ptrdiff_t>(place);
+  words[place - 1] = typed.plain;
+  const Completion completion = complete(program, {words.begin(), behind}, {behind, words.end()});
+  completion.is_file ? print_files(completion, typed) : print_words(completion, typed, shell);
+}
+
+}  // namespace cbc::cli

@@ -1,0 +1,316 @@
+#include "core/files/output.h"
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <fcntl.h>
+#include <filesystem>
+#include <initializer_list>
+#include <poll.h>
+#include <set>
+#include <string_view>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "core/files/read_files.h"
+#include "core/support/system.h"
+#include "core/support/wording.h"
+#include "runtime/base/text.h"
+
+namespace cbc::cli {
+
+int complain(const std::string& message) {
+  const std::string line = "cbc: " + message + "\n";
+  // If it cannot be written, the exit status still tells; a stream goes on.
+  static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr));
+  return exit_unusable;
+}
+
+int usage_error(std::string_view command, const std::string& message) {
+  return complain("{}\nSee 'cbc{}{} --help'.", message, command.empty() ? "" : " ", command);
+}
+
+bool is_terminal(std::FILE* stream) {
+  const char* const terminal = std::getenv("TERM");
+  if (terminal == nullptr || std::string_view(terminal) == "dumb") return false;
+  return isatty(fileno(stream)) != 0;
+}
+
+std::size_t columns_of(std::FILE* stream) {
+  winsize size{};
+  return ::ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+std::size_t columns_for(std::FILE* stream) { return is_terminal(stream) ? columns_of(stream) : 0; }
+
+bool wants_color(std::FILE* stream) {
+  const char* const no_color = std::getenv("NO_COLOR");
+  return (no_color == nullptr || *no_color == '\0') && is_terminal(stream);
+}
+
+Style style_for(std::FILE* stream) { return wants_color(stream) ? color_style() : plain_style(); }
+
+namespace {
+
+/// A longer line would wrap, and its first part could not be removed.
+std::string_view first_characters(std::string_view line, std::size_t count) {
+  std::size_t end = 0;
+  while (end < line.size() && count-- > 0) end += utf8::decode(line, end).bytes;
+  return line.substr(0, end);
+}
+
+}  // namespace
+
+Progress::Progress(std::string what, std::size_t total)
+    : what_(std::move(what)),
+      total_(total),
+      is_wanted_(is_terminal(stderr)),
+      start_(std::chrono::steady_clock::now()) {}
+
+Progress::~Progress() { clear(); }
+
+void Progress::begin(const std::string& name) {
+  ++begun_;
+  name_ = name;
+  show();
+}
+
+void Progress::show(const std::string& detail) {
+  constexpr std::chrono::milliseconds between_updates(100);  // nobody can read faster
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_wanted_ || now - start_ < std::chrono::seconds(1)) return;
+  if (is_shown_ && now - shown_ < between_updates) return;
+  // Overwrites the line: carriage return, text, erase to the end.
+  const std::string line =
+      fmt::format("{} {} of {}: {}{}", what_, begun_, total_, printable(name_), detail);
+  fmt::print(stderr, "\r{}\x1b[K", first_characters(line, columns_of(stderr) - 1));
+  std::fflush(stderr);
+  is_shown_ = true;
+  shown_ = now;
+}
+
+void Progress::clear() {
+  if (!is_shown_) return;
+  fmt::print(stderr, "\r\x1b[K");
+  is_shown_ = false;
+}
+
+void GroupProgress::show(std::uint32_t group, std::uint64_t states) {
+  if (group_ != group) progress_.begin(fmt::format("group {}", group));
+  group_ = group;
+  progress_.show(fmt::format(" ({})", quantity(states, "state")));
+}
+
+namespace {
+
+constexpr std::array stop_signals = {SIGINT, SIGTERM, SIGHUP};
+
+// Signal handlers may access only such variables.
+volatile std::sig_atomic_t stop = 0;
+volatile std::sig_atomic_t asked_at = 0;  ///< in seconds
+std::array<int, 2> ends{-1, -1};
+
+std::sig_atomic_t seconds_now() {
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<std::sig_atomic_t>(time.tv_sec);
+}
+
+extern "C" void ask_to_stop(int signal) {
+  const int error = errno;
+  if (stop == 0) {
+    stop = 1;
+    asked_at = seconds_now();
+    static_cast<void>(!::write(ends[1], "", 1));
+  } else if (seconds_now() - asked_at > 1) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  errno = error;
+}
+
+}  // namespace
+
+StopSignals::StopSignals() {
+  if (::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) != 0) {
+    throw SystemRefusal("cannot open a pipe", errno);
+  }
+  stop = 0;
+  struct sigaction action = {};
+  action.sa_handler = ask_to_stop;
+  action.sa_flags = SA_RESTART;  // resumes interrupted writes
+  sigemptyset(&action.sa_mask);
+  for (const int signal : stop_signals) sigaddset(&action.sa_mask, signal);
+  for (const int signal : stop_signals) {
+    struct sigaction before = {};
+    ::sigaction(signal, &action, &before);
+    // Under nohup the end of a connection must not stop the program.
+    if (signal == SIGHUP && before.sa_handler == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  }
+}
+
+StopSignals::~StopSignals() {
+  // All is saved; a signal now must not make the run look interrupted.
+  for (const int signal : stop_signals) std::signal(signal, SIG_IGN);
+  ::close(ends[0]);
+  ::close(ends[1]);
+}
+
+bool StopSignals::have_come() const { return stop != 0; }
+
+int StopSignals::descriptor() const { return ends[0]; }
+
+LineOutput::LineOutput() { std::signal(SIGPIPE, SIG_IGN); }
+
+LineOutput::~LineOutput() { std::signal(SIGPIPE, SIG_DFL); }
+
+void LineOutput::write(std::string_view line) {
+  constexpr std::size_t enough = std::size_t{1} << 16;   // more would not be faster
+  constexpr std::chrono::milliseconds longest_wait(10);  // nobody notices it
+  if (has_failed_) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (waiting_.empty()) waits_since_ = now;
+  waiting_ += line;
+  if (waiting_.size() >= enough || now - waits_since_ >= longest_wait) flush();
+}
+
+void LineOutput::flush() {
+  std::string_view rest = waiting_;
+  while (!rest.empty() && !has_failed_) {
+    const ssize_t count = ::write(STDOUT_FILENO, rest.data(), rest.size());
+    if (count >= 0) {
+      rest.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EAGAIN) {
+      // Another process that shares the pipe may have made it non-blocking.
+      pollfd reader{STDOUT_FILENO, POLLOUT, 0};
+      static_cast<void>(::poll(&reader, 1, -1));
+    } else if (errno != EINTR) {
+      has_failed_ = true;
+      complain("cannot write the output: {}", std::strerror(errno));
+    }
+  }
+  waiting_.clear();
+}
+
+void hold_standard_descriptors() {
+  // In this order, as an opened file takes the lowest free descriptor.
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(descriptor, F_GETFD) >= 0) continue;
+    // Opened for the direction that is not used, so that using it fails. Messages may be dropped.
+    const int mode = descriptor == STDOUT_FILENO ? O_RDONLY : O_WRONLY;
+    if (::open("/dev/null", mode) < 0) return;
+  }
+}
+
+namespace {
+
+/// The error of the first write_output to standard output that failed. The stream only knows that
+/// one did, and nothing of a long content is left in it to be written again.
+int error_of_output = 0;
+
+}  // namespace
+
+int finish_output(int status) {
+  // After an earlier error, what is left is tried again, which gives the reason.
+  errno = error_of_output;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+  const char* const reason = errno != 0 ? std::strerror(errno) : "a part of it is missing";
+  return complain("cannot write the output: {}", reason);
+}
+
+int write_output(const std::string& path, std::string_view content) {
+  if (path == "-") {
+    const bool is_whole = std::fwrite(content.data(), 1, content.size(), stdout) == content.size();
+    if (!is_whole && error_of_output == 0) error_of_output = errno;
+    return exit_ok;  // finish_output reports it
+  }
+  if (const auto refusal = find_read_file(path)) return complain(*refusal);
+  return replace_input(path, content);
+}
+
+namespace {
+
+/// Once for each folder, as folders may be large, and runs may write many files.
+void tidy_folder_of(const std::string& path) {
+  static std::set<std::filesystem::path> tidy;
+  if (tidy.insert(std::filesystem::path(path).parent_path()).second) remove_leftovers(path);
+}
+
+}  // namespace
+
+int replace_input(const std::string& path, std::string_view content) {
+  tidy_folder_of(path);
+  if (const auto error = write_atomically(path, content)) {
+    return complain("cannot write {}: {}", quote(path), *error);
+  }
+  return exit_ok;
+}
+
+int create_output(const std::string& path, std::string_view content) {
+  tidy_folder_of(path);
+  if (const auto error = create_atomically(path, content)) {
+    return complain("cannot write {}: {}", quote(path), *error);
+  }
+  return exit_ok;
+}
+
+std::error_code make_folder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (!error && !std::filesystem::is_directory(path, error) && !error) {
+    error = std::make_error_code(std::errc::not_a_directory);
+  }
+  return error;
+}
+
+bool can_write_output(const std::string& path) {
+  if (path == "-") return true;
+  if (const auto refusal = find_read_file(path)) {
+    complain(*refusal);
+    return false;
+  }
+  const auto obstacle = find_obstacle(path);
+  if (obstacle) complain("cannot write {}: {}", quote(path), *obstacle);
+  return !obstacle;
+}
+
+bool is_same_file(const std::string& input, const std::string& output) {
+  if (output == "-") return false;
+  struct stat in {};
+  struct stat out {};
+  const int status = input == "-" ? ::fstat(STDIN_FILENO, &in) : ::stat(input.c_str(), &in);
+  return status == 0 && ::stat(output.c_str(), &out) == 0 && in.st_dev == out.st_dev &&
+         in.st_ino == out.st_ino;
+}
+
+std::string describe_end(const RunResult& result, const CoordinatorOptions& options) {
+  switch (result.status) {
+    case Coordinator::Status::ok:
+      return {};
+    case Coordinator::Status::too_many_clock_events:
+      return fmt::format("the clock made more than {} events (--max-clock-events)",
+                         options.max_clock_events);
+    case Coordinator::Status::stopped:
+      return "stopped by a signal, before the event that the clock moved on to";
+    case Coordinator::Status::refused_answer:
+      return "the checker rejects an answer of the solver: " + result.internal_error;
+  }
+  return {};
+}
+
+int status_of(const RunResult& result) {
+  if (result.status == Coordinator::Status::refused_answer) return exit_internal;
+  if (result.status == Coordinator::Status::too_many_clock_events) return exit_unusable;
+  return result.failed > 0 ? exit_no : exit_ok;
+}
+
+}  // namespace cbc::cli

@@ -1,0 +1,192 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "core/diagnostic/diagnostic.h"
+#include "core/script/runner.h"
+#include "runtime/coordinator/coordinator.h"
+
+namespace cbc::cli {
+
+/// What the program exits with (the same for every command).
+enum ExitStatus : int {
+  exit_ok = 0,
+  exit_no = 1,        ///< the answer is "no": a failed expectation, a stale file
+  exit_unusable = 2,  ///< wrong usage, unusable input, or output that could not be written
+  exit_internal = 3   ///< a fault of cbc
+};
+
+/// The system refuses what a run cannot do without, such as a thread. main() prints it.
+class SystemRefusal : public std::runtime_error {
+ public:
+  /// `error` is a value of errno.
+  SystemRefusal(const std::string& what, int error)
+      : std::runtime_error(what + ": " + std::strerror(error)) {}
+};
+
+/// Prints a message to standard error. Returns exit_unusable, which most messages lead to.
+int complain(const std::string& message);
+template <typename... Arguments>
+int complain(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  return complain(fmt::format(format, std::forward<Arguments>(arguments)...));
+}
+
+/// The same for a wrong command line, with a pointer to the help of the command, or of the program
+/// if the name is empty.
+int usage_error(std::string_view command, const std::string& message);
+template <typename... Arguments>
+int usage_error(std::string_view command, fmt::format_string<Arguments...> format,
+                Arguments&&... arguments) {
+  return usage_error(command, fmt::format(format, std::forward<Arguments>(arguments)...));
+}
+
+/// Whether a stream is a terminal that understands escape sequences.
+[[nodiscard]] bool is_terminal(std::FILE* stream);
+
+/// The width of a terminal in characters; 80 if it is unknown.
+[[nodiscard]] std::size_t columns_of(std::FILE* stream);
+
+/// To how many columns texts for people are wrapped: the width of a terminal; 0 (not at all) if it
+/// is none.
+[[nodiscard]] std::size_t columns_for(std::FILE* stream);
+
+/// Whether to write colors to a stream: it is such a terminal, and NO_COLOR (https://no-color.org)
+/// is not set.
+[[nodiscard]] bool wants_color(std::FILE* stream);
+
+[[nodiscard]] Style style_for(std::FILE* stream);
+
+/// A line on the terminal that shows the progress of a long command. Nothing is shown in the first
+/// second, or if standard error is not a terminal.
+class Progress {
+ public:
+  /// `what` is being done to `total` things: "linting".
+  Progress(std::string what, std::size_t total);
+  ~Progress();
+
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Begins the next thing.
+  void begin(const std::string& name);
+  /// Shows the line, with `detail` at its end. May be called often: the terminal is updated a few
+  /// times per second.
+  void show(const std::string& detail = "");
+  /// Removes the line, until it is shown again.
+  void clear();
+
+ private:
+  const std::string what_;
+  const std::size_t total_;
+  const bool is_wanted_;
+  const std::chrono::steady_clock::time_point start_;
+  std::size_t begun_ = 0;
+  std::string name_;  ///< of the thing that was begun last
+  bool is_shown_ = false;
+  std::chrono::steady_clock::time_point shown_;  ///< last
+};
+
+/// The progress of an exploration of groups, one after the other.
+class GroupProgress {
+ public:
+  /// `what` is being done to the groups: "exploring".
+  GroupProgress(std::string what, std::size_t groups) : progress_(std::move(what), groups) {}
+
+  /// How many states of this group have been visited. May be called often.
+  void show(std::uint32_t group, std::uint64_t states);
+
+  /// For what follows the exploration.
+  [[nodiscard]] Progress& line() { return progress_; }
+
+ private:
+  Progress progress_;
+  std::optional<std::uint32_t> group_;
+};
+
+/// While it exists, SIGINT, SIGTERM and SIGHUP ask the program to stop instead of ending it. GNU
+/// timeout and terminals may send them twice at once, to the program and to its group, so only a
+/// signal that comes more than a second after the first one ends the program. There can be only one
+/// such object. After it is destroyed these signals are ignored, as the program is about to end.
+class StopSignals {
+ public:
+  StopSignals();
+  ~StopSignals();
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+  [[nodiscard]] bool have_come() const;
+  /// A descriptor for poll, which is readable once a signal has come.
+  [[nodiscard]] int descriptor() const;
+};
+
+/// Writes whole lines to standard output, many of them with one system call. While this object
+/// lives, a closed pipe is an ordinary error.
+class LineOutput {
+ public:
+  LineOutput();
+  ~LineOutput();
+  LineOutput(const LineOutput&) = delete;
+  LineOutput& operator=(const LineOutput&) = delete;
+
+  /// Takes a line, with its end. It is written by flush(), or earlier if many lines are waiting or
+  /// the first of them has been waiting for some time.
+  void write(std::string_view line);
+  /// Writes what is waiting. Call it before the program waits for input, and at the end. Does
+  /// nothing after an error, which is reported once.
+  void flush();
+  [[nodiscard]] bool has_failed() const { return has_failed_; }
+
+ private:
+  std::string waiting_;
+  std::chrono::steady_clock::time_point waits_since_;
+  bool has_failed_ = false;
+};
+
+/// If the program was started with a closed standard stream, keeps the next opened file from taking
+/// its place. Reading from such a stream or writing to it fails; messages are dropped.
+void hold_standard_descriptors();
+
+/// Writes a file, as a whole or not at all, or to standard output for "-". If that fails, or the
+/// file is one that was read, prints why. Returns the exit status.
+[[nodiscard]] int write_output(const std::string& path, std::string_view content);
+
+/// Writes what is left of standard output. If it could not all be written, prints why, and returns
+/// the exit status of that, otherwise `status`.
+[[nodiscard]] int finish_output(int status);
+
+/// The same for an input, which is meant to be replaced.
+[[nodiscard]] int replace_input(const std::string& path, std::string_view content);
+
+/// The same for a file that must not exist.
+[[nodiscard]] int create_output(const std::string& path, std::string_view content);
+
+/// Makes a folder, and those above it, unless they are there. Says what is in the way, or nothing.
+[[nodiscard]] std::error_code make_folder(const std::string& path);
+
+/// Whether write_output could write there now; if not, prints why. For outputs that are written
+/// after long work. Call it when all inputs were read.
+[[nodiscard]] bool can_write_output(const std::string& path);
+
+/// Whether an input ("-": standard input) and another file are the same. Standard output ("-") is
+/// no file.
+[[nodiscard]] bool is_same_file(const std::string& input, const std::string& output);
+
+/// Why a run ended early, or empty.
+[[nodiscard]] std::string describe_end(const RunResult& result, const CoordinatorOptions& options);
+
+/// The exit status for a run.
+[[nodiscard]] int status_of(const RunResult& result);
+
+}  // namespace cbc::cli

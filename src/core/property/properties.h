@@ -1,0 +1,125 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cbc/event.h"
+#include "runtime/compiled/compiled_catalog.h"
+
+namespace cbc {
+
+// What `cbc verify` is asked: under which assumptions states are reached, and what is to hold in
+// them (docs/verify.md). Situation variables are counted as the catalog does.
+
+/// Values of situation variables, and answers of check_situation (own(b)); all of them hold.
+struct SituationPart {
+  struct Own {
+    BehaviorId behavior = 0;
+    bool available = true;
+  };
+  std::vector<VariableValue> variables;
+  std::vector<Own> behaviors;
+};
+
+/// The events that may happen, and the first state (docs/verify.md, "Moves"). Lists are in catalog
+/// order.
+struct Assumptions {
+  struct Start {
+    TaskId task = 0;
+    std::vector<std::int32_t> priorities;  ///< each at least 1, distinct, in the order of the file
+  };
+  std::vector<Start> start;  ///< distinct tasks
+  std::vector<TaskId> stop;  ///< distinct tasks
+  bool successes = true;
+  bool failures = true;
+  std::uint32_t faults = 0;              ///< the most behaviors that are faulty at a time
+  std::vector<std::uint32_t> variables;  ///< those that may change
+  std::vector<BehaviorId> behaviors;     ///< those whose own(b) may change
+  std::vector<SituationPart> never;      ///< situations that do not occur
+  SituationPart initially;               ///< what differs from initial values and own(b) true
+};
+
+/// Assumptions, and who states them.
+struct StatedAssumptions {
+  Assumptions assumptions;
+  std::string file;  ///< the property file; empty: none
+};
+
+/// What holds without a property file: every task with start_on_request may be requested with
+/// priority 1 and stopped, all variables may change, nothing is faulty.
+[[nodiscard]] Assumptions default_assumptions(const CompiledCatalog& catalog);
+
+/// Of the first state: the value of a situation variable, and own(b) of a behavior.
+[[nodiscard]] std::uint32_t initial_value(const Assumptions& assumptions, std::uint32_t variable);
+[[nodiscard]] bool is_available_at_first(const Assumptions& assumptions, BehaviorId behavior);
+
+/// What a state satisfies: all parts together.
+struct StateCondition {
+  struct Running {
+    TaskId task = 0;
+    BehaviorId behavior = none;  ///< none: any
+  };
+  struct Requested {
+    TaskId task = 0;
+    std::int32_t priority = 1;  ///< the least priority of the request
+  };
+  std::vector<Running> running;
+  std::vector<TaskId> stopped;
+  std::vector<BehaviorId> active;  ///< others may be active, too
+  std::vector<BehaviorId> faulty;
+  std::vector<BehaviorId> available;
+  std::vector<Requested> requested;
+  SituationPart situation;
+};
+
+/// One promise.
+struct Property {
+  enum class Kind : std::uint8_t {
+    can_start,  ///< wherever the task does not run, its start with the priority is accepted
+    always,     ///< `condition` holds in every state that satisfies `when`
+    never,      ///< no state satisfies `condition`
+    reachable   ///< some state satisfies `condition`
+  };
+  Kind kind = Kind::can_start;
+  std::string name;      ///< empty: none
+  std::size_t line = 0;  ///< in the file
+  TaskId task = none;    ///< of can_start
+  std::int32_t priority = 1;
+  StateCondition condition;
+  std::optional<StateCondition> when;
+  bool settled = false;  ///< only states with nothing in the queue count
+};
+
+/// The situation variables that the conditions of a property name.
+[[nodiscard]] std::set<std::uint32_t> variables_of(const Property& property);
+
+/// The keys of the kinds of properties, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 4> property_kinds = {"can_start", "always", "never",
+                                                                   "reachable"};
+[[nodiscard]] constexpr std::string_view name_of(Property::Kind kind) {
+  return property_kinds[static_cast<std::size_t>(kind)];
+}
+
+/// A property file.
+struct PropertyFile {
+  std::string path;                    ///< as named; for messages and reports
+  std::optional<std::string> catalog;  ///< as written in the file, relative to it
+  Assumptions assumptions;
+  std::vector<Property> properties;
+};
+
+/// What may happen, and who says so, on one line: "assumed (default): 2 of 3 tasks are requested
+/// (priority 1) and stopped; behaviors succeed and fail; none is faulty; all variables change".
+[[nodiscard]] std::string describe_assumptions(const CompiledCatalog& catalog,
+                                               const StatedAssumptions& stated);
+
+/// A property in words: "LAND can always start with priority 3".
+[[nodiscard]] std::string describe(const CompiledCatalog& catalog, const Property& property);
+
+}  // namespace cbc

@@ -1,0 +1,371 @@
+#include "core/property/property_reader.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/diagnostic/rules.h"
+#include "core/property/condition_reader.h"
+#include "core/script/names.h"
+#include "runtime/base/text.h"
+
+namespace cbc::shape {
+namespace {
+
+using yaml::Key;
+using yaml::Shape;
+
+constexpr Key file_keys[] = {{"catalog"}, {"assume"}, {"initially"}, {"properties"}};
+constexpr Key assumption_keys[] = {{"start"},  {"stop"},      {"successes"}, {"failures"},
+                                   {"faults"}, {"situation"}, {"never"}};
+constexpr Key property_keys[] = {{"name"},  {"can_start"}, {"priority"}, {"always"},
+                                 {"never"}, {"reachable"}, {"when"},     {"settled"}};
+constexpr Key condition_keys[] = {{"running"},   {"stopped"},   {"active"},   {"faulty"},
+                                  {"available"}, {"requested"}, {"situation"}};
+
+constexpr const Shape* in_file[] = {&assumptions, &property};
+constexpr const Shape* in_property[] = {&condition};
+
+}  // namespace
+
+const Shape property_file{"a property file", file_keys, nullptr, in_file};
+const Shape assumptions{"an assume", assumption_keys, &property_file};
+const Shape property{"a property", property_keys, &property_file, in_property, true};
+const Shape condition{"a condition", condition_keys, &property};
+
+}  // namespace cbc::shape
+
+namespace cbc {
+namespace {
+
+using yaml::Fields;
+using yaml::Kind;
+using yaml::Node;
+
+/// Reads what may happen. Lists are brought into catalog order.
+class AssumptionReader {
+ public:
+  AssumptionReader(NameIndex& names, Reporter& reporter)
+      : names_(names), catalog_(names.catalog()), reporter_(reporter) {}
+
+  /// The values of the keys `assume` and `initially`; null if there is none. `knows_all`: no other
+  /// key may be one of them, misspelt.
+  Assumptions read(const Node* assume, const Node* initially, bool knows_all) && {
+    out_ = default_assumptions(catalog_);
+    knows_first_ = knows_all;
+    if (initially != nullptr) read_initially(*initially);
+    if (assume != nullptr &&
+        yaml::read_mapping(*assume, "assume", "a mapping", reporter_) != nullptr) {
+      read_assume(*assume);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void read_initially(const Node& node) {
+    const auto situation = read_situation(node, names_, reporter_);
+    if (situation) out_.initially = part_of(*situation, catalog_);
+    knows_first_ &= situation.has_value();
+  }
+
+  void read_assume(const Node& node) {
+    Fields fields(node, shape::assumptions, reporter_);
+    if (const Node* start = fields.find("start")) read_start(*start);
+    if (const Node* stop = fields.find("stop")) read_stop(*stop);
+    read_flag(fields, "successes", out_.successes);
+    read_flag(fields, "failures", out_.failures);
+    if (const Node* faults = fields.find("faults")) {
+      const auto most = yaml::read_integer(*faults, "faults", 0, reporter_);
+      if (most) out_.faults = static_cast<std::uint32_t>(*most);
+    }
+    if (const Node* situation = fields.find("situation")) read_changing(*situation);
+    if (const Node* never = fields.find("never")) read_never(*never);
+    fields.report_unknown(yaml::UnknownKeys::refused);
+  }
+
+  void read_flag(const Fields& fields, std::string_view key, bool& flag) {
+    if (const Node* node = fields.find(key)) {
+      flag = yaml::read_boolean(*node, key, reporter_).value_or(flag);
+    }
+  }
+
+  void read_start(const Node& node) {
+    out_.start.clear();
+    if (node.kind == Kind::mapping) {
+      yaml::report_duplicate_keys(node, reporter_);
+      for (const auto& [key, value] : node.entries) {
+        const auto task = names_.find_task(*key, "start", reporter_, &node);
+        std::vector<std::int32_t> priorities = read_priorities(key->text, *value);
+        if (task) out_.start.push_back({catalog_.task_ids[*task], std::move(priorities)});
+      }
+    } else if (node.kind == Kind::sequence) {
+      for (const TaskId task : read_tasks(node, "start")) out_.start.push_back({task, {1}});
+    } else {
+      yaml::report_wrong_type(node, "start",
+                              "a list of tasks, or a mapping of tasks to lists of priorities",
+                              reporter_);
+    }
+    std::sort(out_.start.begin(), out_.start.end(),
+              [this](const auto& a, const auto& b) { return place_of(a.task) < place_of(b.task); });
+    out_.stop.clear();
+    for (const Assumptions::Start& start : out_.start) out_.stop.push_back(start.task);
+  }
+
+  std::vector<std::int32_t> read_priorities(std::string_view task, const Node& node) {
+    std::vector<std::int32_t> priorities;
+    if (node.kind == Kind::scalar) {
+      if (const auto priority = yaml::read_integer(node, task, 1, reporter_)) {
+        priorities.push_back(*priority);
+      }
+    } else if (node.kind != Kind::sequence || node.items.empty()) {
+      yaml::report_wrong_type(node, task, "a priority or a list of priorities", reporter_);
+    }
+    ListedNames listed;
+    for (const Node* item : node.items) {
+      const auto priority = yaml::read_integer(*item, task, 1, reporter_);
+      if (priority && listed.add(static_cast<std::uint32_t>(*priority), *item, reporter_)) {
+        priorities.push_back(*priority);
+      }
+    }
+    return priorities;
+  }
+
+  void read_stop(const Node& node) {
+    if (yaml::read_list(node, "stop", "a list of tasks", reporter_) == nullptr) return;
+    out_.stop = read_tasks(node, "stop");
+    std::sort(out_.stop.begin(), out_.stop.end(),
+              [this](TaskId a, TaskId b) { return place_of(a) < place_of(b); });
+  }
+
+  std::vector<TaskId> read_tasks(const Node& list, std::string_view what) {
+    std::vector<TaskId> tasks;
+    ListedNames listed;
+    for (const Node* item : list.items) {
+      const auto task = names_.find_task(*item, what, reporter_, &list);
+      if (task && listed.add(*task, *item, reporter_)) tasks.push_back(catalog_.task_ids[*task]);
+    }
+    return tasks;
+  }
+
+  void read_changing(const Node& node) {
+    constexpr std::string_view expected = "a list of situation variables and behaviors";
+    if (yaml::read_list(node, "situation", expected, reporter_) == nullptr) return;
+    out_.variables.clear();
+    ListedNames variables;
+    ListedNames behaviors;
+    for (const Node* item : node.items) {
+      const auto part = names_.find_part(*item, reporter_, &node);
+      if (!part ||
+          !(part->is_variable ? variables : behaviors).add(part->place, *item, reporter_)) {
+        continue;
+      }
+      if (part->is_variable) {
+        out_.variables.push_back(part->place);
+      } else {
+        out_.behaviors.push_back(catalog_.behavior_ids[part->place]);
+      }
+    }
+    std::sort(out_.variables.begin(), out_.variables.end());
+    std::sort(out_.behaviors.begin(), out_.behaviors.end(), [this](BehaviorId a, BehaviorId b) {
+      return catalog_.behaviors[a].catalog_index < catalog_.behaviors[b].catalog_index;
+    });
+  }
+
+  void read_never(const Node& node) {
+    if (yaml::read_list(node, "never", "a list of situations", reporter_) == nullptr) return;
+    for (const Node* item : node.items) {
+      const auto situation = read_situation(*item, names_, reporter_);
+      if (!situation) continue;
+      if (situation->is_empty()) {
+        reporter_.report(rule::invalid_value, item->range,
+                         "an entry of 'never' must name a variable or a behavior: this one "
+                         "excludes every situation");
+        continue;
+      }
+      const SituationPart part = part_of(*situation, catalog_);
+      if (knows_first_ && is_first(part)) {
+        reporter_.report(rule::invalid_value, item->range,
+                         "this excludes the situation at the beginning; 'initially' sets another "
+                         "one");
+      }
+      out_.never.push_back(part);
+    }
+  }
+
+  [[nodiscard]] bool is_first(const SituationPart& part) const {
+    return std::all_of(part.variables.begin(), part.variables.end(),
+                       [this](VariableValue value) {
+                         return initial_value(out_, value.variable) == value.value;
+                       }) &&
+           std::all_of(part.behaviors.begin(), part.behaviors.end(),
+                       [this](const SituationPart::Own& own) {
+                         return is_available_at_first(out_, own.behavior) == own.available;
+                       });
+  }
+
+  [[nodiscard]] std::uint32_t place_of(TaskId task) const {
+    return catalog_.tasks[task].catalog_index;
+  }
+
+  NameIndex& names_;
+  const CompiledCatalog& catalog_;
+  Reporter& reporter_;
+  Assumptions out_;
+  bool knows_first_ = true;  ///< the situation at the beginning is understood
+};
+
+/// A key that belongs to some kinds of properties only.
+struct Detail {
+  std::string_view key;
+  std::string_view owners;  ///< for messages
+  bool (*belongs)(Property::Kind kind);
+};
+constexpr Detail details[] = {
+    {"priority", "'can_start'",
+     [](Property::Kind kind) { return kind == Property::Kind::can_start; }},
+    {"when", "'always'", [](Property::Kind kind) { return kind == Property::Kind::always; }},
+    {"settled", "'always', 'never' and 'reachable'",
+     [](Property::Kind kind) { return kind != Property::Kind::can_start; }}};
+
+class PropertyReader {
+ public:
+  PropertyReader(const CompiledCatalog& catalog, Reporter& reporter)
+      : names_(catalog), reporter_(reporter) {}
+
+  void read(const Node& root, PropertyFile& file) {
+    Fields fields(root, shape::property_file, reporter_);
+    if (const Node* catalog = fields.find("catalog")) {
+      const auto name = yaml::read_name(*catalog, "catalog", "the path of a catalog", reporter_);
+      if (name) file.catalog = *name;
+    }
+    const std::size_t errors = reporter_.errors();
+    file.assumptions =
+        AssumptionReader(names_, reporter_)
+            .read(fields.find("assume"), fields.find("initially"), !fields.has_unknown());
+    // What follows from a mistake is not reported.
+    if (reporter_.errors() == errors && !fields.has_unknown()) assumptions_ = &file.assumptions;
+    if (const Node* properties = fields.find("properties")) {
+      read_list(*properties, file.properties);
+    } else if (!fields.has_unknown()) {
+      reporter_.report_as({Severity::note, true}, rule::missing_key, root.range,
+                          "without 'properties' there is nothing to prove");
+    }
+    fields.report_unknown(yaml::UnknownKeys::refused);
+  }
+
+ private:
+  void read_list(const Node& node, std::vector<Property>& properties) {
+    if (yaml::read_list(node, "properties", "a list of properties", reporter_) == nullptr) return;
+    for (const Node* item : node.items) properties.push_back(read_property(*item));
+  }
+
+  Property read_property(const Node& node) {
+    Property property;
+    property.line = node.range.begin.line;
+    if (node.kind != Kind::mapping) {
+      reporter_.report(
+          rule::wrong_type, node.range,
+          "a property must be a mapping ('can_start: TASK'), found " + yaml::describe(node));
+      return property;
+    }
+    Fields fields(node, shape::property, reporter_);
+    if (const Node* name = fields.find("name")) {
+      property.name = yaml::read_name(*name, "name", "a text", reporter_).value_or("");
+    }
+    if (const auto kind = find_kind(fields, node.range)) {
+      property.kind = *kind;
+      report_misplaced(fields, *kind);
+      read_kind(fields, property);
+    }
+    fields.report_unknown(yaml::UnknownKeys::refused);
+    return property;
+  }
+
+  std::optional<Property::Kind> find_kind(const Fields& fields, const Range& range) {
+    const yaml::ChosenKey chosen = yaml::choose_key(
+        fields, property_kinds, "a property must be of exactly one kind", reporter_);
+    if (!chosen.name.empty()) {
+      const auto* const found =
+          std::find(property_kinds.begin(), property_kinds.end(), chosen.name);
+      return static_cast<Property::Kind>(found - property_kinds.begin());
+    }
+    if (chosen.is_reported) return std::nullopt;
+    // An unknown key is probably the kind, misspelt.
+    if (!chosen.without_value.empty()) {
+      reporter_.report(rule::missing_key, fields.range_of(chosen.without_value),
+                       quote(chosen.without_value) + " has no value");
+    } else if (!fields.has_unknown()) {
+      reporter_.report(rule::missing_key, range,
+                       "a property needs one of 'can_start', 'always', 'never' and 'reachable'");
+    }
+    return std::nullopt;
+  }
+
+  void report_misplaced(const Fields& fields, Property::Kind kind) {
+    for (const Detail& detail : details) {
+      if (fields.find(detail.key) == nullptr || detail.belongs(kind)) continue;
+      reporter_.report_as({Severity::error, true}, rule::unknown_key, fields.range_of(detail.key),
+                          concat(quote(detail.key), " does not belong to ", quote(name_of(kind)),
+                                 ", only to ", detail.owners));
+    }
+  }
+
+  void read_kind(const Fields& fields, Property& property) {
+    const std::string_view key = name_of(property.kind);
+    const Node& value = *fields.find(key);
+    if (property.kind == Property::Kind::can_start) {
+      const auto task = names_.find_task(value, key, reporter_);
+      if (task) property.task = names_.catalog().task_ids[*task];
+      if (const Node* priority = fields.find("priority")) {
+        property.priority = yaml::read_integer(*priority, "priority", 1, reporter_).value_or(1);
+      }
+      return;
+    }
+    const bool is_denied = property.kind == Property::Kind::never;
+    property.condition = read_condition(value, key, {assumptions_, is_denied}, names_, reporter_);
+    const Node* when = fields.find("when");
+    if (when != nullptr && property.kind == Property::Kind::always) {
+      property.when = read_condition(*when, "when", {assumptions_, false}, names_, reporter_);
+    }
+    if (const Node* settled = fields.find("settled")) {
+      property.settled = yaml::read_boolean(*settled, "settled", reporter_).value_or(false);
+    }
+  }
+
+  NameIndex names_;
+  Reporter& reporter_;
+  const Assumptions* assumptions_ = nullptr;  ///< null if they have mistakes
+};
+
+}  // namespace
+
+std::optional<PropertyFile> read_properties(const yaml::Document& document,
+                                            const CompiledCatalog& catalog,
+                                            Diagnostics& diagnostics) {
+  Reporter reporter(document.file(), diagnostics);
+  PropertyFile file;
+  file.path = document.file();
+  const Node& root = document.root();
+  switch (root.kind) {
+    case Kind::null:
+      reporter.report(rule::missing_key, root.range,
+                      "missing key 'properties': the property file is empty");
+      break;
+    case Kind::mapping:
+      PropertyReader(catalog, reporter).read(root, file);
+      break;
+    case Kind::scalar:
+    case Kind::sequence:
+      reporter.report(rule::wrong_type, root.range,
+                      "a property file must be a mapping with the key 'properties', found " +
+                          yaml::describe(root));
+      break;
+  }
+  if (reporter.errors() > 0) return std::nullopt;
+  return file;
+}
+
+}  // namespace cbc

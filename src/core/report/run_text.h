@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/diagnostic/diagnostic.h"
+#include "core/report/failure_story.h"
+#include "core/report/run_report.h"
+#include "core/report/run_summary.h"
+#include "core/report/sentences.h"
+#include "core/script/runner.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/record.h"
+
+namespace cbc {
+
+/// The form of a text about runs.
+struct TextLayout {
+  std::size_t columns = 0;  ///< lines are wrapped to so many; 0: not at all
+  bool is_brief = false;    ///< an event is one line
+};
+
+/// Writes a run for people: a line for each event, below it the changes with the columns of the
+/// execution viewer in the paper (P priority, T type, S success); at the end the active behaviors
+/// and a summary.
+class TextReport final : public SolveReport {
+ public:
+  TextReport(const Style& style, std::FILE* out, const TextLayout& layout = {})
+      : style_(style), layout_(layout), out_(out) {}
+
+  void begin_run(const CompiledCatalog& catalog, const Script& script) override;
+  void on_event(const EventRecord& record, const Step* step, const State& state) override;
+  void on_failure(const Failure& failure) override;
+  void on_end(const State& state) override;
+  /// Errors go to standard error, not here.
+  void end_run(const RunResult& result, const std::string& error) override;
+  /// Writes the totals: of several runs, and of searches if they were measured.
+  void end() override;
+
+  [[nodiscard]] std::unique_ptr<SolveReport> make_part(std::FILE* out) const override;
+  void add_part(std::string_view text, const RunResult& result) override;
+
+ private:
+  [[nodiscard]] std::string describe_outcome(const EventRecord& record, const State& state) const;
+  [[nodiscard]] std::string describe_briefly(const EventRecord& record) const;
+  void write_details(const EventRecord& record, const State& state);
+  void write_change(const EventRecord& record, const Change& change);
+  void write_failed(const EventRecord& record);
+  void write_stopped(const EventRecord& record);
+  void write_explanation(const EventRecord& record, const State& state);
+  void write_alternatives(const EventRecord& record, const State& state);
+  void write(const Sentences& sentences);
+  void write(const std::vector<SummaryLine>& lines);
+  /// Wraps the line; what follows the first break is indented by `indent` columns.
+  void write_line(const std::string& line, std::size_t indent);
+  void count(const RunResult& result);
+
+  const Style style_;
+  const TextLayout layout_;
+  std::FILE* const out_;
+  const CompiledCatalog* catalog_ = nullptr;
+  FailureStory story_;
+  RunSummary summary_;
+  ScriptTable scripts_;
+  std::string script_file_;
+  std::size_t behavior_width_ = 0;
+  std::size_t task_width_ = 0;
+  std::size_t runs_ = 0;
+  std::size_t failed_runs_ = 0;
+  std::optional<SearchTotals> totals_;
+};
+
+}  // namespace cbc

@@ -1,0 +1,165 @@
+#include "core/script/names.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cbc/event.h"
+#include "core/catalog/situation.h"
+#include "core/diagnostic/rules.h"
+#include "runtime/base/text.h"
+
+namespace cbc {
+namespace {
+
+Suggestions& suggestions_from(const Texts& names, std::optional<Suggestions>& made) {
+  if (!made) {
+    std::vector<std::string_view> all;
+    all.reserve(names.size());
+    // NOLINTNEXTLINE(modernize-loop-convert): these texts have no iterators
+    for (std::size_t place = 0; place < names.size(); ++place) all.push_back(names[place]);
+    made.emplace(std::move(all));
+  }
+  return *made;
+}
+
+// The name is unknown as a `kind`, but may be known as another.
+std::string describe_unknown(std::string_view name, std::string_view kind, bool is_other,
+                             std::string_view other, Suggestions& suggestions,
+                             const yaml::Node* beside) {
+  std::string message = "there is no " + std::string(kind) + " " + quote(name);
+  if (is_other) message += ": it is a " + std::string(other);
+  const auto is_taken = [beside](std::string_view known) {
+    return beside != nullptr && yaml::stands_in(*beside, known);
+  };
+  message += did_you_mean(suggestions.nearest(name, is_taken));
+  return message;
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> SituationNames::find_variable(std::string_view name) {
+  if (variables_.empty()) {
+    for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
+      variables_.emplace(catalog_.name_of_variable(variable), variable);
+    }
+  }
+  return find(variables_, name);
+}
+
+std::optional<std::uint32_t> SituationNames::find_value(std::uint32_t variable,
+                                                        std::string_view text) {
+  Places& values = values_[variable];
+  if (values.empty()) {
+    for (std::uint32_t value = 0; value < catalog_.variables[variable].value_count; ++value) {
+      values.emplace(catalog_.name_of_value({variable, value}), value);
+    }
+  }
+  return find(values, text);
+}
+
+std::optional<std::uint32_t> SituationNames::find(const Places& places, std::string_view name) {
+  const auto found = places.find(name);
+  return found == places.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<std::uint32_t> NameIndex::find_task(const yaml::Node& node, std::string_view what,
+                                                  Reporter& reporter, const yaml::Node* beside) {
+  const auto name = yaml::read_name(node, what, "the name of a task", reporter);
+  if (!name) return std::nullopt;
+  const auto found = catalog_.find_task(*name);
+  if (!found) {
+    reporter.report(
+        rule::undefined_task, node.range,
+        describe_unknown(*name, "task", catalog_.find_behavior(*name).has_value(), "behavior",
+                         suggestions_from(catalog_.task_names, tasks_), beside));
+  }
+  return found;
+}
+
+std::optional<std::uint32_t> NameIndex::find_behavior(const yaml::Node& node, std::string_view what,
+                                                      Reporter& reporter,
+                                                      const yaml::Node* beside) {
+  const auto name = yaml::read_name(node, what, "the name of a behavior", reporter);
+  if (!name) return std::nullopt;
+  const auto found = catalog_.find_behavior(*name);
+  if (found) return found;
+  const bool is_task = catalog_.find_task(*name).has_value();
+  std::string message =
+      is_task && what == cbc::name_of(Verb::finish)
+          ? concat("there is no behavior ", quote(*name), ": it is a task; write ",
+                   quote(concat("finish: {task: ", *name, "}")),
+                   " for the behavior that performs it")
+          : describe_unknown(*name, "behavior", is_task, "task",
+                             suggestions_from(catalog_.behavior_names, behaviors_), beside);
+  reporter.report(rule::undefined_behavior, node.range, std::move(message));
+  return std::nullopt;
+}
+
+std::optional<NameIndex::Part> NameIndex::find_part(const yaml::Node& node, Reporter& reporter,
+                                                    const yaml::Node* beside) {
+  const auto name =
+      yaml::read_name(node, "situation", "the name of a behavior or a variable", reporter);
+  if (!name) return std::nullopt;
+  if (const auto variable = situation_.find_variable(*name)) return Part{true, *variable};
+  if (const auto behavior = catalog_.find_behavior(*name)) return Part{false, *behavior};
+  if (!parts_) {
+    std::vector<std::string_view> names;
+    for (const std::string_view behavior : catalog_.behavior_names) names.push_back(behavior);
+    for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
+      names.push_back(catalog_.name_of_variable(variable));
+    }
+    parts_.emplace(std::move(names));
+  }
+  const bool has_variables = !catalog_.variables.empty();
+  reporter.report(
+      has_variables ? rule::undeclared_situation : rule::undefined_behavior, node.range,
+      describe_unknown(*name, has_variables ? "behavior or situation variable" : "behavior",
+                       catalog_.find_task(*name).has_value(), "task", *parts_, beside));
+  return std::nullopt;
+}
+
+namespace {
+
+std::optional<VariableValue> read_value(std::uint32_t variable, const yaml::Node& node,
+                                        NameIndex& names, Reporter& reporter) {
+  const CompiledCatalog& catalog = names.catalog();
+  const auto text = value_text(node, catalog.variables[variable].is_boolean != 0);
+  const auto value = text ? names.situation().find_value(variable, *text) : std::nullopt;
+  if (value) return VariableValue{variable, *value};
+  std::vector<std::string_view> values;
+  for (std::uint32_t place = 0; place < catalog.variables[variable].value_count; ++place) {
+    values.push_back(catalog.name_of_value({variable, place}));
+  }
+  report_unknown_value(node, catalog.name_of_variable(variable), values, reporter);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Situation> read_situation(const yaml::Node& node, NameIndex& names,
+                                        Reporter& reporter) {
+  constexpr std::string_view expected =
+      "a mapping of behaviors to true or false, or of situation variables to values";
+  if (yaml::read_mapping(node, "situation", expected, reporter) == nullptr) return std::nullopt;
+  yaml::report_duplicate_keys(node, reporter);
+  Situation situation;
+  bool is_understood = true;
+  for (const auto& [key, value] : node.entries) {
+    if (value->kind == yaml::Kind::null) continue;
+    const auto part = names.find_part(*key, reporter, &node);
+    if (part && part->is_variable) {
+      const auto read = read_value(part->place, *value, names, reporter);
+      if (read) situation.variables.push_back(*read);
+      is_understood &= read.has_value();
+      continue;
+    }
+    // The value of an unknown name may be one of a variable, which the catalog lacks.
+    const auto available = part ? yaml::read_boolean(*value, key->text, reporter) : std::nullopt;
+    if (available) situation.availability.push_back({part->place, *available});
+    is_understood &= available.has_value();
+  }
+  return is_understood ? std::optional(std::move(situation)) : std::nullopt;
+}
+
+}  // namespace cbc

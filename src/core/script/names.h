@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "core/diagnostic/diagnostic.h"
+#include "core/script/script.h"
+#include "core/support/wording.h"
+#include "core/yaml/document.h"
+#include "core/yaml/values.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/record.h"
+
+namespace cbc {
+
+// What scripts and property files share: names of a catalog, and what is said of them.
+
+/// Finds situation variables and their values by name, in time that does not depend on how many
+/// there are, as it does in CompiledCatalog.
+class SituationNames {
+ public:
+  /// The catalog must outlive this object.
+  explicit SituationNames(const CompiledCatalog& catalog) : catalog_(catalog) {}
+
+  // What is asked for is indexed when it is asked for the first time.
+  [[nodiscard]] std::optional<std::uint32_t> find_variable(std::string_view name);
+  [[nodiscard]] std::optional<std::uint32_t> find_value(std::uint32_t variable,
+                                                        std::string_view text);
+
+ private:
+  using Places = std::unordered_map<std::string_view, std::uint32_t>;
+
+  [[nodiscard]] static std::optional<std::uint32_t> find(const Places& places,
+                                                         std::string_view name);
+
+  const CompiledCatalog& catalog_;
+  Places variables_;
+  std::unordered_map<std::uint32_t, Places> values_;  ///< by variable
+};
+
+/// Finds the tasks and behaviors that a script names, by their places in the catalog, and reports
+/// unknown names.
+class NameIndex {
+ public:
+  /// The catalog must outlive this object.
+  explicit NameIndex(const CompiledCatalog& catalog) : catalog_(catalog), situation_(catalog) {}
+
+  /// `what` is the key that the name is the value of. `beside`: the list or mapping that the name
+  /// stands in, whose other names are not suggested.
+  [[nodiscard]] std::optional<std::uint32_t> find_task(const yaml::Node& node,
+                                                       std::string_view what, Reporter& reporter,
+                                                       const yaml::Node* beside = nullptr);
+  [[nodiscard]] std::optional<std::uint32_t> find_behavior(const yaml::Node& node,
+                                                           std::string_view what,
+                                                           Reporter& reporter,
+                                                           const yaml::Node* beside = nullptr);
+
+  /// Of a situation: a behavior, or a variable.
+  struct Part {
+    bool is_variable = false;
+    std::uint32_t place = 0;
+  };
+  [[nodiscard]] std::optional<Part> find_part(const yaml::Node& node, Reporter& reporter,
+                                              const yaml::Node* beside);
+
+  [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
+  [[nodiscard]] SituationNames& situation() { return situation_; }
+
+ private:
+  const CompiledCatalog& catalog_;
+  SituationNames situation_;
+  // Made when the first unknown name is met.
+  std::optional<Suggestions> tasks_;
+  std::optional<Suggestions> behaviors_;
+  std::optional<Suggestions> parts_;
+};
+
+/// Reads one of the words of an enumeration.
+template <typename Enum>
+[[nodiscard]] std::optional<Enum> read_word(const yaml::Node& node, std::string_view what,
+                                            Reporter& reporter) {
+  const auto place = yaml::read_choice(node, what, words_of<Enum>(), reporter);
+  return place ? std::optional(static_cast<Enum>(*place)) : std::nullopt;
+}
+
+/// Reads a mapping of behaviors to booleans, and of situation variables to their values. Empty,
+/// after a finding, unless all of it is understood.
+[[nodiscard]] std::optional<Situation> read_situation(const yaml::Node& node, NameIndex& names,
+                                                      Reporter& reporter);
+
+}  // namespace cbc

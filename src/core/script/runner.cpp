@@ -1,0 +1,233 @@
+#include "core/script/runner.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/script/expected_values.h"
+#include "runtime/base/text.h"
+
+namespace cbc {
+
+void SearchEffort::merge(const SearchEffort& other) {
+  events += other.events;
+  solutions.merge(other.solutions);
+  nodes.merge(other.nodes);
+  propagations.merge(other.propagations);
+  nanoseconds.merge(other.nanoseconds);
+}
+
+void SearchTotals::add(const EventRecord& record) {
+  if (record.search == nullptr || !record.search->elapsed) return;
+  SearchEffort effort;
+  effort.events = 1;
+  effort.solutions.add(record.search->result.solutions);
+  effort.nodes.add(record.search->result.nodes);
+  effort.propagations.add(record.search->result.propagations);
+  effort.nanoseconds.add(static_cast<std::uint64_t>(record.search->elapsed->count()));
+  all_.merge(effort);
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+    if (kinds[kind].verb == record.verb && kinds[kind].origin == record.origin) {
+      by_kind_[kind].merge(effort);
+    }
+  }
+}
+
+void SearchTotals::merge(const SearchTotals& other) {
+  all_.merge(other.all_);
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+    by_kind_[kind].merge(other.by_kind_[kind]);
+}
+
+namespace {
+
+class Mismatches {
+ public:
+  void add(std::string_view text) {
+    if (!text_.empty()) text_ += "; ";
+    text_ += text;
+  }
+  [[nodiscard]] std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+std::string describe_task(const CompiledCatalog& catalog, const State& state, TaskId task) {
+  if (!state.is_running(task)) return "it does not run";
+  return fmt::format("it runs with {}", quote(catalog.name_of_behavior(state.behavior(task))));
+}
+
+std::string join_names(const CompiledCatalog& catalog,
+                       const std::vector<std::uint32_t>& behaviors) {
+  if (behaviors.empty()) return "none";
+  std::string text;
+  for (const std::uint32_t behavior : behaviors) {
+    if (!text.empty()) text += ", ";
+    text += quote(catalog.behavior_names[behavior]);
+  }
+  return text;
+}
+
+void check_running(const Expectation::Running& expected, const CompiledCatalog& catalog,
+                   const State& state, Mismatches& mismatches) {
+  const TaskId task = catalog.task_ids[expected.task];
+  const bool holds = expected.behavior
+                         ? state.behavior(task) == catalog.behavior_ids[*expected.behavior]
+                         : state.is_running(task);
+  if (holds) return;
+  const std::string wanted =
+      expected.behavior ? fmt::format(" with {}", quote(catalog.behavior_names[*expected.behavior]))
+                        : "";
+  mismatches.add(fmt::format("expected task {} to run{}, but {}",
+                             quote(catalog.task_names[expected.task]), wanted,
+                             describe_task(catalog, state, task)));
+}
+
+void check_active(std::vector<std::uint32_t> expected, const CompiledCatalog& catalog,
+                  const State& state, Mismatches& mismatches) {
+  std::vector<std::uint32_t> active;
+  for (std::uint32_t behavior = 0; behavior < catalog.behavior_names.size(); ++behavior) {
+    if (state.is_active(catalog.behavior_ids[behavior])) active.push_back(behavior);
+  }
+  std::sort(expected.begin(), expected.end());
+  expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+  if (active == expected) return;
+  mismatches.add(fmt::format("expected the active behaviors to be {}, but found {}",
+                             join_names(catalog, expected), join_names(catalog, active)));
+}
+
+}  // namespace
+
+std::string find_mismatch(const Expectation& expectation, const CompiledCatalog& catalog,
+                          const State& state, std::optional<Outcome> outcome) {
+  Mismatches mismatches;
+  if (expectation.outcome && outcome != expectation.outcome) {
+    mismatches.add(fmt::format("expected outcome '{}', but {}", name_of(*expectation.outcome),
+                               outcome ? fmt::format("it is '{}'", name_of(*outcome))
+                                       : "there was no start, stop or finish yet"));
+  }
+  for (const Expectation::Running& expected : expectation.running) {
+    check_running(expected, catalog, state, mismatches);
+  }
+  for (const std::uint32_t index : expectation.stopped) {
+    const TaskId task = catalog.task_ids[index];
+    if (!state.is_running(task)) continue;
+    mismatches.add(fmt::format("expected task {} not to run, but {}",
+                               quote(catalog.task_names[index]),
+                               describe_task(catalog, state, task)));
+  }
+  if (expectation.active) check_active(*expectation.active, catalog, state, mismatches);
+  return mismatches.take();
+}
+
+void Runner::resume(const Snapshot& snapshot) {
+  coordinator_.resume(snapshot);
+  index_ = snapshot.events;
+  outcome_ = snapshot.outcome;
+}
+
+Snapshot Runner::snapshot() const {
+  Snapshot snapshot = coordinator_.snapshot();
+  snapshot.outcome = outcome_;
+  return snapshot;
+}
+
+bool Runner::take(const Step& step) {
+  if (step.time && !note(coordinator_.advance_to(*step.time))) return false;
+  if (step.expect) {
+    check(step);
+    return true;
+  }
+  step_ = &step;
+  return note(coordinator_.handle(event_of(step)));
+}
+
+void Runner::on_event(const EventRecord& record) {
+  index_ = record.index;
+  const bool is_scripted = record.origin == Origin::script;
+  if (is_scripted && form_of(record.verb).is_decided) outcome_ = record.outcome;
+  ++result_.events;
+  if (record.outcome == Outcome::accepted) ++result_.accepted;
+  if (record.outcome == Outcome::rejected) ++result_.rejected;
+  if (result_.totals) result_.totals->add(record);
+  listener_.on_event(record, is_scripted ? step_ : nullptr, coordinator_.state());
+}
+
+bool Runner::note(Coordinator::Status status) {
+  if (status == Coordinator::Status::ok) return true;
+  result_.status = status;
+  result_.internal_error = coordinator_.internal_error();
+  return false;
+}
+
+void Runner::check(const Step& step) {
+  const State& state = coordinator_.state();
+  std::string mismatch = find_mismatch(*step.expect, catalog_, state, outcome_);
+  if (mismatch.empty()) {
+    ++result_.passed;
+  } else {
+    ++result_.failed;
+    result_.failures.push_back({step.range, mismatch});
+    Failure failure{result_.failed, index_, step.range, std::move(mismatch), &step, &state, {}};
+    if (has_hindsight_ && failure.number <= most_explained) {
+      failure.surprises = find_surprises(*step.expect);
+    }
+    listener_.on_failure(failure);
+  }
+}
+
+std::vector<Surprise> Runner::find_surprises(const Expectation& expectation) {
+  std::vector<Surprise> surprises;
+  for (ExpectedValues& expected :
+       find_expected_values(expectation, catalog_, coordinator_.state())) {
+    surprises.push_back({expected.group, std::move(expected.tasks),
+                         coordinator_.look_back(expected.group, expected.ways)});
+  }
+  return surprises;
+}
+
+Event event_of(const Step& step) {
+  Event event;
+  event.verb = step.verb;
+  event.subject = step.subject;
+  event.priority = step.priority;
+  if (step.parameters) event.parameters = step.parameters->canonical;
+  event.cause = step.cause;
+  event.is_by_task = step.is_by_task;
+  event.situation = step.situation.availability;
+  event.variables = step.situation.variables;
+  return event;
+}
+
+CoordinatorOptions options_of(const Script& script, CoordinatorOptions options) {
+  options.reactive_delay = script.reactive_delay;
+  options.timeouts = script.timeouts;
+  return options;
+}
+
+RunResult run_script(const CompiledCatalog& catalog, const Script& script,
+                     const CoordinatorOptions& options, RunListener& listener) {
+  CoordinatorOptions of_script = options_of(script, options);
+  // Without expectations nobody asks.
+  of_script.hindsight =
+      options.hindsight && std::any_of(script.steps.begin(), script.steps.end(),
+                                       [](const Step& step) { return step.expect.has_value(); });
+  Runner runner(catalog, of_script, listener);
+  runner.begin(script.situation);
+  bool goes_on = true;
+  for (const Step& step : script.steps) {
+    goes_on = runner.take(step);
+    if (!goes_on) break;
+  }
+  if (goes_on) static_cast<void>(runner.settle());
+  listener.on_end(runner.coordinator().state());
+  RunResult result = runner.result();
+  result.script = &script;
+  return result;
+}
+
+}  // namespace cbc

@@ -1,0 +1,404 @@
+#include "core/support/system.h"
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <fcntl.h>
+#include <filesystem>
+#include <iterator>
+#include <poll.h>
+#include <random>
+#include <spawn.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "runtime/base/mapped_file.h"
+
+namespace cbc {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a system call says about its failure, to be asked right after it.
+std::string reason(int code = errno) { return std::generic_category().message(code); }
+
+/// Holds back the signals that would end the program and leave a temporary file behind.
+class SignalsHeld {
+ public:
+  SignalsHeld() {
+    sigset_t held;
+    sigemptyset(&held);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXFSZ}) {
+      sigaddset(&held, signal);
+    }
+    pthread_sigmask(SIG_BLOCK, &held, &before_);
+  }
+  ~SignalsHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+/// Names of temporary files: a random number, as the numbers of processes repeat in containers.
+/// mkostemp would ignore the umask.
+constexpr std::string_view temporary_prefix = ".cbc-";
+constexpr std::string_view temporary_suffix = ".tmp";
+constexpr std::size_t random_digits = 16;
+
+std::string draw_temporary_name() {
+  std::uint64_t number = 0;
+  if (getrandom(&number, sizeof number, 0) != sizeof number) number = std::random_device()();
+  return fmt::format("{}{:0{}x}{}", temporary_prefix, number, random_digits, temporary_suffix);
+}
+
+bool is_temporary_name(std::string_view name) {
+  if (!name.starts_with(temporary_prefix) || !name.ends_with(temporary_suffix)) return false;
+  name.remove_prefix(temporary_prefix.size());
+  return name.size() == random_digits + temporary_suffix.size() &&
+         name.find_first_not_of("0123456789abcdef") == random_digits;
+}
+
+/// A new file in a folder, removed again unless it was given its name.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& folder) {
+    constexpr int attempts = 10;  // the first one can fail only if somebody knows the number
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+      path_ = (folder / draw_temporary_name()).string();
+      descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (descriptor_ >= 0 || errno != EEXIST) return;
+    }
+  }
+  ~TemporaryFile() {
+    if (descriptor_ < 0) return;
+    ::close(descriptor_);
+    if (!is_named_) unlink(path_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  [[nodiscard]] bool exists() const { return descriptor_ >= 0; }
+
+  /// Gives it the permissions and, if possible, the owner of another file.
+  [[nodiscard]] bool resemble(const struct stat& other) const {
+    // Only the system's administrator can give files away.
+    const bool ignored = fchown(descriptor_, other.st_uid, other.st_gid) != 0;
+    (void)ignored;
+    return fchmod(descriptor_, other.st_mode & 07777) == 0;
+  }
+
+  [[nodiscard]] bool write(std::string_view content) const {
+    while (!content.empty()) {
+      const ssize_t written = ::write(descriptor_, content.data(), content.size());
+      if (written < 0 && errno != EINTR) return false;
+      if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return fsync(descriptor_) == 0;
+  }
+
+  [[nodiscard]] bool rename_to(const fs::path& path) {
+    is_named_ = std::rename(path_.c_str(), path.c_str()) == 0;
+    return is_named_;
+  }
+
+  /// Fails if there is a file of that name. Not every file system knows how to rename so, nor
+  /// every one how to link.
+  [[nodiscard]] bool become_new(const fs::path& path) {
+    is_named_ = renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0;
+    if (is_named_ || (errno != EINVAL && errno != ENOSYS)) return is_named_;
+    return link(path_.c_str(), path.c_str()) == 0;  // the destructor removes the other name
+  }
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+  bool is_named_ = false;
+};
+
+/// Whether a path, such as /dev/stdout, is another name of what a program has open: to replace the
+/// file behind it would not reach those who have it open.
+bool is_descriptor(const fs::path& path) {
+  std::error_code error;
+  const fs::path folder = fs::canonical(path.has_parent_path() ? path.parent_path() : ".", error);
+  return !error && folder.filename() == "fd" && *std::next(folder.begin()) == "proc";
+}
+
+/// Makes of a path that to which symbolic links lead in the end, whether or not there is a file.
+/// Returns why it cannot be replaced, or nothing.
+std::optional<std::string> follow_links(fs::path& path) {
+  constexpr int most_links = 40;
+  for (int links = 0; links <= most_links; ++links) {
+    if (is_descriptor(path)) return "it is not the name of a file; '-' is standard output";
+    std::error_code no_link;
+    const fs::path target = fs::read_symlink(path, no_link);
+    if (no_link) return std::nullopt;
+    path = path.parent_path() / target;
+  }
+  return reason(ELOOP);
+}
+
+}  // namespace
+
+std::string target_of(const std::string& path) {
+  fs::path target(path);
+  if (follow_links(target)) return path;
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(fs::absolute(target, error), error);
+  return error ? path : whole.string();
+}
+
+namespace {
+
+/// Makes the new name last. The content is complete either way, so failures do not matter.
+void sync_folder(const fs::path& folder) {
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  ::close(descriptor);
+}
+
+fs::path folder_with(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// Where a content is to be put.
+struct Target {
+  fs::path path;
+  fs::path folder;
+  bool exists = false;
+  struct stat existing {};
+};
+
+/// Returns why nothing can be put there, or nothing.
+std::optional<std::string> find_target(const std::string& path, Target& target) {
+  target.path = path;
+  if (auto obstacle = follow_links(target.path)) return obstacle;
+  if (!target.path.has_filename()) return reason(EISDIR);
+  target.folder = folder_with(target.path);
+
+  target.exists = stat(target.path.c_str(), &target.existing) == 0;
+  if (!target.exists) return errno == ENOENT ? std::nullopt : std::optional(reason());
+  if (S_ISDIR(target.existing.st_mode)) return reason(EISDIR);
+  if (!S_ISREG(target.existing.st_mode)) return "it is not a regular file";
+  // The folder would allow to replace a file that may not be changed.
+  if (faccessat(AT_FDCWD, target.path.c_str(), W_OK, AT_EACCESS) != 0) return reason();
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> write_atomically(const std::string& path, std::string_view content) {
+  Target target;
+  if (auto obstacle = find_target(path, target)) return obstacle;
+  const SignalsHeld signals_held;
+  TemporaryFile file(target.folder);
+  if (!file.exists()) return reason();
+  if (target.exists && !file.resemble(target.existing)) return reason();
+  if (!file.write(content)) return reason();
+  if (!file.rename_to(target.path)) return reason();
+  sync_folder(target.folder);
+  return std::nullopt;
+}
+
+std::optional<std::string> create_atomically(const std::string& path, std::string_view content) {
+  const fs::path folder = folder_with(path);
+  const SignalsHeld signals_held;
+  TemporaryFile file(folder);
+  if (!file.exists()) return reason();
+  if (!file.write(content)) return reason();
+  if (!file.become_new(path)) return reason();
+  sync_folder(folder);
+  return std::nullopt;
+}
+
+void remove_leftovers(const std::string& path) {
+  constexpr std::time_t oldest = 3600;  // in seconds; a younger one may still be written to
+  Target target;
+  if (find_target(path, target)) return;
+  const std::time_t now = std::time(nullptr);
+  std::error_code error;
+  fs::directory_iterator entry(target.folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (!is_temporary_name(entry->path().filename().native())) continue;
+    struct stat status {};
+    if (lstat(entry->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
+    if (status.st_uid == geteuid() && now - status.st_mtime > oldest) {
+      unlink(entry->path().c_str());
+    }
+  }
+}
+
+std::optional<std::string> find_obstacle(const std::string& path) {
+  Target target;
+  if (auto obstacle = find_target(path, target)) return obstacle;
+  const SignalsHeld signals_held;
+  const TemporaryFile file(target.folder);
+  if (!file.exists()) return reason();
+  return std::nullopt;
+}
+
+namespace {
+
+struct Pipe {
+  Descriptor read_end;
+  Descriptor write_end;
+
+  [[nodiscard]] bool open() {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) return false;
+    read_end.set(ends[0]);
+    write_end.set(ends[1]);
+    return true;
+  }
+};
+
+/// Holds off the signal that writing to a program that has ended brings.
+class PipeSignalIgnored {
+ public:
+  PipeSignalIgnored() : before_(std::signal(SIGPIPE, SIG_IGN)) {}
+  PipeSignalIgnored(const PipeSignalIgnored&) = delete;
+  PipeSignalIgnored& operator=(const PipeSignalIgnored&) = delete;
+  ~PipeSignalIgnored() { std::signal(SIGPIPE, before_); }
+
+ private:
+  void (*before_)(int);
+};
+
+class Filter {
+ public:
+  explicit Filter(std::string_view input) : left_(input) {}
+
+  Filtered run(const std::vector<std::string>& command) {
+    const PipeSignalIgnored ignored;
+    if (!input_.open() || !output_.open() || !errors_.open()) return fail(errno);
+    pid_t process = 0;
+    if (const int error = start(command, process); error != 0) return fail(error);
+    result_.is_found = true;
+    input_.read_end.close();
+    output_.write_end.close();
+    errors_.write_end.close();
+    fcntl(input_.write_end.number(), F_SETFL, O_NONBLOCK);
+    exchange();
+    int status = 0;
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    result_.is_done = error_ == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (error_ != 0) result_.error_output = std::strerror(error_);
+    if (!result_.is_done && result_.error_output.empty()) result_.error_output = end_of(status);
+    return std::move(result_);
+  }
+
+ private:
+  static std::string end_of(int status) {
+    if (WIFEXITED(status)) return fmt::format("exit status {}", WEXITSTATUS(status));
+    return fmt::format("ended by signal {}", WTERMSIG(status));
+  }
+
+  Filtered fail(int error) {
+    result_.error_output = std::strerror(error);
+    return std::move(result_);
+  }
+
+  int start(const std::vector<std::string>& command, pid_t& process) {
+    std::vector<std::string> words = command;
+    std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, input_.read_end.number(), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, output_.write_end.number(), STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, errors_.write_end.number(), STDERR_FILENO);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t defaults;
+    sigemptyset(&defaults);
+    sigaddset(&defaults, SIGPIPE);
+    sigaddset(&defaults, SIGXFSZ);
+    posix_spawnattr_setsigdefault(&attributes, &defaults);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    const int error =
+        posix_spawnp(&process, arguments.front(), &actions, &attributes, arguments.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return error;
+  }
+
+  /// Writes and reads in turn, whichever is possible, until the program has closed its outputs.
+  void exchange() {
+    while (output_.read_end.number() >= 0 || errors_.read_end.number() >= 0) {
+      if (left_.empty()) input_.write_end.close();
+      std::array<pollfd, 3> ends{{{input_.write_end.number(), POLLOUT, 0},
+                                  {output_.read_end.number(), POLLIN, 0},
+                                  {errors_.read_end.number(), POLLIN, 0}}};
+      if (poll(ends.data(), ends.size(), -1) < 0) {
+        if (errno == EINTR) continue;
+        give_up(errno);
+        return;
+      }
+      if (ends[0].revents != 0) write_some();
+      if (error_ == 0 && ends[1].revents != 0) read_some(output_.read_end, result_.output);
+      if (error_ == 0 && ends[2].revents != 0) read_some(errors_.read_end, result_.error_output);
+    }
+  }
+
+  void write_some() {
+    const ssize_t count = write(input_.write_end.number(), left_.data(), left_.size());
+    if (count >= 0) {
+      left_.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EPIPE) {
+      left_ = {};  // it has read enough
+    } else if (errno != EAGAIN && errno != EINTR) {
+      give_up(errno);
+    }
+  }
+
+  /// Lets the program end, of which nothing is wanted any more.
+  void give_up(int error) {
+    error_ = error;
+    input_.write_end.close();
+    output_.read_end.close();
+    errors_.read_end.close();
+  }
+
+  void read_some(Descriptor& end, std::string& text) {
+    std::array<char, 1 << 16> block{};
+    const ssize_t count = read(end.number(), block.data(), block.size());
+    if (count > 0) {
+      text.append(block.data(), static_cast<std::size_t>(count));
+    } else if (count == 0) {
+      end.close();
+    } else if (errno != EINTR) {
+      give_up(errno);
+    }
+  }
+
+  std::string_view left_;
+  int error_ = 0;  ///< of the exchange; a value of errno
+  Pipe input_;
+  Pipe output_;
+  Pipe errors_;
+  Filtered result_;
+};
+
+}  // namespace
+
+Filtered run_filter(const std::vector<std::string>& command, std::string_view input) {
+  return Filter(input).run(command);
+}
+
+}  // namespace cbc

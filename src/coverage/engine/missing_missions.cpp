@@ -1,0 +1,389 @@
+#include "coverage/engine/missing_missions.h"
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/script/runner.h"
+#include "coverage/engine/mission_plan.h"
+#include "coverage/engine/rehearsal.h"
+#include "coverage/engine/watched_run.h"
+
+namespace cbc {
+namespace {
+
+using Goals = MissionPlanner::Goals;
+using Phase = MissingMissions::Phase;
+
+bool is_any(const Goals& goals) {
+  return std::any_of(goals.begin(), goals.end(), [](std::uint8_t goal) { return goal != 0; });
+}
+
+class MissionFinder {
+ public:
+  MissionFinder(const CompiledCatalog& catalog, std::span<const Goal> goals,
+                const Assumptions& assumptions, const MissingMissionOptions& options)
+      : catalog_(catalog),
+        goals_(goals),
+        assumptions_(assumptions),
+        options_(options),
+        rehearsal_(catalog, goals, assumptions) {}
+
+  MissingMissions find(const std::vector<std::uint8_t>& met) {
+    missing_.assign(goals_.size(), 0);
+    for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
+      missing_[goal] = met[goal] == 0 ? 1 : 0;
+      result_.wanted += missing_[goal];
+    }
+    GroupWalkOptions of_exploration = options_.exploration;
+    of_exploration.on_progress = [&](std::uint32_t group, std::uint64_t states) {
+      const auto& on_progress = options_.exploration.on_progress;
+      return !is_stopped() && (!on_progress || on_progress(group, states));
+    };
+    result_.reached = Phase::exploration;
+    graph_ = explore_goals(catalog_, goals_, missing_, assumptions_, of_exploration);
+    result_.error = graph_.error;
+    result_.states = graph_.state_count();
+    result_.moves = graph_.moves;
+    const bool has_all_groups = graph_.parts.size() == catalog_.group_count();
+    if (graph_.error || is_stopped() || !has_all_groups) return std::move(result_);
+    result_.reached = Phase::planning;
+    for (const GoalGraph::Part& part : graph_.parts) {
+      if (!part.is_complete) result_.partial.push_back(part.group);
+    }
+    const auto stop = [this] {
+      show_progress();
+      return is_stopped();
+    };
+    MissionPlanner planner(graph_, options_.events, stop);
+    if (is_stopped()) return std::move(result_);
+    set_apart(planner);
+    if (result_.partial.empty()) result_.lower_bound = planner.lower_bound(bounded());
+    for (std::uint32_t part = 0; part < graph_.parts.size(); ++part) {
+      result_.most_events = std::max(result_.most_events, planner.most_events(part));
+    }
+    perform(planner, missing_);
+    wait_for_timeouts(planner);
+    perform(planner, without_timeouts());
+    if (is_stopped()) return std::move(result_);
+    result_.reached = Phase::done;
+    show_first_values();
+    list_unmet();
+    return std::move(result_);
+  }
+
+ private:
+  /// Sets apart what is unreachable, and what each script meets as it begins.
+  void set_apart(const MissionPlanner& planner) {
+    first_values_.assign(goals_.size(), 0);
+    for (std::size_t number = 0; number < goals_.size(); ++number) {
+      const Goal& goal = goals_[number];
+      if (missing_[number] == 0) continue;
+      if (goal.kind == Goal::Kind::variable_value &&
+          initial_value(assumptions_, goal.variable) == goal.value) {
+        first_values_[number] = 1;
+        missing_[number] = 0;
+      } else if (planner.reachable()[number] == 0 || is_forestalled(catalog_, goal, graph_.facts)) {
+        missing_[number] = 0;
+        const auto place = static_cast<std::uint32_t>(number);
+        if (result_.partial.empty()) {
+          result_.unreachable.push_back(
+              {place, why_unreachable(catalog_, goals_, number, assumptions_, graph_.facts)});
+        } else {
+          result_.unmet.push_back({place, "not met before a limit ended the exploration"});
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<Move> moves_of(const MissionPlanner::Path& path) const {
+    std::vector<Move> moves;
+    for (const std::uint32_t edge : path.edges) moves.push_back(graph_.edges[edge].move);
+    return moves;
+  }
+
+  /// What no script about another group meets by the way. Reactive tasks of all groups start by
+  /// themselves in every script, and what comes of it depends on times.
+  [[nodiscard]] Goals bounded() const {
+    Goals bounded = missing_;
+    if (graph_.parts.size() < 2) return bounded;
+    std::set<std::uint32_t> lively;
+    for (const CompiledTask& task : catalog_.tasks) {
+      if (task.reactive_start != 0) lively.insert(task.group);
+    }
+    for (std::size_t number = 0; number < goals_.size(); ++number) {
+      const Goal& goal = goals_[number];
+      const bool needs_request = goal.kind == Goal::Kind::behavior_succeeded ||
+                                 goal.kind == Goal::Kind::higher_displaced ||
+                                 goal.kind == Goal::Kind::lower_rejected ||
+                                 goal.kind == Goal::Kind::equal_displaced;
+      if (needs_request || goal.variable != none) continue;
+      const std::uint32_t group =
+          goal.task != none ? catalog_.tasks[goal.task].group : catalog_.group_of(goal.behavior);
+      if (lively.contains(group)) bounded[number] = 0;
+    }
+    return bounded;
+  }
+
+  /// Adds scripts that meet these goals. Where other timeouts come first, those do not fire.
+  void perform(MissionPlanner& planner, const Goals& wanted) {
+    for (const MissionPlanner::Path& path : planner.plan(wanted)) {
+      show_progress();
+      if (is_stopped()) return;
+      result_.reached = Phase::rehearsal;
+      std::vector<std::uint8_t> is_timeout;
+      for (const std::uint32_t edge : path.edges) {
+        const auto items = graph_.items_of(graph_.edges[edge]);
+        is_timeout.push_back(std::any_of(items.begin(), items.end(), [&](std::uint32_t item) {
+          return item < goals_.size() && wanted[item] != 0 && missing_[item] != 0 &&
+                 goals_[item].kind == Goal::Kind::timeout_fired;
+        }));
+      }
+      const std::uint32_t group = graph_.parts[path.part].group;
+      add(is_any(is_timeout) ? rehearsal_.run_by_clock(group, moves_of(path), is_timeout)
+                             : rehearsal_.run(group, moves_of(path)));
+    }
+  }
+
+  [[nodiscard]] Goals timeouts() const {
+    Goals timeouts = missing_;
+    for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
+      if (goals_[goal].kind != Goal::Kind::timeout_fired) timeouts[goal] = 0;
+    }
+    return timeouts;
+  }
+  [[nodiscard]] Goals without_timeouts() const {
+    Goals others = missing_;
+    for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
+      if (goals_[goal].kind == Goal::Kind::timeout_fired) others[goal] = 0;
+    }
+    return others;
+  }
+
+  /// States have no times, so what fires in a state is tried out.
+  void wait_for_timeouts(const MissionPlanner& planner) {
+    constexpr std::size_t most_tries = 200;
+    for (Goals wanted = timeouts(); is_any(wanted); wanted = timeouts()) {
+      if (!wait_once(planner, wanted, most_tries)) break;
+    }
+    // Where many timeouts are possible, others may come first.
+    const Goals left = timeouts();
+    for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
+      if (left[goal] == 0 || missing_[goal] == 0) continue;
+      Goals one(goals_.size(), 0);
+      one[goal] = 1;
+      static_cast<void>(wait_once(planner, one, 10 * most_tries));
+    }
+  }
+
+  /// Adds the script that meets most of these goals; false if none of those tried meets any.
+  bool wait_once(const MissionPlanner& planner, const Goals& wanted, std::size_t most_tries) {
+    std::optional<Rehearsal> best;
+    std::size_t most = 0;
+    for (const MissionPlanner::Path& path : planner.paths_toward(wanted, most_tries)) {
+      show_progress();
+      if (is_stopped()) return false;
+      const std::uint32_t limit = planner.most_events(path.part);
+      if (path.edges.size() >= limit) continue;
+      Rehearsal tried =
+          rehearsal_.wait_after(graph_.parts[path.part].group, moves_of(path), wanted,
+                                limit - static_cast<std::uint32_t>(path.edges.size()));
+      std::size_t count = 0;
+      for (const Rehearsal::Moment& moment : tried.moments) {
+        for (const std::uint32_t goal : moment.goals) count += wanted[goal];
+      }
+      if (count <= most) continue;
+      most = count;
+      best = std::move(tried);
+    }
+    if (best) add(*best);
+    return best.has_value();
+  }
+
+  [[nodiscard]] bool is_stopped() const { return options_.is_stopped && options_.is_stopped(); }
+
+  /// After the exploration, which has a progress of its own.
+  void show_progress() const {
+    if (options_.on_mission) options_.on_mission(result_.missions.size());
+  }
+
+  /// Writes the script, if it meets anything that is missing.
+  void add(Rehearsal rehearsal) {
+    rehearsal.script.catalog = options_.catalog;
+    MissingMissions::Mission mission;
+    Goals counts(goals_.size(), 0);
+    for (const Rehearsal::Moment& moment : rehearsal.moments) {
+      for (const std::uint32_t goal : moment.goals) {
+        if (missing_[goal] == 0 && first_values_[goal] == 0) continue;
+        missing_[goal] = 0;
+        first_values_[goal] = 0;
+        counts[goal] = 1;
+        mission.goals.push_back(goal);
+      }
+    }
+    if (!rehearsal.fault.empty()) result_.fault = rehearsal.fault;
+    if (mission.goals.empty()) return;
+    const Goal& last = goals_[mission.goals.back()];
+    mission.group = rehearsal.group;
+    mission.name = unique_name(last);
+    WrittenScript written = write_down(catalog_, goals_, rehearsal, counts, title_of(last));
+    mission.script = std::move(written.script);
+    mission.script.file = mission.name;
+    mission.text = std::move(written.text);
+    for (const Step& step : mission.script.steps) {
+      if (!step.expect) ++mission.events;
+    }
+    check(mission);
+    result_.missions.push_back(std::move(mission));
+  }
+
+  [[nodiscard]] std::string title_of(const Goal& goal) const {
+    std::string title = describe(catalog_, goal);
+    title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
+    return title + ".";
+  }
+
+  std::string unique_name(const Goal& goal) {
+    const std::string first = name_after(catalog_, goal);
+    std::string name = first;
+    for (int number = 2; !names_.insert(name).second; ++number) {
+      name = fmt::format("{}-{}", first, number);
+    }
+    return name;
+  }
+
+  void check(const MissingMissions::Mission& mission) {
+    SilentRun silent;
+    const RunResult result = run_script(catalog_, mission.script, {}, silent);
+    if (result.status == Coordinator::Status::ok && result.failed == 0) return;
+    result_.fault = fmt::format("a script does not do what was proven:\n{}", mission.text);
+  }
+
+  /// The values at the beginning, if nothing else is missing.
+  void show_first_values() {
+    if (is_any(first_values_) && catalog_.group_count() > 0) add(rehearsal_.run(0, {}));
+  }
+
+  void list_unmet() {
+    for (std::uint32_t goal = 0; goal < goals_.size(); ++goal) {
+      if (missing_[goal] == 0 && first_values_[goal] == 0) continue;
+      const bool is_timeout = goals_[goal].kind == Goal::Kind::timeout_fired;
+      result_.unmet.push_back(
+          {goal, is_timeout
+                     ? "waiting in the states that were tried did not show it; events at other "
+                       "times were not tried"
+                     : "no script that was tried shows it"});
+    }
+    std::sort(result_.unmet.begin(), result_.unmet.end(),
+              [](const auto& a, const auto& b) { return a.goal < b.goal; });
+  }
+
+  const CompiledCatalog& catalog_;
+  const std::span<const Goal> goals_;
+  const Assumptions& assumptions_;
+  const MissingMissionOptions& options_;
+  const MissionRehearsal rehearsal_;
+  GoalGraph graph_;
+  MissingMissions result_;
+  Goals missing_;       ///< by goal: no mission meets it, and one can
+  Goals first_values_;  ///< the same, of those that each script meets as it begins
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+MissingMissions find_missing_missions(const CompiledCatalog& catalog, std::span<const Goal> goals,
+                                      const std::vector<std::uint8_t>& met,
+                                      const Assumptions& assumptions,
+                                      const MissingMissionOptions& options) {
+  return MissionFinder(catalog, goals, assumptions, options).find(met);
+}
+
+std::string name_after(const CompiledCatalog& catalog, const Goal& goal) {
+  const auto task_name = [&](TaskId task) {
+    return task == none ? std::string_view() : catalog.name_of_task(task);
+  };
+  const std::string_view task = task_name(goal.task);
+  const std::string_view behavior =
+      goal.behavior == none ? std::string_view() : catalog.name_of_behavior(goal.behavior);
+  std::string words;
+  switch (goal.kind) {
+    case Goal::Kind::task_ran:
+      words = fmt::format("{} runs", task);
+      break;
+    case Goal::Kind::behavior_active:
+      words = fmt::format("{} is active", behavior);
+      break;
+    case Goal::Kind::behavior_succeeded:
+      words = fmt::format("{} succeeds", behavior);
+      break;
+    case Goal::Kind::behavior_failed:
+      words = fmt::format("{} fails", behavior);
+      break;
+    case Goal::Kind::behavior_replaced:
+      words = fmt::format("{} is replaced", behavior);
+      break;
+    case Goal::Kind::requirement_used:
+      words = fmt::format("{} with {}", behavior, task);
+      break;
+    case Goal::Kind::requirement_decided:
+      words = fmt::format("{} requires {}", behavior, task);
+      break;
+    case Goal::Kind::minimum_decided:
+      words = fmt::format("minimum of {} {}", task, behavior);
+      break;
+    case Goal::Kind::exclusion_decided:
+      words = fmt::format("{} excludes {}", task, task_name(goal.other_task));
+      break;
+    case Goal::Kind::timeout_fired:
+      words = fmt::format("{} times out", behavior.empty() ? task : behavior);
+      break;
+    case Goal::Kind::reactive_started:
+      words = fmt::format("{} starts by itself", task);
+      break;
+    case Goal::Kind::reactive_gave_way:
+      words = fmt::format("{} gives way", task);
+      break;
+    case Goal::Kind::reactive_returned:
+      words = fmt::format("{} returns", task);
+      break;
+    case Goal::Kind::variable_value:
+      words = fmt::format("{} is {}", catalog.name_of_variable(goal.variable),
+                          catalog.name_of_value({goal.variable, goal.value}));
+      break;
+    case Goal::Kind::behavior_began_to_fit:
+      words = fmt::format("{} begins to fit", behavior);
+      break;
+    case Goal::Kind::behavior_ceased_to_fit:
+      words = fmt::format("{} ceases to fit", behavior);
+      break;
+    case Goal::Kind::higher_displaced:
+      words = fmt::format("{} displaces lower", task);
+      break;
+    case Goal::Kind::lower_rejected:
+      words = fmt::format("{} yields to higher", task);
+      break;
+    case Goal::Kind::equal_displaced:
+      words = fmt::format("{} displaces equal", task);
+      break;
+  }
+  constexpr std::size_t longest = 100;
+  std::string name;
+  for (const char character : words) {
+    const bool is_upper = character >= 'A' && character <= 'Z';
+    const bool is_kept = is_upper || (character >= 'a' && character <= 'z') ||
+                         (character >= '0' && character <= '9');
+    if (is_kept) {
+      name += is_upper ? static_cast<char>(character - 'A' + 'a') : character;
+    } else if (!name.empty() && name.back() != '-') {
+      name += '-';
+    }
+  }
+  name.resize(std::min(name.size(), longest));
+  while (name.ends_with('-')) name.pop_back();
+  return name;
+}
+
+}  // namespace cbc

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/property/properties.h"
+#include "core/script/script.h"
+#include "coverage/engine/goal_graph.h"
+#include "coverage/engine/goals.h"
+#include "runtime/compiled/compiled_catalog.h"
+
+namespace cbc {
+
+/// Scripts that together meet the goals that can be met, and that no mission meets yet
+/// (docs/coverage.md, "The missing missions").
+struct MissingMissions {
+  struct Mission {
+    std::string name;  ///< of a file, without its ending: after the goal with which it ends
+    std::uint32_t group = 0;
+    Script script;
+    std::string text;                  ///< of the script
+    std::vector<std::uint32_t> goals;  ///< that no mission before it meets
+    std::uint64_t events = 0;          ///< of the script, without its expectations
+  };
+  struct Unmet {
+    std::uint32_t goal = 0;
+    std::string reason;
+  };
+  enum class Phase : std::uint8_t { exploration, planning, rehearsal, done };
+
+  std::vector<Mission> missions;
+  std::uint64_t wanted = 0;        ///< goals that the missions so far do not meet
+  std::vector<Unmet> unreachable;  ///< of these: proven, no mission can meet them; by goal
+  std::vector<Unmet> unmet;        ///< the others that no script was found for; by goal
+  /// The least number of such scripts, each about one group, with at most so many events as its
+  /// group allows. Empty if a limit ended the exploration.
+  std::optional<std::uint64_t> lower_bound;
+  std::uint32_t most_events = 0;       ///< of a script, with those of the clock
+  std::vector<std::uint32_t> partial;  ///< groups whose exploration a limit ended
+  std::uint64_t states = 0;
+  std::uint64_t moves = 0;
+  Phase reached = Phase::done;       ///< what is_stopped ended; then the rest means nothing
+  std::optional<std::string> error;  ///< see Model::find_obstacle()
+  std::string fault;                 ///< of cbc: a script does not do what was proven
+};
+
+struct MissingMissionOptions {
+  GroupWalkOptions exploration;
+  std::string catalog;       ///< see Script
+  std::uint32_t events = 8;  ///< of a script, if no goal takes more
+  /// Called now and then after the exploration, with the number of scripts so far. May be empty.
+  std::function<void(std::size_t number)> on_mission;
+  /// Asked now and then; once it is true, the work ends. May be empty.
+  std::function<bool()> is_stopped;
+};
+
+/// `met`: by goal, whether the present missions meet it. The same input gives the same scripts.
+[[nodiscard]] MissingMissions find_missing_missions(const CompiledCatalog& catalog,
+                                                    std::span<const Goal> goals,
+                                                    const std::vector<std::uint8_t>& met,
+                                                    const Assumptions& assumptions,
+                                                    const MissingMissionOptions& options);
+
+/// A name for a script about a goal: words of lower-case letters and digits, with hyphens.
+[[nodiscard]] std::string name_after(const CompiledCatalog& catalog, const Goal& goal);
+
+}  // namespace cbc

@@ -1,0 +1,265 @@
+#include "coverage/engine/mutants/judge.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/compile/compile.h"
+#include "core/script/runner.h"
+#include "coverage/engine/goal_proof.h"
+#include "coverage/engine/mutants/telling_script.h"
+#include "runtime/coordinator/coordinator.h"
+#include "runtime/coordinator/state.h"
+#include "verify/engine/same_as.h"
+#include "verify/engine/witness.h"
+
+namespace cbc {
+namespace {
+
+/// The finish by the timeout of a behavior with a task; 0: there is none.
+Microseconds timeout_of(const Catalog& catalog, const Behavior& behavior, TaskIndex index) {
+  const Task& task = catalog.tasks[index];
+  if (task.execution_goal == ExecutionGoal::keep_running) return 0;
+  return behavior.timeout.value_or(task.timeout.value_or(0));
+}
+
+using TimeDifference = MutantJudge::TimeDifference;
+
+/// Both catalogs have the same tasks and behaviors.
+std::vector<TimeDifference> find_time_differences(const Catalog& original, const Catalog& mutant) {
+  std::vector<TimeDifference> differences;
+  for (BehaviorIndex place = 0; place < original.behaviors.size(); ++place) {
+    for (const Performance& performance : original.behaviors[place].performs) {
+      const Microseconds before = timeout_of(original, original.behaviors[place], performance.task);
+      const Microseconds after = timeout_of(mutant, mutant.behaviors[place], performance.task);
+      if (before == after) continue;
+      const Microseconds first = before == 0  ? after
+                                 : after == 0 ? before
+                                              : std::min(before, after);
+      differences.push_back({performance.task, place, first});
+    }
+  }
+  return differences;
+}
+
+/// Other tasks of the same group that may time out no later, so that it is not the only one.
+std::vector<TaskIndex> find_sooner(const Catalog& catalog, const CompiledCatalog& compiled,
+                                   const TimeDifference& difference) {
+  std::set<TaskIndex> found;
+  const auto group_of = [&](TaskIndex task) {
+    return compiled.tasks[compiled.task_ids[task]].group;
+  };
+  for (const Behavior& behavior : catalog.behaviors) {
+    for (const Performance& performance : behavior.performs) {
+      const Microseconds timeout = timeout_of(catalog, behavior, performance.task);
+      if (timeout == 0 || timeout > difference.first || performance.task == difference.task) {
+        continue;
+      }
+      if (group_of(performance.task) == group_of(difference.task)) found.insert(performance.task);
+    }
+  }
+  return {found.begin(), found.end()};
+}
+
+/// The events of a script up to its end, and the time of that.
+Microseconds take_expectation(Script& script) {
+  const Microseconds end = script.steps.back().time.value_or(0);
+  script.steps.pop_back();
+  return end;
+}
+
+/// So long after the end of a script that everything in the queue has come due.
+Microseconds settled(const Script& script, Microseconds end) {
+  return end + script.reactive_delay + second;
+}
+
+}  // namespace
+
+std::string_view name_of(Notice::How how) {
+  static constexpr std::array<std::string_view, 2> names = {"failed", "ended"};
+  return names.at(static_cast<std::size_t>(how));
+}
+
+std::string_view name_of(MutantVerdict::Result result) {
+  static constexpr std::array<std::string_view, 5> names = {"noticed", "survived", "equivalent",
+                                                            "undecided", "unjudged"};
+  return names.at(static_cast<std::size_t>(result));
+}
+
+std::string_view name_of(MutantVerdict::Doubt doubt) {
+  static constexpr std::array<std::string_view, 2> names = {"limit", "no_script"};
+  return names.at(static_cast<std::size_t>(doubt));
+}
+
+std::optional<Notice> find_notice(const CompiledCatalog& catalog, const Script& mission,
+                                  const std::function<bool()>& is_stopped) {
+  Notice notice;
+  CoordinatorOptions options = options_of(mission);
+  options.find_conflicts = false;
+  options.is_stopped = is_stopped;
+  SilentRun listener;
+  Runner runner(catalog, options, listener);
+  runner.begin(mission.situation);
+  bool goes_on = true;
+  for (const Step& step : mission.steps) {
+    goes_on = runner.take(step);
+    if (!goes_on || runner.result().failed > 0) break;
+  }
+  if (goes_on && runner.result().failed == 0) goes_on = runner.settle();
+  const RunResult& result = runner.result();
+  if (!result.failures.empty()) {
+    notice.line = result.failures.front().range.begin.line;
+    notice.message = result.failures.front().message;
+    return notice;
+  }
+  if (goes_on || result.status == Coordinator::Status::stopped) return std::nullopt;
+  notice.how = Notice::How::ended;
+  notice.message = result.status == Coordinator::Status::too_many_clock_events
+                       ? "timeouts and reactive starts follow each other without end"
+                       : result.internal_error;
+  return notice;
+}
+
+MutantJudge::MutantJudge(const Catalog& source, const CompiledCatalog& catalog,
+                         const std::vector<Script>& missions, Assumptions assumptions,
+                         JudgeOptions options)
+    : source_(source),
+      catalog_(catalog),
+      missions_(missions),
+      assumptions_(std::move(assumptions)),
+      options_(std::move(options)) {}
+
+MutantVerdict MutantJudge::judge(const Mutant& mutant) const {
+  MutantVerdict verdict;
+  const Catalog changed_source = mutate(source_, mutant);
+  const CompiledCatalog changed = compile(changed_source);
+  for (std::size_t mission = 0; mission < missions_.size(); ++mission) {
+    if (is_stopped()) return verdict;
+    verdict.notice = find_notice(changed, missions_[mission], options_.is_stopped);
+    if (!verdict.notice) continue;
+    verdict.notice->mission = mission;
+    verdict.result = MutantVerdict::Result::noticed;
+    return verdict;
+  }
+  if (is_stopped()) return verdict;
+  if (mutant.kind == Mutant::Kind::timeout_removed ||
+      mutant.kind == Mutant::Kind::execution_goal_turned) {
+    compare_times(mutant, changed_source, changed, verdict);
+  } else {
+    compare(mutant, changed, verdict);
+  }
+  return verdict;
+}
+
+std::uint32_t MutantJudge::group_of(const Mutant& mutant) const {
+  return mutant.task != Mutant::none ? catalog_.tasks[catalog_.task_ids[mutant.task]].group
+                                     : catalog_.group_of(catalog_.behavior_ids[mutant.behavior]);
+}
+
+/// The original is the new catalog of the comparison, so that the script tells what it does.
+void MutantJudge::compare(const Mutant& mutant, const CompiledCatalog& changed,
+                          MutantVerdict& verdict) const {
+  VerificationOptions options;
+  options.limits = options_.limits;
+  options.reduce = true;
+  options.on_progress = [this](const std::vector<std::uint32_t>& /*groups*/,
+                               const ExplorationProgress& /*progress*/) { return !is_stopped(); };
+  const CatalogComparison found =
+      compare_catalogs(changed, catalog_, assumptions_, options,
+                       {ComparisonScope::Differences::expectable, group_of(mutant)});
+  if (found.result != Verdict::Result::violated) {
+    verdict.result = found.result == Verdict::Result::proved ? MutantVerdict::Result::equivalent
+                                                             : MutantVerdict::Result::undecided;
+    return;
+  }
+  Script script = found.witness->script;
+  const Microseconds end = take_expectation(script);
+  const std::array times = {end, settled(script, end)};
+  verdict.script = find_telling_script(catalog_, changed, script, times);
+  verdict.result =
+      verdict.script ? MutantVerdict::Result::survived : MutantVerdict::Result::undecided;
+  verdict.doubt = MutantVerdict::Doubt::no_script;
+}
+
+/// States have no times, so a difference between timeouts is none between states. It shows in every
+/// state in which such a behavior has begun, if one waits for the timeout.
+void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_source,
+                                const CompiledCatalog& changed, MutantVerdict& verdict) const {
+  const std::vector<TimeDifference> differences = find_time_differences(source_, changed_source);
+  std::vector<Property> properties;
+  for (const TimeDifference& difference : differences) {
+    Property property;
+    property.kind = Property::Kind::reachable;
+    property.condition.running = {
+        {catalog_.task_ids[difference.task], catalog_.behavior_ids[difference.behavior]}};
+    // Alone it is not hidden by others that time out before.
+    Property& alone = properties.emplace_back(property);
+    for (const TaskIndex task : find_sooner(source_, catalog_, difference)) {
+      alone.condition.stopped.push_back(catalog_.task_ids[task]);
+    }
+    properties.push_back(std::move(property));
+  }
+  std::vector<const Property*> asked;
+  asked.reserve(properties.size());
+  for (const Property& property : properties) asked.push_back(&property);
+  verdict.result = MutantVerdict::Result::equivalent;
+  // Nothing fails, and so nothing times out.
+  if (differences.empty() || !assumptions_.failures) return;
+  bool is_any_reachable = false;
+  const std::vector<std::uint32_t> groups = {group_of(mutant)};
+  ExplorationOptions options;
+  options.limits = options_.limits;
+  options.reduce = true;
+  options.on_progress = [this](const ExplorationProgress& /*progress*/) { return !is_stopped(); };
+  const Exploration found = explore(catalog_, groups, assumptions_, asked, options);
+  for (std::size_t place = 0; place < properties.size(); ++place) {
+    if (!found.verdicts[place].has_script) continue;
+    is_any_reachable = true;
+    Script script =
+        make_witness(catalog_, groups, assumptions_, found.verdicts[place].script, asked[place], {})
+            .script;
+    const Microseconds end = take_expectation(script) + differences[place / 2].first;
+    const std::array times = {end, settled(script, end)};
+    verdict.script = find_telling_script(catalog_, changed, script, times);
+    if (!verdict.script) continue;
+    verdict.result = MutantVerdict::Result::survived;
+    return;
+  }
+  if (!found.complete) {
+    verdict.result = MutantVerdict::Result::undecided;
+  } else if (is_any_reachable &&
+             !(never_time_out(catalog_, differences) && never_time_out(changed, differences))) {
+    verdict.result = MutantVerdict::Result::undecided;
+    verdict.doubt = MutantVerdict::Doubt::no_script;
+  }
+}
+
+/// Whether other timeouts always come before these: then they never end anything.
+bool MutantJudge::never_time_out(const CompiledCatalog& catalog,
+                                 const std::vector<TimeDifference>& differences) const {
+  const std::uint32_t group = catalog.tasks[catalog.task_ids[differences.front().task]].group;
+  GoalProofOptions options;
+  options.group = group;
+  options.walk.max_states = options_.limits.max_states;
+  if (options_.limits.max_memory > 0) {
+    options.walk.max_memory = std::min(options.walk.max_memory, options_.limits.max_memory);
+  }
+  options.walk.on_progress = [this](std::uint32_t, std::uint64_t) { return !is_stopped(); };
+  const GoalProof proof = prove_unreachable(catalog, {}, assumptions_, options);
+  if (proof.error || !proof.groups[group].is_complete) return false;
+  return std::all_of(differences.begin(), differences.end(), [&](const TimeDifference& difference) {
+    const TaskId task = catalog.task_ids[difference.task];
+    const BehaviorId behavior = catalog.behavior_ids[difference.behavior];
+    const auto values = catalog.performs[behavior];
+    const ValueId value = *std::find_if(values.begin(), values.end(),
+                                        [&](ValueId one) { return catalog.task_of(one) == task; });
+    return timeout_of(catalog, task, behavior) == 0 || proof.facts.performed[value] == 0 ||
+           proof.facts.forestalled_by[value] != none;
+  });
+}
+
+}  // namespace cbc

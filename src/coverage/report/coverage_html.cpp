@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/report/junit_parts.h"
+#include "core/support/wording.h"
+#include "coverage/report/coverage_report.h"
+#include "page_files.h"
+#include "verify/engine/verification.h"
+
+// The page needs no script: what a line shows on demand is in elements that unfold.
+
+namespace cbc {
+namespace {
+
+/// `is_proved`: what is unreachable has a column.
+std::string counts_row(std::string_view what, const GoalCount& count, bool is_proved) {
+  return fmt::format(
+      "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td>{}</tr>\n", what,
+      count.goals, count.met, count.goals - count.met, describe_percent(count),
+      is_proved ? fmt::format("<td>{}</td>", count.unreachable) : std::string());
+}
+
+class CatalogPage {
+ public:
+  explicit CatalogPage(const CatalogCoverage& coverage)
+      : coverage_(coverage), of_lines_(coverage.goals_of_lines()) {}
+
+  std::string write() {
+    html_ = fmt::format("<section>\n<h2>{}</h2>\n", xml_text(coverage_.catalog().file));
+    if (coverage_.assumptions()) {
+      html_ += fmt::format("<p>{}</p>\n", xml_text(describe_assumptions(coverage_.catalog(),
+                                                                        *coverage_.assumptions())));
+    }
+    write_counts();
+    write_missions();
+    write_source();
+    return html_ + "</section>\n";
+  }
+
+ private:
+  void write_counts() {
+    const bool is_proved = coverage_.assumptions().has_value();
+    html_ += fmt::format(
+        "<table class=\"counts\">\n<tr><th></th><th scope=\"col\">goals</th>"
+        "<th scope=\"col\">met</th><th scope=\"col\">missed</th>"
+        "<th scope=\"col\">covered</th>{}</tr>\n",
+        is_proved ? "<th scope=\"col\">unreachable</th>" : "");
+    const auto sections = coverage_.by_section();
+    for (std::size_t section = 0; section < goal_sections; ++section) {
+      if (sections.at(section).goals + sections.at(section).unreachable == 0) continue;
+      html_ +=
+          counts_row(name_of(static_cast<GoalSection>(section)), sections.at(section), is_proved);
+    }
+    html_ += counts_row("total", coverage_.total(), is_proved) + "</table>\n";
+  }
+
+  void write_missions() {
+    html_ += fmt::format("<details><summary>{}</summary><ul>\n",
+                         quantity(coverage_.missions().size(), "mission"));
+    for (const std::string& mission : coverage_.missions()) {
+      html_ += fmt::format("<li>{}</li>\n", xml_text(mission));
+    }
+    html_ += "</ul></details>\n";
+  }
+
+  void write_source() {
+    html_ += "<table class=\"source\">\n";
+    const std::string_view text = coverage_.text();
+    std::size_t begin = 0;
+    for (std::size_t line = 1; begin < text.size(); ++line) {
+      const std::size_t end = std::min(text.find('\n', begin), text.size());
+      write_line(line, text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    html_ += "</table>\n";
+  }
+
+  void write_line(std::size_t line, std::string_view text) {
+    const std::vector<std::uint32_t>& goals = of_lines_.at(line);
+    GoalCount count;
+    for (const std::uint32_t goal : goals) {
+      count.add(coverage_.is_met(goal), coverage_.is_unreachable(goal));
+    }
+    const std::string_view kind = count.goals == 0           ? ""
+                                  : count.met == count.goals ? "met"
+                                  : count.met == 0           ? "missed"
+                                                             : "part";
+    html_ +=
+        fmt::format(R"(<tr id="L{0}" class="{1}"><td class="number">{0}</td><td>)", line, kind);
+    const std::string source = "<code>" + xml_text(text) + "</code>";
+    if (goals.empty()) {
+      html_ += source + "</td><td class=\"count\"></td></tr>\n";
+      return;
+    }
+    html_ += fmt::format("<details><summary>{}</summary><ul>\n", source);
+    for (const std::uint32_t goal : goals) write_goal(goal);
+    html_ += fmt::format("</ul></details></td><td class=\"count\">{} of {}</td></tr>\n", count.met,
+                         count.goals);
+  }
+
+  void write_goal(std::uint32_t goal) {
+    const std::string what = xml_text(describe(coverage_.catalog(), coverage_.goals()[goal]));
+    if (coverage_.is_unreachable(goal)) {
+      html_ += fmt::format("<li class=\"by\">impossible: {} ({})</li>\n", what,
+                           xml_text(coverage_.reason_of(goal)));
+      return;
+    }
+    if (!coverage_.is_met(goal)) {
+      html_ += fmt::format("<li class=\"missed\">missed: {}</li>\n", what);
+      return;
+    }
+    std::string by;
+    for (const std::uint32_t mission : coverage_.missions_of(goal)) {
+      if (!by.empty()) by += ", ";
+      by += xml_text(coverage_.missions()[mission]);
+    }
+    html_ += fmt::format("<li>{} <span class=\"by\">({})</span></li>\n", what, by);
+  }
+
+  const CatalogCoverage& coverage_;
+  const std::vector<std::vector<std::uint32_t>> of_lines_;
+  std::string html_;
+};
+
+}  // namespace
+
+std::string coverage_to_html(const Coverage& coverage) {
+  const GoalCount total = coverage.total();
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src {}; "
+      "base-uri 'none'; form-action 'none'\">\n"
+      "<title>Coverage {}</title>\n<style>{}</style>\n</head>\n<body>\n"
+      "<h1>Coverage: {} of {} goals, {}</h1>\n"
+      "<p>A line is <span class=\"met\">covered</span> if missions meet all of its goals, "
+      "<span class=\"part\">partly covered</span> if they meet some, and "
+      "<span class=\"missed\">not covered</span> if they meet none. Open a line for its "
+      "goals.</p>\n",
+      coverage_style_hash, describe_percent(total), coverage_style, total.met, total.goals,
+      describe_percent(total));
+  for (const CatalogCoverage& catalog : coverage.catalogs) html += CatalogPage(catalog).write();
+  return html + "</body>\n</html>\n";
+}
+
+}  // namespace cbc

@@ -1,0 +1,260 @@
+#include "graph/engine/diagram.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "core/support/wording.h"
+#include "runtime/base/text.h"
+
+namespace cbc::draw {
+namespace {
+
+/// Characters with a special meaning in ids, or in the formats of pictures.
+bool is_special(char32_t character) {
+  return character == '%' || character == '#' || character == '\\' || character == '&';
+}
+
+}  // namespace
+
+std::string id_of(std::string_view kind, std::string_view name) {
+  std::string id(kind);
+  id += ':';
+  for (std::size_t offset = 0; offset < name.size();) {
+    const utf8::Decoded decoded = utf8::decode(name, offset);
+    const std::string_view bytes = name.substr(offset, decoded.bytes);
+    if (!decoded.valid || is_control(decoded.character) || is_special(decoded.character)) {
+      for (const char byte : bytes) append_percent_encoded(id, byte);
+    } else {
+      id += bytes;
+    }
+    offset += decoded.bytes;
+  }
+  return id;
+}
+
+std::string label_of(std::string_view name) {
+  const bool is_blank = std::all_of(name.begin(), name.end(), [](char c) { return c == ' '; });
+  return is_blank ? quote(name) : printable(name);
+}
+
+std::string at_least(Millionths degree) { return "≥ " + format_percent(degree); }
+
+std::string_view sign_of(Mark mark) {
+  if (mark == Mark::added) return "+";
+  if (mark == Mark::removed) return "−";
+  // A plus or minus before a number would read as a part of it.
+  if (mark == Mark::started) return "▶";
+  if (mark == Mark::stopped) return "■";
+  if (mark == Mark::changed) return "~";
+  return {};
+}
+
+std::string with_sign(Mark mark, std::string label) {
+  const std::string_view sign = sign_of(mark);
+  if (sign.empty()) return label;
+  return std::string(sign) + (label.empty() ? "" : " ") + std::move(label);
+}
+
+std::vector<std::string> caption_of(const Moment& moment) {
+  const std::string script = label_of(std::string_view(moment.script));
+  std::vector<std::string> lines;
+  if (moment.index == 0) {
+    lines.push_back(script + ", before the first event");
+  } else {
+    lines.push_back(script + ", after event " + std::to_string(moment.index) + " at " +
+                    format_decimal(moment.time, 6) + " s");
+    lines.push_back(moment.event);
+  }
+  if (!moment.situation.empty()) lines.push_back(moment.situation);
+  return lines;
+}
+
+std::string label_of(const CatalogGraph::Performance& performance) {
+  const Millionths suitability = performance.suitability;
+  if (performance.before) {
+    return format_decimal(*performance.before, 4) + " → " + format_percent(suitability);
+  }
+  return with_sign(performance.mark,
+                   suitability == one_million ? std::string() : format_percent(suitability));
+}
+
+std::string label_of(const CatalogGraph::Requirement& requirement) {
+  const Millionths minimum = requirement.minimum_performance;
+  const std::string label = minimum > 0 ? at_least(minimum) : std::string();
+  if (!requirement.before) return with_sign(requirement.mark, label);
+  const std::string before = *requirement.before > 0 ? at_least(*requirement.before) : "no minimum";
+  return before + " → " + (minimum > 0 ? label : "no minimum");
+}
+
+std::vector<std::vector<const Node*>> cluster_members(const Diagram& diagram) {
+  std::vector<std::vector<const Node*>> members(diagram.clusters.size());
+  for (const Node& node : diagram.nodes) {
+    if (node.cluster != none) members[node.cluster].push_back(&node);
+  }
+  return members;
+}
+
+namespace {
+
+/// More of them would distract from what was asked for.
+constexpr std::size_t most_excluded_beside = 8;
+
+Part nothing(const CatalogGraph& graph) {
+  Part part;
+  part.has_task.resize(graph.tasks.size());
+  part.has_behavior.resize(graph.behaviors.size());
+  part.is_beside.resize(graph.tasks.size());
+  part.is_named.resize(graph.tasks.size());
+  return part;
+}
+
+class Surroundings {
+ public:
+  Surroundings(const CatalogGraph& graph, const std::vector<std::uint32_t>& tasks)
+      : graph_(graph), named_(tasks), part_(nothing(graph)) {
+    for (const std::uint32_t task : named_) {
+      part_.is_named[task] = true;
+      add_task(task);
+      add_behaviors_of(task);
+    }
+  }
+
+  void go_down(std::optional<std::uint32_t> depth) {
+    walk(depth, [&](std::uint32_t task, auto&& reach) {
+      add_behaviors_of(task);
+      for (const std::uint32_t place : graph_.performances_of_task[task]) {
+        const std::uint32_t behavior = graph_.performances[place].behavior;
+        for (const std::uint32_t required : graph_.requirements_of_behavior[behavior]) {
+          reach(graph_.requirements[required].task);
+        }
+      }
+    });
+  }
+
+  void go_up(std::optional<std::uint32_t> depth) {
+    walk(depth, [&](std::uint32_t task, auto&& reach) {
+      for (const std::uint32_t place : graph_.requirements_of_task[task]) {
+        const std::uint32_t behavior = graph_.requirements[place].behavior;
+        // At the last step, only what is already drawn is connected.
+        const auto performed = graph_.performances_of_behavior[behavior];
+        bool is_reached = performed.empty();
+        for (const std::uint32_t link : performed) {
+          if (reach(graph_.performances[link].task)) is_reached = true;
+        }
+        if (is_reached) add_behavior(behavior);
+      }
+    });
+  }
+
+  Part finish() && {
+    for (const std::uint32_t behavior : part_.behaviors) {
+      for (const std::uint32_t link : graph_.performances_of_behavior[behavior]) {
+        add_beside(graph_.performances[link].task);
+      }
+    }
+    for (const std::uint32_t task : named_) {
+      for (const std::uint32_t list : graph_.exclusions_of_task[task]) {
+        const auto tasks = graph_.exclusions[list];
+        if (tasks.size() > most_excluded_beside) continue;
+        for (const std::uint32_t excluded : tasks) add_beside(excluded);
+      }
+    }
+    std::sort(part_.tasks.begin(), part_.tasks.end());
+    std::sort(part_.behaviors.begin(), part_.behaviors.end());
+    return std::move(part_);
+  }
+
+ private:
+  /// Step by step from the tasks asked for. `expand` calls a function for each neighbor of a task,
+  /// which says whether the neighbor is within reach.
+  template <typename Expand>
+  void walk(std::optional<std::uint32_t> depth, const Expand& expand) {
+    std::vector<bool> is_known(graph_.tasks.size());
+    std::vector<std::uint32_t> present = named_;
+    for (const std::uint32_t task : present) is_known[task] = true;
+    for (std::uint32_t step = 0; !present.empty(); ++step) {
+      const bool is_last = depth && step >= *depth;
+      std::vector<std::uint32_t> next;
+      for (const std::uint32_t task : present) {
+        expand(task, [&](std::uint32_t found) {
+          if (is_known[found]) return true;
+          if (is_last) return false;
+          is_known[found] = true;
+          add_task(found);
+          next.push_back(found);
+          return true;
+        });
+      }
+      present = std::move(next);
+    }
+  }
+
+  void add_task(std::uint32_t task) {
+    if (part_.has_task[task]) return;
+    part_.has_task[task] = true;
+    part_.tasks.push_back(task);
+  }
+
+  void add_beside(std::uint32_t task) {
+    if (part_.has_task[task]) return;
+    add_task(task);
+    part_.is_beside[task] = true;
+  }
+
+  void add_behavior(std::uint32_t behavior) {
+    if (part_.has_behavior[behavior]) return;
+    part_.has_behavior[behavior] = true;
+    part_.behaviors.push_back(behavior);
+  }
+
+  void add_behaviors_of(std::uint32_t task) {
+    for (const std::uint32_t place : graph_.performances_of_task[task]) {
+      add_behavior(graph_.performances[place].behavior);
+    }
+  }
+
+  const CatalogGraph& graph_;
+  const std::vector<std::uint32_t>& named_;
+  Part part_;
+};
+
+}  // namespace
+
+Part whole(const CatalogGraph& graph) {
+  Part part = nothing(graph);
+  part.tasks.resize(graph.tasks.size());
+  std::iota(part.tasks.begin(), part.tasks.end(), 0U);
+  part.has_task.assign(graph.tasks.size(), true);
+  part.behaviors.resize(graph.behaviors.size());
+  std::iota(part.behaviors.begin(), part.behaviors.end(), 0U);
+  part.has_behavior.assign(graph.behaviors.size(), true);
+  return part;
+}
+
+Part part_of_group(const CatalogGraph& graph, std::uint32_t group) {
+  Part part = nothing(graph);
+  for (std::uint32_t task = 0; task < graph.tasks.size(); ++task) {
+    if (graph.tasks[task].group != group) continue;
+    part.has_task[task] = true;
+    part.tasks.push_back(task);
+  }
+  for (std::uint32_t behavior = 0; behavior < graph.behaviors.size(); ++behavior) {
+    if (graph.behaviors[behavior].group != group) continue;
+    part.has_behavior[behavior] = true;
+    part.behaviors.push_back(behavior);
+  }
+  return part;
+}
+
+Part part_around(const CatalogGraph& graph, const std::vector<std::uint32_t>& tasks,
+                 const Reach& reach) {
+  Surroundings surroundings(graph, tasks);
+  if (reach.down) surroundings.go_down(reach.depth);
+  if (reach.up) surroundings.go_up(reach.depth);
+  return std::move(surroundings).finish();
+}
+
+}  // namespace cbc::draw

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/catalog/catalog.h"
+#include "core/check/check.h"
+#include "core/files/input.h"
+#include "core/yaml/document.h"
+#include "lint/report/lint_report.h"
+#include "runtime/compiled/compiled_catalog.h"
+
+namespace cbc::cli {
+
+/// What the command line of `cbc lint` says.
+struct LintCommand {
+  std::vector<std::string> paths;
+  std::vector<std::string> scripts;
+  std::string format = "text";
+  SeverityOptions severities;
+  std::string stdin_filename;
+  std::uint64_t max_nodes = LintOptions{}.max_nodes;
+  std::string explain;
+  bool list_rules = false;
+  bool summary = false;
+  bool fix = false;
+  bool diff = false;  ///< what --fix would change, instead of changing it
+};
+
+/// Lints the files of a command line, with the settings that apply to each. Messages about
+/// unreadable files go to standard error.
+class Linter {
+ public:
+  /// `settings` are those of the command line, which override those of files.
+  Linter(const LintCommand& command, SeveritySettings settings)
+      : command_(command),
+        unlinted_(InputFiles::Findings::dropped, settings),
+        settings_(std::move(settings)) {}
+
+  /// A catalog; or an event script or a property file that names its catalog; or a settings file.
+  void lint_catalog(const std::string& path);
+  /// Lints a file that was found in a folder if it is a catalog, or keeps it for lint_found if it
+  /// is a script or a property file.
+  void lint_in_folder(const std::string& path, const std::string& folder);
+  /// Lints the scripts and the property files that were found in folders, with the catalogs that
+  /// they name, or else with the only one beside them. Comes after all catalogs.
+  void lint_found();
+  /// An event script or a property file. `catalog`: path of its catalog; if empty, the one that the
+  /// file names.
+  void lint_script(const std::string& path, const std::string& catalog);
+  /// Checks the settings by what the catalogs are that they apply to. Comes last.
+  void check_settings();
+
+  [[nodiscard]] const std::vector<LintedFile>& files() const { return files_; }
+  /// Whether a file was linted that was found in a folder of the command line.
+  [[nodiscard]] bool has_checked(const std::string& folder) const {
+    return checked_folders_.contains(folder);
+  }
+  /// Whether a file could not be read, or not be written.
+  [[nodiscard]] bool has_failed() const { return has_failed_; }
+  /// Whether there was an internal error.
+  [[nodiscard]] bool has_internal_error() const { return has_internal_error_; }
+  /// Whether there is an error, or a warning in a file with strict settings.
+  [[nodiscard]] bool has_found() const { return has_found_; }
+  [[nodiscard]] const std::string& diff() const { return diff_; }
+  /// Whether a file was fixed in place.
+  [[nodiscard]] bool has_mended() const { return has_mended_; }
+
+ private:
+  struct Linted {
+    LintedFile file;
+    Catalog catalog;
+    std::size_t errors = 0;  ///< whatever the settings say
+    bool is_script = false;  ///< or a property file
+    std::shared_ptr<const CompiledCatalog>
+        compiled;  ///< null if scripts cannot be checked against it
+  };
+
+  [[nodiscard]] Linted lint_text(const std::string& name, std::string text,
+                                 const SeveritySettings& settings) const;
+  void fix(const std::string& path, Linted& linted, const SeveritySettings& settings);
+  /// A script or a property file of a folder.
+  struct Found {
+    std::string path;
+    std::string folder;  ///< of the command line
+    std::string text;
+    bool needs_catalog = false;  ///< it names none
+  };
+  [[nodiscard]] std::string catalog_beside(const Found& found) const;
+  [[nodiscard]] static bool write_fixed(const std::string& path, const std::string& before,
+                                        const std::string& after);
+  [[nodiscard]] std::shared_ptr<const CompiledCatalog> catalog_of(const yaml::Document& document,
+                                                                  const std::string& given);
+  void lint_script_text(const std::string& path, std::string text, const std::string& catalog);
+  void lint_catalog_text(const std::string& path, std::string text);
+  void lint_settings(const std::string& name, std::string text);
+  void take_compiled(const CatalogInput& input);
+  void note_tasks(const Catalog& catalog, bool is_known, const SeveritySettings& settings);
+  void add(LintedFile file, const SeveritySettings& settings);
+  [[nodiscard]] std::string name_of(const std::string& path) const;
+  [[nodiscard]] bool is_to_fix() const { return command_.fix || command_.diff; }
+
+  const LintCommand& command_;
+  std::vector<LintedFile> files_;
+  InputFiles unlinted_;
+  CatalogLoader catalogs_{unlinted_};  ///< those that were linted, and others that scripts use
+  SettingsFinder settings_;
+  /// By settings file, what the names of tasks in it are checked against.
+  struct NamedTasks {
+    SeveritySettings settings;
+    std::set<std::string> tasks;
+    bool has_all = true;  ///< all catalogs could be read
+  };
+  std::map<std::string, NamedTasks> named_tasks_;
+  std::vector<Found> found_;
+  std::set<std::string> checked_folders_;
+  /// The catalogs that were linted, by folder.
+  std::map<std::filesystem::path, std::vector<std::string>> catalogs_in_;
+  std::string diff_;
+  bool has_failed_ = false;
+  bool has_internal_error_ = false;
+  bool has_found_ = false;
+  bool has_mended_ = false;
+};
+
+}  // namespace cbc::cli

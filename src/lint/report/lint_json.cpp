@@ -1,0 +1,323 @@
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cbc/version.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/diagnostic/rules.h"
+#include "core/report/catalog_json.h"
+#include "core/report/github.h"
+#include "core/support/json.h"
+#include "core/support/wording.h"
+#include "lint/report/lint_report.h"
+#include "runtime/base/text.h"
+
+namespace cbc {
+std::string lint_github(const std::vector<LintedFile>& files) {
+  std::string text;
+  for (const LintedFile& file : files) {
+    for (const Diagnostic& finding : file.findings) text += github_command_of(finding);
+  }
+  return text;
+}
+
+namespace {
+
+void write_finding(JsonWriter& json, const Diagnostic& finding) {
+  json.on_new_line().open('{');
+  json.write_members({{"rule", finding.rule},
+                      {"severity", name_of(finding.severity)},
+                      {"message", finding.message},
+                      {"line", finding.range.begin.line},
+                      {"column", finding.range.begin.column},
+                      {"end_line", finding.range.end.line},
+                      {"end_column", finding.range.end.column}});
+  json.write_list("related", finding.notes, [&](const Note& note) {
+    json.write_object({{"file", note.file},
+                       {"line", note.range.begin.line},
+                       {"column", note.range.begin.column},
+                       {"message", note.message}});
+  });
+  json.close('}');
+}
+
+/// The tasks that start on request, and which of them can run together.
+void write_together(JsonWriter& json, const TogetherSummary& together) {
+  json.open("together", '{');
+  json.write("all_tasks", together.is_of_all_tasks);
+  json.write_list("tasks", together.tasks);
+  json.write_list("never_run", together.never_run);
+  json.write_list("possible", together.possible, [&](const auto& pair) {
+    json.open('[');
+    json.write(pair.first);
+    json.write(pair.second);
+    json.close(']');
+  });
+  json.write_members({{"excluded", together.excluded},
+                      {"excluded_indirectly", together.excluded_indirectly},
+                      {"excluded_in_each_situation", together.excluded_in_each_situation},
+                      {"excluded_by_situation", together.excluded_by_situation},
+                      {"undecided", together.undecided}});
+  json.close('}');
+}
+
+void write_summary(JsonWriter& json, const CatalogSummary& summary,
+                   const std::optional<TogetherSummary>& together) {
+  json.open("summary", '{');
+  json.write_members({{"tasks", summary.total.tasks}, {"behaviors", summary.total.behaviors}});
+  write_constraints(json, summary.total.constraints);
+  json.write_list("groups", summary.groups, [&](const CatalogNumbers& group) {
+    json.open('{');
+    json.write_list("tasks", group.task_names);
+    json.write("constraints", group.constraints.total());
+    json.close('}');
+  });
+  json.write("search_space", summary.total.search_space);
+  if (together) write_together(json, *together);
+  json.close('}');
+}
+
+void write_file(JsonWriter& json, const LintedFile& file) {
+  json.on_new_line().open('{');
+  json.write("file", file.file);
+  json.write_list("diagnostics", file.findings,
+                  [&](const Diagnostic& finding) { write_finding(json, finding); });
+  if (file.summary) {
+    write_summary(json, *file.summary, file.together);
+  } else {
+    json.write("summary", nullptr);
+  }
+  json.close('}');
+}
+
+}  // namespace
+
+std::string lint_json(const std::vector<LintedFile>& files) {
+  return json_line([&](JsonWriter& json) {
+    json.write("schema", "cbc.lint/1");
+    json.write_list("files", files, [&](const LintedFile& file) { write_file(json, file); });
+    json.on_new_line().write_members({{"errors", count(files, Severity::error)},
+                                      {"warnings", count(files, Severity::warning)},
+                                      {"notes", count(files, Severity::note)}});
+  });
+}
+
+std::string rule_markdown(const Rule& rule) {
+  const auto code = [](std::string_view text) { return fmt::format("```yaml\n{}```\n", text); };
+  std::string text =
+      fmt::format("{}\n\n## Example\n\n{}\n## How to fix it\n\n{}\n\n{}", rule.explanation,
+                  code(rule.example), rule.mending, code(rule.mended));
+  if (!rule.settings.empty()) {
+    text += fmt::format("\n## The settings of the example\n\n{}", code(rule.settings));
+  }
+  if (rule.is_of_scripts) {
+    text += fmt::format("\n## The catalog of these scripts\n\n{}", code(example_catalog()));
+  }
+  return text;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view schema =
+    "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
+constexpr std::string_view sources_root = "%SRCROOT%";
+constexpr std::string_view standard_input = "<stdin>";
+
+/// "dead-behavior" as "DeadBehavior".
+std::string to_camel_case(std::string_view name) {
+  std::string result;
+  bool begins_word = true;
+  for (const char letter : name) {
+    if (letter == '-') {
+      begins_word = true;
+      continue;
+    }
+    result += begins_word ? static_cast<char>(letter - 'a' + 'A') : letter;
+    begins_word = false;
+  }
+  return result;
+}
+
+void write_rule(JsonWriter& json, const Rule& rule) {
+  json.on_new_line().open('{');
+  json.write("id", rule.name);
+  json.write("name", to_camel_case(rule.name));
+  json.write_object("shortDescription", {{"text", rule.summary}});
+  json.write_object("fullDescription", {{"text", rule.explanation}});
+  json.write_object("help",
+                    {{"text", rule_text(rule, plain_style())}, {"markdown", rule_markdown(rule)}});
+  json.write_object("defaultConfiguration",
+                    {{"enabled", !rule.is_off}, {"level", name_of(rule.severity)}});
+  json.open("properties", '{');
+  json.write_list("tags", std::array{rule.is_of_scripts ? "event-script" : "catalog"});
+  json.close('}');
+  json.close('}');
+}
+
+void write_tool(JsonWriter& json) {
+  json.open("tool", '{');
+  json.open("driver", '{');
+  json.write_members({{"name", "cbc"}, {"version", version}, {"semanticVersion", version}});
+  json.write_list("rules", all_rules(), [&](const Rule& rule) { write_rule(json, rule); });
+  json.close('}');
+  json.close('}');
+}
+
+/// FNV-1a of 64 bits. It must never change: services that collect findings recognize them by it.
+constexpr std::uint64_t hash_of(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char byte : text) {
+    hash ^= static_cast<unsigned char>(byte);
+    hash *= 0x100000001b3;
+  }
+  return hash;
+}
+static_assert(hash_of("foobar") == 0x85944171f73967e8);
+
+/// Where a file lies, relative to the working directory if it is below it.
+struct FileUri {
+  std::string uri;
+  bool is_relative = false;
+  bool is_standard_input = false;
+};
+
+/// Writes the only run of a SARIF log.
+class SarifRun {
+ public:
+  SarifRun(JsonWriter& json, std::string_view working_directory)
+      : json_(json), directory_(fs::path(working_directory).lexically_normal()) {}
+
+  void write(const std::vector<LintedFile>& files, bool is_complete) {
+    json_.open('{');
+    write_tool(json_);
+    json_.open("invocations", '[');
+    json_.write_object({{"executionSuccessful", is_complete}});
+    json_.close(']');
+    json_.write_list("artifacts", files,
+                     [&](const LintedFile& file) { write_artifact(file.file); });
+    json_.write("columnKind", "unicodeCodePoints");
+    json_.open("results", '[');
+    for (const LintedFile& file : files) {
+      for (const Diagnostic& finding : file.findings) write_result(finding);
+    }
+    json_.close(']');
+    json_.close('}');
+  }
+
+ private:
+  [[nodiscard]] FileUri locate(const std::string& file) const {
+    if (file == standard_input) return {percent_encode(file), false, true};
+    const fs::path path = (directory_ / file).lexically_normal();
+    const fs::path relative = path.lexically_relative(directory_);
+    if (relative.empty() || *relative.begin() == "..") {
+      return {"file://" + percent_encode(path.native())};
+    }
+    return {percent_encode(relative.native()), true};
+  }
+
+  void write_location(std::string_view name, const FileUri& place) {
+    json_.open(name, '{');
+    json_.write("uri", place.uri);
+    if (place.is_relative) json_.write("uriBaseId", sources_root);
+    if (place.is_standard_input) json_.write_object("description", {{"text", "standard input"}});
+    json_.close('}');
+  }
+
+  void write_artifact(const std::string& file) {
+    const FileUri place = locate(file);
+    if (!known_artifacts_.insert(place.uri).second) return;
+    json_.on_new_line().open('{');
+    write_location("location", place);
+    json_.write_list("roles", std::array{"analysisTarget"});
+    json_.close('}');
+  }
+
+  void write_physical_location(const std::string& file, const Range& range) {
+    json_.open("physicalLocation", '{');
+    write_location("artifactLocation", locate(file));
+    json_.write_object("region", {{"startLine", range.begin.line},
+                                  {"startColumn", range.begin.column},
+                                  {"endLine", range.end.line},
+                                  {"endColumn", range.end.column}});
+    json_.close('}');
+  }
+
+  void write_result(const Diagnostic& finding) {
+    json_.on_new_line().open('{');
+    json_.write("ruleId", finding.rule);
+    json_.write("ruleIndex", find_rule(finding.rule) - all_rules().data());
+    json_.write("level", name_of(finding.severity));
+    json_.write_object("message", {{"text", finding.message}});
+    json_.open("locations", '[');
+    json_.open('{');
+    write_physical_location(finding.file, finding.range);
+    json_.close('}');
+    json_.close(']');
+    json_.write_object("partialFingerprints", {{"cbcFinding/v1", fingerprint_of(finding)}});
+    if (!finding.notes.empty()) write_related(finding.notes);
+    json_.close('}');
+  }
+
+  void write_related(const std::vector<Note>& notes) {
+    std::size_t id = 0;
+    json_.write_list("relatedLocations", notes, [&](const Note& note) {
+      json_.open('{');
+      json_.write("id", ++id);
+      write_physical_location(note.file, note.range);
+      json_.write_object("message", {{"text", note.message}});
+      json_.close('}');
+    });
+  }
+
+  /// Identifies a finding, even if it moves to another line of its file.
+  std::string fingerprint_of(const Diagnostic& finding) {
+    std::string uri;
+    append_text(uri, locate(finding.file).uri);
+    const std::string identity = fmt::format("{}\n{}\n{}", finding.rule, uri, finding.message);
+    const std::size_t index = times_seen_[identity]++;
+    return fmt::format("{:016x}", hash_of(fmt::format("{}\n{}", identity, index)));
+  }
+
+  JsonWriter& json_;
+  const fs::path directory_;
+  std::set<std::string> known_artifacts_;
+  std::map<std::string, std::size_t> times_seen_;
+};
+
+}  // namespace
+
+std::string lint_sarif(const std::vector<LintedFile>& files, std::string_view working_directory,
+                       bool is_complete) {
+  return json_line([&](JsonWriter& json) {
+    json.write_members({{"$schema", schema}, {"version", "2.1.0"}});
+    json.open("runs", '[');
+    SarifRun(json, working_directory).write(files, is_complete);
+    json.close(']');
+  });
+}
+
+std::span<const LintFormat> lint_formats() {
+  using Files = const std::vector<LintedFile>&;
+  using Run = const LintRun&;
+  static constexpr LintFormat formats[] = {
+      {"text", [](Files files, Run run) { return lint_text(files, run.style); }},
+      {"json", [](Files files, Run /*run*/) { return lint_json(files); }},
+      {"sarif", [](Files files,
+                   Run run) { return lint_sarif(files, run.working_directory, run.is_complete); }},
+      {"github", [](Files files, Run /*run*/) { return lint_github(files); }},
+      {"gcc", [](Files files, Run /*run*/) { return lint_gcc(files); }},
+  };
+  return formats;
+}
+
+}  // namespace cbc

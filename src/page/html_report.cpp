@@ -1,0 +1,211 @@
+#include "page/html_report.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/catalog/situation.h"
+#include "core/report/catalog_json.h"
+#include "core/script/event_lines.h"
+#include "core/support/json.h"
+#include "page/stream_page.h"
+#include "page_files.h"
+
+namespace cbc {
+namespace {
+
+/// What the picture needs of a catalog: tasks, situation variables and behaviors in catalog order,
+/// suitabilities in percent.
+void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
+  const auto write_task = [&](TaskId task) { json.write(catalog.name_of_task(task)); };
+  json.open('{');
+  json.write_list("tasks", catalog.task_names);
+  json.write("supporting",
+             std::count_if(catalog.tasks.begin(), catalog.tasks.end(),
+                           [](const CompiledTask& task) { return task.start_on_request == 0; }));
+  json.open("variables", '[');
+  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+    write_variable(json, catalog, variable);
+  }
+  json.close(']');
+  json.write_list("behaviors", catalog.behavior_ids, [&](BehaviorId behavior) {
+    json.open('{');
+    json.write("name", catalog.name_of_behavior(behavior));
+    json.write_list("performs", catalog.performs[behavior], [&](ValueId value) {
+      json.write_object({{"task", catalog.name_of_task(catalog.task_of(value))},
+                         {"suitability", in_percent(catalog.values.items[value].suitability)}});
+    });
+    json.write_list("requires", catalog.requirements[behavior],
+                    [&](const CompiledRequirement& required) { write_task(required.task); });
+    write_conditions(json, conditions_of(catalog, behavior));
+    json.close('}');
+  });
+  json.open("exclusive", '[');
+  for (std::size_t clique = 0; clique < catalog.cliques.size(); ++clique) {
+    json.open('[');
+    for (const TaskId task : catalog.cliques[clique]) write_task(task);
+    json.close(']');
+  }
+  json.close(']');
+  json.close('}');
+}
+
+/// Failed expectations that a full page has of a run: their messages stand without their events.
+constexpr std::uint64_t most_later_failures = 100;
+
+/// Adds JSON to a script element, which ends at the first "</script" wherever it is, and is parsed
+/// differently after "<!--". In JSON, "<" occurs in strings only.
+void add_to_script_element(std::string& text, std::string_view json) {
+  for (const char character : json) {
+    if (character == '<') {
+      text += "\\u003c";
+    } else {
+      text += character;
+    }
+  }
+}
+
+/// `data`: in parts. `sources`: what the page may connect to, for its security policy.
+std::string make_page(std::initializer_list<std::string_view> data, std::string_view sources) {
+  std::string page(page_before_sources);
+  page += sources;
+  for (const std::string_view part : page_before_data) page += part;
+  for (const std::string_view part : data) add_to_script_element(page, part);
+  for (const std::string_view part : page_after_data) page += part;
+  return page;
+}
+
+}  // namespace
+
+void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
+  auto place = std::find(catalogs_.begin(), catalogs_.end(), &catalog);
+  if (place == catalogs_.end()) {
+    JsonWriter json(catalogs_json_);
+    write_catalog(json, catalog);
+    place = catalogs_.insert(place, &catalog);
+  }
+  JsonWriter json(runs_json_);
+  json.open('{');
+  json.write("catalog", place - catalogs_.begin());
+  write_situation(json, catalog, script.situation);
+  json.flush();
+  json_.begin_run(catalog, script);
+  left_out_of_run_ = 0;
+  failures_left_ = most_later_failures;
+}
+
+void HtmlReport::on_event(const EventRecord& record, const Step* step, const State& state) {
+  if (is_full()) {
+    ++left_out_of_run_;
+  } else {
+    json_.on_event(record, step, state);
+  }
+}
+
+void HtmlReport::on_failure(const Failure& failure) {
+  if (left_out_of_run_ == 0) return json_.on_failure(failure);
+  if (failures_left_ == 0) return;
+  --failures_left_;
+  json_.on_failure(failure);
+}
+
+void HtmlReport::on_end(const State& state) { json_.on_end(state); }
+
+void HtmlReport::end_run(const RunResult& result, const std::string& error) {
+  json_.end_run(result, error);
+  JsonWriter json(runs_json_);
+  json.write("left_out", left_out_of_run_);
+  json.close('}');
+  left_out_ += left_out_of_run_;
+}
+
+void HtmlReport::list_properties(const std::vector<PropertyOfPage>& properties) {
+  std::string list;
+  JsonWriter json(list);
+  std::int64_t runs = 0;
+  json.open('[');
+  for (const PropertyOfPage& property : properties) {
+    json.open('{');
+    json.write_members({{"title", property.title},
+                        {"statement", property.statement},
+                        {"result", property.result},
+                        {"description", property.description}});
+    json.write("run", property.has_run ? std::optional(runs++) : std::nullopt);
+    json.close('}');
+  }
+  json.close(']');
+  properties_json_ = R"(,"properties":)" + list;
+}
+
+void HtmlReport::end() { json_.end(); }
+
+std::string HtmlReport::page() {
+  return make_page({R"({"catalogs":)", catalogs_json_, R"(],"runs":)", runs_json_, R"(],"report":)",
+                    memory_.text(), properties_json_, "}"},
+                   "'none'");
+}
+
+std::string stream_page(const CompiledCatalog& catalog, const StreamOfPage& stream) {
+  std::string data;
+  JsonWriter json(data);
+  json.open('{');
+  json.open("catalogs", '[');
+  write_catalog(json, catalog);
+  json.close(']');
+  json.open("runs", '[');
+  json.open('{');
+  json.write("catalog", 0);
+  json.write_json("state", stream.begin);
+  json.write("left_out", stream.left_out);
+  json.close('}');
+  json.close(']');
+  json.open("report", '{');
+  json.open("runs", '[');
+  json.open('{');
+  json.write_members({{"catalog", catalog.file}, {"script", stream.name}});
+  json.write_json("events", "[" + stream.events + "]");
+  json.open("expectations", '{');
+  json.write_members({{"passed", 0}, {"failed", 0}});
+  json.write_json("failures", "[]");
+  json.close('}');
+  if (!stream.error.empty()) json.write("error", stream.error);
+  json.close('}');
+  json.close(']');
+  json.close('}');
+  if (!stream.token.empty()) json.write("live", stream.token);
+  json.close('}');
+  json.flush();
+  return make_page({data}, stream.token.empty() ? "'none'" : "'self'");
+}
+
+std::string state_of_page(const CompiledCatalog& catalog, std::uint64_t index, Microseconds time,
+                          const State& state) {
+  Situation situation;
+  std::vector<std::string_view> faulty;
+  for (std::uint32_t place = 0; place < catalog.behavior_ids.size(); ++place) {
+    const BehaviorId behavior = catalog.behavior_ids[place];
+    if (state.is_denied(behavior)) situation.availability.push_back({place, false});
+    if (state.is_faulty(behavior)) faulty.push_back(catalog.behavior_names[place]);
+  }
+  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+    situation.variables.push_back({variable, state.value_of(variable)});
+  }
+  std::string text;
+  JsonWriter json(text);
+  json.open('{');
+  json.write("index", index);
+  json.write_seconds("time", time);
+  write_running(json, catalog, state);
+  write_situation(json, catalog, situation);
+  json.write_list("faulty", faulty);
+  json.close('}');
+  json.flush();
+  return text;
+}
+
+}  // namespace cbc

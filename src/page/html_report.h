@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/report/run_json.h"
+#include "core/report/run_report.h"
+#include "core/support/memory_file.h"
+#include "runtime/compiled/compiled_catalog.h"
+
+namespace cbc {
+
+/// A property, as a page lists it.
+struct PropertyOfPage {
+  std::string title;        ///< where it is, and its name: "robot.yaml:5: landing is possible"
+  std::string statement;    ///< what it says
+  std::string_view result;  ///< the word for it: "proved"
+  std::string description;  ///< the result in a sentence, with how far it reaches
+  bool has_run = false;     ///< whether the page has its counterexample or witness
+};
+
+/// Makes a self-contained HTML page of all runs: a timeline to step through or to print. Its data
+/// are the JSON report and what the picture needs of each catalog beyond that. Events that no
+/// longer fit are left out, which the page says: no browser shows it otherwise, and memory stays
+/// bounded.
+class HtmlReport final : public SolveReport {
+ public:
+  static constexpr std::size_t most_data = std::size_t{32} << 20;  ///< in bytes of the report
+
+  explicit HtmlReport(const EventAdditions& adds = {}, std::size_t limit = most_data)
+      : json_(memory_.stream(), {adds.why, adds.alternatives, true}), limit_(limit) {}
+
+  void begin_run(const CompiledCatalog& catalog, const Script& script) override;
+  void on_event(const EventRecord& record, const Step* step, const State& state) override;
+  void on_failure(const Failure& failure) override;
+  void on_end(const State& state) override;
+  void end_run(const RunResult& result, const std::string& error) override;
+  void end() override;
+
+  /// Makes it a page of properties: the runs are those of the properties that have one, in their
+  /// order. The page shows the last event of a run first: that is what its script leads to.
+  void list_properties(const std::vector<PropertyOfPage>& properties);
+
+  /// The page; call it after end().
+  [[nodiscard]] std::string page();
+
+  /// How many events of all runs are not on the page.
+  [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
+
+ private:
+  [[nodiscard]] bool is_full() { return memory_.size() >= limit_; }
+
+  MemoryFile memory_;
+  JsonReport json_;
+  const std::size_t limit_;
+  std::uint64_t left_out_ = 0;
+  std::uint64_t left_out_of_run_ = 0;
+  std::uint64_t failures_left_ = 0;  ///< of the run, that are taken although the page is full
+  std::vector<const CompiledCatalog*> catalogs_;
+  std::string catalogs_json_ = "[";
+  std::string runs_json_ = "[";
+  std::string properties_json_;  ///< a member of the data, if it is a page of properties
+};
+
+}  // namespace cbc

@@ -1,0 +1,345 @@
+#include "sweep/engine/sweep.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cbc/version.h"
+#include "core/script/writer.h"
+#include "core/support/threads.h"
+#include "runtime/base/text.h"
+#include "runtime/compiled/compiled_file.h"
+#include "sweep/engine/sequence.h"
+
+namespace cbc {
+namespace {
+
+void keep_slower(std::optional<SlowestEvent>& slowest, std::optional<SlowestEvent> other) {
+  if (!other) return;
+  const bool is_slower =
+      !slowest || other->cost > slowest->cost ||
+      (other->cost == slowest->cost &&
+       std::tie(other->sequence, other->event) < std::tie(slowest->sequence, slowest->event));
+  if (is_slower) slowest = std::move(other);
+}
+
+}  // namespace
+
+std::optional<std::string> SweepMerger::add(SweepResult shard, const std::string& file) {
+  const std::uint64_t index = shard.settings.shard.index;
+  if (files_.empty()) {
+    merged_ = std::move(shard);
+    files_[index] = file;
+    return std::nullopt;
+  }
+  const std::string& first = files_.begin()->second;
+  if (const auto difference = find_difference(shard)) {
+    return fmt::format("{} does not belong to {}: {}", quote(file), quote(first), *difference);
+  }
+  if (const auto known = files_.find(index); known != files_.end()) {
+    return fmt::format("{} is shard {}/{} again, after {}", quote(file), index,
+                       shard.settings.shard.count, quote(known->second));
+  }
+  // The paths of the catalog may differ. That of the lowest shard counts, so that the order of the
+  // shards does not matter.
+  if (index < files_.begin()->first) merged_.catalog = std::move(shard.catalog);
+  files_[index] = file;
+  merged_.counts.add(shard.counts);
+  merged_.nodes.add(shard.nodes);
+  keep_slower(merged_.slowest, std::move(shard.slowest));
+  if (merged_.times) {
+    merged_.times->elapsed += shard.times->elapsed;
+    merged_.times->events.add(shard.times->events);
+    keep_slower(merged_.times->slowest, std::move(shard.times->slowest));
+  }
+  return std::nullopt;
+}
+
+/// The first mismatch between a shard and the others.
+std::optional<std::string> SweepMerger::find_difference(const SweepResult& shard) const {
+  const SweepSettings& ours = merged_.settings;
+  const SweepSettings& theirs = shard.settings;
+  const auto differs = [](std::string_view what, const auto& found, const auto& expected) {
+    return fmt::format("its {} is {}, not {}", what, found, expected);
+  };
+  if (shard.version != merged_.version) {
+    return differs("version of cbc", quote(shard.version), quote(merged_.version));
+  }
+  if (shard.digest != merged_.digest || shard.task_names != merged_.task_names ||
+      shard.behavior_names != merged_.behavior_names) {
+    return "it is for another catalog";
+  }
+  if (theirs.sequences != ours.sequences) {
+    return differs("number of sequences", theirs.sequences, ours.sequences);
+  }
+  if (theirs.seed != ours.seed) return differs("seed", theirs.seed, ours.seed);
+  if (theirs.shape != ours.shape || theirs.search != ours.search) return "it has other options";
+  if (theirs.shard.count != ours.shard.count) {
+    return differs("number of shards", theirs.shard.count, ours.shard.count);
+  }
+  if (shard.times.has_value() != merged_.times.has_value()) {
+    return "only one of them was made with '--stats'";
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> SweepMerger::find_missing() const {
+  constexpr std::size_t most_named = 10;
+  const std::uint64_t count = merged_.settings.shard.count;
+  std::string missing;
+  std::size_t number = 0;
+  for (std::uint64_t index = 1; index <= count; ++index) {
+    if (files_.contains(index)) continue;
+    ++number;
+    if (number <= most_named)
+      missing += fmt::format("{}{}/{}", number > 1 ? ", " : "", index, count);
+  }
+  if (number == 0) return std::nullopt;
+  if (number > most_named) missing += fmt::format(" and {} more", number - most_named);
+  return fmt::format("{} of the sweep {} missing: {}", number == 1 ? "a shard" : "shards",
+                     number == 1 ? "is" : "are", missing);
+}
+
+SweepResult SweepMerger::take() {
+  merged_.settings.shard = {};
+  return std::move(merged_);
+}
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A candidate for the slowest event. Among equal costs the earliest event wins, so that the result
+/// does not depend on the order of the threads.
+struct Candidate {
+  std::uint64_t cost = 0;
+  std::uint64_t sequence = 0;  ///< from 0
+  std::uint64_t event = 0;     ///< 0: there is none
+  Verb verb = Verb::wait;
+  std::uint32_t subject = 0;  ///< place in the catalog
+
+  void replace_if_slower(const Candidate& other) {
+    if (other.event == 0) return;
+    const bool is_slower =
+        event == 0 || other.cost > cost ||
+        (other.cost == cost && std::pair(other.sequence, other.event) < std::pair(sequence, event));
+    if (is_slower) *this = other;
+  }
+};
+
+/// Sums, which do not depend on the order of the parts.
+struct Totals {
+  SweepCounts counts;
+  Histogram nodes;
+  Histogram times;  ///< nanoseconds
+  Candidate most_nodes;
+  Candidate most_time;
+
+  void add(const Totals& other) {
+    counts.add(other.counts);
+    nodes.add(other.nodes);
+    times.add(other.times);
+    most_nodes.replace_if_slower(other.most_nodes);
+    most_time.replace_if_slower(other.most_time);
+  }
+};
+
+/// Counts the events of one thread.
+class Tally final : public SequenceListener {
+ public:
+  explicit Tally(const CompiledCatalog& catalog)
+      : catalog_(catalog), was_running_(catalog.tasks.size()) {
+    totals_.counts = SweepCounts(catalog.tasks.size(), catalog.behaviors.size());
+  }
+
+  [[nodiscard]] const Totals& totals() const { return totals_; }
+
+  void begin(std::uint64_t sequence) {
+    sequence_ = sequence;
+    std::fill(was_running_.begin(), was_running_.end(), std::uint8_t{0});
+    event_began_ = Clock::now();
+  }
+
+  void on_event(const EventRecord& record, const State& state) override {
+    if (record.search != nullptr) add_costs(record, Clock::now() - event_began_);
+    totals_.counts.add(catalog_, record);
+    // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): what is accepted was searched for
+    if (record.outcome == Outcome::accepted) count_runs(record.search->group, state);
+    event_began_ = Clock::now();
+  }
+
+ private:
+  void add_costs(const EventRecord& record, std::chrono::nanoseconds time) {
+    Candidate candidate;
+    candidate.sequence = sequence_;
+    candidate.event = record.index;
+    candidate.verb = record.verb;
+    candidate.subject = record.task != none ? catalog_.tasks[record.task].catalog_index
+                                            : catalog_.behaviors[record.behavior].catalog_index;
+    candidate.cost = record.search->result.nodes;
+    totals_.nodes.add(candidate.cost);
+    totals_.most_nodes.replace_if_slower(candidate);
+    candidate.cost = static_cast<std::uint64_t>(time.count());
+    totals_.times.add(candidate.cost);
+    totals_.most_time.replace_if_slower(candidate);
+  }
+
+  void count_runs(std::uint32_t group, const State& state) {
+    for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1];
+         ++task) {
+      const bool is_running = state.is_running(task);
+      if (is_running && was_running_[task] == 0) {
+        ++totals_.counts.tasks[catalog_.tasks[task].catalog_index].runs;
+      }
+      was_running_[task] = is_running ? 1 : 0;
+    }
+  }
+
+  const CompiledCatalog& catalog_;
+  Totals totals_;
+  std::vector<std::uint8_t> was_running_;  ///< by task
+  std::uint64_t sequence_ = 0;
+  Clock::time_point event_began_;
+};
+
+/// What the threads share.
+class Work {
+ public:
+  Work(const CompiledCatalog& catalog, const SweepSettings& settings)
+      : catalog_(catalog),
+        settings_(settings),
+        range_(sequences_of(settings)),
+        next_(range_.first),
+        failed_(range_.end) {}
+
+  /// Runs sequences until there are no more.
+  void do_share(Tally& tally, const std::function<void(std::uint64_t)>& progress) {
+    for (;;) {
+      const std::uint64_t sequence = next_.fetch_add(1);
+      // Sequences before the first failure still run, so that it is the first one with any number
+      // of threads.
+      if (sequence >= failed_.load()) return;
+      tally.begin(sequence);
+      if (run_sequence(catalog_, settings_, sequence, tally).status != Coordinator::Status::ok) {
+        note_failure(sequence);
+      }
+      if (progress) progress(std::min(next_.load(), range_.end) - range_.first);
+    }
+  }
+
+  [[nodiscard]] std::optional<std::uint64_t> failed() const {
+    return failed_.load() < range_.end ? std::optional(failed_.load()) : std::nullopt;
+  }
+
+ private:
+  void note_failure(std::uint64_t sequence) {
+    std::uint64_t first = failed_.load();
+    while (sequence < first && !failed_.compare_exchange_weak(first, sequence)) {
+    }
+  }
+
+  const CompiledCatalog& catalog_;
+  const SweepSettings& settings_;
+  const SequenceRange range_;
+  std::atomic<std::uint64_t> next_;
+  std::atomic<std::uint64_t> failed_;  ///< the first sequence that failed, or the end
+};
+
+std::string describe(const CompiledCatalog& catalog, const Candidate& candidate) {
+  const bool is_task = form_of(candidate.verb).subject == VerbForm::SubjectKind::task;
+  const Texts& names = is_task ? catalog.task_names : catalog.behavior_names;
+  return fmt::format("{} {}", name_of(candidate.verb), printable(names[candidate.subject]));
+}
+
+std::optional<SlowestEvent> to_slowest(const CompiledCatalog& catalog,
+                                       const SweepSettings& settings, const Candidate& candidate,
+                                       std::string_view measure) {
+  if (candidate.event == 0) return std::nullopt;
+  SlowestEvent slowest;
+  slowest.sequence = candidate.sequence + 1;
+  slowest.event = candidate.event;
+  slowest.cost = candidate.cost;
+  slowest.what = describe(catalog, candidate);
+  const std::string comment = fmt::format(
+      "Sequence {} of a sweep with seed {}, up to its slowest event by {}:\n"
+      "event {}, {}.\n"
+      "Run it with: cbc solve CATALOG FILE{}\n",
+      slowest.sequence, settings.seed, measure, slowest.event, slowest.what,
+      options_for_script(settings.search));
+  Script script;
+  script.steps = steps_of_sequence(catalog, settings, candidate.sequence, candidate.event);
+  slowest.script = write_script(catalog, script, comment);
+  return slowest;
+}
+
+SweepFailure to_failure(const CompiledCatalog& catalog, const SweepSettings& settings,
+                        std::uint64_t sequence) {
+  Tally ignored(catalog);
+  const SequenceEnd end = run_sequence(catalog, settings, sequence, ignored);
+  const std::string comment =
+      fmt::format("Sequence {} of a sweep with seed {}.\nRun it with: cbc solve CATALOG FILE{}\n",
+                  sequence + 1, settings.seed, options_for_script(settings.search));
+  Script script;
+  script.steps = steps_of_sequence(catalog, settings, sequence, 0);
+  return {sequence + 1, end.status, end.internal_error, write_script(catalog, script, comment)};
+}
+
+std::vector<std::string> to_strings(const Texts& names) {
+  std::vector<std::string> texts;
+  for (const std::string_view name : names) texts.emplace_back(name);
+  return texts;
+}
+
+}  // namespace
+
+SequenceRange sequences_of(const SweepSettings& settings) {
+  const std::uint64_t share = settings.sequences / settings.shard.count;
+  const std::uint64_t rest = settings.sequences % settings.shard.count;  // one more for the first
+  const auto begin_of = [&](std::uint64_t place) { return share * place + std::min(place, rest); };
+  return {begin_of(settings.shard.index - 1), begin_of(settings.shard.index)};
+}
+
+SweepOutcome sweep(const CompiledCatalog& catalog, const SweepSettings& settings, std::size_t jobs,
+                   const std::function<void(std::uint64_t)>& progress) {
+  const Clock::time_point begin = Clock::now();
+  const SequenceRange range = sequences_of(settings);
+  const auto threads = std::clamp<std::uint64_t>(range.end - range.first, 1, jobs);
+  std::vector<Tally> tallies(threads, Tally(catalog));
+  Work work(catalog, settings);
+  run_in_threads(tallies.size(), [&](std::size_t place) {
+    work.do_share(tallies[place], place == 0 ? progress : nullptr);
+  });
+
+  SweepOutcome outcome;
+  if (const auto failed = work.failed()) {
+    outcome.failure = to_failure(catalog, settings, *failed);
+    return outcome;
+  }
+  Totals all = tallies.front().totals();
+  for (std::size_t place = 1; place < tallies.size(); ++place) all.add(tallies[place].totals());
+  SweepResult& result = outcome.result;
+  result.catalog = catalog.file;
+  result.digest = to_hex(identity_of(catalog));
+  result.version = version;
+  result.settings = settings;
+  result.task_names = to_strings(catalog.task_names);
+  result.behavior_names = to_strings(catalog.behavior_names);
+  result.counts = std::move(all.counts);
+  result.nodes = std::move(all.nodes);
+  result.slowest = to_slowest(catalog, settings, all.most_nodes, "nodes");
+  SweepTimes& times = result.times.emplace();
+  times.events = std::move(all.times);
+  times.slowest = to_slowest(catalog, settings, all.most_time, "time");
+  times.elapsed = static_cast<std::uint64_t>(
+      std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin).count());
+  return outcome;
+}
+
+}  // namespace cbc

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/coordinator.h"
+#include "sweep/engine/sequence.h"
+
+namespace cbc {
+
+/// The most expensive event of a sweep, in nodes or in time.
+struct SlowestEvent {
+  std::uint64_t sequence = 0;  ///< counts from 1
+  std::uint64_t event = 0;     ///< index in its sequence
+  std::uint64_t cost = 0;      ///< nodes, or nanoseconds
+  std::string what;            ///< "start ROTATE"
+  std::string script;          ///< ends with this event, or soon after it
+};
+
+/// The results that depend on the machine. Times are those of whole events that took a search: the
+/// problem, the searches, the checks and the changes.
+struct SweepTimes {
+  std::uint64_t elapsed = 0;  ///< microseconds; of all shards together
+  Histogram events;           ///< nanoseconds
+  std::optional<SlowestEvent> slowest;
+};
+
+/// The result of a sweep or of a shard of one.
+struct SweepResult {
+  std::string catalog;  ///< path of the source, as the user gave it
+  std::string digest;   ///< of the content of the catalog without its path; hexadecimal
+  std::string version;  ///< of cbc: other versions may draw other events
+  SweepSettings settings;
+  std::vector<std::string> task_names;      ///< in catalog order
+  std::vector<std::string> behavior_names;  ///< in catalog order
+  SweepCounts counts;
+  Histogram nodes;                      ///< of the events that took a search
+  std::optional<SlowestEvent> slowest;  ///< by nodes, the first of equal ones; empty: no search
+  std::optional<SweepTimes> times;
+};
+
+/// The sequences of a shard: from `first` up to `end`, from 0.
+struct SequenceRange {
+  std::uint64_t first = 0;
+  std::uint64_t end = 0;
+};
+
+[[nodiscard]] SequenceRange sequences_of(const SweepSettings& settings);
+
+/// The largest number of shards, so that sums of their numbers fit.
+inline constexpr std::uint64_t most_shards = 1000;
+/// The largest number that a shard may contain.
+inline constexpr std::uint64_t largest_count = std::uint64_t{1} << 53U;
+
+/// Merges the shards of a sweep, in any order, into the result of the whole sweep.
+class SweepMerger {
+ public:
+  /// Adds a shard that was read from `file`. Returns why it does not match the others, for people,
+  /// or nothing.
+  [[nodiscard]] std::optional<std::string> add(SweepResult shard, const std::string& file);
+  /// Says which shards are missing, for people; empty if there are all.
+  [[nodiscard]] std::optional<std::string> find_missing() const;
+  /// The result. No shard may be missing.
+  [[nodiscard]] SweepResult take();
+
+ private:
+  [[nodiscard]] std::optional<std::string> find_difference(const SweepResult& shard) const;
+
+  SweepResult merged_;
+  std::map<std::uint64_t, std::string> files_;  ///< by index of the shard
+};
+
+/// The first sequence that ended early.
+struct SweepFailure {
+  std::uint64_t sequence = 0;  ///< counts from 1
+  Coordinator::Status status = Coordinator::Status::ok;
+  std::string internal_error;  ///< if an answer was refused
+  std::string script;          ///< the whole sequence
+};
+
+struct SweepOutcome {
+  SweepResult result;  ///< means nothing after a failure
+  std::optional<SweepFailure> failure;
+};
+
+/// Runs random event sequences on a catalog that has tasks. The result, except for its times, does
+/// not depend on the number of jobs (at least 1), and memory does not grow with the number of
+/// sequences. `progress` is called repeatedly, in this thread, with the number of sequences done.
+[[nodiscard]] SweepOutcome sweep(const CompiledCatalog& catalog, const SweepSettings& settings,
+                                 std::size_t jobs,
+                                 const std::function<void(std::uint64_t)>& progress);
+
+}  // namespace cbc

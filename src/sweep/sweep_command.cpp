@@ -1,0 +1,236 @@
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include <fmt/core.h>
+
+#include "core/command_line/command_line.h"
+#include "core/files/input.h"
+#include "core/files/ordered_work.h"
+#include "core/files/output.h"
+#include "runtime/base/text.h"
+#include "solve/solve.h"
+#include "sweep/engine/sweep.h"
+#include "sweep/report/sweep_report.h"
+
+namespace cbc::cli {
+namespace {
+
+constexpr std::int64_t most_sequences = 1'000'000'000;
+constexpr std::int64_t most_events = 1'000'000;
+
+Decimal parse_probability(const std::string& text) {
+  return parse_decimal(text, 6, 0, one_million);
+}
+
+Values probability() {
+  Values values;
+  values.placeholder = "SHARE";
+  values.expected = "a number from 0 to 1";
+  values.check = [](const std::string& text) -> std::string {
+    if (parse_probability(text).error == DecimalError::no_error) return {};
+    return fmt::format("expected a number from 0 to 1, with at most 6 decimals, found {}",
+                       quote(text));
+  };
+  return values;
+}
+
+/// "2/8"; empty if it is none.
+std::optional<SweepShard> parse_shard(const std::string& text) {
+  SweepShard shard;
+  const char* const end = text.data() + text.size();
+  const auto index = std::from_chars(text.data(), end, shard.index);
+  if (index.ec != std::errc() || index.ptr == end || *index.ptr != '/') return std::nullopt;
+  const auto count = std::from_chars(index.ptr + 1, end, shard.count);
+  if (count.ec != std::errc() || count.ptr != end) return std::nullopt;
+  if (shard.index < 1 || shard.index > shard.count || shard.count > most_shards) {
+    return std::nullopt;
+  }
+  return shard;
+}
+
+Values shard_of_sweep() {
+  Values values;
+  values.placeholder = "I/N";
+  values.expected = "a shard, such as 1/8";
+  values.check = [](const std::string& text) -> std::string {
+    if (parse_shard(text)) return {};
+    return fmt::format("expected I/N, such as 3/8, with I from 1 to N and N at most {}, found {}",
+                       most_shards, quote(text));
+  };
+  return values;
+}
+
+}  // namespace
+
+void add_sweep_options(Command& command, SweepOptions& options) {
+  const std::vector<std::string> formats = names_in(sweep_formats());
+  command
+      .option("--sweep", options.sequences, whole_number("N", 1, most_sequences),
+              "Run N random event sequences on the catalog instead of scripts, and report "
+              "what happened in them")
+      .not_with({"--merge"})
+      .only_with_values("--format", formats);
+  const auto add = [&](const char* name, auto& target, Values values, const char* help) {
+    command.option(name, target, std::move(values), help).only_with({"--sweep"});
+  };
+  add("--seed", options.seed, whole_number("S", 0), "Seed of the random sequences (default: 1)");
+  add("--events", options.events, whole_number("E", 1, most_events),
+      "Events in each sequence (default: 100)");
+  add("--priorities", options.priorities, whole_number("P", 1, 1'000'000),
+      "Requests have priorities from 1 to P (default: 3)");
+  add("--failures", options.failures, probability(),
+      "Share of finishes that are failures, from 0 to 1 (default: 0.3)");
+  add("--faults", options.faults, probability(),
+      "Share of events that are faults, repairs or changes of the situation, from 0 to 1 (default: "
+      "0.1)");
+  add("--shard", options.shard, shard_of_sweep(), "Run only shard I of N of the sweep");
+  command
+      .flag("--merge", options.merge,
+            "Merge the JSON results of all shards into the result of one run; with --coverage, "
+            "those of several runs on CATALOG, which comes first")
+      .makes_arguments(ValueKind::shard);
+  command
+      .option("--slowest", options.slowest, further_output("FILE"),
+              "Write the event with the most nodes to FILE, as a script that ends with it")
+      .only_with({"--sweep", "--merge"});
+  command
+      .option("--slowest-by-time", options.slowest_by_time, further_output("FILE"),
+              "The same for the slowest event by time")
+      .only_with({"--sweep", "--merge"});
+}
+
+namespace {
+
+SweepSettings settings_of(const SolveOptions& solve) {
+  const SweepOptions& options = solve.sweep;
+  SweepSettings settings;
+  settings.sequences = options.sequences.value_or(1);
+  settings.seed = options.seed;
+  settings.shape.events = options.events;
+  settings.shape.priorities = options.priorities;
+  settings.shape.failures = static_cast<Millionths>(parse_probability(options.failures).value);
+  settings.shape.faults = static_cast<Millionths>(parse_probability(options.faults).value);
+  settings.shard = parse_shard(options.shard).value_or(SweepShard{});
+  settings.search = {solve.max_solutions, solve.max_nodes, solve.tie_seed, solve.max_clock_events};
+  return settings;
+}
+
+/// Enough for a catalog of 300,000 behaviors. Larger results are refused, because parsed JSON takes
+/// many times the memory of its text.
+constexpr std::size_t largest_shard = std::size_t{64} << 20U;
+
+std::shared_ptr<const CompiledCatalog> load_swept(const std::vector<std::string>& paths) {
+  if (paths.size() != 1) {
+    complain("a sweep takes one catalog and no script, found {} files", paths.size());
+    return nullptr;
+  }
+  std::shared_ptr<const CompiledCatalog> catalog = load_catalog(paths.front());
+  if (catalog != nullptr && catalog->tasks.empty()) {
+    complain("catalog {} has no tasks to sweep", quote(display_name(paths.front())));
+    return nullptr;
+  }
+  return catalog;
+}
+
+int report_failure(const SweepFailure& failure, const SweepSettings& settings) {
+  if (failure.status == Coordinator::Status::refused_answer) {
+    complain("sequence {}: the checker rejects an answer of the solver: {}", failure.sequence,
+             failure.internal_error);
+    complain(
+        "this is a bug in cbc, not in the catalog; please report it with the catalog and "
+        "this script:");
+    fmt::print(stderr, "{}", failure.script);
+    return exit_internal;
+  }
+  complain(
+      "sequence {}: the clock made more than {} events (--max-clock-events) in "
+      "this script:",
+      failure.sequence, settings.search.max_clock_events);
+  fmt::print(stderr, "{}", failure.script);
+  return exit_unusable;
+}
+
+int write_slowest(const std::optional<std::string>& path,
+                  const std::optional<SlowestEvent>& slowest) {
+  if (!path) return exit_ok;
+  if (!slowest) {
+    return complain("there is no script for {}: no event needed a search", quote(*path));
+  }
+  return write_output(*path, slowest->script);
+}
+
+bool can_write_slowest(const SweepOptions& options) {
+  return (!options.slowest || can_write_output(*options.slowest)) &&
+         (!options.slowest_by_time || can_write_output(*options.slowest_by_time));
+}
+
+int report(SweepResult result, const SolveOptions& options) {
+  const SweepOptions& of_sweep = options.sweep;
+  int status = write_slowest(of_sweep.slowest, result.slowest);
+  if (of_sweep.slowest_by_time && !result.times) {
+    complain("--slowest-by-time: the shards were run without '--stats'");
+    status = exit_unusable;
+  } else if (result.times) {
+    status = std::max(status, write_slowest(of_sweep.slowest_by_time, result.times->slowest));
+  }
+  if (!options.stats && !of_sweep.merge) result.times.reset();
+  const SweepFormat& format = *find_named(sweep_formats(), options.format);
+  fmt::print("{}", format.write(result, style_for(stdout)));
+  return status;
+}
+
+int merge(const SolveOptions& options) {
+  SweepMerger merger;
+  for (const std::string& path : options.paths) {
+    const std::optional<std::string> text = read_result(path);
+    if (!text) return exit_unusable;
+    const std::string name = display_name(path);
+    auto shard = sweep_from_json(*text);
+    if (const auto* const fault = std::get_if<std::string>(&shard)) {
+      return complain("cannot merge {}: {}", quote(name), *fault);
+    }
+    if (const auto error = merger.add(std::get<SweepResult>(std::move(shard)), name)) {
+      return complain("cannot merge: " + *error);
+    }
+  }
+  if (const auto missing = merger.find_missing()) {
+    return complain("cannot merge: " + *missing);
+  }
+  return report(merger.take(), options);
+}
+
+}  // namespace
+
+std::optional<std::string> read_result(const std::string& path) {
+  std::optional<std::string> text = read_input(path);
+  if (text && text->size() > largest_shard) {
+    complain("cannot merge {}: it is larger than {} MiB", quote(display_name(path)),
+             largest_shard >> 20U);
+    return std::nullopt;
+  }
+  return text;
+}
+
+int run_sweep(const SolveOptions& options) {
+  if (options.sweep.merge) return merge(options);
+  const std::shared_ptr<const CompiledCatalog> catalog = load_swept(options.paths);
+  if (catalog == nullptr) return exit_unusable;
+  if (!can_write_slowest(options.sweep)) return exit_unusable;
+  const SweepSettings settings = settings_of(options);
+  const SequenceRange range = sequences_of(settings);
+  Progress progress("sweeping", 1);
+  progress.begin(std::string(catalog->file));
+  SweepOutcome outcome =
+      sweep(*catalog, settings, thread_count(options.jobs), [&](std::uint64_t done) {
+        progress.show(fmt::format(" ({} %)", done * 100 / (range.end - range.first)));
+      });
+  progress.clear();
+  if (outcome.failure) return report_failure(*outcome.failure, settings);
+  return report(std::move(outcome.result), options);
+}
+
+}  // namespace cbc::cli

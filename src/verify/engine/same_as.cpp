@@ -1,0 +1,691 @@
+#include "verify/engine/same_as.h"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/script/names.h"
+#include "runtime/base/disjoint_sets.h"
+#include "runtime/base/text.h"
+#include "runtime/coordinator/record.h"
+#include "verify/engine/breadth_first.h"
+#include "verify/engine/model.h"
+#include "verify/engine/stepper.h"
+
+namespace cbc {
+
+namespace {
+
+using Number = StateStore::Number;
+
+/// The numbers that one catalog's tasks, behaviors and variables have in another; none: it does not
+/// have them. From TaskId to TaskId, BehaviorId to BehaviorId, place to place.
+struct Translation {
+  Translation(const CompiledCatalog& from, const CompiledCatalog& to) {
+    for (TaskId task = 0; task < from.tasks.size(); ++task) {
+      const auto found = to.find_task(from.name_of_task(task));
+      tasks.push_back(found ? to.task_ids[*found] : none);
+    }
+    for (BehaviorId behavior = 0; behavior < from.behaviors.size(); ++behavior) {
+      const auto found = to.find_behavior(from.name_of_behavior(behavior));
+      behaviors.push_back(found ? to.behavior_ids[*found] : none);
+    }
+    SituationNames names(to);
+    for (std::uint32_t variable = 0; variable < from.variables.size(); ++variable) {
+      const auto found = names.find_variable(from.name_of_variable(variable));
+      variables.push_back(found.value_or(none));
+      auto& of_variable = values.emplace_back(from.variables[variable].value_count, none);
+      for (std::uint32_t value = 0; found && value < of_variable.size(); ++value) {
+        of_variable[value] =
+            names.find_value(*found, from.name_of_value({variable, value})).value_or(none);
+      }
+    }
+  }
+
+  std::vector<TaskId> tasks;
+  std::vector<BehaviorId> behaviors;
+  std::vector<std::uint32_t> variables;
+  std::vector<std::vector<std::uint32_t>> values;  ///< by variable
+};
+
+void list_missing(const CompiledCatalog& catalog, const Translation& translation,
+                  std::vector<std::string>& names) {
+  for (const TaskId task : catalog.task_ids) {
+    if (translation.tasks[task] == none) {
+      names.push_back(fmt::format("task {}", printable(catalog.name_of_task(task))));
+    }
+  }
+  for (const BehaviorId behavior : catalog.behavior_ids) {
+    if (translation.behaviors[behavior] == none) {
+      names.push_back(fmt::format("behavior {}", printable(catalog.name_of_behavior(behavior))));
+    }
+  }
+  for (std::uint32_t variable = 0; variable < translation.variables.size(); ++variable) {
+    const std::string name = printable(catalog.name_of_variable(variable));
+    if (translation.variables[variable] == none) {
+      names.push_back(fmt::format("variable {}", name));
+      continue;
+    }
+    for (std::uint32_t value = 0; value < translation.values[variable].size(); ++value) {
+      if (translation.values[variable][value] != none) continue;
+      names.push_back(
+          fmt::format("value {} of {}", printable(catalog.name_of_value({variable, value})), name));
+    }
+  }
+}
+
+SituationPart translate(const SituationPart& part, const Translation& to, bool& is_whole) {
+  SituationPart result;
+  for (const VariableValue& value : part.variables) {
+    const std::uint32_t variable = to.variables[value.variable];
+    const std::uint32_t translated =
+        variable == none ? none : to.values[value.variable][value.value];
+    if (translated == none) {
+      is_whole = false;
+    } else {
+      result.variables.push_back({variable, translated});
+    }
+  }
+  for (const SituationPart::Own& own : part.behaviors) {
+    if (to.behaviors[own.behavior] == none) {
+      is_whole = false;
+    } else {
+      result.behaviors.push_back({to.behaviors[own.behavior], own.available});
+    }
+  }
+  return result;
+}
+
+/// The numbers of another catalog for those of a list, without what it does not have.
+std::vector<std::uint32_t> translate(const std::vector<std::uint32_t>& from,
+                                     const std::vector<std::uint32_t>& to) {
+  std::vector<std::uint32_t> result;
+  for (const std::uint32_t number : from) {
+    if (to[number] != none) result.push_back(to[number]);
+  }
+  return result;
+}
+
+Assumptions translate(const Assumptions& from, const Translation& to) {
+  Assumptions result = from;
+  result.start.clear();
+  for (const Assumptions::Start& start : from.start) {
+    if (to.tasks[start.task] == none) continue;
+    result.start.push_back({to.tasks[start.task], start.priorities});
+  }
+  result.stop = translate(from.stop, to.tasks);
+  result.variables = translate(from.variables, to.variables);
+  result.behaviors = translate(from.behaviors, to.behaviors);
+  result.never.clear();
+  for (const SituationPart& part : from.never) {
+    bool is_whole = true;
+    SituationPart translated = translate(part, to, is_whole);
+    if (is_whole) result.never.push_back(std::move(translated));
+  }
+  bool is_whole = true;
+  result.initially = translate(from.initially, to, is_whole);
+  return result;
+}
+
+Situation translate(const Situation& situation, const CompiledCatalog& from,
+                    const CompiledCatalog& to, const Translation& translation) {
+  SituationPart part{situation.variables, {}};
+  for (const Availability& entry : situation.availability) {
+    part.behaviors.push_back({from.behavior_ids[entry.behavior], entry.available});
+  }
+  bool is_whole = true;
+  part = translate(part, translation, is_whole);
+  Situation result{{}, part.variables};
+  for (const SituationPart::Own& own : part.behaviors) {
+    result.availability.push_back({to.behaviors[own.behavior].catalog_index, own.available});
+  }
+  return result;
+}
+
+/// The events of a script for the other catalog, which knows all that they name.
+Script translate(const Script& script, const CompiledCatalog& from, const CompiledCatalog& to,
+                 const Translation& translation) {
+  Script result = script;
+  std::erase_if(result.steps, [](const Step& step) { return step.expect.has_value(); });
+  result.situation = translate(script.situation, from, to, translation);
+  for (Step& step : result.steps) {
+    switch (form_of(step.verb).subject) {
+      case VerbForm::SubjectKind::nothing:
+        break;
+      case VerbForm::SubjectKind::task:
+        step.subject = to.tasks[translation.tasks[from.task_ids[step.subject]]].catalog_index;
+        break;
+      case VerbForm::SubjectKind::behavior:
+        step.subject =
+            to.behaviors[translation.behaviors[from.behavior_ids[step.subject]]].catalog_index;
+        break;
+      case VerbForm::SubjectKind::situation:
+        step.situation = translate(step.situation, from, to, translation);
+        break;
+    }
+  }
+  return result;
+}
+
+/// Groups of both catalogs that are explored together.
+struct GroupPair {
+  std::vector<std::uint32_t> old_groups;
+  std::vector<std::uint32_t> new_groups;
+};
+
+std::vector<GroupPair> join_groups(const CompiledCatalog& old_catalog,
+                                   const CompiledCatalog& new_catalog, const Translation& to_old) {
+  const auto count = static_cast<std::uint32_t>(new_catalog.group_count());
+  const auto old_count = static_cast<std::uint32_t>(old_catalog.group_count());
+  DisjointSets sets(std::size_t{count} + old_count);
+  for (TaskId task = 0; task < new_catalog.tasks.size(); ++task) {
+    if (to_old.tasks[task] == none) continue;
+    sets.join(new_catalog.tasks[task].group, count + old_catalog.tasks[to_old.tasks[task]].group);
+  }
+  for (BehaviorId behavior = 0; behavior < new_catalog.behaviors.size(); ++behavior) {
+    if (to_old.behaviors[behavior] == none) continue;
+    sets.join(new_catalog.group_of(behavior),
+              count + old_catalog.group_of(to_old.behaviors[behavior]));
+  }
+  const std::vector<std::uint32_t> numbers = sets.numbers();
+  std::map<std::uint32_t, GroupPair> pairs;
+  for (std::uint32_t place = 0; place < numbers.size(); ++place) {
+    GroupPair& pair = pairs[numbers[place]];
+    place < count ? pair.new_groups.push_back(place) : pair.old_groups.push_back(place - count);
+  }
+  std::vector<GroupPair> result;
+  result.reserve(pairs.size());
+  for (auto& [number, pair] : pairs) result.push_back(std::move(pair));
+  return result;
+}
+
+/// The models of both catalogs, and what is the same in them.
+struct ModelPair {
+  ModelPair(const CompiledCatalog& old_catalog, const CompiledCatalog& new_catalog,
+            const GroupPair& groups, const Assumptions& old_assumptions,
+            const Assumptions& new_assumptions, const Translation& to_old,
+            const Translation& to_new)
+      : old_model(old_catalog, groups.old_groups, old_assumptions),
+        new_model(new_catalog, groups.new_groups, new_assumptions) {
+    add_moves(to_old);
+    const auto is_due = [](const Model::Choice& choice) {
+      return choice.move.kind == Move::Kind::due;
+    };
+    const auto& old_moves = old_model.moves();
+    if (new_model.reactive().empty() && !old_moves.empty() && is_due(old_moves.back())) {
+      moves.push_back({nullptr, &old_moves.back(), old_moves.back().move});
+    }
+    add_variables_of_old(to_new);
+    // What only one model has gets a number that nothing in the other has.
+    for (const auto& behavior : new_model.behaviors()) new_behaviors.push_back(behavior.id);
+    for (const auto& task : new_model.tasks()) new_tasks.push_back(task.id);
+    const auto behavior_count = static_cast<std::uint32_t>(new_catalog.behaviors.size());
+    const auto task_count = static_cast<std::uint32_t>(new_catalog.tasks.size());
+    for (const auto& behavior : old_model.behaviors()) {
+      const BehaviorId known = to_new.behaviors[behavior.id];
+      old_behaviors.push_back(known != none ? known : behavior_count + behavior.id);
+    }
+    for (const auto& task : old_model.tasks()) {
+      const TaskId known = to_new.tasks[task.id];
+      old_tasks.push_back(known != none ? known : task_count + task.id);
+    }
+  }
+
+  Model old_model;
+  Model new_model;
+  /// The same move in both.
+  struct PairedMove {
+    const Model::Choice* of_new = nullptr;  ///< null: the new one does not have it
+    const Model::Choice* of_old = nullptr;  ///< null: the old one does not have it
+    Move move;                              ///< as the new catalog counts
+  };
+  std::vector<PairedMove> moves;
+  // By number in the model: a number that is the same in both.
+  std::vector<std::uint32_t> new_tasks;
+  std::vector<std::uint32_t> old_tasks;
+  std::vector<std::uint32_t> new_behaviors;
+  std::vector<std::uint32_t> old_behaviors;
+
+ private:
+  /// A move, with the id of its task, behavior or variable, and its priority or value, both as the
+  /// old catalog counts.
+  using Key = std::tuple<Move::Kind, std::uint32_t, std::int64_t>;
+
+  [[nodiscard]] Key key_of_old(const Model::Choice& choice) const {
+    switch (choice.move.kind) {
+      case Move::Kind::due:
+        return {choice.move.kind, 0, 0};
+      case Move::Kind::start:
+      case Move::Kind::stop:
+        return {choice.move.kind, old_model.tasks()[choice.subject].id, choice.move.choice};
+      case Move::Kind::variable:
+        return {choice.move.kind, old_model.variables()[choice.subject].id, choice.choice};
+      default:
+        return {choice.move.kind, old_model.behaviors()[choice.subject].id, 0};
+    }
+  }
+  [[nodiscard]] Key key_of_new(const Model::Choice& choice, const Translation& to_old) const {
+    switch (choice.move.kind) {
+      case Move::Kind::due:
+        return {choice.move.kind, 0, 0};
+      case Move::Kind::start:
+      case Move::Kind::stop:
+        return {choice.move.kind, to_old.tasks[new_model.tasks()[choice.subject].id],
+                choice.move.choice};
+      case Move::Kind::variable: {
+        const std::uint32_t variable = new_model.variables()[choice.subject].id;
+        return {choice.move.kind, to_old.variables[variable],
+                to_old.values[variable][choice.choice]};
+      }
+      default:
+        return {choice.move.kind, to_old.behaviors[new_model.behaviors()[choice.subject].id], 0};
+    }
+  }
+
+  /// Adds the moves of the new model together with those of the old one.
+  void add_moves(const Translation& to_old) {
+    std::map<Key, const Model::Choice*> of_old;
+    for (const Model::Choice& choice : old_model.moves()) of_old[key_of_old(choice)] = &choice;
+    for (const Model::Choice& choice : new_model.moves()) {
+      const auto found = of_old.find(key_of_new(choice, to_old));
+      if (found != of_old.end()) {
+        moves.push_back({&choice, found->second, choice.move});
+      } else if (choice.move.kind == Move::Kind::due || is_of_one(choice, to_old)) {
+        moves.push_back({&choice, nullptr, choice.move});
+      }
+    }
+  }
+
+  /// Adds the changes of variables that both catalogs have and only behaviors of the old groups
+  /// name.
+  void add_variables_of_old(const Translation& to_new) {
+    for (const Model::Choice& choice : old_model.moves()) {
+      if (choice.move.kind != Move::Kind::variable) continue;
+      const std::uint32_t old_variable = old_model.variables()[choice.subject].id;
+      const std::uint32_t variable = to_new.variables[old_variable];
+      const std::uint32_t value = to_new.values[old_variable][choice.choice];
+      if (variable == none || value == none || new_model.find_variable(variable) != none) continue;
+      moves.push_back(
+          {nullptr, &choice, {Move::Kind::variable, variable, static_cast<std::int32_t>(value)}});
+    }
+    // Those of the new groups are in order, and so are moves of one kind that is no change.
+    std::stable_sort(moves.begin(), moves.end(), [](const PairedMove& a, const PairedMove& b) {
+      if (a.move.kind != b.move.kind) return a.move.kind < b.move.kind;
+      return a.move.kind == Move::Kind::variable &&
+             std::tie(a.move.subject, a.move.choice) < std::tie(b.move.subject, b.move.choice);
+    });
+  }
+
+  /// Whether both catalogs have the variable and its value, but only the behaviors of the new
+  /// groups name it.
+  [[nodiscard]] bool is_of_one(const Model::Choice& choice, const Translation& to_old) const {
+    if (choice.move.kind != Move::Kind::variable) return false;
+    const std::uint32_t variable = new_model.variables()[choice.subject].id;
+    return to_old.variables[variable] != none && to_old.values[variable][choice.choice] != none;
+  }
+};
+
+/// The queue in numbers that are the same in both: reactive tasks with their sets, counted anew.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> queue_of(
+    const Model& model, const std::vector<std::uint32_t>& tasks,
+    const std::vector<std::uint16_t>& sets) {
+  std::vector<std::uint16_t> order;
+  for (const std::uint16_t set : sets) {
+    if (set != 0) order.push_back(set);
+  }
+  std::sort(order.begin(), order.end());
+  order.erase(std::unique(order.begin(), order.end()), order.end());
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> queue;
+  for (std::uint32_t reactive = 0; reactive < sets.size(); ++reactive) {
+    if (sets[reactive] == 0) continue;
+    const auto place = std::lower_bound(order.begin(), order.end(), sets[reactive]);
+    queue.emplace_back(tasks[model.reactive()[reactive]],
+                       static_cast<std::uint32_t>(place - order.begin()));
+  }
+  std::sort(queue.begin(), queue.end());
+  return queue;
+}
+
+std::vector<std::uint32_t> waiting_of(const Model& model, const std::vector<std::uint32_t>& tasks,
+                                      const std::vector<std::uint16_t>& waits) {
+  std::vector<std::uint32_t> waiting;
+  for (std::uint32_t reactive = 0; reactive < waits.size(); ++reactive) {
+    if (waits[reactive] != 0) waiting.push_back(tasks[model.reactive()[reactive]]);
+  }
+  std::sort(waiting.begin(), waiting.end());
+  return waiting;
+}
+
+/// Takes pairs of states from one move to the next. A packed pair is the state of the new catalog,
+/// then that of the old one.
+class PairStepper {
+ public:
+  PairStepper(const ModelPair& models, bool reduce)
+      : old_(models.old_model, {.reduce = reduce}),
+        new_(models.new_model, {.reduce = reduce}),
+        new_words_(models.new_model.packed_words()) {}
+
+  void set_traces(MoveTrace& of_new, MoveTrace& of_old) {
+    new_.set_trace(&of_new);
+    old_.set_trace(&of_old);
+  }
+  void load(const std::uint32_t* state) {
+    new_.load(state);
+    old_.load(state + new_words_);
+  }
+  /// Makes a move in both; one that does not know it stays as it is. False: neither state has the
+  /// move, or it leads into an excluded situation.
+  bool take(const ModelPair::PairedMove& move) {
+    const bool is_new = move.of_new != nullptr && new_.has_move(*move.of_new);
+    const bool is_old = move.of_old != nullptr && old_.has_move(*move.of_old);
+    if (!is_new && !is_old) return false;
+    const bool is_situation = move.move.kind == Move::Kind::variable;
+    return take(new_, move.of_new, is_situation) && take(old_, move.of_old, is_situation);
+  }
+  /// Writes the states after the move.
+  void pack(std::uint32_t* packed) const {
+    new_.pack(packed);
+    old_.pack(packed + new_words_);
+  }
+  /// The move in the loaded states, as the new catalog counts.
+  [[nodiscard]] Move move_of(const ModelPair::PairedMove& move) const {
+    return move.of_new != nullptr ? new_.move_of(*move.of_new) : move.move;
+  }
+
+ private:
+  static bool take(Stepper& stepper, const Model::Choice* choice, bool is_situation) {
+    if (choice != nullptr) return stepper.take(*choice);
+    stepper.stay(is_situation);
+    return true;
+  }
+
+  Stepper old_;
+  Stepper new_;
+  const std::size_t new_words_;
+};
+
+class PairExpander final : public Expander {
+ public:
+  PairExpander(const ModelPair& models, ComparisonScope::Differences differences, bool reduce)
+      : models_(models), differences_(differences), stepper_(models, reduce) {
+    stepper_.set_traces(new_trace_, old_trace_);
+  }
+
+  void expand(const std::uint32_t* state, Number number, Successors& successors) override {
+    const std::size_t new_words = models_.new_model.packed_words();
+    stepper_.load(state);
+    for (const ModelPair::PairedMove& move : models_.moves) {
+      if (!successors.may_go_on()) return;
+      new_trace_.events.clear();
+      old_trace_.events.clear();
+      if (!stepper_.take(move)) continue;
+      std::uint32_t* const packed = successors.add();
+      stepper_.pack(packed);
+      if (differ(packed, packed + new_words)) {
+        first_difference_ = number;
+        difference_ = stepper_.move_of(move);
+        return;  // it ends the search
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_done() const override { return first_difference_ != UINT32_MAX; }
+
+  /// The first state with a move that is decided differently, and that move; UINT32_MAX: none.
+  [[nodiscard]] Number first_difference() const { return first_difference_; }
+  [[nodiscard]] const Move& difference() const { return difference_; }
+
+ private:
+  [[nodiscard]] bool differ(const std::uint32_t* new_packed, const std::uint32_t* old_packed) {
+    if (differences_ == ComparisonScope::Differences::expectable) {
+      return outcome_of(new_trace_) != outcome_of(old_trace_) ||
+             running_in(models_.new_model, models_.new_tasks, models_.new_behaviors,
+                        cells_of(models_.new_model, new_packed)) !=
+                 running_in(models_.old_model, models_.old_tasks, models_.old_behaviors,
+                            cells_of(models_.old_model, old_packed));
+    }
+    if (new_trace_.events.size() != old_trace_.events.size()) return true;
+    for (std::size_t place = 0; place < new_trace_.events.size(); ++place) {
+      if (differ(new_trace_.events[place], old_trace_.events[place])) return true;
+    }
+    return describe(models_.new_model, models_.new_tasks, models_.new_behaviors, new_packed) !=
+           describe(models_.old_model, models_.old_tasks, models_.old_behaviors, old_packed);
+  }
+
+  /// That of the event of the script, if it is one that an expectation knows.
+  [[nodiscard]] static std::optional<Outcome> outcome_of(const MoveTrace& trace) {
+    if (trace.events.empty()) return std::nullopt;
+    const MoveTrace::Happening& first = trace.events.front();
+    if (first.origin != Origin::script || !form_of(first.verb).is_decided) return std::nullopt;
+    return first.outcome;
+  }
+
+  [[nodiscard]] bool differ(const MoveTrace::Happening& ours,
+                            const MoveTrace::Happening& theirs) const {
+    if (ours.verb != theirs.verb || ours.origin != theirs.origin ||
+        ours.outcome != theirs.outcome || ours.changes.size() != theirs.changes.size() ||
+        ours.stopped.size() != theirs.stopped.size()) {
+      return true;
+    }
+    if (ours.verb != Verb::situation) {
+      const bool is_finish = ours.verb == Verb::finish;
+      const auto& new_subjects = is_finish ? models_.new_behaviors : models_.new_tasks;
+      const auto& old_subjects = is_finish ? models_.old_behaviors : models_.old_tasks;
+      if (new_subjects[ours.subject] != old_subjects[theirs.subject]) return true;
+    }
+    for (std::size_t place = 0; place < ours.changes.size(); ++place) {
+      const MoveTrace::Change& mine = ours.changes[place];
+      const MoveTrace::Change& other = theirs.changes[place];
+      if (mine.is_activation != other.is_activation || mine.success != other.success ||
+          models_.new_behaviors[mine.behavior] != models_.old_behaviors[other.behavior]) {
+        return true;
+      }
+    }
+    const auto stopped = [](const MoveTrace::Happening& event,
+                            const std::vector<std::uint32_t>& tasks) {
+      std::vector<std::pair<std::uint32_t, FinishCause>> result;
+      for (const auto& [task, cause] : event.stopped) result.emplace_back(tasks[task], cause);
+      std::sort(result.begin(), result.end());
+      return result;
+    };
+    return stopped(ours, models_.new_tasks) != stopped(theirs, models_.old_tasks) ||
+           queue_of(models_.new_model, models_.new_tasks, ours.queue) !=
+               queue_of(models_.old_model, models_.old_tasks, theirs.queue) ||
+           waiting_of(models_.new_model, models_.new_tasks, ours.waiting) !=
+               waiting_of(models_.old_model, models_.old_tasks, theirs.waiting);
+  }
+
+  using Running = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+  [[nodiscard]] static Running running_in(const Model& model,
+                                          const std::vector<std::uint32_t>& tasks,
+                                          const std::vector<std::uint32_t>& behaviors,
+                                          const std::vector<std::uint16_t>& cells) {
+    Running running;
+    for (std::uint32_t task = 0; task < tasks.size(); ++task) {
+      if (cells[task] == 0) continue;
+      const std::uint32_t value = model.tasks()[task].values.begin + cells[task] - 1U;
+      running.emplace_back(tasks[task], behaviors[model.behavior_of(value)]);
+    }
+    std::sort(running.begin(), running.end());
+    return running;
+  }
+
+  [[nodiscard]] static std::vector<std::uint16_t> cells_of(const Model& model,
+                                                           const std::uint32_t* packed) {
+    std::vector<std::uint16_t> cells(model.layout().cells);
+    model.unpack(packed, cells.data());
+    return cells;
+  }
+
+  struct Shown {
+    Running running;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> queue;
+    std::vector<std::uint32_t> waiting;
+
+    bool operator==(const Shown&) const = default;
+  };
+  [[nodiscard]] static Shown describe(const Model& model, const std::vector<std::uint32_t>& tasks,
+                                      const std::vector<std::uint32_t>& behaviors,
+                                      const std::uint32_t* packed) {
+    const std::vector<std::uint16_t> cells = cells_of(model, packed);
+    const auto part = [&](std::uint32_t begin) {
+      return std::vector<std::uint16_t>(cells.begin() + begin,
+                                        cells.begin() + begin + model.layout().reactive_count);
+    };
+    return {running_in(model, tasks, behaviors, cells),
+            queue_of(model, tasks, part(model.layout().queue)),
+            waiting_of(model, tasks, part(model.layout().waiting))};
+  }
+
+  const ModelPair& models_;
+  const ComparisonScope::Differences differences_;
+  PairStepper stepper_;
+  MoveTrace old_trace_;
+  MoveTrace new_trace_;
+  Number first_difference_ = UINT32_MAX;
+  Move difference_;
+};
+
+/// The moves along a path of pairs, as the new catalog names them.
+std::vector<Move> moves_along(const ModelPair& models, const BreadthFirst& search, Number number,
+                              bool reduce) {
+  PairStepper stepper(models, reduce);
+  std::vector<std::uint32_t> packed(search.store().words());
+  const std::vector<Number> path = search.path_to(number);
+  std::vector<Move> moves;
+  for (std::size_t place = 1; place < path.size(); ++place) {
+    const std::uint32_t* const to = search.store().state(path[place]);
+    stepper.load(search.store().state(path[place - 1]));
+    for (const ModelPair::PairedMove& move : models.moves) {
+      if (!stepper.take(move)) continue;
+      stepper.pack(packed.data());
+      if (!std::equal(packed.begin(), packed.end(), to)) continue;
+      moves.push_back(stepper.move_of(move));
+      break;
+    }
+  }
+  return moves;
+}
+
+/// Whether one path comes before another: the shorter one, then the first in the order of moves.
+/// The paths are about different groups, so only variables can be in both.
+bool comes_first(const std::vector<Move>& a, const std::vector<Move>& b) {
+  if (a.size() != b.size()) return a.size() < b.size();
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                      [](const Move& one, const Move& other) {
+                                        return std::tie(one.kind, one.subject, one.choice) <
+                                               std::tie(other.kind, other.subject, other.choice);
+                                      });
+}
+
+}  // namespace
+
+Assumptions common_assumptions(const CompiledCatalog& old_catalog,
+                               const CompiledCatalog& new_catalog) {
+  const Translation to_old(new_catalog, old_catalog);
+  Assumptions assumptions = default_assumptions(new_catalog);
+  assumptions.start.clear();
+  assumptions.stop.clear();
+  for (const TaskId task : new_catalog.task_ids) {
+    const TaskId other = to_old.tasks[task];
+    if (other == none) continue;
+    if (new_catalog.tasks[task].start_on_request == 0 &&
+        old_catalog.tasks[other].start_on_request == 0) {
+      continue;
+    }
+    assumptions.start.push_back({task, {1}});
+    assumptions.stop.push_back(task);
+  }
+  return assumptions;
+}
+
+CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
+                                   const CompiledCatalog& new_catalog,
+                                   const Assumptions& assumptions,
+                                   const VerificationOptions& options,
+                                   const ComparisonScope& scope) {
+  CatalogComparison result;
+  const Translation to_old(new_catalog, old_catalog);
+  const Translation to_new(old_catalog, new_catalog);
+  list_missing(old_catalog, to_new, result.names.only_old);
+  list_missing(new_catalog, to_old, result.names.only_new);
+  const Assumptions old_assumptions = translate(assumptions, to_old);
+  // What only the new catalog has does not move.
+  const Assumptions new_assumptions = translate(old_assumptions, to_new);
+  for (const GroupPair& groups : join_groups(old_catalog, new_catalog, to_old)) {
+    if (options.on_progress && !options.on_progress(groups.new_groups, {})) {
+      result.end = result.end.value_or(ExplorationEnd::stopped);
+      break;
+    }
+    if (scope.group && std::find(groups.new_groups.begin(), groups.new_groups.end(),
+                                 *scope.group) == groups.new_groups.end()) {
+      continue;
+    }
+    const ModelPair models(old_catalog, new_catalog, groups, old_assumptions, new_assumptions,
+                           to_old, to_new);
+    result.error = models.new_model.find_obstacle();
+    if (!result.error) result.error = models.old_model.find_obstacle();
+    if (result.error) return result;
+    const std::vector<std::uint16_t> new_first = models.new_model.first_state();
+    const std::vector<std::uint16_t> old_first = models.old_model.first_state();
+    const std::size_t new_words = models.new_model.packed_words();
+    std::vector<std::uint32_t> first(new_words + models.old_model.packed_words());
+    models.new_model.pack(new_first.data(), first.data());
+    models.old_model.pack(old_first.data(), first.data() + new_words);
+
+    std::vector<std::unique_ptr<Expander>> expanders;
+    std::vector<const PairExpander*> of_pairs;
+    ExplorationOptions exploration;
+    exploration.limits = options.limits;
+    exploration.jobs = options.jobs;
+    if (options.on_progress) {
+      exploration.on_progress = [&](const ExplorationProgress& progress) {
+        return options.on_progress(groups.new_groups, progress);
+      };
+    }
+    for (unsigned job = 0; job < std::max(1U, options.jobs); ++job) {
+      auto expander = std::make_unique<PairExpander>(models, scope.differences, options.reduce);
+      of_pairs.push_back(expander.get());
+      expanders.push_back(std::move(expander));
+    }
+    BreadthFirst search(first, exploration);
+    search.run(expanders);
+    if (!search.is_complete() && !result.end) result.end = search.end();
+    result.states += search.store().size();
+    result.transitions += search.transitions();
+    result.depth = std::max(result.depth, search.expanded_depth());
+
+    const PairExpander* const found = *std::min_element(
+        of_pairs.begin(), of_pairs.end(), [](const PairExpander* a, const PairExpander* b) {
+          return a->first_difference() < b->first_difference();
+        });
+    if (found->first_difference() == UINT32_MAX) continue;
+    // There may be one before it, in a state that was not expanded.
+    if (search.was_cut_short() && found->first_difference() > search.expanded()) continue;
+    std::vector<Move> moves =
+        moves_along(models, search, found->first_difference(), options.reduce);
+    moves.push_back(found->difference());
+    if (result.result == Verdict::Result::violated && !comes_first(moves, result.moves)) continue;
+    result.result = Verdict::Result::violated;
+    result.moves = std::move(moves);
+    result.witness =
+        make_witness(new_catalog, groups.new_groups, new_assumptions, result.moves, nullptr,
+                     fmt::format("Decided differently by {} and {}: the last event.\n"
+                                 "What is expected at the end is the answer of the latter.\n"
+                                 "Run it with: cbc solve CATALOG FILE\n",
+                                 printable(old_catalog.file), printable(new_catalog.file)));
+    result.old_script = translate(result.witness->script, new_catalog, old_catalog, to_old);
+  }
+  if (result.result != Verdict::Result::violated && !result.end) {
+    result.result = Verdict::Result::proved;
+  }
+  return result;
+}
+
+}  // namespace cbc

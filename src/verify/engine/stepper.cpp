@@ -1,0 +1,379 @@
+#include "verify/engine/stepper.h"
+
+#include <algorithm>
+
+namespace cbc {
+
+Stepper::Stepper(const Model& model, const Options& options)
+    : model_(model), reduce_(options.reduce), decisions_(model, options.decision_bytes) {
+  const std::size_t values = words_for(model.value_count());
+  const std::size_t tasks = words_for(model.tasks().size());
+  const std::size_t behaviors = words_for(model.behaviors().size());
+  before_.cells.resize(model.layout().cells);
+  before_.values.resize(values);
+  before_.running.resize(tasks);
+  before_.active.resize(behaviors);
+  before_.fitting.resize(behaviors);
+  before_.available.resize(behaviors);
+  before_.available_values.resize(values);
+  before_.fitting_values.resize(values);
+  excluded_values_.resize(values);
+  domains_.resize(values);
+  present_.resize(values);
+  must_run_.resize(tasks);
+  values_after_.resize(model.tasks().size());
+  was_active_.resize(behaviors);
+  active_.resize(behaviors);
+  wanted_.resize(behaviors);
+  for (const Model::Group& group : model.groups()) {
+    auto& order = deactivation_order_.emplace_back();
+    for (std::uint32_t place = group.behaviors.begin; place < group.behaviors.end; ++place) {
+      order.push_back(place);
+    }
+    const auto level = [&](std::uint32_t behavior) {
+      return model.catalog().behaviors[model.behaviors()[behavior].id].level;
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto a, auto b) { return level(a) > level(b); });
+  }
+}
+
+// The state.
+
+void Stepper::load(const std::uint32_t* packed) {
+  model_.unpack(packed, before_.cells.data());
+  derive(before_, true);
+}
+
+void Stepper::derive(State& state, bool situation_too) const {
+  std::fill(state.values.begin(), state.values.end(), 0);
+  std::fill(state.running.begin(), state.running.end(), 0);
+  std::fill(state.active.begin(), state.active.end(), 0);
+  const auto& tasks = model_.tasks();
+  for (std::uint32_t task = 0; task < tasks.size(); ++task) {
+    const std::uint16_t cell = state.cells[task];
+    if (cell == 0) continue;
+    const std::uint32_t value = tasks[task].values.begin + cell - 1;
+    set_bit(state.values.data(), value);
+    set_bit(state.running.data(), task);
+    set_bit(state.active.data(), model_.behavior_of(value));
+  }
+  if (situation_too) derive_situation(state);
+}
+
+void Stepper::derive_situation(State& state) const {
+  std::fill(state.fitting.begin(), state.fitting.end(), ~Word{0});
+  for (std::uint32_t place = 0; place < model_.variables().size(); ++place) {
+    const auto& misfits = model_.variables()[place].misfits[value_of(state, place)];
+    for (std::size_t word = 0; word < misfits.size(); ++word) state.fitting[word] &= ~misfits[word];
+  }
+  const auto& behaviors = model_.behaviors();
+  std::fill(state.available_values.begin(), state.available_values.end(), 0);
+  std::fill(state.fitting_values.begin(), state.fitting_values.end(), 0);
+  for (std::uint32_t place = 0; place < behaviors.size(); ++place) {
+    const bool fits = has_bit(state.fitting.data(), place);
+    const bool available = fits && !is_denied(state, place);
+    available ? set_bit(state.available.data(), place) : clear_bit(state.available.data(), place);
+    if (!fits) continue;
+    for (const std::uint32_t value : behaviors[place].values) {
+      set_bit(state.fitting_values.data(), value);
+      if (available) set_bit(state.available_values.data(), value);
+    }
+  }
+}
+
+bool Stepper::is_denied(const State& state, std::uint32_t behavior) const {
+  const std::uint32_t own = model_.behaviors()[behavior].own;
+  return own == none ? has_bit(model_.denied().data(), behavior)
+                     : state.cells[model_.layout().own + own] != 0;
+}
+
+std::uint32_t Stepper::value_of(const State& state, std::uint32_t variable) const {
+  const Model::Variable& described = model_.variables()[variable];
+  return described.cell == none ? described.initial : state.cells[described.cell];
+}
+
+Model::Rank Stepper::rank_in(const State& state, std::uint32_t task) const {
+  const Model::Layout& layout = model_.layout();
+  for (std::uint32_t place = 0; place < layout.request_count; ++place) {
+    const std::uint16_t cell = state.cells[layout.requests + place];
+    if (cell == 0) return 0;
+    if (cell == task + 1) return static_cast<Model::Rank>(state.cells[layout.ranks + place] + 1);
+  }
+  return 0;
+}
+
+bool Stepper::is_settled() const {
+  const auto first = before_.cells.begin() + model_.layout().queue;
+  return std::all_of(first, first + model_.layout().reactive_count,
+                     [](std::uint16_t set) { return set == 0; });
+}
+
+// Moves.
+
+bool Stepper::has_move(const Model::Choice& choice) const {
+  const std::uint32_t subject = choice.subject;
+  const bool is_active = choice.move.kind > Move::Kind::stop &&
+                         choice.move.kind < Move::Kind::fault &&
+                         has_bit(before_.active.data(), subject);
+  switch (choice.move.kind) {
+    case Move::Kind::start:
+      return true;
+    case Move::Kind::stop:
+      // Rank 0 is that of reactive starts.
+      return before_.cells[subject] != 0 && request_of(subject) > 1;
+    case Move::Kind::success: {
+      if (!is_active) return false;
+      const auto& values = model_.behaviors()[subject].values;
+      return std::all_of(values.begin(), values.end(), [&](std::uint32_t value) {
+        return !has_bit(before_.values.data(), value) ||
+               model_.tasks()[model_.task_of(value)].achieves_goal;
+      });
+    }
+    case Move::Kind::failure:
+      return is_active;
+    case Move::Kind::situation_change:
+      return is_active && is_denied(subject);
+    case Move::Kind::fault: {
+      if (is_faulty(subject)) return false;
+      const Model::Layout& layout = model_.layout();
+      const auto first = before_.cells.begin() + layout.faulty;
+      const auto faulty = std::count(first, first + layout.faulty_count, std::uint16_t{1});
+      return static_cast<std::uint32_t>(faulty) < model_.assumptions().faults;
+    }
+    case Move::Kind::repair:
+      return is_faulty(subject);
+    case Move::Kind::variable:
+      return value_of(subject) != choice.choice;
+    case Move::Kind::own:
+      return true;
+    case Move::Kind::due:
+      return !is_settled();
+  }
+  return false;
+}
+
+bool Stepper::take(const Model::Choice& choice) {
+  now_ = before_;
+  accepted_ = false;
+  const Model::Layout& layout = model_.layout();
+  const std::uint32_t subject = choice.subject;
+  switch (choice.move.kind) {
+    case Move::Kind::start: {
+      const auto rank = static_cast<Model::Rank>(choice.choice);
+      accepted_ = start(subject, static_cast<Model::Rank>(rank + 1), rank, false);
+      break;
+    }
+    case Move::Kind::stop:
+      accepted_ = stop(subject);
+      break;
+    case Move::Kind::success:
+      finish(subject, FinishCause::goal_achieved, Origin::script);
+      break;
+    case Move::Kind::failure:
+      finish(subject, FinishCause::process_failure, Origin::script);
+      break;
+    case Move::Kind::situation_change:
+      finish(subject, FinishCause::situation_change, Origin::script);
+      break;
+    case Move::Kind::fault:
+      now_.cells[layout.faulty + subject] = 1;
+      break;
+    case Move::Kind::repair:
+      now_.cells[layout.faulty + subject] = 0;
+      for (const std::uint32_t reactive :
+           model_.groups()[model_.behaviors()[subject].group].reactive) {
+        enqueue(reactive);
+      }
+      break;
+    case Move::Kind::variable:
+      if (!change_situation(model_.variables()[subject].cell,
+                            static_cast<std::uint16_t>(choice.choice))) {
+        return false;
+      }
+      break;
+    case Move::Kind::own: {
+      const std::uint32_t cell = layout.own + model_.behaviors()[subject].own;
+      if (!change_situation(cell, now_.cells[cell] == 0 ? 1 : 0)) return false;
+      break;
+    }
+    case Move::Kind::due:
+      come_due();
+      break;
+  }
+  close_event();
+  settle_queue();
+  if (reduce_) merge_orders();
+  return true;
+}
+
+void Stepper::stay(bool is_situation) {
+  now_ = before_;
+  joined_set_ = 0;
+  if (is_situation) open_event(Verb::situation, Origin::script, none);
+  close_event();
+}
+
+bool Stepper::would_start(std::uint32_t task, Model::Rank ranks) {
+  now_ = before_;
+  MoveTrace* const trace = std::exchange(trace_, nullptr);
+  const bool accepted = start(task, ranks, 0, false);
+  trace_ = trace;
+  return accepted;
+}
+
+// Events.
+
+bool Stepper::start(std::uint32_t task, Model::Rank ranks, Model::Rank rank, bool is_reactive) {
+  open_event(Verb::start, is_reactive ? Origin::reactive : Origin::script, task);
+  // A rank + 1, so that "at least ranks + 1" is "higher than all below ranks".
+  if (rank_in(now_, task) > ranks) {
+    note_outcome(Outcome::rejected);
+    return false;
+  }
+  Trigger trigger;
+  trigger.kind = Trigger::Kind::start;
+  trigger.group = model_.tasks()[task].group;
+  trigger.task = task;
+  trigger.ranks = ranks;
+  trigger.rank = rank;
+  trigger.is_reactive = is_reactive;
+  const bool accepted = coordinate(trigger);
+  finish_lost();
+  return accepted;
+}
+
+/// The stop has the priority of the task's request, 0 if it has none.
+bool Stepper::stop(std::uint32_t task) {
+  open_event(Verb::stop, Origin::script, task);
+  if (now_.cells[task] == 0) return false;
+  Trigger trigger;
+  trigger.kind = Trigger::Kind::stop;
+  trigger.group = model_.tasks()[task].group;
+  trigger.task = task;
+  trigger.ranks = std::max<Model::Rank>(1, rank_in(now_, task));
+  const bool accepted = coordinate(trigger);
+  finish_lost();
+  return accepted;
+}
+
+void Stepper::finish(std::uint32_t behavior, FinishCause cause, Origin origin) {
+  open_event(Verb::finish, origin, behavior);
+  if (!has_bit(now_.active.data(), behavior)) return;
+  Trigger trigger;
+  trigger.kind = Trigger::Kind::finish;
+  trigger.group = model_.behaviors()[behavior].group;
+  trigger.behavior = behavior;
+  trigger.cause = cause;
+  accepted_ = coordinate(trigger);
+}
+
+/// Behaviors that a rollback could not activate again finish right after the rejected event.
+void Stepper::finish_lost() {
+  const bool accepted = accepted_;
+  while (!lost_.empty()) {
+    const std::uint32_t behavior = lost_.back();
+    lost_.pop_back();
+    finish(behavior, FinishCause::process_failure, Origin::fault);
+  }
+  accepted_ = accepted;
+}
+
+void Stepper::start_reactive(std::uint32_t reactive) {
+  const Model::Layout& layout = model_.layout();
+  const std::uint32_t task = model_.reactive()[reactive];
+  now_.cells[layout.queue + reactive] = 0;
+  std::uint16_t& waits = now_.cells[layout.waiting + reactive];
+  const BitRange values = model_.tasks()[task].values;
+  bool may_start = !has_bit(now_.running.data(), task) && !excludes_running_task(task);
+  if (may_start) {
+    may_start = false;
+    for (std::uint32_t value = values.begin; value < values.end; ++value) {
+      if (has_bit(now_.available_values.data(), value)) may_start = true;
+    }
+  }
+  if (!may_start) {
+    waits = 0;
+    return;
+  }
+  const bool waited = waits != 0;
+  const std::size_t events = trace_ != nullptr ? trace_->events.size() : 0;
+  // Whatever has a request is protected; see find_domains.
+  const bool accepted = start(task, 1, 0, true);
+  // An attempt that changes nothing is silent if the task waited before.
+  if (!accepted && waited && trace_ != nullptr && trace_->events.size() == events + 1 &&
+      trace_->events.back().changes.empty()) {
+    trace_->events.pop_back();
+  }
+}
+
+/// False if the situation is excluded.
+bool Stepper::change_situation(std::uint32_t cell, std::uint16_t value) {
+  now_.cells[cell] = value;
+  if (model_.is_excluded(now_.cells.data())) return false;
+  derive_situation(now_);
+  open_event(Verb::situation, Origin::script, none);
+  for (const auto& group : model_.groups()) {
+    for (std::uint32_t place = group.behaviors.begin; place < group.behaviors.end; ++place) {
+      if (!has_bit(now_.available.data(), place) || has_bit(before_.available.data(), place)) {
+        continue;
+      }
+      for (const std::uint32_t reactive : group.reactive) enqueue(reactive);
+      break;
+    }
+  }
+  for (const std::uint32_t behavior : model_.behaviors_in_order()) {
+    if (!has_bit(now_.active.data(), behavior) || has_bit(now_.fitting.data(), behavior)) continue;
+    finish(behavior, FinishCause::situation_change, Origin::situation);
+  }
+  return true;
+}
+
+/// The first set of the queue: its tasks one after the other in catalog order, as far as they are
+/// still in it by then.
+void Stepper::come_due() {
+  for (const std::uint32_t task : model_.tasks_in_order()) {
+    const std::uint32_t reactive = model_.tasks()[task].reactive;
+    if (reactive == none || now_.cells[model_.layout().queue + reactive] != 1) continue;
+    start_reactive(reactive);
+  }
+}
+
+/// Counts the sets of the queue from 1 again; those that joined now are the last.
+void Stepper::settle_queue() {
+  const Model::Layout& layout = model_.layout();
+  std::uint16_t* const sets = now_.cells.data() + layout.queue;
+  std::uint16_t last = 0;
+  joined_set_ = 0;
+  for (;;) {
+    std::uint16_t next = 0;
+    for (std::uint32_t place = 0; place < layout.reactive_count; ++place) {
+      if (sets[place] > last && (next == 0 || sets[place] < next)) next = sets[place];
+    }
+    if (next == 0) return;
+    ++last;
+    if (next == joined_now) joined_set_ = last;
+    if (next == last) continue;
+    for (std::uint32_t place = 0; place < layout.reactive_count; ++place) {
+      if (sets[place] == next) sets[place] = last;
+    }
+  }
+}
+
+/// Sorts requests of equal priority by interaction class, and keeps the order in each class.
+void Stepper::merge_orders() {
+  const Model::Layout& layout = model_.layout();
+  const auto& classes = model_.interaction_classes();
+  std::uint16_t* const requests = now_.cells.data() + layout.requests;
+  const std::uint16_t* const ranks = now_.cells.data() + layout.ranks;
+  for (std::uint32_t end = 1; end < layout.request_count && requests[end] != 0; ++end) {
+    for (std::uint32_t place = end;
+         place > 0 && ranks[place] == ranks[place - 1] &&
+         classes[requests[place] - 1U] < classes[requests[place - 1] - 1U];
+         --place) {
+      std::swap(requests[place], requests[place - 1]);
+    }
+  }
+}
+
+}  // namespace cbc

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include "core/report/event_json.h"
+#include "core/report/failure_story.h"
+#include "core/report/run_text.h"
+#include "core/support/json.h"
+#include "core/support/memory_file.h"
+#include "runtime/coordinator/record.h"
+#include "verify/report/verify_report.h"
+
+namespace cbc {
+namespace {
+
+/// What a property demands of the last state, as far as an expectation can say it.
+Expectation demand_of(const CompiledCatalog& catalog, const Property& property) {
+  Expectation demand;
+  if (property.kind == Property::Kind::can_start) demand.outcome = Outcome::accepted;
+  if (property.kind != Property::Kind::always) return demand;
+  for (const auto& [task, behavior] : property.condition.running) {
+    auto& running = demand.running.emplace_back();
+    running.task = catalog.tasks[task].catalog_index;
+    if (behavior != none) running.behavior = catalog.behaviors[behavior].catalog_index;
+  }
+  return demand;
+}
+
+/// Writes a run in the words of `cbc solve`, and notes what led to its end.
+class ReplayListener final : public RunListener {
+ public:
+  /// `property`: that the script is about, or null.
+  ReplayListener(const CompiledCatalog& catalog, const Script& script, const Property* property,
+                 const Style& style)
+      : catalog_(catalog), property_(property), text_(style, memory_.stream()) {
+    text_.begin_run(catalog, script);
+    story_.begin_run(catalog);
+  }
+
+  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+    text_.on_event(record, step, state);
+    story_.add(record, step, state);
+    if (record.origin != Origin::script || record.verb != Verb::start) return;
+    conflict_.clear();
+    JsonWriter json(conflict_);
+    json.open('[');
+    for (const Reason* reason :
+         order_reasons(catalog_, record.conflict, std::span(&record.task, 1))) {
+      write_reason(json, catalog_, record, *reason);
+    }
+    json.close(']');
+  }
+  void on_failure(const Failure& failure) override { text_.on_failure(failure); }
+  void on_end(const State& state) override {
+    text_.on_end(state);
+    if (property_ != nullptr) story_lines_ = story_.tell(demand_of(catalog_, *property_));
+  }
+
+  Replay take(RunResult result) && {
+    std::string text(memory_.text());
+    // The report says which script this is.
+    text.erase(0, text.find("\n\n") + 2);
+    return {std::move(result), std::move(text), std::move(conflict_), std::move(story_lines_)};
+  }
+
+ private:
+  const CompiledCatalog& catalog_;
+  const Property* const property_;
+  MemoryFile memory_;
+  TextReport text_;
+  FailureStory story_;
+  std::string conflict_ = "[]";
+  std::vector<std::string> story_lines_;
+};
+
+Replay run(const CompiledCatalog& catalog, const Script& script, const Property* property,
+           const Style& style) {
+  CoordinatorOptions options;
+  options.explain.displaced = true;
+  ReplayListener listener(catalog, script, property, style);
+  RunResult result = run_script(catalog, script, options, listener);
+  return std::move(listener).take(std::move(result));
+}
+
+}  // namespace
+
+Replay replay(const CompiledCatalog& catalog, const Answer& answer, const Style& style) {
+  return run(catalog, answer.witness->script, answer.property, style);
+}
+
+Replay replay(const CompiledCatalog& catalog, const Script& script, const Style& style) {
+  return run(catalog, script, nullptr, style);
+}
+
+}  // namespace cbc

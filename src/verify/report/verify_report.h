@@ -1,0 +1,166 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/diagnostic/diagnostic.h"
+#include "core/property/properties.h"
+#include "core/script/runner.h"
+#include "core/script/script.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "verify/engine/cut_sets.h"
+#include "verify/engine/same_as.h"
+#include "verify/engine/verification.h"
+
+// The reports of `cbc verify`.
+
+namespace cbc {
+
+/// A counterexample or witness, run as `cbc solve` runs scripts.
+struct Replay {
+  RunResult result;
+  std::string text;      ///< event by event, as in the text of `cbc solve`
+  std::string conflict;  ///< why the last scripted start was rejected, as in cbc.solve/1
+  /// What led to the end, in sentences.
+  std::vector<std::string> story;
+};
+
+/// Runs the script of an answer, which has one.
+[[nodiscard]] Replay replay(const CompiledCatalog& catalog, const Answer& answer,
+                            const Style& style);
+/// Runs a script that is a witness of no property.
+[[nodiscard]] Replay replay(const CompiledCatalog& catalog, const Script& script,
+                            const Style& style);
+
+/// What was found out about a property, and its script.
+struct ReportedAnswer {
+  const Answer* answer = nullptr;
+  std::optional<Replay> replay;            ///< if there is a script
+  std::optional<std::string> script_path;  ///< of the file that has it
+};
+
+/// What was found out under the assumptions of one property file, or under the default ones.
+struct VerifyPart {
+  std::unique_ptr<const PropertyFile> file;  ///< null: default assumptions, no properties
+  Verification verification;
+  std::vector<ReportedAnswer> answers;  ///< in the order of the file
+
+  /// Whether it is about the groups of the catalog, and not about properties.
+  [[nodiscard]] bool is_about_groups() const { return file == nullptr || file->properties.empty(); }
+};
+
+/// The cut sets of a task up to some order.
+struct TaskCutSets {
+  TaskId task = 0;
+  std::uint32_t order = 1;
+  CutSets found;
+};
+
+/// How a catalog differs from an older one, and the script of the difference, run on both.
+struct ReportedComparison {
+  std::shared_ptr<const CompiledCatalog> old_catalog;
+  CatalogComparison comparison;
+  std::optional<Replay> with_old;
+  std::optional<Replay> with_new;
+  std::optional<std::string> script_path;  ///< of the file that has it
+};
+
+/// All that a call of `cbc verify` found out.
+struct VerifyResult {
+  std::shared_ptr<const CompiledCatalog> catalog;
+  std::vector<VerifyPart> parts;
+  /// Of the tasks that start on request, in catalog order; only if a part is about groups.
+  std::vector<TaskCutSets> single_faults;
+  std::vector<TaskCutSets> cut_sets;
+  bool wants_cut_sets = false;
+  std::optional<ReportedComparison> same_as;
+  ExplorationLimits limits;
+
+  /// Whether all properties are proved, and all groups without properties explored, and no limit
+  /// ended a search for cut sets.
+  [[nodiscard]] bool is_answered() const;
+};
+
+/// The word for a result: "proved".
+[[nodiscard]] std::string_view name_of(Verdict::Result result);
+
+/// The name of a property, or if it has none, what it says.
+[[nodiscard]] std::string title_of(const CompiledCatalog& catalog, const Property& property);
+
+/// How a property is violated: "violated after 4 events".
+[[nodiscard]] std::string describe_violation(const Answer& answer, const Exploration& exploration);
+
+/// What ended an exploration that is not complete, how far it came, and how to go on.
+[[nodiscard]] std::string describe_limit(const VerifyResult& result,
+                                         const Exploration& exploration);
+
+/// What was found out about a property of a part, with how far that reaches: "violated after 4
+/// events", "proved for 61 reachable states", "undecided: ended by --max-states 1000; …".
+[[nodiscard]] std::string describe_answer(const VerifyResult& result, const VerifyPart& part,
+                                          const Answer& answer);
+
+/// The result for people.
+[[nodiscard]] std::string verify_to_text(const VerifyResult& result, const Style& style);
+
+/// The result as JSON (schema cbc.verify/1):
+///
+///     {"schema": "cbc.verify/1",
+///      "catalog": "robot.yaml",
+///      "assumptions": [{"file": …}],     of each property file; see write_assumptions
+///      "groups": [                        those that were explored
+///        {"group": 0,                     the first; "groups" has all that were explored together
+///         "tasks": ["HOVER", "LAND"],     in catalog order
+///         "complete": true,               false: a limit ended it; every state up to "depth" was
+///         "states": 61, "transitions": 759, "depth": 7,                               visited
+///         "runs": {"HOVER": 1},           the least number of moves to such a state
+///         "active": {"HOVER_WITH_PID": 1},
+///         "start_refused": {"LAND": 3},
+///         "together": [["HOVER", "LAND", 4]]}],
+///      "properties": [
+///        {"file": "landing.yaml", "line": 3, "kind": "can_start", "name": "landing is possible",
+///         "result": "violated",
+///         "length": 4, "script": "…",     of a counterexample or witness: its moves, its text or
+///         "conflict": […]}],              its path; why the start was rejected
+///      "same_as": null,                   or what was found out about another catalog:
+///        {"old": "robot-1.yaml", "result": "violated", "states": 54, "length": 3, "script": "…",
+///         "only_old": ["behavior B1"], "only_new": []}
+///      "cut_sets": [                      null: none were asked for
+///        {"task": "LAND", "order": 2, "sets": [["B1"], ["B2", "B3"]]}]}
+///
+/// Groups that are not complete have "states_at_depth", from depth 0 on, as far as it is known.
+/// Groups have "reduced": true if states were merged (--reduce).
+/// "file" is also a member of groups that were explored for one of several property files. A search
+/// for cut sets that a limit ended has "complete_order": all sets up to this size are there, which
+/// is null if it is not even known whether the task can run without faults.
+[[nodiscard]] std::string verify_to_json(const VerifyResult& result);
+
+/// The properties as JUnit XML: a file is a test suite, a property a test case. One that is
+/// violated is a failure, an undecided one an error.
+[[nodiscard]] std::string verify_to_junit(const VerifyResult& result);
+
+/// Violated and undecided properties as workflow commands of GitHub Actions: each becomes an
+/// annotation of its line.
+[[nodiscard]] std::string verify_to_github(const VerifyResult& result);
+
+/// A page of all properties, with a timeline of each counterexample and witness.
+[[nodiscard]] std::string verify_to_html(const VerifyResult& result);
+
+/// A format of `cbc verify`.
+struct VerifyFormat {
+  std::string_view name;
+  std::string (*write)(const VerifyResult& result, const Style& style);
+  bool needs_properties = false;  ///< it has no place for anything else
+  /// Writes why there is no result, in place of a report. Null: nothing is written then.
+  std::string (*report_unreadable)(const std::vector<Diagnostic>& findings) = nullptr;
+};
+
+/// The first one is the default.
+[[nodiscard]] std::span<const VerifyFormat> verify_formats();
+
+}  // namespace cbc

@@ -1,0 +1,440 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "core/command_line/command_line.h"
+#include "core/files/ordered_work.h"
+#include "core/files/output.h"
+#include "core/support/system.h"
+#include "core/support/wording.h"
+#include "runtime/base/text.h"
+#include "verify/engine/fault_tree.h"
+#include "verify/report/open_psa.h"
+#include "verify/report/verify_report.h"
+#include "verify/verify.h"
+
+namespace cbc::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Clock = std::chrono::steady_clock;
+
+/// Three quarters of the memory of the machine; 0 if it is unknown.
+std::uint64_t default_memory() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES);
+  const long size = ::sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || size <= 0) return 0;
+  return static_cast<std::uint64_t>(pages) / 4 * 3 * static_cast<std::uint64_t>(size);
+}
+
+/// The tasks that are named in --cut-sets. Empty if the catalog lacks one, which is reported.
+std::optional<std::vector<TaskId>> find_tasks(const CompiledCatalog& catalog,
+                                              const std::vector<std::string>& names) {
+  std::vector<TaskId> tasks;
+  for (const std::string& name : names) {
+    const auto place = catalog.find_task(name);
+    if (!place) {
+      std::vector<std::string_view> known;
+      for (const std::string_view task : catalog.task_names) known.push_back(task);
+      complain("--cut-sets: catalog {} has no task {}{}", quote(catalog.file), quote(name),
+               did_you_mean(nearest(name, known)));
+      return std::nullopt;
+    }
+    tasks.push_back(catalog.task_ids[*place]);
+  }
+  return tasks;
+}
+
+/// Adds KEY=VALUE to a situation. Returns what is wrong, or nothing.
+std::string add_to_situation(const CompiledCatalog& catalog, const std::string& entry,
+                             SituationPart& situation) {
+  const std::size_t equals = entry.find('=');
+  const std::string key = entry.substr(0, equals);
+  const std::string value = entry.substr(equals + 1);
+  if (const auto variable = catalog.find_variable(key)) {
+    if (const auto place = catalog.find_value(*variable, value)) {
+      situation.variables.push_back({*variable, *place});
+      return {};
+    }
+    std::vector<std::string> values;
+    for (std::uint32_t place = 0; place < catalog.variables[*variable].value_count; ++place) {
+      values.emplace_back(catalog.name_of_value({*variable, place}));
+    }
+    return fmt::format("{}: expected {}, found {}", printable(key), join_with_or(values),
+                       quote(value));
+  }
+  if (const auto behavior = catalog.find_behavior(key)) {
+    if (value != "true" && value != "false") {
+      return fmt::format("{}: expected true or false, found {}", printable(key), quote(value));
+    }
+    situation.behaviors.push_back({catalog.behavior_ids[*behavior], value == "true"});
+    return {};
+  }
+  std::vector<std::string_view> known;
+  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+    known.push_back(catalog.name_of_variable(variable));
+  }
+  for (const std::string_view behavior : catalog.behavior_names) known.push_back(behavior);
+  return fmt::format("catalog {} has no situation variable or behavior {}{}", quote(catalog.file),
+                     quote(key), did_you_mean(nearest(key, known)));
+}
+
+/// The name of a script: "robot.12.mission.yaml" for line 12 of robot.properties.yaml.
+std::string script_name(const Property& property, const PropertyFile& file,
+                        std::set<std::string>& taken) {
+  fs::path stem = file.path == display_name("-") ? fs::path("stdin") : fs::path(file.path).stem();
+  if (stem.extension() == ".properties") stem = stem.stem();
+  const std::string first = fmt::format("{}.{}", stem.string(), property.line);
+  std::string name = first;
+  for (int number = 2; !taken.insert(name).second; ++number) {
+    name = fmt::format("{}-{}", first, number);
+  }
+  return name + ".mission.yaml";
+}
+
+/// One call of the command, after its input was read.
+class Call {
+ public:
+  Call(const VerifyOptions& options, VerifyQuestions questions)
+      : options_(options), questions_(std::move(questions)), catalog_(*questions_.catalog) {
+    result_.catalog = questions_.catalog;
+    result_.limits = limits_of(options);
+    result_.wants_cut_sets = !options.cut_sets.empty();
+  }
+
+  int run() {
+    if (const int status = check(); status != exit_ok) return status;
+    explore();
+    if (const std::string error = first_error(); !error.empty()) return complain(error);
+    if (const int status = find_cut_sets(); status != exit_ok) return status;
+    if (const int status = replay_scripts(); status != exit_ok) return status;
+    if (const int status = compare(); status != exit_ok) return status;
+    return report();
+  }
+
+ private:
+  /// Whatever can be wrong is said before the long work.
+  int check() {
+    const VerifyFormat& format = *find_named(verify_formats(), options_.format);
+    const bool has_properties =
+        std::all_of(questions_.files.begin(), questions_.files.end(),
+                    [](const auto& file) { return !file->properties.empty(); }) &&
+        !questions_.files.empty();
+    const char* const needs_properties = format.needs_properties                 ? "--format"
+                                         : options_.scripts && !options_.same_as ? "--scripts"
+                                         : options_.html                         ? "--html"
+                                                                                 : nullptr;
+    if (needs_properties != nullptr && !has_properties) {
+      return usage_error("verify", "{}{}{} needs property files with properties", needs_properties,
+                         format.needs_properties ? " " : "",
+                         format.needs_properties ? options_.format : "");
+    }
+    const char* const takes_one_file = result_.wants_cut_sets ? "--cut-sets"
+                                       : options_.same_as     ? "--same-as"
+                                                              : nullptr;
+    if (takes_one_file != nullptr && questions_.files.size() > 1) {
+      return usage_error("verify", "{} takes at most one property file, found {}", takes_one_file,
+                         questions_.files.size());
+    }
+    const auto tasks = find_tasks(catalog_, options_.cut_sets);
+    if (!tasks) return exit_unusable;
+    cut_tasks_ = *tasks;
+    if (const int status = read_situation(); status != exit_ok) return status;
+    return prepare_outputs(options_);
+  }
+
+  int read_situation() {
+    for (const std::string& entry : options_.situation) {
+      if (!situation_) situation_.emplace();
+      const std::string fault = add_to_situation(catalog_, entry, *situation_);
+      if (!fault.empty()) return complain("--situation: " + fault);
+    }
+    if (!situation_ && questions_.files.size() == 1) {
+      const SituationPart& initially = questions_.files.front()->assumptions.initially;
+      if (!initially.variables.empty() || !initially.behaviors.empty()) situation_ = initially;
+    }
+    return exit_ok;
+  }
+
+  [[nodiscard]] std::size_t count_explorations() const {
+    if (questions_.files.empty()) return catalog_.group_count();
+    std::size_t count = 0;
+    for (const auto& file : questions_.files) {
+      std::set<PropertyScope> explored;
+      for (const Property& property : file->properties) {
+        explored.insert(scope_of(catalog_, property));
+      }
+      count += file->properties.empty() ? catalog_.group_count() : explored.size();
+    }
+    return count;
+  }
+
+  void explore() {
+    const bool asks_otherwise = result_.wants_cut_sets || options_.same_as;
+    if (questions_.files.empty() && asks_otherwise) return;
+    Progress progress("exploring", count_explorations());
+    VerificationOptions of_verification;
+    of_verification.limits = result_.limits;
+    of_verification.jobs = thread_count(options_.jobs);
+    of_verification.reduce = options_.reduce;
+    std::vector<std::uint32_t> explored;
+    std::uint64_t states = 0;
+    Clock::time_point begin;
+    of_verification.on_progress = [&](const std::vector<std::uint32_t>& groups,
+                                      const ExplorationProgress& so_far) {
+      const auto now = Clock::now();
+      if (explored != groups || so_far.states < states) {
+        explored = groups;
+        begin = now;
+        progress.begin(name_groups(groups));
+      }
+      states = so_far.states;
+      progress.show(describe_progress(so_far, now - begin));
+      return !signals_.have_come();
+    };
+    if (questions_.files.empty()) {
+      result_.parts.push_back({nullptr, verify_groups(catalog_, of_verification), {}});
+    }
+    for (auto& file : questions_.files) {
+      Verification verification = verify_properties(catalog_, *file, of_verification);
+      result_.parts.push_back({std::move(file), std::move(verification), {}});
+    }
+  }
+
+  /// Compares with the older catalog, under the assumptions of the property file if there is one.
+  int compare() {
+    if (questions_.old_catalog == nullptr) return exit_ok;
+    const CompiledCatalog& old_catalog = *questions_.old_catalog;
+    Progress progress("comparing", 1);
+    progress.begin(std::string(old_catalog.file));
+    VerificationOptions of_comparison;
+    of_comparison.limits = result_.limits;
+    of_comparison.jobs = thread_count(options_.jobs);
+    const auto begin = Clock::now();
+    of_comparison.on_progress = [&](const std::vector<std::uint32_t>& /*groups*/,
+                                    const ExplorationProgress& so_far) {
+      progress.show(describe_progress(so_far, Clock::now() - begin));
+      return !signals_.have_come();
+    };
+    const Assumptions assumptions = result_.parts.empty()
+                                        ? common_assumptions(old_catalog, catalog_)
+                                        : result_.parts.front().file->assumptions;
+    ReportedComparison& reported = result_.same_as.emplace();
+    reported.old_catalog = questions_.old_catalog;
+    reported.comparison = compare_catalogs(old_catalog, catalog_, assumptions, of_comparison);
+    progress.clear();
+    if (reported.comparison.error) return complain(*reported.comparison.error);
+    return reported.comparison.witness ? replay_difference(reported) : exit_ok;
+  }
+
+  int replay_difference(ReportedComparison& reported) {
+    const bool is_for_people = options_.format == "text" && options_.output == "-";
+    const Style style = is_for_people ? style_for(stdout) : plain_style();
+    Witness& witness = *reported.comparison.witness;
+    witness.script.file = "difference";
+    reported.with_new = replay(catalog_, witness.script, style);
+    Script& of_old = reported.comparison.old_script;
+    of_old.file = witness.script.file;
+    reported.with_old = replay(*questions_.old_catalog, of_old, style);
+    if (!options_.scripts) return exit_ok;
+    const fs::path path = fs::path(*options_.scripts) / "difference.mission.yaml";
+    reported.script_path = path.string();
+    return write_output(*reported.script_path, witness.text);
+  }
+
+  static std::string name_groups(const std::vector<std::uint32_t>& groups) {
+    std::string text = groups.size() == 1 ? "group" : "groups";
+    for (const std::uint32_t group : groups) text += fmt::format(" {}", group);
+    return text;
+  }
+
+  static std::string describe_progress(const ExplorationProgress& so_far,
+                                       std::chrono::duration<double> elapsed) {
+    const double rate =
+        elapsed.count() > 0 ? static_cast<double>(so_far.transitions) / elapsed.count() : 0;
+    return fmt::format(" (depth {}, {} states, {} waiting, {} moves/s)", so_far.depth,
+                       shorten(so_far.states), shorten(so_far.waiting),
+                       shorten(static_cast<std::uint64_t>(rate)));
+  }
+
+  /// A number in at most five characters, so that the line fits: "1234", "1234k".
+  static std::string shorten(std::uint64_t number) {
+    constexpr std::array units = {"", "k", "M", "G"};
+    std::size_t unit = 0;
+    for (; number >= 10'000 && unit + 1 < units.size(); ++unit) number /= 1000;
+    return std::to_string(number) + units.at(unit);
+  }
+
+  /// About a question that has no answer; empty if there is none.
+  [[nodiscard]] std::string first_error() const {
+    for (const VerifyPart& part : result_.parts) {
+      for (const Exploration& exploration : part.verification.explorations) {
+        if (exploration.error) {
+          const std::string_view file = part.file ? part.file->path : catalog_.file;
+          return fmt::format("{}: {}", quote(file), *exploration.error);
+        }
+      }
+    }
+    return {};
+  }
+
+  int find_cut_sets() {
+    const std::vector<bool> ruled_out = ruled_out_by(catalog_, situation_);
+    for (const TaskId task : cut_tasks_) {
+      result_.cut_sets.push_back(cut_sets_of(task, options_.order, ruled_out, Clock::now()));
+    }
+    const bool is_about_groups =
+        std::any_of(result_.parts.begin(), result_.parts.end(),
+                    [](const VerifyPart& part) { return part.is_about_groups(); });
+    if (is_about_groups && options_.format == "text") {
+      const Clock::time_point begin = Clock::now();
+      for (const TaskId task : catalog_.task_ids) {
+        if (catalog_.tasks[task].start_on_request == 0) continue;
+        result_.single_faults.push_back(cut_sets_of(task, 1, ruled_out, begin));
+      }
+    }
+    if (!options_.open_psa) return exit_ok;
+    const auto tree = make_fault_tree(catalog_, cut_tasks_.front(), ruled_out);
+    if (const auto* const reason = std::get_if<std::string>(&tree)) {
+      return complain("cannot write {}: {}", quote(*options_.open_psa), *reason);
+    }
+    return write_output(*options_.open_psa, open_psa_text(catalog_, std::get<FaultTree>(tree)));
+  }
+
+  /// `begin`: since when the time limit counts.
+  TaskCutSets cut_sets_of(TaskId task, std::uint32_t order, const std::vector<bool>& ruled_out,
+                          Clock::time_point begin) {
+    const auto may_go_on = [&] {
+      const std::chrono::duration<double> elapsed = Clock::now() - begin;
+      const double limit = result_.limits.seconds;
+      return !signals_.have_come() && (limit <= 0 || elapsed.count() < limit);
+    };
+    if (!may_go_on()) return {task, order, {}};
+    Progress progress("searching", 1);
+    progress.begin(std::string(catalog_.name_of_task(task)));
+    CutSetOptions of_search;
+    of_search.order = order;
+    of_search.on_progress = [&](const CutSetProgress& so_far) {
+      progress.show(fmt::format(" ({} of {}, {} found)", quantity(so_far.examined, "set"),
+                                quantity(so_far.size, "behavior"), so_far.found));
+      return may_go_on();
+    };
+    return {task, order, cbc::find_cut_sets(catalog_, task, ruled_out, of_search)};
+  }
+
+  /// Runs all counterexamples and witnesses, and writes them to files.
+  int replay_scripts() {
+    const bool is_for_people = options_.format == "text" && options_.output == "-";
+    const Style style = is_for_people ? style_for(stdout) : plain_style();
+    std::set<std::string> taken;
+    for (VerifyPart& part : result_.parts) {
+      for (Answer& answer : part.verification.answers) {
+        ReportedAnswer& reported = part.answers.emplace_back();
+        reported.answer = &answer;
+        if (!answer.witness) continue;
+        answer.witness->script.file =
+            fmt::format("{}:{}: {}", part.file->path, answer.property->line,
+                        title_of(catalog_, *answer.property));
+        reported.replay = replay(catalog_, answer, style);
+        if (const int status = check_replay(answer, *reported.replay); status != exit_ok) {
+          return status;
+        }
+        if (!options_.scripts) continue;
+        const fs::path path =
+            fs::path(*options_.scripts) / script_name(*answer.property, *part.file, taken);
+        reported.script_path = path.string();
+        const int status = write_output(*reported.script_path, answer.witness->text);
+        if (status != exit_ok) return status;
+      }
+    }
+    return options_.html ? write_output(*options_.html, verify_to_html(result_)) : exit_ok;
+  }
+
+  static int check_replay(const Answer& answer, const Replay& replayed) {
+    if (replayed.result.failed == 0 && replayed.result.status == Coordinator::Status::ok) {
+      return exit_ok;
+    }
+    complain("{}: this script does not end as it should", printable(answer.witness->script.file));
+    complain(
+        "this is a bug in cbc, not in the catalog; please report it with the catalog and "
+        "this script:");
+    fmt::print(stderr, "{}", answer.witness->text);
+    return exit_internal;
+  }
+
+  int report() {
+    const VerifyFormat& format = *find_named(verify_formats(), options_.format);
+    const Style style = options_.output == "-" ? style_for(stdout) : plain_style();
+    const int status = write_output(options_.output, format.write(result_, style));
+    if (status != exit_ok) return status;
+    return result_.is_answered() ? exit_ok : exit_no;
+  }
+
+  const VerifyOptions& options_;
+  VerifyQuestions questions_;
+  const CompiledCatalog& catalog_;
+  StopSignals signals_;
+  VerifyResult result_;
+  std::vector<TaskId> cut_tasks_;
+  std::optional<SituationPart> situation_;
+};
+
+}  // namespace
+
+ExplorationLimits limits_of(const VerifyOptions& options) {
+  ExplorationLimits limits;
+  limits.max_states = options.max_states;
+  limits.max_memory =
+      options.max_memory.empty() ? default_memory() : parse_memory(options.max_memory).value_or(0);
+  if (!options.time_limit.empty()) {
+    limits.seconds = to_seconds(parse_seconds(options.time_limit).value);
+  }
+  return limits;
+}
+
+int prepare_outputs(const VerifyOptions& options) {
+  std::vector<std::string> outputs;
+  if (options.output != "-") outputs.push_back(options.output);
+  for (const auto& output : {options.html, options.open_psa}) {
+    if (output) outputs.push_back(*output);
+  }
+  for (const std::string& output : outputs) {
+    if (!can_write_output(output)) return exit_unusable;
+  }
+  if (!options.scripts) return exit_ok;
+  if (const std::error_code error = make_folder(*options.scripts)) {
+    return complain("cannot make the folder {}: {}", quote(*options.scripts), error.message());
+  }
+  return exit_ok;
+}
+
+int verify(const VerifyOptions& options) {
+  QuestionLoader loader;
+  std::optional<VerifyQuestions> questions =
+      loader.load(options.paths, options.same_as, options.beside, options.write_tests);
+  if (!questions) {
+    // CI systems could take a missing report for one without failures.
+    const VerifyFormat& format = *find_named(verify_formats(), options.format);
+    if (format.report_unreadable != nullptr) {
+      static_cast<void>(write_output(options.output, format.report_unreadable(loader.findings())));
+    }
+    return exit_unusable;
+  }
+  if (options.write_tests) return write_tests(options, *questions);
+  if (options.mutants) return verify_mutants(options, *questions);
+  return Call(options, std::move(*questions)).run();
+}
+
+}  // namespace cbc::cli
