@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -21,15 +22,14 @@
 namespace cbc::oracle::diff_test {
 namespace {
 
-constexpr std::uint64_t default_diffs = 1000;
+constexpr std::uint64_t default_diffs = 500;
 
 /// What a catalog says: "b requires t" -> {"minimum_performance": "500000"}.
 using Statements = std::map<std::string, std::map<std::string, std::string>>;
 
 std::string truth(bool value) { return value ? "true" : "false"; }
 
-std::string list_of(std::vector<std::string> values) {
-  std::sort(values.begin(), values.end());
+std::string list_of(const std::set<std::string>& values) {
   std::string text;
   for (const std::string& value : values) text += (text.empty() ? "" : ", ") + value;
   return "[" + text + "]";
@@ -40,9 +40,9 @@ std::vector<std::string> values_of(const Variable& variable) {
 }
 
 std::string text_of(const Condition& condition, const Variable& variable) {
-  std::vector<std::string> values;
-  for (const std::size_t value : condition.values) values.push_back(values_of(variable)[value]);
-  return variable.is_boolean() && values.size() == 1 ? values.front() : list_of(values);
+  std::set<std::string> values;
+  for (const std::size_t value : condition.values) values.insert(values_of(variable)[value]);
+  return variable.is_boolean() && values.size() == 1 ? *values.begin() : list_of(values);
 }
 
 Statements statements_of(const Catalog& catalog) {
@@ -50,7 +50,8 @@ Statements statements_of(const Catalog& catalog) {
   for (const Variable& variable : catalog.variables) {
     auto& attributes = statements["variable " + variable.name];
     attributes["initial value"] = values_of(variable).front();
-    if (!variable.is_boolean()) attributes["values"] = list_of(variable.values);
+    if (!variable.is_boolean())
+      attributes["values"] = list_of({variable.values.begin(), variable.values.end()});
   }
   for (const Task& task : catalog.tasks) {
     auto& attributes = statements["task " + task.name];
@@ -123,7 +124,15 @@ std::string to_text(const AttributeValue& value) {
   if (const auto* const time = std::get_if<cbc::Microseconds>(&value)) {
     return std::to_string(*time);
   }
-  return std::get<std::string>(value);
+  const auto& text = std::get<std::string>(value);
+  if (!text.starts_with("[")) return text;
+  std::set<std::string> values;
+  for (std::size_t begin = 1; begin < text.size();) {
+    const std::size_t end = text.find_first_of(",]", begin);
+    values.insert(text.substr(begin, end - begin));
+    begin = end + 2;
+  }
+  return list_of(values);
 }
 
 /// Packages and parameters are left to the form of the YAML; the model has none.

@@ -1,5 +1,5 @@
 // The findings of the semantic rules on a catalog that catalog_yaml() wrote, read back in terms of
-// the model: the place says what a finding is about, and the message must agree.
+// the model: the place says what a finding is about.
 #pragma once
 
 #include <compare>

@@ -31,6 +31,7 @@ struct Place {
   std::string key;
   std::string value;
   std::string parent;          ///< the key that the mapping or its list belongs to
+  bool is_of_section = false;  ///< that key is one of the catalog itself
   bool begins_entry = false;   ///< there is a dash before it
   bool has_next = false;       ///< the next line is the next key of the mapping
   bool follows_value = false;  ///< the line before is a key of the mapping with a scalar
@@ -62,6 +63,7 @@ std::vector<Place> places_in(const Lines& lines) {
     place.key = lines[i].substr(*column, colon - *column);
     while (!open.empty() && open.back().column >= *column) open.pop_back();
     if (!open.empty()) place.parent = open.back().key;
+    place.is_of_section = open.size() == 1;
     open.push_back({*column, place.key});
     place.begins_entry = lines[i].find('-') < *column;
     place.has_next = i + 1 < lines.size() && column_of_key(lines[i + 1]) == column &&
@@ -128,6 +130,7 @@ std::optional<Expected> indented_too_far(Lines& lines, const Place& place) {
 }
 
 std::optional<Expected> key_twice(Lines& lines, const Place& place) {
+  if (place.begins_entry) return std::nullopt;  // it would begin another entry
   const auto next = lines.begin() + static_cast<std::ptrdiff_t>(place.line) + 1;
   lines.insert(next, std::string(place.column, ' ') + place.key + ": " + place.value);
   return Expected{"duplicate-key", place.line + 1, place.column, "'" + place.key + "'"};
@@ -190,6 +193,31 @@ std::optional<Expected> behavior_twice(Lines& lines, const Place& place) {
                   "'" + place.value + "'"};
 }
 
+/// An entry of a list with a copy of its name before it.
+std::optional<Expected> entry_twice(Lines& lines, const Place& place) {
+  std::string_view rule;
+  if (place.parent == "parameters") rule = "duplicate-parameter";
+  if (place.parent == "requires" && !place.has_next) rule = "redundant-requirement";
+  if (place.parent == "tasks" && place.is_of_section) rule = "duplicate-task";
+  if (rule.empty() || !place.begins_entry) return std::nullopt;
+  const std::string copy = lines[place.line];
+  lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(place.line), copy);
+  return Expected{rule, place.line + 1, place.value_column, "'" + place.value + "'"};
+}
+
+std::optional<Expected> fraction(Lines& lines, const Place& place) {
+  if (!percentages.contains(place.key)) return std::nullopt;
+  const bool is_suitability = place.key == "suitability";
+  return at_value(lines, place, "0.8",
+                  is_suitability ? "suspicious-suitability" : "suspicious-minimum", "80 %");
+}
+
+std::optional<Expected> older_name(Lines& lines, const Place& place) {
+  if (place.key != "suitability") return std::nullopt;
+  lines[place.line].replace(place.column, place.key.size(), "efficacy");
+  return Expected{"deprecated-key", place.line, place.column, "write 'suitability"};
+}
+
 struct Kind {
   const char* name;
   Mistake make;
@@ -208,6 +236,9 @@ constexpr Kind kinds[] = {
     {"out of range", out_of_range},
     {"required task misspelt", required_task_misspelt},
     {"behavior twice", behavior_twice},
+    {"entry twice", entry_twice},
+    {"fraction", fraction},
+    {"older name", older_name},
 };
 
 /// `line_break`: Windows has its own.
@@ -247,14 +278,12 @@ std::string find_fault(const std::vector<Diagnostic>& findings, const Expected& 
 }
 
 TEST(LintMistakes, AreFoundWhereTheyWereMade) {
-  for (const std::string name : {"quadrotor", "mobile-manipulator", "inspection"}) {
-    const Lines good =
-        test::lines_of(test::read_file(CBC_SOURCE_DIR "/catalogs/" + name + ".yaml"));
-    const std::vector<Place> places = places_in(good);
-    ASSERT_GE(places.size(), 60U) << name;
-    for (const Kind& kind : kinds) {
-      std::size_t made = 0;
-      for (const Place& place : places) {
+  for (const Kind& kind : kinds) {
+    std::size_t made = 0;
+    for (const std::string name : {"quadrotor", "mobile-manipulator", "inspection"}) {
+      const Lines good =
+          test::lines_of(test::read_file(CBC_SOURCE_DIR "/catalogs/" + name + ".yaml"));
+      for (const Place& place : places_in(good)) {
         Lines bad = good;
         const auto expected = kind.make(bad, place);
         if (!expected) continue;
@@ -262,8 +291,8 @@ TEST(LintMistakes, AreFoundWhereTheyWereMade) {
         EXPECT_EQ(find_fault(lint(bad, made % 5 == 0 ? "\r\n" : "\n"), *expected), "")
             << kind.name << " in " << name << ", line " << place.line + 1;
       }
-      EXPECT_GE(made, 3U) << kind.name << " in " << name;
     }
+    EXPECT_GE(made, 5U) << kind.name;
   }
 }
 
