@@ -1,12 +1,12 @@
 // Single mistakes, made wherever catalogs of the project have room for them: lint must find each
 // where it was made, and no other error.
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
