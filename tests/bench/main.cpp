@@ -6,7 +6,6 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/benchmarks.h"
-#include "bench/tables.h"
 
 namespace {
 
@@ -39,10 +38,8 @@ int run(int argc, char** argv) {
   cbc::bench::register_cut_set_benchmarks();
   cbc::bench::register_exploration_benchmarks();
   cbc::bench::register_fleet_benchmarks();
-  cbc::bench::TableReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
+  benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
-  reporter.print_tables(reporter.is_for_people() ? std::cout : std::cerr);
   return 0;
 }
 

@@ -1,19 +1,12 @@
 // `cbc compile`: what it writes, and what it leaves behind if it cannot.
 #include <chrono>
-#include <csignal>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <random>
 #include <set>
 #include <string>
-#include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <thread>
 #include <vector>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "cbc/version.h"
@@ -195,47 +188,6 @@ TEST_F(Compile, LeavesNothingBehindWhereItCannotWrite) {
   EXPECT_EQ(folder.names(), (std::set<std::string>{"robot.yaml", "closed"}));
 }
 
-/// Catalog of many tasks, for which writing takes a while.
-std::string large_catalog() {
-  constexpr int tasks = 20'000;
-  std::string text = "behaviors:\n";
-  for (int task = 0; task < tasks; ++task) {
-    text += fmt::format("- {{behavior: BEHAVIOR_{0}, task: TASK_{0}}}\n", task);
-  }
-  return text;
-}
-
-/// What files of the program may grow to, while this object lives.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    rlimit limit = before_;
-    limit.rlim_cur = bytes;
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  rlimit before_{};
-};
-
-/// As on a full disk: a part can be written, then no more.
-TEST_F(Compile, LeavesNothingBehindWhereOnlyAPartCanBeWritten) {
-  folder.write("large.yaml", large_catalog());
-  folder.write("large.cbc", "as it was");
-  Result result;
-  {
-    const FileSizeLimit limit(64 << 10);
-    result = cbc({"compile", "large.yaml"});
-  }
-  expect_result(result, 2, "", "cbc: cannot write 'large.cbc': File too large\n");
-  EXPECT_EQ(folder.read("large.cbc"), "as it was");
-  EXPECT_EQ(folder.names(), (std::set<std::string>{"large.yaml", "large.cbc"}));
-}
-
 TEST_F(Compile, RemovesLeftoversOfRunsThatWereKilled) {
   folder.write("robot.yaml", robot);
   folder.write(".cbc-0123456789abcdef.tmp", "of an old run");
@@ -245,55 +197,6 @@ TEST_F(Compile, RemovesLeftoversOfRunsThatWereKilled) {
   expect_silence(cbc({"compile", "robot.yaml"}));
   EXPECT_EQ(folder.names(),
             (std::set<std::string>{".cbc-0123456789abcdee.tmp", "robot.cbc", "robot.yaml"}));
-}
-
-/// Whether a process, which nobody has waited for yet, is at its end.
-bool has_ended(pid_t process) {
-  siginfo_t state{};
-  waitid(P_PID, static_cast<id_t>(process), &state, WEXITED | WNOHANG | WNOWAIT);
-  return state.si_pid == process;
-}
-
-/// Whatever the moment, there is the old file or the new one, whole, and nothing else.
-TEST_F(Compile, LeavesAWholeFileWhenASignalComes) {
-  folder.write("large.yaml", large_catalog());
-  const auto start = std::chrono::steady_clock::now();
-  ASSERT_EQ(cbc({"compile", "large.yaml"}).status, 0);
-  const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(
-      std::chrono::steady_clock::now() - start);
-  const std::string complete = folder.read("large.cbc");
-  const std::set<std::string> names = folder.names();
-  const std::string old = "as it was";
-  const auto size = [&] { return fs::file_size(folder / "large.cbc"); };
-
-  constexpr int rounds = 16;
-  std::mt19937 random(1);
-  std::uniform_int_distribution<std::int64_t> moment(0, whole.count());
-  int killed = 0;
-  for (int round = 0; round < rounds; ++round) {
-    folder.write("large.cbc", old);
-    const int signal = round % 4 == 3 ? SIGINT : SIGTERM;
-    const Result result = run({{"compile", "large.yaml"}, folder.path()}, [&](pid_t process) {
-      if (round % 2 == 0) {
-        std::this_thread::sleep_for(std::chrono::microseconds(moment(random)));
-      } else {
-        // As soon as anything is written.
-        while (!has_ended(process) && folder.names() == names && size() == old.size()) {
-        }
-      }
-      kill(process, signal);
-    });
-    constexpr int signal_base = 128;
-    if (result.status != 0) {
-      EXPECT_EQ(result.status, signal_base + signal) << result.err;
-      ++killed;
-    }
-    const std::string left = folder.read("large.cbc");
-    EXPECT_TRUE(left == complete || left == old) << left.size() << " bytes";
-    EXPECT_TRUE(result.status != 0 || left == complete);
-    EXPECT_EQ(folder.names(), names);
-  }
-  EXPECT_GT(killed, 0);
 }
 
 }  // namespace

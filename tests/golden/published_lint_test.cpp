@@ -1,12 +1,7 @@
-// What `cbc lint` says about catalogs published with the original tool, if they are at hand.
+// What `cbc lint --fix` makes of catalogs published with the original tool, if they are at hand.
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <map>
-#include <set>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -33,90 +28,6 @@ Json lint(const fs::path& file) {
   EXPECT_EQ(result.status, report["errors"] == 0 ? 0 : 1);
   return report;
 }
-
-/// "LINE RULE" of all findings of a severity.
-std::set<std::string> places_of(const Json& report, const std::string& severity) {
-  std::set<std::string> places;
-  for (const Json& diagnostic : report["files"][0]["diagnostics"]) {
-    if (diagnostic["severity"] == severity) {
-      places.insert(diagnostic["line"].dump() + " " + diagnostic["rule"].get<std::string>());
-    }
-  }
-  return places;
-}
-
-std::string message_at(const Json& report, std::uint64_t line, const std::string& rule) {
-  for (const Json& diagnostic : report["files"][0]["diagnostics"]) {
-    if (diagnostic["line"] == line && diagnostic["rule"] == rule) return diagnostic["message"];
-  }
-  return "no finding";
-}
-
-class PublishedLint : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!fs::exists(test::shared_catalogs())) GTEST_SKIP() << "no " << test::shared_catalogs();
-  }
-
-  static Json lint_shared(const std::string& name) { return lint(test::shared_catalogs() / name); }
-};
-
-TEST_F(PublishedLint, FindsTheKeyOnTheWrongLevel) {
-  const Json report = lint_shared("behavior_catalog.yaml");
-  EXPECT_EQ(places_of(report, "error"), std::set<std::string>());
-  // HOVER starts neither by itself nor because it is required.
-  EXPECT_EQ(places_of(report, "warning"),
-            (std::set<std::string>{"212 never-started", "294 unknown-key"}));
-  EXPECT_NE(message_at(report, 294, "unknown-key").find("'allowed_values'"), std::string::npos);
-}
-
-TEST_F(PublishedLint, CountsWhatACatalogHas) {
-  const Json report = lint_shared("behavior_catalog.yaml");
-  const Json summary = report["files"][0]["summary"];
-  ASSERT_TRUE(summary.is_object());
-  EXPECT_EQ(summary["tasks"], 21);
-  EXPECT_EQ(summary["behaviors"], 26);
-  EXPECT_EQ(summary["constraints"]["exclusive_pairs"], 17);
-  EXPECT_EQ(summary["constraints"]["requirements"], 16);
-  EXPECT_EQ(summary["constraints"]["task_minimums"], 0);
-  EXPECT_EQ(summary["constraints"]["total"], 33);
-  EXPECT_EQ(summary["groups"].size(), 9U);
-
-  // The search space anew, from the lines of the file: "  task: NAME" belongs to a behavior.
-  std::map<std::string, std::uint64_t> behaviors_of;
-  std::uint64_t behaviors = 0;
-  std::ifstream file(test::shared_catalogs() / "behavior_catalog.yaml");
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind("- behavior: ", 0) == 0) ++behaviors;
-    if (line.rfind("  task: ", 0) == 0)
-      ++behaviors_of[line.substr(8, line.find_last_not_of(" \r") - 7)];
-  }
-  EXPECT_EQ(behaviors, 26U);
-  std::uint64_t space = 1;
-  for (const auto& [task, count] : behaviors_of) space *= 1 + count;
-  EXPECT_EQ(summary["search_space"], std::to_string(space));
-}
-
-TEST_F(PublishedLint, FindsTheRequirementThatExcludesItsOwnTask) {
-  const Json report = lint_shared("behavior_catalog_impossible.yaml");
-  EXPECT_EQ(places_of(report, "error"), std::set<std::string>{"147 exclusive-requirement"});
-}
-
-TEST_F(PublishedLint, FindsTheMissingTaskAndSuggestsTheOneThatIsMeant) {
-  const Json report = lint_shared("behavior_catalog_missing_task.yaml");
-  EXPECT_EQ(places_of(report, "error"), std::set<std::string>{"111 undefined-task"});
-  EXPECT_NE(message_at(report, 111, "undefined-task").find("did you mean 'SELF_LOCALIZE'?"),
-            std::string::npos);
-}
-
-TEST_F(PublishedLint, DoesNotStopAtTheFirstMistake) {
-  const Json report = lint_shared("bad_behavior_catalog.yaml");
-  EXPECT_EQ(places_of(report, "error"), std::set<std::string>{"65 missing-key"});
-  EXPECT_EQ(places_of(report, "warning").count("288 unknown-key"), 1U);
-  EXPECT_NE(message_at(report, 288, "unknown-key").find("'allowed_values'"), std::string::npos);
-}
-
-// Fixes ---------------------------------------------------------------------------------------
 
 /// Starts every task in turn; nothing is stopped, so that each start finds others running.
 std::string script_of(const Json& summary) {

@@ -136,16 +136,6 @@ TEST(Semantics, ExamplesAreWhatTheProgramDoes) {
   }
 }
 
-TEST(Semantics, AnOmissionStandsForOneLineOrMore) {
-  EXPECT_TRUE(match({"a", "b"}, {"a", "b"}));
-  EXPECT_FALSE(match({"a", "b"}, {"a"}));
-  EXPECT_FALSE(match({"a"}, {"a", "b"}));
-  EXPECT_TRUE(match({"a", "b", "b", "c"}, {"a", "…", "b", "c"}));
-  EXPECT_TRUE(match({"a", "b", "c"}, {"…", "c"}));
-  EXPECT_FALSE(match({"a", "b"}, {"a", "b", "…"}));
-  EXPECT_FALSE(match({"a", "b", "c"}, {"…", "b"}));
-}
-
 /// The titles of the sections, in order.
 Lines titles_of_page() {
   Lines titles;

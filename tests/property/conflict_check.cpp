@@ -1,12 +1,10 @@
 #include "conflict_check.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <exception>
 #include <map>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -19,116 +17,6 @@ namespace cbc::oracle {
 namespace {
 
 using nlohmann::ordered_json;
-
-// Where things stand in the text of a catalog
-
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
-// Whether the words occur, and not as a part of longer ones.
-bool has_words(const std::string& line, const std::string& words) {
-  for (std::size_t at = line.find(words); at != std::string::npos; at = line.find(words, at + 1)) {
-    const std::size_t end = at + words.size();
-    if ((at == 0 || !is_word(line[at - 1])) && (end == line.size() || !is_word(line[end]))) {
-      return true;
-    }
-  }
-  return false;
-}
-
-// Understands the forms that catalog_yaml() gives a catalog, no others.
-class CatalogText {
- public:
-  explicit CatalogText(const std::string& yaml) {
-    std::istringstream stream(yaml);
-    for (std::string line; std::getline(stream, line);) {
-      line.erase(
-          std::remove_if(line.begin(), line.end(), [](char c) { return c == '"' || c == '\''; }),
-          line.end());
-      lines_.push_back(line.substr(0, line.find(" #")));
-    }
-  }
-
-  // A behavior requires no task that it performs, so only one line names the task.
-  void check_requirement(std::size_t line, const std::string& behavior,
-                         const std::string& task) const {
-    const Item item = find_item("behaviors", "behavior: " + behavior);
-    demand(item.has(line), "not a line of " + behavior);
-    demand(has_words(at(line), task), "a line that does not name " + task);
-  }
-
-  void check_task_minimum(std::size_t line, const std::string& task) const {
-    const Item item = find_item("tasks", "task: " + task);
-    demand(item.has(line), "not a line of " + task);
-    demand(has_words(at(line), "minimum_performance"), "a line without the minimum");
-  }
-
-  // The names may stand on lines of their own; there may be more than one list with both.
-  void check_exclusivity(std::size_t line, const std::string& task,
-                         const std::string& other) const {
-    for (const Item& item : items("exclusivity_constraints")) {
-      if (item.has(line)) {
-        demand(names(item, task) && names(item, other), "a list without both tasks");
-        demand(has_words(at(line), "mutually_exclusive"), "not the first line of a list");
-        return;
-      }
-    }
-    demand(false, "not a line of an exclusivity list");
-  }
-
- private:
-  // An entry of a section: some of the lines, counted from 1.
-  struct Item {
-    std::size_t first = 0;
-    std::size_t last = 0;
-
-    bool has(std::size_t line) const { return first <= line && line <= last; }
-  };
-
-  const std::string& at(std::size_t line) const { return lines_.at(line - 1); }
-
-  bool names(const Item& item, const std::string& words) const {
-    for (std::size_t line = item.first; line <= item.last; ++line) {
-      if (has_words(at(line), words)) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  Item find_item(const std::string& section, const std::string& words) const {
-    for (const Item& item : items(section)) {
-      if (names(item, words)) {
-        return item;
-      }
-    }
-    throw std::runtime_error("the catalog has no \"" + words + "\"");
-  }
-
-  // All entries are one if they share their line.
-  std::vector<Item> items(const std::string& section) const {
-    if (at(1).front() == '{') {
-      return {{1, 1}};
-    }
-    std::size_t line = 1;
-    while (at(line).rfind(section + ":", 0) != 0) {
-      ++line;
-    }
-    if (at(line).find_first_not_of(' ', section.size() + 1) != std::string::npos) {
-      return {{line, line}};
-    }
-    std::vector<Item> result;
-    const std::string bullet = std::string(at(line + 1).find('-'), ' ') + "- ";
-    for (++line; line <= lines_.size() && !is_word(at(line).front()); ++line) {
-      if (at(line).rfind(bullet, 0) == 0) {
-        result.push_back({line, line});
-      }
-      result.back().last = line;
-    }
-    return result;
-  }
-
-  std::vector<std::string> lines_;  // without quotes and remarks
-};
 
 // The state before an event
 
@@ -195,16 +83,14 @@ struct Reason {
   std::size_t other_task = none;
   std::size_t behavior = none;
   int priority = 0;
-  std::size_t line = 0;
   Millionths minimum = 0;
   std::vector<std::pair<std::size_t, std::size_t>> best;  // tasks and behaviors
 };
 
 class Checker {
  public:
-  Checker(const CatalogFacts& facts, const std::string& catalog_yaml, const Script& script,
-          Statistics* statistics)
-      : facts_(facts), text_(catalog_yaml), statistics_(statistics) {
+  Checker(const CatalogFacts& facts, const Script& script, Statistics* statistics)
+      : facts_(facts), statistics_(statistics) {
     for (std::size_t task = 0; task < facts.catalog.tasks.size(); ++task) {
       tasks_[facts.catalog.tasks[task].name] = task;
     }
@@ -287,7 +173,6 @@ class Checker {
     for (const ordered_json& entry : event.at("conflict")) {
       reasons.push_back(read_reason(entry));
       try {
-        check_line(reasons.back());
         check_truth(rejection, reasons.back());
       } catch (const std::exception& error) {
         throw std::runtime_error(entry.dump() + ": " + error.what());
@@ -357,9 +242,6 @@ class Checker {
     if (entry.contains("priority")) {
       reason.priority = entry["priority"].get<int>();
     }
-    if (entry.contains("line")) {
-      reason.line = entry["line"].get<std::size_t>();
-    }
     if (reason.kind == Kind::requirement || reason.kind == Kind::performance) {
       reason.minimum = minimum_of(reason);
     }
@@ -385,18 +267,6 @@ class Checker {
       }
     }
     throw std::runtime_error("the behavior does not require the task");
-  }
-
-  void check_line(const Reason& reason) const {
-    const std::vector<Task>& tasks = facts_.catalog.tasks;
-    if (reason.kind == Kind::exclusive) {
-      text_.check_exclusivity(reason.line, tasks[reason.task].name, tasks[reason.other_task].name);
-    } else if (reason.behavior != none && reason.task != none) {
-      text_.check_requirement(reason.line, facts_.catalog.behaviors[reason.behavior].name,
-                              tasks[reason.task].name);
-    } else if (reason.kind == Kind::performance) {
-      text_.check_task_minimum(reason.line, tasks[reason.task].name);
-    }
   }
 
   // Whether the catalog, or the state before the event, is what the reason says.
@@ -701,7 +571,6 @@ class Checker {
   }
 
   const CatalogFacts& facts_;
-  CatalogText text_;
   Statistics* statistics_;
   std::map<std::string, std::size_t> tasks_;
   std::map<std::string, std::size_t> behaviors_;
@@ -710,10 +579,9 @@ class Checker {
 
 }  // namespace
 
-std::optional<ConflictFault> check_conflicts(const CatalogFacts& facts,
-                                             const std::string& catalog_yaml, const Script& script,
+std::optional<ConflictFault> check_conflicts(const CatalogFacts& facts, const Script& script,
                                              const ordered_json& events, Statistics* statistics) {
-  Checker checker(facts, catalog_yaml, script, statistics);
+  Checker checker(facts, script, statistics);
   for (std::size_t i = 0; i < events.size(); ++i) {
     try {
       checker.handle(events[i]);

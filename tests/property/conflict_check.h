@@ -1,6 +1,6 @@
 // Checks the `conflict` of every event by brute force: the relaxed problem of a rejected event is
-// small enough to look at each of its assignments. Knows the catalog as a model and as the text
-// that was read, and the state before an event from the events before it.
+// small enough to look at each of its assignments. Knows the state before an event from the events
+// before it.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,7 @@ struct ConflictFault {
 };
 
 // The first conflict that is wrong, if one is. Statistics may be null.
-std::optional<ConflictFault> check_conflicts(const CatalogFacts& facts,
-                                             const std::string& catalog_yaml, const Script& script,
+std::optional<ConflictFault> check_conflicts(const CatalogFacts& facts, const Script& script,
                                              const nlohmann::ordered_json& events,
                                              Statistics* statistics);
 

@@ -87,7 +87,7 @@ std::optional<std::string> find_fault(const Case& sample, Random& forms, Statist
              event_text(actual, index) + "\n";
     }
     const std::optional<ConflictFault> fault =
-        check_conflicts(CatalogFacts(sample.catalog), catalog, sample.script, actual, statistics);
+        check_conflicts(CatalogFacts(sample.catalog), sample.script, actual, statistics);
     if (!fault) return std::nullopt;
     return inputs + "--- wrong conflict: event " + std::to_string(fault->event + 1) + "\n" +
            fault->what + "\n--- subject\n" + event_text(actual, fault->event) + "\n";

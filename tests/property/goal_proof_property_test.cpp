@@ -17,7 +17,6 @@
 #include "coverage/engine/goal_watch.h"
 #include "coverage/engine/goals.h"
 #include "demand.h"
-#include "move_replay.h"
 #include "plain_model.h"
 #include "random_cases.h"
 #include "verify_case.h"
@@ -29,6 +28,57 @@ using oracle::demand;
 
 constexpr std::uint64_t default_cases = 100;
 constexpr std::size_t most_states = 40;
+
+/// By move, counted from 1: the one by which the first set of the queue before it joined; 0 is the
+/// start of the script, nothing an empty queue.
+using Joins = std::vector<std::optional<std::size_t>>;
+
+Joins joins_of_first_sets(const PlainModel& model, const std::vector<Move>& script) {
+  Joins joins(1);
+  Snapshot state = model.first_state();
+  std::vector<std::size_t> queue(PlainModel::sets_of_queue(state).size(), 0);
+  for (const Move& move : script) {
+    joins.push_back(queue.empty() ? std::nullopt : std::optional(queue.front()));
+    Step step = model.step(state, move);
+    std::vector<std::size_t> next;
+    for (const auto& old_place : step.old_place) {
+      next.push_back(old_place ? queue[*old_place] : joins.size() - 1);
+    }
+    queue = std::move(next);
+    state = std::move(step.next);
+  }
+  return joins;
+}
+
+/// Instants of the moves, increasing, at which the sets of the queue come due exactly where the
+/// script has it: the least ones that satisfy all lower bounds, one move after the other, again and
+/// again.
+std::vector<Microseconds> times_of(const PlainModel& model, const std::vector<Move>& script) {
+  const Joins joins = joins_of_first_sets(model, script);
+  std::vector<Microseconds> times(joins.size(), 0);
+  bool has_changed = true;
+  for (std::size_t round = 0; has_changed; ++round) {
+    demand(round <= joins.size() + 1, "no times fit the script");
+    has_changed = false;
+    const auto raise = [&](std::size_t place, Microseconds time) {
+      if (times[place] >= time) return;
+      times[place] = time;
+      has_changed = true;
+    };
+    for (std::size_t place = 1; place < times.size(); ++place) {
+      raise(place, times[place - 1] + 1);
+      if (!joins[place]) continue;
+      if (script[place - 1].kind == Move::Kind::due) {
+        raise(place, times[*joins[place]] + reactive_delay);
+        raise(*joins[place], times[place] - reactive_delay);
+      } else {
+        raise(*joins[place], times[place] - reactive_delay + 1);
+      }
+    }
+  }
+  times.erase(times.begin());
+  return times;
+}
 
 class Watched final : public EventListener {
  public:

@@ -17,16 +17,12 @@ using yaml::Node;
 
 std::string in_quotes(const std::string& name) { return "'" + name + "'"; }
 
-// What is left of a text after its beginning.
-std::optional<std::string> after(const std::string& text, const std::string& beginning) {
-  if (text.rfind(beginning, 0) != 0) return std::nullopt;
-  return text.substr(beginning.size());
-}
-
-// What is left of a text before its end.
-std::optional<std::string> before(const std::string& text, const std::string& end) {
-  if (text.size() < end.size() || text.substr(text.size() - end.size()) != end) return std::nullopt;
-  return text.substr(0, text.size() - end.size());
+// What stands between two parts of a text.
+std::string between(const std::string& text, const std::string& begin, const std::string& end) {
+  const std::size_t place = text.find(begin);
+  demand(place != std::string::npos && text.ends_with(end), "not the message of this rule");
+  const std::size_t first = place + begin.size();
+  return text.substr(first, text.size() - end.size() - first);
 }
 
 // Where the parts of a catalog stand.
@@ -106,8 +102,6 @@ class FindingReader {
   void read(const Diagnostic& finding) {
     if (finding.rule == "exclusive-requirement") {
       const RequirementEntry entry = entry_at(finding.range);
-      expect(after(finding.message, "behavior " + behavior(entry) + " requires " + task(entry) +
-                                        ", which excludes "));
       demand(std::find(findings_.exclusive.begin(), findings_.exclusive.end(), entry) ==
                  findings_.exclusive.end(),
              "given twice");
@@ -118,15 +112,9 @@ class FindingReader {
       read_unreachable(finding);
     } else if (finding.rule == "dead-task") {
       const std::size_t dead = find(places_.task_names, finding.range);
-      expect(after(finding.message, "task " + in_quotes(catalog_.tasks[dead].name) +
-                                        " can never run: together these constraints exclude all "
-                                        "of its behaviors"));
       add(findings_.dead_tasks, dead, read_reason(finding, oracle_.facts().group_of[dead]));
     } else if (finding.rule == "dead-behavior") {
       const std::size_t dead = find(places_.behavior_names, finding.range);
-      expect(after(finding.message,
-                   "behavior " + in_quotes(catalog_.behaviors[dead].name) +
-                       " can never be active: together these constraints exclude it"));
       add(findings_.dead_behaviors, dead, read_reason(finding, oracle_.group_of_behavior(dead)));
     } else if (finding.rule == "redundant-requirement") {
       read_redundant(finding);
@@ -143,11 +131,6 @@ class FindingReader {
   Findings take() { return std::move(findings_); }
 
  private:
-  static std::string expect(const std::optional<std::string>& rest) {
-    demand(rest.has_value(), "not the message that belongs to this place");
-    return *rest;
-  }
-
   template <typename Key, typename Value>
   static void add(std::map<Key, Value>& findings, const Key& key, Value value) {
     demand(findings.emplace(key, std::move(value)).second, "given twice");
@@ -178,51 +161,27 @@ class FindingReader {
   const Requirement& requirement(const RequirementEntry& entry) const {
     return catalog_.behaviors[entry.behavior].requirements[entry.place];
   }
-  std::string behavior(const RequirementEntry& entry) const {
-    return in_quotes(catalog_.behaviors[entry.behavior].name);
-  }
-  std::string task(const RequirementEntry& entry) const {
-    return in_quotes(catalog_.tasks[requirement(entry).task].name);
-  }
 
   void read_conflict(const Diagnostic& finding) {
     const RequirementEntry entry = entry_at(finding.range);
     demand(finding.notes.size() == 2, "not two notes");
     const RequirementEntry other = entry_at(finding.notes[0].range);
     demand(other.behavior == entry.behavior, "not of the same behavior");
-    expect(after(finding.message, "behavior " + behavior(entry) + " requires both " + task(other) +
-                                      " and " + task(entry) + ", which exclude one another"));
     demand_list(finding.notes[1].range, requirement(entry).task, requirement(other).task);
     add(findings_.conflicting, entry, other);
   }
 
   void read_unreachable(const Diagnostic& finding) {
-    const std::string middle = " %, but the best that can be reached is ";
+    const std::string best = between(finding.message, "the best that can be reached is ", " %");
     if (const auto entry = find_entry(finding.range, &Places::Entry::minimum)) {
-      const std::string rest =
-          expect(after(finding.message, "behavior " + behavior(*entry) + " requires " +
-                                            task(*entry) + " with at least " +
-                                            percent_text(requirement(*entry).minimum) + middle));
-      add(findings_.unreachable, *entry, expect(before(rest, " %")));
-      return;
+      add(findings_.unreachable, *entry, best);
+    } else {
+      add(findings_.unreachable_minimums, find(places_.task_minimums, finding.range), best);
     }
-    const std::size_t task = find(places_.task_minimums, finding.range);
-    const std::string rest =
-        expect(after(finding.message, "task " + in_quotes(catalog_.tasks[task].name) +
-                                          " must perform with at least " +
-                                          percent_text(catalog_.tasks[task].minimum) + middle));
-    add(findings_.unreachable_minimums, task, expect(before(rest, " %")));
   }
 
   void read_redundant(const Diagnostic& finding) {
     const RequirementEntry entry = entry_at(finding.range);
-    expect(after(finding.message,
-                 "the requirement of " + task(entry) + " is redundant: wherever behavior " +
-                     behavior(entry) + " is active, " + task(entry) +
-                     (requirement(entry).minimum > 0
-                          ? " performs with at least " + percent_text(requirement(entry).minimum) +
-                                " % anyway"
-                          : std::string(" runs anyway"))));
     if (finding.notes.size() == 1 &&
         finding.notes.front().message == "it is required here already") {
       const RequirementEntry other = entry_at(finding.notes.front().range);
@@ -241,33 +200,17 @@ class FindingReader {
   }
 
   void read_redundant_minimum(const Diagnostic& finding) {
-    const auto expect_message = [&](const std::string& condition, std::size_t task,
-                                    Millionths minimum) {
-      expect(after(finding.message, "this minimum decides nothing: wherever " + condition + ", " +
-                                        in_quotes(catalog_.tasks[task].name) +
-                                        " performs with at least " + percent_text(minimum) +
-                                        " % anyway"));
-    };
-    if (const auto entry = find_entry(finding.range, &Places::Entry::minimum)) {
-      const Requirement& required = requirement(*entry);
-      expect_message("behavior " + behavior(*entry) + " is active", required.task,
-                     required.minimum);
-      add(findings_.redundant_minimums, *entry, required.minimum);
-      return;
-    }
-    const std::size_t task = find(places_.task_minimums, finding.range);
-    const Millionths minimum = catalog_.tasks[task].minimum;
-    expect_message("task " + in_quotes(catalog_.tasks[task].name) + " runs", task, minimum);
-    add(findings_.redundant_task_minimums, task, minimum);
+    const auto entry = find_entry(finding.range, &Places::Entry::minimum);
+    const bool is_new =
+        entry ? findings_.redundant_minimums.insert(*entry).second
+              : findings_.redundant_task_minimums.insert(find(places_.task_minimums, finding.range))
+                    .second;
+    demand(is_new, "given twice");
   }
 
   void read_on_request(const Diagnostic& finding) {
     const RequirementEntry entry = entry_at(finding.range);
-    std::string rest =
-        expect(after(finding.message, "behavior " + behavior(entry) + " requires " + task(entry) +
-                                          ", which starts only on request: "
-                                          "request "));
-    rest = expect(before(rest, " first"));
+    std::string rest = between(finding.message, "starts only on request: request ", " first");
     std::vector<std::size_t> names;
     while (true) {
       const std::size_t end = rest.find(", then ");
@@ -311,17 +254,12 @@ class FindingReader {
 
   Constraint read_constraint(const Note& note) const {
     if (const auto entry = find_entry(note.range, &Places::Entry::task)) {
-      demand(note.message == "behavior " + behavior(*entry) + " requires " + task(*entry),
-             "not the note of this place: " + note.message);
       return {Constraint::Kind::requires_task, requirement(*entry).task, none, entry->behavior, 0};
     }
     if (const auto entry = find_entry(note.range, &Places::Entry::minimum)) {
-      const Millionths minimum = requirement(*entry).minimum;
-      demand(note.message == "behavior " + behavior(*entry) + " requires " + task(*entry) +
-                                 " with at least " + percent_text(minimum) + " %",
-             "not the note of this place: " + note.message);
-      return {Constraint::Kind::performance, requirement(*entry).task, none, entry->behavior,
-              minimum};
+      const Requirement& required = requirement(*entry);
+      return {Constraint::Kind::performance, required.task, none, entry->behavior,
+              required.minimum};
     }
     const std::size_t excludes = note.message.find(" excludes ");
     if (excludes != std::string::npos) {
@@ -332,11 +270,7 @@ class FindingReader {
       return {Constraint::Kind::exclusive, a, b, none, 0};
     }
     const std::size_t task = find(places_.task_minimums, note.range);
-    const Millionths minimum = catalog_.tasks[task].minimum;
-    demand(note.message == in_quotes(catalog_.tasks[task].name) + " runs with at least " +
-                               percent_text(minimum) + " %",
-           "not the note of this place: " + note.message);
-    return {Constraint::Kind::performance, task, none, none, minimum};
+    return {Constraint::Kind::performance, task, none, none, catalog_.tasks[task].minimum};
   }
 
   const LintOracle& oracle_;

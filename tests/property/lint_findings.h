@@ -1,10 +1,11 @@
 // The findings of the semantic rules on a catalog that catalog_yaml() wrote, read back in terms of
-// the model: the place says what a finding is about, and the message must agree.
+// the model: the place says what a finding is about.
 #pragma once
 
 #include <compare>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,8 @@ struct Findings {
   std::map<std::size_t, ConstraintSet> dead_behaviors;       // with the reason
   std::map<RequirementEntry, ConstraintSet> redundant;       // with the reason
   std::vector<RequirementEntry> repeated;
-  std::map<RequirementEntry, Millionths> redundant_minimums;        // with the minimum
-  std::map<std::size_t, Millionths> redundant_task_minimums;        // by task, with the minimum
+  std::set<RequirementEntry> redundant_minimums;
+  std::set<std::size_t> redundant_task_minimums;
   std::map<RequirementEntry, std::vector<std::size_t>> on_request;  // what to request, in order
 };
 

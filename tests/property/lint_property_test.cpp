@@ -4,11 +4,7 @@
 // alone.
 #include <cstdint>
 #include <exception>
-#include <functional>
-#include <map>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -27,28 +23,17 @@ namespace {
 
 constexpr std::uint64_t default_lint_cases = 5000;
 
-struct Sample {
-  Catalog catalog;
-  std::string yaml;
-};
-
-Sample make_sample(std::uint64_t seed) {
-  Random random(seed);
-  Sample sample;
-  sample.catalog = generate_strict_catalog(random);
-  sample.yaml = catalog_yaml(sample.catalog, random);
-  return sample;
-}
-
 void run_lint_case(std::uint64_t seed, Results& results) {
-  const Sample sample = make_sample(seed);
+  Random random(seed);
+  const Catalog catalog = generate_strict_catalog(random);
+  const std::string yaml = catalog_yaml(catalog, random);
   try {
-    const CatalogFacts facts(sample.catalog);
+    const CatalogFacts facts(catalog);
     const LintOracle oracle(facts);
-    check_findings(oracle, lint_findings(oracle, sample.yaml), results.statistics);
+    check_findings(oracle, lint_findings(oracle, yaml), results.statistics);
   } catch (const std::exception& error) {
-    results.faults.push_back({seed, "seed " + std::to_string(seed) + "\n--- catalog\n" +
-                                        sample.yaml + "--- fault\n" + error.what() + "\n"});
+    results.faults.push_back({seed, "seed " + std::to_string(seed) + "\n--- catalog\n" + yaml +
+                                        "--- fault\n" + error.what() + "\n"});
   }
 }
 
@@ -85,58 +70,6 @@ const LowerBound lint_lower_bounds[] = {
     {"requires-on-request: more than one request", 90},
     {"nothing is dead", 200},
 };
-
-void expect_fault(const LintOracle& oracle, const Findings& wrong, const std::string& what) {
-  Statistics statistics;
-  EXPECT_THROW(check_findings(oracle, wrong, statistics), std::runtime_error) << what;
-}
-
-// Findings with one left out, or with another reason, must not pass.
-template <typename Key, typename Value>
-void expect_faults(const LintOracle& oracle, const Findings& findings,
-                   std::map<Key, Value> Findings::*part, const std::function<void(Value&)>& spoil,
-                   const std::string& what) {
-  for (const auto& [key, value] : findings.*part) {
-    Findings wrong = findings;
-    (wrong.*part).erase(key);
-    expect_fault(oracle, wrong, what + ": one less");
-    wrong = findings;
-    spoil((wrong.*part)[key]);
-    expect_fault(oracle, wrong, what + ": spoiled");
-  }
-}
-
-TEST(LintProperty, CheckSeesWhatIsWrong) {
-  constexpr std::uint64_t cases = 150;
-  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
-    const Sample sample = make_sample(seed);
-    const CatalogFacts facts(sample.catalog);
-    const LintOracle oracle(facts);
-    const Findings findings = lint_findings(oracle, sample.yaml);
-    const std::string at = " of seed " + std::to_string(seed);
-
-    const std::function<void(ConstraintSet&)> leave_out = [](ConstraintSet& reason) {
-      reason &= reason - 1;
-    };
-    const std::function<void(std::string&)> round_up = [](std::string& best) { best += "1"; };
-    const std::function<void(std::vector<std::size_t>&)> forget = [](auto& requests) {
-      requests.erase(requests.begin());
-      if (requests.empty()) requests.push_back(none);
-    };
-    expect_faults(oracle, findings, &Findings::dead_tasks, leave_out, "dead-task" + at);
-    expect_faults(oracle, findings, &Findings::dead_behaviors, leave_out, "dead-behavior" + at);
-    expect_faults(oracle, findings, &Findings::redundant, leave_out, "redundant-requirement" + at);
-    for (const auto& [entry, minimum] : findings.redundant_minimums) {
-      Findings wrong = findings;
-      wrong.redundant_minimums.erase(entry);
-      expect_fault(oracle, wrong, "redundant-minimum" + at + ": one less");
-    }
-    expect_faults(oracle, findings, &Findings::unreachable, round_up, "unreachable" + at);
-    expect_faults(oracle, findings, &Findings::unreachable_minimums, round_up,
-                  "unreachable minimum" + at);
-    expect_faults(oracle, findings, &Findings::on_request, forget, "requires-on-request" + at);
-  }
-}
 
 TEST(LintProperty, SameFindingsAsBruteForce) {
   run_random_cases(default_lint_cases, run_lint_case, lint_lower_bounds);

@@ -25,12 +25,10 @@ std::set<std::uint32_t> variables_of(const std::vector<const Property*>& propert
 class PlainSearch {
  public:
   PlainSearch(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& groups,
-              const Assumptions& assumptions, const std::vector<const Property*>& properties,
-              Rarities& rarities)
+              const Assumptions& assumptions, const std::vector<const Property*>& properties)
       : catalog_(catalog),
         model_(catalog, groups, assumptions, variables_of(properties)),
-        properties_(properties),
-        rarities_(rarities) {
+        properties_(properties) {
     result_.groups = groups;
     result_.verdicts.resize(properties.size());
   }
@@ -71,19 +69,14 @@ class PlainSearch {
     const std::uint32_t depth = nodes_.empty() ? 0 : nodes_[parent].depth + 1;
     result_.states_at_depth.resize(depth + 1);
     ++result_.states_at_depth[depth];
-    if (PlainModel::sets_of_queue(state).size() > 1) ++rarities_.long_queues;
-    if (!state.waiting.empty()) ++rarities_.waiting;
     nodes_.push_back({std::move(state), parent, move, depth});
   }
 
   void expand(std::size_t place) {
     const Snapshot state = nodes_[place].state;  // the nodes may move
     for (const Move& move : model_.moves(state)) {
-      Step step = model_.step(state, move);
       ++result_.transitions;
-      if (step.has_fault_finish) ++rarities_.fault_finishes;
-      if (step.is_silent && move.kind == Move::Kind::due) ++rarities_.silent_dues;
-      add(std::move(step.next), place, move);
+      add(model_.step(state, move).next, place, move);
     }
   }
 
@@ -179,7 +172,6 @@ class PlainSearch {
   const CompiledCatalog& catalog_;
   PlainModel model_;
   const std::vector<const Property*>& properties_;
-  Rarities& rarities_;
   std::vector<Node> nodes_;
   std::unordered_map<std::string, std::size_t> places_;  ///< by key
   // By place in the catalog: the least depth.
@@ -196,10 +188,8 @@ Exploration explore_plainly(const CompiledCatalog& catalog,
                             const std::vector<std::uint32_t>& groups,
                             const Assumptions& assumptions,
                             const std::vector<const Property*>& properties,
-                            std::uint64_t max_states, Rarities* rarities) {
-  Rarities ignored;
-  return PlainSearch(catalog, groups, assumptions, properties, rarities ? *rarities : ignored)
-      .run(max_states);
+                            std::uint64_t max_states) {
+  return PlainSearch(catalog, groups, assumptions, properties).run(max_states);
 }
 
 }  // namespace cbc::plain

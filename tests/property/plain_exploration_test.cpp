@@ -1,13 +1,7 @@
-// The plain search against catalogs whose states are counted by hand, and its scripts against one
-// coordinator that runs them from the start. CBC_SEED and CBC_PROPERTY_CASES are as in
-// property_test.cpp.
+// The plain search against catalogs whose states are counted by hand.
 #include "plain_exploration.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
-#include <exception>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,18 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "compiled_text.h"
-#include "demand.h"
-#include "move_replay.h"
-#include "plain_model.h"
-#include "random_cases.h"
-#include "verify_case.h"
 
 namespace cbc::plain::plain_exploration_test {
 namespace {
 
-using oracle::demand;
-
-constexpr std::uint64_t default_cases = 500;
 constexpr std::uint64_t most_states = 1000;
 
 using Counts = std::vector<std::uint64_t>;
@@ -197,101 +183,6 @@ TEST(PlainExploration, ComparesPrioritiesInTheOrderOfTheList) {
   const Exploration result = explore_all(catalog, assumptions, {&runs});
   EXPECT_EQ(result.verdicts.at(0).result, Verdict::Result::proved);
   EXPECT_EQ(result.verdicts.at(0).script, (std::vector<Move>{{Move::Kind::start, 0, 3}}));
-}
-
-/// Whether the end of its script is what a property forbids, or asks for.
-bool ends_as_stated(const PlainModel& model, const Property& property, const Replay& replayed) {
-  switch (property.kind) {
-    case Property::Kind::can_start:
-      return replayed.outcome == Outcome::rejected;
-    case Property::Kind::always:
-      return (!property.when || model.holds(*property.when, replayed.end)) &&
-             !model.holds(property.condition, replayed.end);
-    case Property::Kind::never:
-    case Property::Kind::reachable:
-      return model.holds(property.condition, replayed.end);
-  }
-  return false;
-}
-
-void replay_scripts(const VerifyCase& sample, const Exploration& result,
-                    oracle::Statistics& statistics) {
-  std::set<std::uint32_t> variables;
-  for (const Property& property : sample.question.properties) {
-    variables.merge(variables_of(property));
-  }
-  const PlainModel model(sample.catalog, sample.question.groups, sample.question.assumptions,
-                         variables);
-  for (std::size_t i = 0; i < sample.question.properties.size(); ++i) {
-    const Property& property = sample.question.properties[i];
-    const std::vector<Move>& script = result.verdicts[i].script;
-    statistics.count(result.verdicts[i].result == Verdict::Result::proved ? "proved" : "violated");
-    if (!result.verdicts[i].has_script) continue;
-    Snapshot state = model.first_state();
-    for (const Move& move : script) state = model.step(state, move).next;
-    const Replay replayed = replay(model, script);
-    const std::string text = " after\n" + text_of(sample.catalog, script);
-    demand(model.key(replayed.end) == model.key(state), "another state" + text);
-    demand(ends_as_stated(model, property, replayed), property.name + ": another end" + text);
-    if (script.size() > 3) statistics.count("script of more than three moves");
-    if (std::count(script.begin(), script.end(), Move{}) > 1) statistics.count("two dues");
-  }
-}
-
-void count_sort_of_case(const VerifyCase& sample, const Exploration& result,
-                        const Rarities& rarities, oracle::Statistics& statistics) {
-  const auto count = [&](const char* what, bool happened) {
-    if (happened) statistics.count(what);
-  };
-  count("joined groups", sample.question.groups.size() > 1);
-  count("failed rollback", rarities.fault_finishes > 0);
-  count("due without an event", rarities.silent_dues > 0);
-  count("several sets in the queue", rarities.long_queues > 0);
-  count("waiting tasks", rarities.waiting > 0);
-  count("refused starts", !result.start_refused.empty());
-  count("100 states", result.states >= 100);
-  count("depth of 8", result.depth >= 8);
-}
-
-void run_case(std::uint64_t seed, oracle::Results& results) {
-  VerifyCase sample;
-  try {
-    sample = generate_verify_case(seed);
-    Rarities rarities;
-    const Exploration result =
-        explore_plainly(sample.catalog, sample.question.groups, sample.question.assumptions,
-                        sample.properties(), most_states, &rarities);
-    if (result.error) {
-      results.statistics.count("excluded first state");
-    } else if (!result.complete) {
-      results.statistics.count("too many states");
-    } else {
-      count_sort_of_case(sample, result, rarities, results.statistics);
-      replay_scripts(sample, result, results.statistics);
-    }
-  } catch (const std::exception& error) {
-    results.faults.push_back({seed, "seed " + std::to_string(seed) + "\n--- catalog\n" +
-                                        text_of(sample) + "--- fault\n" + error.what() + "\n"});
-  }
-}
-
-const oracle::LowerBound lower_bounds[] = {
-    {"proved", 800},
-    {"violated", 800},
-    {"script of more than three moves", 60},
-    {"two dues", 5},
-    {"joined groups", 40},
-    {"failed rollback", 4},
-    {"due without an event", 80},
-    {"several sets in the queue", 50},
-    {"waiting tasks", 60},
-    {"refused starts", 150},
-    {"100 states", 100},
-    {"depth of 8", 60},
-};
-
-TEST(PlainExploration, ScriptsEndAsStated) {
-  oracle::run_random_cases(default_cases, run_case, lower_bounds);
 }
 
 }  // namespace

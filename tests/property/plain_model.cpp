@@ -21,11 +21,9 @@ class FirstOutcome final : public EventListener {
  public:
   void on_event(const EventRecord& record) override {
     demand(record.origin != Origin::timeout, "a timeout fired");
-    if (record.origin == Origin::fault) has_fault_finish = true;
     if (!outcome && record.origin == Origin::script && form_of(record.verb).is_decided) {
       outcome = record.outcome;
     }
-    has_event = true;
     if (model != nullptr) {
       happenings->push_back(
           happening_of(model->catalog(), record, coordinator->state(), model->tasks()));
@@ -33,8 +31,6 @@ class FirstOutcome final : public EventListener {
   }
 
   std::optional<Outcome> outcome;
-  bool has_fault_finish = false;
-  bool has_event = false;
   // For the happenings; null: none are wanted.
   const PlainModel* model = nullptr;
   const Coordinator* coordinator = nullptr;
@@ -283,8 +279,6 @@ Step PlainModel::step(const Snapshot& state, const Move& move,
   Step step;
   step.next = as_state(saved);
   step.outcome = listener.outcome;
-  step.has_fault_finish = listener.has_fault_finish;
-  step.is_silent = !listener.has_event;
   for (const std::vector<TaskId>& set : sets_of_queue(step.next)) {
     const auto entry = std::find_if(saved.queue.begin(), saved.queue.end(),
                                     [&](const auto& one) { return one.first == set.front(); });

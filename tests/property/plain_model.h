@@ -28,8 +28,6 @@ struct Step {
   /// By set of the new queue: its place in the queue before the move, or nothing if its tasks
   /// joined by the move.
   std::vector<std::optional<std::size_t>> old_place;
-  bool has_fault_finish = false;  ///< a rollback failed
-  bool is_silent = false;         ///< no event at all
 };
 
 /// States and moves of some groups as docs/verify.md defines them, one by one, by an ordinary

@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "conflict_check.h"
-#include "enumeration.h"
 #include "event_case.h"
 #include "generator.h"
 #include "random_cases.h"
@@ -17,8 +15,6 @@
 
 namespace cbc::oracle::property_test {
 namespace {
-
-using nlohmann::ordered_json;
 
 constexpr std::uint64_t default_event_cases = 3000;
 
@@ -144,51 +140,6 @@ const LowerBound limit_lower_bounds[] = {
     {"limited: same requests", 500},
     {"limited: infeasible", 500},
 };
-
-// A conflict with something left out, added or altered must not pass.
-TEST(Property, ConflictCheckSeesWhatIsWrong) {
-  constexpr std::uint64_t cases = 40;
-  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
-    const Case sample = generate_case(seed);
-    Random forms(~seed);
-    const std::string catalog = catalog_yaml(sample.catalog, forms);
-    const std::string script = script_yaml(sample.catalog, sample.script, forms);
-    const CatalogFacts facts(sample.catalog);
-    ordered_json events = run_subject(catalog, script);
-    for (ordered_json& event : events) {
-      const ordered_json conflict = event["conflict"];
-      const auto expect_fault = [&](const ordered_json& wrong) {
-        event["conflict"] = wrong;
-        EXPECT_TRUE(check_conflicts(facts, catalog, sample.script, events, nullptr))
-            << "seed " << seed << ": " << event.dump(1);
-        event["conflict"] = conflict;
-      };
-      for (std::size_t i = 0; i < conflict.size(); ++i) {
-        ordered_json one_less = conflict;
-        one_less.erase(i);
-        expect_fault(one_less);
-        ordered_json one_twice = conflict;
-        one_twice.push_back(conflict[i]);
-        expect_fault(one_twice);
-        ordered_json silent = conflict;
-        silent[i]["message"] = "";
-        expect_fault(silent);
-        const bool situation = conflict[i]["kind"] == "situation";
-        if (situation || conflict[i]["kind"] == "unavailable") {
-          ordered_json other_kind = conflict;
-          other_kind[i]["kind"] = situation ? "unavailable" : "situation";
-          expect_fault(other_kind);
-        }
-        // The list on the next line may exclude the same pair.
-        if (conflict[i].contains("line") && !conflict[i].contains("tasks")) {
-          ordered_json next_line = conflict;
-          next_line[i]["line"] = conflict[i]["line"].get<int>() + 1;
-          expect_fault(next_line);
-        }
-      }
-    }
-  }
-}
 
 TEST(Property, SameEventsAsTheOracle) {
   run_random_cases(default_event_cases, run_event_case, event_lower_bounds);

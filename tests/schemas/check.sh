@@ -1,7 +1,7 @@
 #!/bin/sh
-# check.sh FOLDER PROGRAM SAMPLES: validates the JSON of PROGRAM, and that of the golden cases, with the
-# schemas of the repository; then catalogs, scripts and property files, good ones and bad ones, of the repository and
-# of the program SAMPLES (main.cpp). The packages come from npm, and go to FOLDER.
+# check.sh FOLDER PROGRAM: validates the JSON of PROGRAM, and that of the golden cases, with the schemas of
+# the repository; then its catalogs, scripts and property files, good ones and bad ones. The packages come
+# from npm, and go to FOLDER.
 #
 # Exit status: 0 valid, 1 not valid, 77 skipped: no Node.js, or no way to the packages.
 set -u
@@ -9,8 +9,7 @@ set -u
 source=$(cd -- "$(dirname -- "$0")" && pwd)
 folder=$1
 program=$2
-samples=$3
 
 sh "$source/../npm_install.sh" "$source" "$folder" || exit
 export NODE_PATH="$folder/node_modules"
-node "$source/check.js" "$program" && exec node "$source/check_inputs.js" "$program" "$samples"
+node "$source/check.js" "$program" && exec node "$source/check_inputs.js" "$program"

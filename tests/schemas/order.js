@@ -47,19 +47,4 @@ function findDisorder(document, kinds) {
   return undefined;
 }
 
-/** Turns the members of one object after the other around. */
-function* reversals(document) {
-  for (const object of [...objectsIn(document)]) {
-    const members = Object.entries(object);
-    if (members.length < 2) continue;
-    const set = (list) => {
-      for (const [name] of list) delete object[name];
-      Object.assign(object, Object.fromEntries(list));
-    };
-    set([...members].reverse());
-    yield object;
-    set(members);
-  }
-}
-
-module.exports = {findDisorder, kindsIn, reversals};
+module.exports = {findDisorder, kindsIn};
