@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/catalog/situation.h"
-#include "core/report/catalog_json.h"
+#include "core/compile/catalog_json.h"
 #include "core/script/event_lines.h"
 #include "core/support/json.h"
 #include "page/stream_page.h"
@@ -30,7 +30,8 @@ void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
                            [](const CompiledTask& task) { return task.start_on_request == 0; }));
   json.open("variables", '[');
   for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
-    write_variable(json, catalog, variable);
+    json.begin_item();
+    json::variable_with_values.write(json, variable, catalog);
   }
   json.close(']');
   json.write_list("behaviors", catalog.behavior_ids, [&](BehaviorId behavior) {
@@ -42,7 +43,8 @@ void write_catalog(JsonWriter& json, const CompiledCatalog& catalog) {
     });
     json.write_list("requires", catalog.requirements[behavior],
                     [&](const CompiledRequirement& required) { write_task(required.task); });
-    write_conditions(json, conditions_of(catalog, behavior));
+    json.key("situation");
+    json::conditions.write(json, json::by_variable(conditions_of(catalog, behavior)), catalog);
     json.close('}');
   });
   json.open("exclusive", '[');

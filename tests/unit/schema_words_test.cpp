@@ -1,6 +1,5 @@
 // The JSON Schemas in schemas/ have the words that the program has, and no others.
 #include <filesystem>
-#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -11,24 +10,17 @@
 #include "cbc/event.h"
 #include "core/catalog/draft.h"
 #include "core/check/controls.h"
-#include "core/check/together.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
 #include "core/property/property_reader.h"
 #include "core/script/runner.h"
 #include "core/script/script.h"
 #include "core/yaml/values.h"
-#include "coverage/engine/goals.h"
-#include "coverage/engine/mutants/judge.h"
-#include "coverage/engine/mutants/mutants.h"
-#include "graph/engine/catalog_diff.h"
-#include "graph/engine/catalog_graph.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/explain/alternatives.h"
 #include "runtime/explain/reasons.h"
 #include "support/read_file.h"
 #include "sweep/engine/sequence.h"
-#include "verify/report/verify_report.h"
 
 namespace cbc::schema_words_test {
 namespace {
@@ -83,11 +75,6 @@ TEST(SchemaFiles, AreInTheirReadme) {
   }
 }
 
-TEST(SchemaWords, OfTogether) {
-  EXPECT_EQ(words_at(schema("together"), "/$defs/pair/properties/together"),
-            names_up_to(Together::undecided));
-}
-
 TEST(SchemaWords, OfSettings) {
   const Json settings = schema("settings");
   for (const auto& [key, value] : settings["properties"].items()) {
@@ -137,54 +124,6 @@ TEST(SchemaWords, OfSweeps) {
             names_up_to(SweepKind::lost));
   // That a behavior finished is a reason of no rejection.
   EXPECT_EQ(words_in_list(sweep, "/$defs/reason/oneOf", "kind"), names_up_to(Reason::Kind::faulty));
-}
-
-TEST(SchemaWords, OfCoverage) {
-  const Json coverage = schema("coverage");
-  EXPECT_EQ(words_in_list(coverage, "/$defs/goal/oneOf", "kind"),
-            names_up_to(Goal::Kind::equal_displaced));
-  EXPECT_EQ(words_at(coverage, "/$defs/catalog/properties/sections/items/properties/section"),
-            names_up_to(GoalSection::priorities));
-}
-
-TEST(SchemaWords, OfMutants) {
-  const Json mutants = schema("mutants");
-  EXPECT_EQ(words_in_list(mutants, "/$defs/mutant/oneOf", "kind"),
-            names_up_to(Mutant::Kind::execution_goal_turned));
-  const std::string judged = "/$defs/judged/properties/";
-  EXPECT_EQ(words_at(mutants, judged + "result"), names_up_to(MutantVerdict::Result::unjudged));
-  EXPECT_EQ(words_at(mutants, judged + "reason"), names_up_to(MutantVerdict::Doubt::no_script));
-  EXPECT_EQ(words_at(mutants, judged + "noticed_by/properties/how"),
-            names_up_to(Notice::How::ended));
-}
-
-TEST(SchemaWords, OfVerifications) {
-  const Json verify = schema("verify");
-  EXPECT_EQ(words_at(verify, "/$defs/property/properties/kind"),
-            names_up_to(Property::Kind::reachable));
-  EXPECT_EQ(words_at(verify, "/$defs/result"), names_up_to(Verdict::Result::undecided));
-}
-
-TEST(SchemaWords, OfLint) {
-  const Json lint = schema("lint");
-  const std::string diagnostic = "/$defs/diagnostic/properties/";
-  const Json& rule = lint.at(Json::json_pointer(diagnostic + "rule"));
-  const std::regex pattern(rule["pattern"].get<std::string>());
-  for (const Rule& known : all_rules()) {
-    EXPECT_TRUE(std::regex_match(std::string(known.name), pattern)) << known.name;
-  }
-  EXPECT_EQ(words_at(lint, diagnostic + "severity"), names_up_to(Severity::error));
-}
-
-TEST(SchemaWords, OfPictures) {
-  Words marks = names_up_to(draw::Mark::unavailable);
-  // Pictures of two catalogs are not written as JSON, but what they have not in common is.
-  for (const char* mark : {"added", "removed", "changed"}) marks.erase(mark);
-  EXPECT_EQ(words_at(schema("graph"), "/$defs/mark"), marks);
-  const Json diff = schema("diff");
-  EXPECT_EQ(words_at(diff, "/$defs/kind"), names_up_to(CatalogChange::Kind::changed));
-  EXPECT_EQ(words_in_list(diff, "/$defs/change/oneOf", "subject"),
-            names_up_to(CatalogChange::Subject::exclusion));
 }
 
 /// The part that a reference of this schema leads to; the part itself if it is none.

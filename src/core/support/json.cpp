@@ -189,13 +189,20 @@ void append_shortest(std::string& json, std::string_view text) {
   json += number.is_number() ? dump(number) : dump_text(text);
 }
 
-void JsonWriter::write_percent(std::string_view name, std::optional<Millionths> degree) {
-  if (!degree) {
-    write(name, nullptr);
-  } else if (*degree % one_percent == 0) {
-    write(name, *degree / one_percent);
+void JsonWriter::put_percent(Millionths degree) {
+  if (degree % one_percent == 0) {
+    put(degree / one_percent);
   } else {
-    write(name, in_percent(*degree));
+    put(in_percent(degree));
+  }
+}
+
+void JsonWriter::write_percent(std::string_view name, std::optional<Millionths> degree) {
+  key(name);
+  if (degree) {
+    put_percent(*degree);
+  } else {
+    put(nullptr);
   }
 }
 

@@ -203,6 +203,34 @@ class JsonWriter {
     if (is_indented_) json_.put(' ');
   }
 
+  /// Separates the next item of an array from the one before it.
+  void begin_item() {
+    if (follows_another()) json_.put(',');
+    if (is_indented_ && depth_ > 0) break_line();
+    if (has_new_line_) json_.put('\n');
+    has_new_line_ = false;
+  }
+
+  // The value of a key, an item that has begun, or the whole.
+
+  void begin(char bracket) {
+    json_.put(bracket);
+    ++depth_;
+  }
+  template <typename Value>
+  void put(const Value& value) {
+    json_.put_value(value);
+  }
+  /// A time, which is not negative.
+  void put_seconds(Microseconds time) {
+    static_assert(second == 1'000'000);
+    json_.put_millionths(time);
+  }
+  /// In percent: as a whole number where it is one.
+  void put_percent(Millionths degree);
+  /// `json` is JSON already.
+  void put_json(std::string_view json) { json_.put(json); }
+
   // An item of an array, the value of a key, or the whole; with a name, a member of an object.
 
   template <typename Value>
@@ -266,11 +294,7 @@ class JsonWriter {
  private:
   void separate() {
     const char last = json_.last();
-    if (last == ':' || last == ' ') return;  // after a key
-    if (follows_another()) json_.put(',');
-    if (is_indented_ && depth_ > 0) break_line();
-    if (has_new_line_) json_.put('\n');
-    has_new_line_ = false;
+    if (last != ':' && last != ' ') begin_item();  // not after a key
   }
   /// Whether the next item or member is not the first one.
   [[nodiscard]] bool follows_another() const {

@@ -17,8 +17,8 @@ namespace cbc {
 [[nodiscard]] std::string coverage_to_text(const Coverage& coverage, const Style& style,
                                            std::size_t columns = 0);
 
-/// Schema cbc.coverage/1.
 [[nodiscard]] std::string coverage_to_json(const Coverage& coverage);
+[[nodiscard]] std::string coverage_schema();
 
 /// A page with the lines of the catalogs, marked as covered, partly covered or not.
 [[nodiscard]] std::string coverage_to_html(const Coverage& coverage);

@@ -1,75 +1,192 @@
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "core/report/assumptions_json.h"
-#include "core/support/json.h"
+#include "core/support/json_description.h"
 #include "coverage/report/mutants_report.h"
 
 namespace cbc {
-namespace {
+namespace json::mutants {
 
-/// The members that say which mutant it is.
-void write_identity(JsonWriter& json, const Catalog& catalog, const Mutant& mutant) {
-  const bool is_suitability = mutant.kind == Mutant::Kind::suitability_lowered;
-  json.write("kind", name_of(mutant.kind));
-  if (mutant.behavior != Mutant::none) {
-    json.write("behavior", catalog.behaviors[mutant.behavior].name);
-  }
-  if (mutant.task != Mutant::none) json.write("task", catalog.tasks[mutant.task].name);
-  if (is_suitability) {
-    json.write("below", catalog.behaviors[mutant.other].name);
-    json.write("suitability", in_percent(mutant.suitability));
-  } else if (mutant.other != Mutant::none) {
-    json.write("other_task", catalog.tasks[mutant.other].name);
-  }
-  if (mutant.variable != Mutant::none) {
-    json.write("variable", catalog.variables[mutant.variable].name);
-  }
-  json.write_list("lines", mutant.lines);
-  json.write("change", describe(catalog, mutant));
-}
+// Mutants are places in the list of all; the context is the MutantsResult.
 
-void write_notice(JsonWriter& json, const MutantsResult& result, const Notice& notice) {
-  json.open("noticed_by", '{');
-  json.write("mission", result.missions[notice.mission]);
-  json.write("how", name_of(notice.how));
-  if (notice.line > 0) json.write("line", notice.line);
-  json.write("message", notice.message);
-  json.close('}');
-}
+using Kind = Mutant::Kind;
+using Result = MutantVerdict::Result;
 
-}  // namespace
+constexpr auto mutant_at = [](std::size_t place, const MutantsResult& of) -> const Mutant& {
+  return of.mutants[place];
+};
+constexpr auto verdict_at = [](std::size_t place, const MutantsResult& of) -> const auto& {
+  return of.verdicts[place];
+};
+
+constexpr auto task = [](std::string_view meaning) {
+  return member(
+      "task", text, meaning, [](std::size_t place, const MutantsResult& of) -> const auto& {
+        return of.catalog->tasks[mutant_at(place, of).task].name;
+      });
+};
+constexpr auto behavior = member(
+    "behavior", text, "", [](std::size_t place, const MutantsResult& of) -> const auto& {
+      return of.catalog->behaviors[mutant_at(place, of).behavior].name;
+    });
+
+constexpr auto notice =
+    object("notice", "",
+           member(
+               "mission", text, "The script.",
+               [](const Notice& of, const MutantsResult& result) -> const auto& {
+                 return result.missions[of.mission];
+               }),
+           member("how", words(Notice::How::ended),
+                  "An expectation failed, or the run ended early.", &Notice::how),
+           optional("line", line_number, "Of the expectation; missing if the run ended early.",
+                    [](const Notice& of) { return of.line > 0 ? &of.line : nullptr; }),
+           member("message", text, "What was expected and what was found, for people.",
+                  &Notice::message))
+        .related(R"([{"if": {"properties": {"how": {"const": "ended"}}},
+                  "then": {"properties": {"line": false}}, "else": {"required": ["line"]}}])");
+
+constexpr auto mutant =
+    variants(
+        "mutant", "The catalog with one thing changed, and what became of it.", group(), "kind",
+        [](std::size_t place, const MutantsResult& of) { return mutant_at(place, of).kind; },
+        group(part(mutant_at,
+                   group(member("lines", lines, "Lines of the catalog, ascending.", &Mutant::lines),
+                         member("change", text, "What was changed, in words.",
+                                [](const Mutant& of, const MutantsResult& result) {
+                                  return describe(*result.catalog, of);
+                                }))),
+              part(verdict_at,
+                   group(member("result", words(Result::unjudged), "", &MutantVerdict::result),
+                         optional(
+                             "reason", words(MutantVerdict::Doubt::no_script),
+                             "Why it is undecided: a limit came first, or it differs between "
+                             "states, which have no times, but no script that was tried shows it.",
+                             [](const MutantVerdict& of) {
+                               return of.result == Result::undecided ? &of.doubt : nullptr;
+                             }),
+                         optional("noticed_by", notice, "The first mission that notices it.",
+                                  &MutantVerdict::notice),
+                         optional("script", text, "Of a survivor: a mission that would notice it.",
+                                  &MutantVerdict::script)))),
+        variant({Kind::behavior_removed}, "", behavior),
+        variant({Kind::suitability_lowered}, "", behavior, task("That it performs."),
+                member(
+                    "below", text, "The behavior that comes next.",
+                    [](std::size_t place, const MutantsResult& of) -> const auto& {
+                      return of.catalog->behaviors[mutant_at(place, of).other].name;
+                    }),
+                member("suitability", percentage, "In percent, after the change.",
+                       [](std::size_t place, const MutantsResult& of) {
+                         return in_percent(mutant_at(place, of).suitability);
+                       })),
+        variant({Kind::requirement_removed}, "", behavior, task("That it requires.")),
+        variant({Kind::minimum_removed}, "",
+                optional("behavior", text,
+                         "That requires it; missing if it is the minimum of the task itself.",
+                         [](std::size_t place, const MutantsResult& of) {
+                           const std::uint32_t index = mutant_at(place, of).behavior;
+                           return index != Mutant::none ? &of.catalog->behaviors[index].name
+                                                        : nullptr;
+                         }),
+                task("")),
+        variant({Kind::condition_removed}, "", behavior,
+                member(
+                    "variable", text, "",
+                    [](std::size_t place, const MutantsResult& of) -> const auto& {
+                      return of.catalog->variables[mutant_at(place, of).variable].name;
+                    })),
+        variant({Kind::exclusion_removed}, "", task(""),
+                member(
+                    "other_task", text, "",
+                    [](std::size_t place, const MutantsResult& of) -> const auto& {
+                      return of.catalog->tasks[mutant_at(place, of).other].name;
+                    })),
+        variant({Kind::exclusion_narrowed}, "", task("Taken out of a list of at least three.")),
+        variant({Kind::timeout_removed}, "", task("Whose timeout it is."))
+            .where([](std::size_t place, const MutantsResult& of) {
+              return mutant_at(place, of).task != Mutant::none;
+            }),
+        variant({Kind::timeout_removed}, "Of its own.", behavior),
+        variant({Kind::start_on_request_turned, Kind::reactive_start_turned,
+                 Kind::execution_goal_turned},
+                "", task("")))
+        .related(R"([
+      {"if": {"properties": {"result": {"const": "noticed"}}},
+       "then": {"required": ["noticed_by"]}, "else": {"properties": {"noticed_by": false}}},
+      {"if": {"properties": {"result": {"const": "survived"}}},
+       "then": {"required": ["script"]}, "else": {"properties": {"script": false}}},
+      {"if": {"properties": {"result": {"const": "undecided"}}},
+       "then": {"required": ["reason"]}, "else": {"properties": {"reason": false}}}])");
+
+constexpr auto counts = group(
+    member("noticed", count, "Number of mutants that some mission notices.", &MutantCount::noticed)
+        .on_line(),
+    member("survived", count, "Number of those that no mission notices, although one could.",
+           &MutantCount::survived),
+    member("equivalent", count, "Number of those that no mission can notice. They do not count.",
+           &MutantCount::equivalent),
+    member("undecided", count,
+           "Number of those that no mission notices, and of which it is not known whether one "
+           "could. They do not count.",
+           &MutantCount::undecided),
+    member("unjudged", count,
+           "Number of those that were left when a time limit or a signal ended the work. They do "
+           "not count.",
+           &MutantCount::unjudged),
+    optional("percent", percentage,
+             "Percentage of the mutants that count, rounded down to tenths, that are noticed; 100 "
+             "of none. Missing if none was judged.",
+             [](const MutantCount& of) {
+               return of.is_score_known()
+                          ? std::optional(static_cast<double>(of.score().tenths()) / 10)
+                          : std::nullopt;
+             }));
+
+constexpr auto report =
+    object(
+        "",
+        "The output of `cbc verify --mutants --format json` (schema cbc.mutants/1): which changes "
+        "of a "
+        "catalog its missions notice. docs/coverage.md says what is changed.",
+        schema_member("cbc.mutants/1"),
+        member(
+            "catalog", text, "The catalog, as given.",
+            [](const MutantsResult& of) -> const auto& { return of.catalog->file; }),
+        member("missions", texts.at_least(1), "The scripts, in the order in which they ran.",
+               &MutantsResult::missions)
+            .on_line(),
+        member("assumptions",
+               scoped(
+                   [](const auto&, const MutantsResult& of) -> const auto& { return *of.compiled; },
+                   assumptions),
+               "Under which no mission can notice those that are equivalent.",
+               &MutantsResult::assumptions)
+            .on_line(),
+        part(&MutantsResult::count, counts),
+        member("mutants", list(mutant).on_lines(), "All mutants, by line.",
+               [](const MutantsResult& of) {
+                 return [&of](const auto& put) {
+                   for (std::size_t place = 0; place < of.mutants.size(); ++place) put(place);
+                 };
+               })
+            .on_line())
+        .related(R"([{
+      "if": {"anyOf": [
+        {"not": {"properties": {"noticed": {"const": 0}, "survived": {"const": 0}}}},
+        {"properties": {"undecided": {"const": 0}, "unjudged": {"const": 0}}}]},
+      "then": {"required": ["percent"]}}])");
+
+}  // namespace json::mutants
 
 std::string mutants_to_json(const MutantsResult& result) {
-  const MutantCount count = result.count();
-  return json_line([&](JsonWriter& json) {
-    json.write_members({{"schema", "cbc.mutants/1"}, {"catalog", result.catalog->file}});
-    json.on_new_line().write_list("missions", result.missions);
-    json.on_new_line().key("assumptions");
-    write_assumptions(json, *result.compiled, result.assumptions);
-    json.on_new_line().write_members({{"noticed", count.noticed},
-                                      {"survived", count.survived},
-                                      {"equivalent", count.equivalent},
-                                      {"undecided", count.undecided},
-                                      {"unjudged", count.unjudged}});
-    if (count.is_score_known()) {
-      json.write("percent", static_cast<double>(count.score().tenths()) / 10);
-    }
-    json.on_new_line().open("mutants", '[');
-    for (std::size_t place = 0; place < result.mutants.size(); ++place) {
-      const MutantVerdict& verdict = result.verdicts[place];
-      json.on_new_line().open('{');
-      write_identity(json, *result.catalog, result.mutants[place]);
-      json.write("result", name_of(verdict.result));
-      if (verdict.result == MutantVerdict::Result::undecided) {
-        json.write("reason", name_of(verdict.doubt));
-      }
-      if (verdict.notice) write_notice(json, result, *verdict.notice);
-      if (verdict.script) json.write("script", *verdict.script);
-      json.close('}');
-    }
-    json.close(']');
-  });
+  return json::document(json::mutants::report, result, result);
+}
+
+std::string mutants_schema() {
+  return json::schema("mutants", "Mutants of a catalog", json::mutants::report);
 }
 
 }  // namespace cbc

@@ -54,8 +54,8 @@ struct MutantsResult {
 [[nodiscard]] std::string mutants_to_text(const MutantsResult& result, const Style& style,
                                           std::size_t columns = 0);
 
-/// Schema cbc.mutants/1.
 [[nodiscard]] std::string mutants_to_json(const MutantsResult& result);
+[[nodiscard]] std::string mutants_schema();
 
 /// Workflow commands of GitHub Actions: one for each line with survivors.
 [[nodiscard]] std::string mutants_to_github(const MutantsResult& result);

@@ -1,104 +1,173 @@
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "core/report/catalog_json.h"
+#include "core/compile/catalog_json.h"
 #include "core/report/sentences.h"
 #include "core/support/json.h"
+#include "core/support/json_description.h"
 #include "graph/engine/catalog_diff.h"
 #include "graph/report/graph_report.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
-namespace {
+namespace draw {
 
-using draw::Edge;
-using draw::EdgeKind;
-using draw::Mark;
-using draw::NodeKind;
-
-std::string_view name_of(draw::View view) {
+static std::string_view name_of(View view) {
   constexpr std::string_view names[] = {"full", "tasks", "constraints", "behaviors"};
   return names[static_cast<std::size_t>(view)];
 }
 
-std::string_view name_of(NodeKind kind) {
+static std::string_view name_of(NodeKind kind) {
   constexpr std::string_view names[] = {"task", "behavior", "hub"};
   return names[static_cast<std::size_t>(kind)];
 }
 
-std::string_view name_of(EdgeKind kind) {
+static std::string_view name_of(EdgeKind kind) {
   constexpr std::string_view names[] = {"performed_by", "requirement", "exclusion",
                                         "same_behavior"};
   return names[static_cast<std::size_t>(kind)];
 }
 
-void write_mark(JsonWriter& json, Mark mark) {
-  const std::string_view name = name_of(mark);
-  json.write("mark", name.empty() ? std::nullopt : std::optional(name));
-}
+}  // namespace draw
 
-void write_moment(JsonWriter& json, const draw::Moment& moment) {
-  json.open("state", '{');
-  json.write_members({{"script", moment.script}, {"index", moment.index}});
-  if (moment.index == 0) {
-    json.write_members({{"time", nullptr}, {"event", nullptr}});
-  } else {
-    json.write_seconds("time", moment.time);
-    json.write("event", moment.event);
-  }
-  if (!moment.situation.empty()) json.write("situation", moment.situation);
-  json.close('}');
-}
+namespace json::graph {
 
-void write_node(JsonWriter& json, const draw::Node& node, bool has_state) {
-  json.on_new_line().open('{');
-  const bool is_unnamed = node.name.empty() && node.kind != NodeKind::task;
-  json.write_members({{"id", node.id}, {"kind", name_of(node.kind)}});
-  json.write("name", is_unnamed ? std::nullopt : std::optional(node.name));
-  json.write("group", node.group == none ? std::nullopt : std::optional(node.group));
-  if (node.kind == NodeKind::behavior) {
-    json.write("package", node.package);
-    if (!node.situation.empty()) write_conditions(json, node.situation);
-  }
-  if (node.kind == NodeKind::hub) json.write("left_out", node.left_out);
-  if (node.kind == NodeKind::task) {
-    const Millionths minimum = node.minimum_performance;
-    json.write_percent("minimum_performance", minimum > 0 ? std::optional(minimum) : std::nullopt);
-    json.write("defined", node.is_defined);
-    if (node.priority || has_state) json.write("priority", node.priority);
-  }
-  write_mark(json, node.mark);
-  json.write_list("notes", node.notes);
-  json.close('}');
-}
+using draw::Edge;
+using draw::EdgeKind;
+using draw::Mark;
+using draw::Moment;
+using draw::Node;
+using draw::NodeKind;
 
-void write_edge(JsonWriter& json, const draw::Diagram& diagram, const Edge& edge) {
-  json.on_new_line().open('{');
-  json.write_members({{"kind", name_of(edge.kind)},
-                      {"from", diagram.nodes[edge.from].id},
-                      {"to", diagram.nodes[edge.to].id}});
-  if (edge.kind == EdgeKind::performed_by) json.write_percent("suitability", edge.degree);
-  if (edge.kind == EdgeKind::requirement) json.write_percent("minimum_performance", edge.degree);
-  write_mark(json, edge.mark);
-  json.close('}');
-}
+/// A node or an edge; the drawing is the context.
+constexpr auto mark = named("mark",
+                            "How it is highlighted: the catalog has an error there; or, in a "
+                            "state, it is in use both before "
+                            "and after the last event, only after it, only before it, or it is a "
+                            "behavior that could not be "
+                            "activated. null: not highlighted.",
+                            nullable(words_among({Mark::faulty, Mark::active, Mark::started,
+                                                  Mark::stopped, Mark::unavailable})));
 
-}  // namespace
+constexpr auto mark_of = [](const auto& of) {
+  return name_of(of.mark).empty() ? std::nullopt : std::optional(of.mark);
+};
+
+constexpr auto id = named("id", "Unique among the nodes, derived from the name.",
+                          matching("^(task|behavior|exclusivity):"));
+
+constexpr auto state = object(
+    "state", "The state that is drawn, if a script was run (--script).",
+    member("script", any_text, "The script, as given.", &Moment::script),
+    member("index", count, "Index of the last event, as in cbc.solve/1; 0: none yet.",
+           &Moment::index),
+    member("time", nullable(seconds), "Time of the last event in seconds; null: none yet.",
+           [](const Moment& of) { return of.index == 0 ? nullptr : &of.time; }),
+    member("event", nullable(text), "The last event and its outcome; null: none yet.",
+           [](const Moment& of) { return of.index == 0 ? nullptr : &of.event; }),
+    optional("situation", text,
+             "The values of all situation variables, if the catalog has any: \"TARGET is near, GPS "
+             "is true\".",
+             [](const Moment& of) { return of.situation.empty() ? nullptr : &of.situation; }));
+
+constexpr auto name_of_node = [](const Node& node) { return node.name; };
+
+constexpr auto group_of_node = member(
+    "group", nullable(count),
+    "The group of tasks that constraints connect, as in `search` of cbc.solve/1; null: not in "
+    "a group.",
+    [](const Node& node) { return node.group == none ? nullptr : &node.group; });
+
+constexpr auto node = variants(
+    "node", "", group(member("id", id, "", &Node::id)), "kind", &Node::kind,
+    group(member("mark", mark, "", mark_of),
+          member("notes", texts, "Other text in the drawing, line by line.", &Node::notes)),
+    variant(
+        {NodeKind::task}, "", member("name", text, "", name_of_node), group_of_node,
+        member("minimum_performance", nullable(percent), "In percent; null: none.",
+               [](const Node& of) {
+                 return of.minimum_performance > 0 ? &of.minimum_performance : nullptr;
+               }),
+        member("defined", boolean, "false: the task is named but not defined, which is an error.",
+               &Node::is_defined),
+        optional("priority", nullable(priority),
+                 "Only in a state: the priority of its request, or 0 if it started by itself; "
+                 "null: neither.",
+                 [](const Node& of, const draw::Diagram& diagram) {
+                   return of.priority || diagram.moment ? &of.priority : nullptr;
+                 })),
+    variant({NodeKind::behavior}, "",
+            member("name", nullable(text), "null: the name is missing, which is an error.",
+                   [](const Node& of) { return of.name.empty() ? nullptr : &of.name; }),
+            group_of_node,
+            member("package", any_text, "The package; empty if none is given.", &Node::package),
+            optional("situation", conditions,
+                     "Only if it names situation variables: the values of each in which it fits; "
+                     "true and false for a variable that is declared without values.",
+                     [](const Node& of) {
+                       return of.situation.empty() ? std::nullopt
+                                                   : std::optional(by_variable(of.situation));
+                     })),
+    variant({NodeKind::hub},
+            "A list of tasks that exclude one another, with an edge to each of them.",
+            member("name", null, "", name_of_node), group_of_node,
+            member("left_out", count, "Number of tasks in the list that are not drawn.",
+                   &Node::left_out)));
+
+constexpr auto ends =
+    group(member(
+              "from", id, "", [](const Edge& of, const draw::Diagram& diagram) -> const auto& {
+                return diagram.nodes[of.from].id;
+              }),
+          member(
+              "to", id, "", [](const Edge& of, const draw::Diagram& diagram) -> const auto& {
+                return diagram.nodes[of.to].id;
+              }));
+
+constexpr auto edge = variants(
+    "edge", "", group(), "kind", &Edge::kind, group(member("mark", mark, "", mark_of)),
+    variant({EdgeKind::performed_by}, "From a task to a behavior that performs it.", ends,
+            member("suitability", percent, "Suitability in percent.",
+                   [](const Edge& of) { return of.degree.value_or(0); })),
+    variant(
+        {EdgeKind::requirement}, "To a task that is required.", ends,
+        member("minimum_performance", nullable(percent),
+               "Minimum performance in percent; null: none. In the view `tasks`, the highest of "
+               "all behaviors.",
+               &Edge::degree)),
+    variant({EdgeKind::exclusion, EdgeKind::same_behavior},
+            "exclusion: between two tasks that exclude one another, or from a hub to one of its "
+            "tasks. same_behavior: between tasks that one behavior performs.",
+            ends));
+
+constexpr auto report = object(
+    "",
+    "The output of `cbc graph --format json` (schema cbc.graph/1): a drawing of a catalog without "
+    "positions and colors. A catalog with errors is included as far as it can be understood.",
+    schema_member("cbc.graph/1"),
+    member("catalog", any_text, "The catalog, as given.", &draw::Diagram::file),
+    member("view", words(draw::View::behaviors),
+           "The view: everything, what tasks require, which constraints connect tasks, or what "
+           "behaviors require.",
+           &draw::Diagram::view),
+    optional("state", state, "", &draw::Diagram::moment),
+    member("nodes", list(node).on_lines(),
+           "Tasks, behaviors, and lists of tasks that exclude one another.", &draw::Diagram::nodes),
+    member("edges", list(edge).on_lines(), "The edges between nodes, which they refer to by id.",
+           &draw::Diagram::edges));
+
+}  // namespace json::graph
 
 std::string graph_json(const draw::Diagram& diagram) {
-  return json_line([&](JsonWriter& json) {
-    json.write_members(
-        {{"schema", "cbc.graph/1"}, {"catalog", diagram.file}, {"view", name_of(diagram.view)}});
-    if (diagram.moment) write_moment(json, *diagram.moment);
-    json.write_list("nodes", diagram.nodes, [&](const draw::Node& node) {
-      write_node(json, node, diagram.moment.has_value());
-    });
-    json.write_list("edges", diagram.edges,
-                    [&](const Edge& edge) { write_edge(json, diagram, edge); });
-  });
+  return json::document(json::graph::report, diagram, diagram);
+}
+
+std::string graph_schema() {
+  return json::schema("graph", "Output of cbc graph", json::graph::report);
 }
 
 namespace {
@@ -161,40 +230,120 @@ std::string diff_text(const CatalogDiff& diff, const Style& style) {
   return text;
 }
 
-namespace {
+namespace json::diff {
 
-JsonPlain to_json(const AttributeValue& value) {
-  if (const bool* const truth = std::get_if<bool>(&value)) return *truth;
-  if (const auto* const degree = std::get_if<Millionths>(&value)) return in_percent(*degree);
-  if (const auto* const time = std::get_if<Microseconds>(&value)) return to_seconds(*time);
-  if (const auto* const text = std::get_if<std::string>(&value)) return *text;
-  return nullptr;
-}
+/// What type the value has depends on the attribute.
+struct Setting {
+  void write(JsonWriter& json, const AttributeValue& value, NoContext /*context*/) const {
+    if (const bool* const truth = std::get_if<bool>(&value)) return json.put(*truth);
+    if (const auto* const degree = std::get_if<Millionths>(&value)) {
+      return json.put(in_percent(*degree));
+    }
+    if (const auto* const time = std::get_if<Microseconds>(&value)) {
+      return json.put(to_seconds(*time));
+    }
+    if (const auto* const text = std::get_if<std::string>(&value)) return json.put(*text);
+    json.put(nullptr);
+  }
+  void put_schema(JsonWriter& json, Definitions& /*definitions*/) const {
+    json.write_list("type", std::array{"boolean", "number", "string", "null"});
+  }
+};
 
-void write_change(JsonWriter& json, const CatalogChange& change) {
-  json.open('{');
-  json.write_members({{"kind", name_of(change.kind)}, {"subject", name_of(change.subject)}});
-  if (!change.behavior.empty()) json.write("behavior", change.behavior);
-  if (!change.task.empty()) json.write("task", change.task);
-  if (!change.variable.empty()) json.write("variable", change.variable);
-  if (!change.other_task.empty()) json.write("other_task", change.other_task);
-  json.write_list("attributes", change.attributes, [&](const AttributeChange& attribute) {
-    json.write_object({{"name", attribute.name},
-                       {"before", to_json(attribute.before)},
-                       {"after", to_json(attribute.after)}});
-  });
-  json.close('}');
-}
+constexpr auto attribute =
+    object(
+        "attribute",
+        "`before` is the value in the older catalog, `after` the value in the newer one; null if "
+        "not set.",
+        member("name", text,
+               "suitability, minimum_performance: in percent. timeout: in seconds. `parameter "
+               "NAME`: the allowed values of a parameter of a task, empty if any value is "
+               "allowed. values, initial value: of a situation variable, null if it is declared "
+               "without any. `situation NAME`: the values of a situation variable in which a "
+               "behavior fits; true or false for a variable that is declared without values.",
+               &AttributeChange::name),
+        member("before", Setting(), "", &AttributeChange::before),
+        member("after", Setting(), "", &AttributeChange::after))
+        .related(R"json([{"oneOf": [
+          {"properties": {"name": {"enum": ["suitability", "minimum_performance", "timeout"]},
+                          "before": {"type": ["number", "null"], "minimum": 0},
+                          "after": {"type": ["number", "null"], "minimum": 0}}},
+          {"properties": {"name": {"enum": ["reactive_start", "start_on_request"]},
+                          "before": {"type": ["boolean", "null"]},
+                          "after": {"type": ["boolean", "null"]}}},
+          {"properties": {"name": {"const": "execution_goal"},
+                          "before": {"enum": ["achieve_goal", "keep_running", null]},
+                          "after": {"enum": ["achieve_goal", "keep_running", null]}}},
+          {"properties": {"name": {"type": "string",
+                                   "pattern": "^(package$|parameter |values$|initial value$)"},
+                          "before": {"type": ["string", "null"]},
+                          "after": {"type": ["string", "null"]}}},
+          {"properties": {"name": {"type": "string", "pattern": "^situation "},
+                          "before": {"type": ["string", "boolean", "null"]},
+                          "after": {"type": ["string", "boolean", "null"]}}}]}])json");
 
-}  // namespace
+constexpr auto kind =
+    member("kind",
+           named("kind",
+                 "removed: only the older catalog has it. added: only the newer one has it. "
+                 "changed: both have it, with different attributes.",
+                 words(ChangeKind::changed)),
+           "", &CatalogChange::kind);
+constexpr auto task = member("task", text, "", &CatalogChange::task);
+constexpr auto behavior = member("behavior", text, "", &CatalogChange::behavior);
+
+constexpr auto change =
+    variants(
+        "change", "", group(kind), "subject", &CatalogChange::subject,
+        group(member("attributes", list(attribute),
+                     "For `changed`, the attributes that differ; otherwise those that are set.",
+                     &CatalogChange::attributes)),
+        variant({ChangeSubject::task}, "", task), variant({ChangeSubject::behavior}, "", behavior),
+        variant({ChangeSubject::performs, ChangeSubject::requirement},
+                "A behavior performs or requires a task.", behavior, task),
+        variant({ChangeSubject::variable}, "",
+                member("variable", text, "", &CatalogChange::variable)),
+        variant(
+            {ChangeSubject::exclusion},
+            "Two tasks exclude one another; `other_task` comes after `task` in the order of names. "
+            "They have no attributes.",
+            task, member("other_task", text, "", &CatalogChange::other_task)))
+        .related(R"json([
+          {"if": {"properties": {"kind": {"const": "changed"}}},
+           "then": {"properties": {"subject": {"not": {"const": "exclusion"}},
+                                   "attributes": {"type": "array", "minItems": 1}}}},
+          {"if": {"properties": {"subject": {"const": "exclusion"}}},
+           "then": {"properties": {"attributes": {"type": "array", "maxItems": 0}}}}])json");
+
+/// The two files, and how they differ.
+struct Report {
+  const CatalogDiff& diff;
+  std::string_view before;
+  std::string_view after;
+};
+
+constexpr auto report =
+    object("",
+           "The output of `cbc graph --diff OLD NEW --format json` (schema cbc.diff/1): the "
+           "differences in meaning between the catalogs, ordered by subject and then by name.",
+           schema_member("cbc.diff/1"),
+           member("old", text, "The older catalog, as given.", &Report::before),
+           member("new", text, "The newer catalog, as given.", &Report::after),
+           member(
+               "changes", list(change), "",
+               [](const Report& of) -> const auto& { return of.diff.changes; }),
+           member("further_exclusions", count,
+                  "How many pairs of exclusive tasks differ in addition to the 100000 listed.",
+                  [](const Report& of) { return of.diff.further_exclusions; }));
+
+}  // namespace json::diff
 
 std::string diff_json(const CatalogDiff& diff, std::string_view before, std::string_view after) {
-  return json_line([&](JsonWriter& json) {
-    json.write_members({{"schema", "cbc.diff/1"}, {"old", before}, {"new", after}});
-    json.write_list("changes", diff.changes,
-                    [&](const CatalogChange& change) { write_change(json, change); });
-    json.write("further_exclusions", diff.further_exclusions);
-  });
+  return json::document(json::diff::report, json::diff::Report{diff, before, after});
+}
+
+std::string diff_schema() {
+  return json::schema("diff", "Differences between two catalogs", json::diff::report);
 }
 
 std::span<const GraphFormat> graph_formats() {

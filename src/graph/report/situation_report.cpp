@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "core/report/catalog_json.h"
+#include "core/compile/catalog_json.h"
 #include "core/report/sentences.h"
 #include "core/report/table_parts.h"
-#include "core/support/json.h"
+#include "core/support/json_description.h"
 #include "core/support/wording.h"
 #include "graph/engine/diagram.h"
 #include "graph/report/palette.h"
@@ -45,6 +46,7 @@ class SituationTable {
     }
   }
 
+  [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
   /// Those that name a variable, in catalog order.
   [[nodiscard]] const std::vector<BehaviorId>& behaviors() const { return behaviors_; }
   [[nodiscard]] std::size_t unconditional() const {
@@ -294,39 +296,74 @@ std::string situation_text(const CompiledCatalog& catalog, const Style& style) {
   return text;
 }
 
+namespace json::situation_view {
+
+/// The table is the context.
+constexpr auto value = object(
+    "value", "",
+    member("value", plain_value, "true and false for a variable that is declared without values.",
+           std::identity()),
+    member("fit", behaviors, "The behaviors that name the variable, and fit in this value.",
+           [](VariableValue of, const SituationTable& table) {
+             return table.behaviors_with(Fit::fits, of);
+           }),
+    member("do_not_fit", behaviors,
+           "The behaviors that name the variable, and do not fit in this value.",
+           [](VariableValue of, const SituationTable& table) {
+             return table.behaviors_with(Fit::does_not_fit, of);
+           }),
+    member("tasks_without_behavior", tasks,
+           "The tasks that have behaviors of which none fits in this value, whatever the other "
+           "variables are.",
+           [](VariableValue of, const SituationTable& table) {
+             return table.tasks_without_behavior(of);
+           }));
+
+constexpr auto report = object(
+    "",
+    "The output of `cbc graph --view situation --format json` (schema cbc.situation/1): which "
+    "behaviors fit in which values of the situation variables.",
+    schema_member("cbc.situation/1"),
+    member("catalog", any_text, "The catalog, as given.",
+           [](const SituationTable& of) { return of.catalog().file; }),
+    member("variables",
+           list(object("variable", "", member("variable", variable, "", std::identity()),
+                       member("values", list(value).at_least(2).on_lines(),
+                              "The first one is the initial value.",
+                              [](std::uint32_t of, const SituationTable& table) {
+                                return table.values_of(of);
+                              })))
+               .on_lines(),
+           "The situation variables, in catalog order.",
+           [](const SituationTable& of) {
+             return [&of](const auto& put) {
+               const std::size_t size = of.catalog().variables.size();
+               for (std::uint32_t place = 0; place < size; ++place) put(place);
+             };
+           }),
+    member("behaviors",
+           list(object("behavior", "", member("behavior", behavior, "", std::identity()),
+                       member("situation", conditions.not_empty(),
+                              "For each variable that it names, the values in which it fits.",
+                              [](BehaviorId of, const SituationTable& table) {
+                                return by_variable(conditions_of(table.catalog(), of));
+                              })))
+               .on_lines(),
+           "The behaviors that name situation variables, in catalog order.",
+           &SituationTable::behaviors),
+    member("unconditional", count,
+           "Number of the behaviors that name no variable, and so fit in every situation.",
+           &SituationTable::unconditional));
+
+}  // namespace json::situation_view
+
 std::string situation_json(const CompiledCatalog& catalog) {
   const SituationTable table(catalog);
-  return json_line([&](JsonWriter& json) {
-    const auto write_behavior = [&](BehaviorId behavior) {
-      json.write(catalog.name_of_behavior(behavior));
-    };
-    json.write_members({{"schema", "cbc.situation/1"}, {"catalog", catalog.file}});
-    json.open("variables", '[');
-    for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
-      json.on_new_line().open('{');
-      json.write("variable", catalog.name_of_variable(variable));
-      json.write_list("values", table.values_of(variable), [&](VariableValue value) {
-        json.on_new_line().open('{');
-        json.key("value");
-        write_plain_value(json, catalog, value);
-        json.write_list("fit", table.behaviors_with(Fit::fits, value), write_behavior);
-        json.write_list("do_not_fit", table.behaviors_with(Fit::does_not_fit, value),
-                        write_behavior);
-        json.write_list("tasks_without_behavior", table.tasks_without_behavior(value),
-                        [&](TaskId task) { json.write(catalog.name_of_task(task)); });
-        json.close('}');
-      });
-      json.close('}');
-    }
-    json.close(']');
-    json.write_list("behaviors", table.behaviors(), [&](BehaviorId behavior) {
-      json.on_new_line().open('{');
-      json.write("behavior", catalog.name_of_behavior(behavior));
-      write_conditions(json, conditions_of(catalog, behavior));
-      json.close('}');
-    });
-    json.write("unconditional", table.unconditional());
-  });
+  return json::document(json::situation_view::report, table, table);
+}
+
+std::string situation_schema() {
+  return json::schema("situation", "Behaviors and situations", json::situation_view::report);
 }
 
 namespace {

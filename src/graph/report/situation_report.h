@@ -19,23 +19,9 @@ namespace cbc {
 /// behavior that fits. Colors are those of the signs.
 [[nodiscard]] std::string situation_text(const CompiledCatalog& catalog, const Style& style);
 
-/// The table as JSON (schema "cbc.situation/1"):
-///
-///     {"schema": "cbc.situation/1",
-///      "catalog": "robot.yaml",
-///      "variables": [                           in catalog order
-///        {"variable": "TARGET",
-///         "values": [                           the first one is the initial value
-///           {"value": "near",                   or true, false
-///            "fit": ["RECOGNIZE_NEAR"],         behaviors that name the variable, by whether they
-///            "do_not_fit": ["RECOGNIZE_FAR"],   fit in this value; in catalog order
-///            "tasks_without_behavior": []}]}],  tasks whose behaviors all do not fit in it
-///      "behaviors": [                           that name variables
-///        {"behavior": "RECOGNIZE_FAR", "situation": {"TARGET": ["far"]}}],
-///      "unconditional": 5}                      number of the behaviors that name none
-///
-/// Bytes of names that are no valid UTF-8 are replaced.
+/// The table as JSON. Bytes of names that are no valid UTF-8 are replaced.
 [[nodiscard]] std::string situation_json(const CompiledCatalog& catalog);
+[[nodiscard]] std::string situation_schema();
 
 /// The table for Graphviz's program `dot`.
 [[nodiscard]] std::string situation_dot(const CompiledCatalog& catalog);

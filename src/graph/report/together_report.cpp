@@ -9,10 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "core/report/event_json.h"
 #include "core/report/sentences.h"
 #include "core/report/table_parts.h"
-#include "core/support/json.h"
 #include "core/support/wording.h"
 #include "graph/engine/diagram.h"
 #include "graph/report/palette.h"
@@ -212,30 +210,6 @@ std::string together_text(const CompiledCatalog& catalog, const TogetherTable& t
     for (const std::string& reason : reasons_of(catalog, pair)) text += "  " + reason + "\n";
   });
   return text;
-}
-
-std::string together_json(const CompiledCatalog& catalog, const TogetherTable& table) {
-  const auto write_names = [&](JsonWriter& json, std::string_view name, const auto& tasks) {
-    json.write_list(name, tasks, [&](TaskId task) { json.write(catalog.name_of_task(task)); });
-  };
-  return json_line([&](JsonWriter& json) {
-    json.write_members({{"schema", "cbc.together/1"}, {"catalog", catalog.file}});
-    json.write("all_tasks", table.is_of_all_tasks);
-    write_names(json, "tasks", table.tasks);
-    write_names(json, "never_run", table.never_run);
-    for (const Together together : answers) json.write(name_of(together), table.count(together));
-    json.write("forbidden", table.count_forbidden());
-    json.write_list("pairs", table.pairs, [&](const TaskPair& pair) {
-      json.on_new_line().open('{');
-      write_names(json, "tasks", std::array{pair.first, pair.second});
-      json.write("together", name_of(pair.together));
-      json.write("forbidden", pair.is_forbidden);
-      json.write_list("reasons", pair.reasons, [&](const Reason& reason) {
-        write_reason(json, catalog, EventRecord(), reason);
-      });
-      json.close('}');
-    });
-  });
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,11 +12,12 @@
 #include <fmt/format.h>
 
 #include "cbc/version.h"
+#include "core/compile/catalog_json.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
-#include "core/report/catalog_json.h"
 #include "core/report/github.h"
 #include "core/support/json.h"
+#include "core/support/json_description.h"
 #include "core/support/wording.h"
 #include "lint/report/lint_report.h"
 #include "runtime/base/text.h"
@@ -29,86 +31,122 @@ std::string lint_github(const std::vector<LintedFile>& files) {
   return text;
 }
 
-namespace {
+namespace json::lint {
 
-void write_finding(JsonWriter& json, const Diagnostic& finding) {
-  json.on_new_line().open('{');
-  json.write_members({{"rule", finding.rule},
-                      {"severity", name_of(finding.severity)},
-                      {"message", finding.message},
-                      {"line", finding.range.begin.line},
-                      {"column", finding.range.begin.column},
-                      {"end_line", finding.range.end.line},
-                      {"end_column", finding.range.end.column}});
-  json.write_list("related", finding.notes, [&](const Note& note) {
-    json.write_object({{"file", note.file},
-                       {"line", note.range.begin.line},
-                       {"column", note.range.begin.column},
-                       {"message", note.message}});
-  });
-  json.close('}');
-}
+constexpr auto related = object(
+    "related", "", member("file", any_text, "", &Note::file),
+    member("line", line_number, "", [](const Note& note) { return note.range.begin.line; }),
+    member("column", line_number, "", [](const Note& note) { return note.range.begin.column; }),
+    member("message", text, "The message, for people.", &Note::message));
 
-/// The tasks that start on request, and which of them can run together.
-void write_together(JsonWriter& json, const TogetherSummary& together) {
-  json.open("together", '{');
-  json.write("all_tasks", together.is_of_all_tasks);
-  json.write_list("tasks", together.tasks);
-  json.write_list("never_run", together.never_run);
-  json.write_list("possible", together.possible, [&](const auto& pair) {
-    json.open('[');
-    json.write(pair.first);
-    json.write(pair.second);
-    json.close(']');
-  });
-  json.write_members({{"excluded", together.excluded},
-                      {"excluded_indirectly", together.excluded_indirectly},
-                      {"excluded_in_each_situation", together.excluded_in_each_situation},
-                      {"excluded_by_situation", together.excluded_by_situation},
-                      {"undecided", together.undecided}});
-  json.close('}');
-}
+constexpr auto diagnostic = object(
+    "diagnostic",
+    "A finding and the text that it is about: from `line` and `column` up to, but not including, "
+    "`end_line` and `end_column`. Lines and columns count from 1; columns count characters, not "
+    "bytes.",
+    member("rule", matching("^[a-z]+(-[a-z]+)*$"),
+           "The rule; `cbc lint --list-rules` lists them. Later versions may have more.",
+           &Diagnostic::rule),
+    member("severity", words(Severity::error),
+           "error: the file cannot be used. warning: the meaning is clear, but probably not "
+           "intended. note: advice.",
+           &Diagnostic::severity),
+    member("message", text, "The message, for people.", &Diagnostic::message),
+    member("line", line_number, "", [](const Diagnostic& of) { return of.range.begin.line; }),
+    member("column", line_number, "", [](const Diagnostic& of) { return of.range.begin.column; }),
+    member("end_line", line_number, "", [](const Diagnostic& of) { return of.range.end.line; }),
+    member("end_column", line_number, "", [](const Diagnostic& of) { return of.range.end.column; }),
+    member("related", list(related), "Related places.", &Diagnostic::notes));
 
-void write_summary(JsonWriter& json, const CatalogSummary& summary,
-                   const std::optional<TogetherSummary>& together) {
-  json.open("summary", '{');
-  json.write_members({{"tasks", summary.total.tasks}, {"behaviors", summary.total.behaviors}});
-  write_constraints(json, summary.total.constraints);
-  json.write_list("groups", summary.groups, [&](const CatalogNumbers& group) {
-    json.open('{');
-    json.write_list("tasks", group.task_names);
-    json.write("constraints", group.constraints.total());
-    json.close('}');
-  });
-  json.write("search_space", summary.total.search_space);
-  if (together) write_together(json, *together);
-  json.close('}');
-}
+constexpr auto together = object(
+    "together", "",
+    member("all_tasks", boolean,
+           "Whether no task starts on request, so that all tasks are taken in place of those that "
+           "do.",
+           &TogetherSummary::is_of_all_tasks),
+    member("tasks", names, "The tasks that start on request and can run, in catalog order.",
+           &TogetherSummary::tasks),
+    member("never_run", names,
+           "The tasks that start on request but can never run, in catalog order.",
+           &TogetherSummary::never_run),
+    member("possible", list(texts.exactly(2).unique()), "The pairs that can run at the same time.",
+           [](const TogetherSummary& of) {
+             return [&](const auto& put) {
+               for (const auto& [first, second] : of.possible) put(std::array{first, second});
+             };
+           }),
+    member("excluded", count, "Number of pairs that an exclusivity list has.",
+           &TogetherSummary::excluded),
+    member("excluded_indirectly", count,
+           "Number of pairs that never run together because of what they require.",
+           &TogetherSummary::excluded_indirectly),
+    member(
+        "excluded_in_each_situation", count,
+        "Number of pairs that what fits excludes in each situation in which either task can run.",
+        &TogetherSummary::excluded_in_each_situation),
+    member("excluded_by_situation", count,
+           "Number of pairs whose behaviors fit in no common situation.",
+           &TogetherSummary::excluded_by_situation),
+    member("undecided", count, "Number of pairs for which there is too much to search.",
+           &TogetherSummary::undecided));
 
-void write_file(JsonWriter& json, const LintedFile& file) {
-  json.on_new_line().open('{');
-  json.write("file", file.file);
-  json.write_list("diagnostics", file.findings,
-                  [&](const Diagnostic& finding) { write_finding(json, finding); });
-  if (file.summary) {
-    write_summary(json, *file.summary, file.together);
-  } else {
-    json.write("summary", nullptr);
-  }
-  json.close('}');
-}
+constexpr auto group_of_tasks = object(
+    "group", "",
+    member("tasks", texts.at_least(1).unique(), "In catalog order.", &CatalogNumbers::task_names),
+    member("constraints", count, "Number of constraints between them.",
+           [](const CatalogNumbers& group) { return group.constraints.total(); }));
 
-}  // namespace
+constexpr auto total = [](const LintedFile& file) -> const CatalogNumbers& {
+  return file.summary->total;
+};
+
+constexpr auto summary = object(
+    "summary", "",
+    member("tasks", count, "", [](const LintedFile& file) { return total(file).tasks; }),
+    member("behaviors", count, "", [](const LintedFile& file) { return total(file).behaviors; }),
+    member("constraints", constraints, "",
+           [](const LintedFile& file) { return total(file).constraints; }),
+    member(
+        "groups", list(group_of_tasks),
+        "Sets of tasks that constraints connect, ordered by their first task.",
+        [](const LintedFile& file) -> const auto& { return file.summary->groups; }),
+    part(total, group(search_space)),
+    optional("together", together,
+             "The pairs of tasks that start on request; only with --summary, and of at most 2000 "
+             "tasks.",
+             &LintedFile::together));
+
+constexpr auto linted_file = object(
+    "file", "", member("file", any_text, "The file, as given.", &LintedFile::file),
+    member("diagnostics", list(diagnostic).on_lines(),
+           "The findings, in the order of their positions.", &LintedFile::findings),
+    member(
+        "summary", nullable(summary),
+        "The catalog in numbers; null for an event script, a settings file, or if the file could "
+        "not be understood.",
+        [](const LintedFile& file) { return file.summary ? &file : nullptr; }));
+
+template <Severity severity>
+constexpr auto count_of =
+    [](const std::vector<LintedFile>& files) { return cbc::count(files, severity); };
+
+constexpr auto report = object(
+    "", "The output of `cbc lint --format json` (schema cbc.lint/1).", schema_member("cbc.lint/1"),
+    member("files", list(linted_file).on_lines(),
+           "The files that were checked, in order; files that cannot be read are not included. A "
+           "settings file is included, at the end, if there are findings about it.",
+           std::identity()),
+    member("errors", count, "Number in all files.", count_of<Severity::error>).on_line(),
+    member("warnings", count, "Number in all files.", count_of<Severity::warning>),
+    member("notes", count, "Number in all files.", count_of<Severity::note>));
+
+}  // namespace json::lint
 
 std::string lint_json(const std::vector<LintedFile>& files) {
-  return json_line([&](JsonWriter& json) {
-    json.write("schema", "cbc.lint/1");
-    json.write_list("files", files, [&](const LintedFile& file) { write_file(json, file); });
-    json.on_new_line().write_members({{"errors", count(files, Severity::error)},
-                                      {"warnings", count(files, Severity::warning)},
-                                      {"notes", count(files, Severity::note)}});
-  });
+  return json::document(json::lint::report, files);
 }
+
+std::string lint_schema() { return json::schema("lint", "Output of cbc lint", json::lint::report); }
 
 std::string rule_markdown(const Rule& rule) {
   const auto code = [](std::string_view text) { return fmt::format("```yaml\n{}```\n", text); };

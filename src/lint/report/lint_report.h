@@ -32,9 +32,9 @@ namespace cbc {
 /// that says that the catalog could not be understood.
 [[nodiscard]] std::string lint_summary(const LintedFile& file, const Style& style);
 
-/// The findings as JSON (schema cbc.lint/1), one per line. Invalid UTF-8 in names is replaced by
-/// U+FFFD.
+/// The findings as JSON, one per line. Invalid UTF-8 in names is replaced by U+FFFD.
 [[nodiscard]] std::string lint_json(const std::vector<LintedFile>& files);
+[[nodiscard]] std::string lint_schema();
 
 /// The findings as a SARIF 2.1.0 log. `working_directory` is the absolute path that relative file
 /// names start from. Files below it get URIs relative to it, others get absolute ones.

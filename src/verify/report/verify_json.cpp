@@ -1,156 +1,288 @@
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
-#include "core/support/json.h"
+#include "core/report/reason_json.h"
+#include "core/support/json_description.h"
 #include "verify/report/verify_report.h"
 
 namespace cbc {
-namespace {
+namespace json::verify {
 
-class VerifyWriter {
- public:
-  VerifyWriter(JsonWriter& json, const VerifyResult& result)
-      : json_(json), result_(result), catalog_(*result.catalog) {}
+// The context is the catalog.
 
-  void write() {
-    json_.write_members({{"schema", "cbc.verify/1"}, {"catalog", catalog_.file}});
-    json_.open("groups", '[');
-    for (const VerifyPart& part : result_.parts) {
-      for (const Exploration& exploration : part.verification.explorations) {
-        // A property may be about variables alone that no behavior names.
-        if (!exploration.groups.empty()) write_exploration(part, exploration);
-      }
-    }
-    json_.close(']');
-    json_.open("properties", '[');
-    for (const VerifyPart& part : result_.parts) {
-      for (const ReportedAnswer& answer : part.answers) write_answer(part, answer);
-    }
-    json_.close(']');
-    write_comparison();
-    write_cut_sets();
+constexpr auto result_word = named(
+    "result",
+    "proved; violated: `script` shows how, or no state is such a one; undecided: a limit ended "
+    "the exploration before.",
+    words(Verdict::Result::undecided));
+
+/// A task or a behavior, by its place in the catalog.
+struct TaskPlaces : TaskNames {
+  static std::string_view name(const CompiledCatalog& catalog, std::uint32_t place) {
+    return catalog.task_names[place];
   }
-
- private:
-  using Depths = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-
-  void write_depths(std::string_view name, const Depths& depths, const Texts& names) {
-    json_.open(name, '{');
-    for (const auto& [place, depth] : depths) json_.write(names[place], depth);
-    json_.close('}');
+};
+struct BehaviorPlaces : BehaviorNames {
+  static std::string_view name(const CompiledCatalog& catalog, std::uint32_t place) {
+    return catalog.behavior_names[place];
   }
+};
+constexpr Name<TaskPlaces> task_at;
+constexpr Name<BehaviorPlaces> behavior_at;
 
-  void write_exploration(const VerifyPart& part, const Exploration& exploration) {
-    json_.on_new_line().open('{');
-    if (result_.parts.size() > 1) json_.write("file", part.file->path);
-    json_.write("group", exploration.groups.front());
-    if (exploration.groups.size() > 1) json_.write_list("groups", exploration.groups);
-    json_.open("tasks", '[');
-    for (const TaskId task : catalog_.task_ids) {
-      if (explores(exploration, task)) json_.write(catalog_.name_of_task(task));
-    }
-    json_.close(']');
-    if (exploration.reduced) json_.write("reduced", true);
-    json_.write_members({{"complete", exploration.complete},
-                         {"states", exploration.states},
-                         {"transitions", exploration.transitions},
-                         {"depth", exploration.depth}});
-    if (!exploration.complete) json_.write_list("states_at_depth", exploration.states_at_depth);
-    write_depths("runs", exploration.runs, catalog_.task_names);
-    write_depths("active", exploration.active, catalog_.behavior_names);
-    write_depths("start_refused", exploration.start_refused, catalog_.task_names);
-    json_.write_list("together", exploration.together, [&](const Exploration::Together& pair) {
-      json_.open('[');
-      json_.write(catalog_.task_names[pair.a]);
-      json_.write(catalog_.task_names[pair.b]);
-      json_.write(pair.depth);
-      json_.close(']');
-    });
-    json_.close('}');
-  }
-
-  void write_answer(const VerifyPart& part, const ReportedAnswer& reported) {
-    const Answer& answer = *reported.answer;
-    const Property& property = *answer.property;
-    json_.on_new_line().open('{');
-    json_.write_members(
-        {{"file", part.file->path}, {"line", property.line}, {"kind", name_of(property.kind)}});
-    json_.write("name", property.name.empty() ? std::nullopt : std::optional(property.name));
-    json_.write("result", name_of(answer.verdict.result));
-    if (answer.witness) {
-      json_.write("length", answer.verdict.script.size());
-      json_.write("script", reported.script_path.value_or(answer.witness->text));
-    } else {
-      json_.write_members({{"length", nullptr}, {"script", nullptr}});
-    }
-    const bool is_refused = property.kind == Property::Kind::can_start && reported.replay;
-    json_.write_json("conflict", is_refused ? reported.replay->conflict : "[]");
-    json_.close('}');
-  }
-
-  void write_comparison() {
-    if (!result_.same_as) {
-      json_.write("same_as", nullptr);
-      return;
-    }
-    const ReportedComparison& reported = *result_.same_as;
-    const CatalogComparison& comparison = reported.comparison;
-    json_.open("same_as", '{');
-    json_.write_members({{"old", reported.old_catalog->file},
-                         {"result", name_of(comparison.result)},
-                         {"states", comparison.states}});
-    if (comparison.witness) {
-      json_.write("length", comparison.moves.size());
-      json_.write("script", reported.script_path.value_or(comparison.witness->text));
-    } else {
-      json_.write_members({{"length", nullptr}, {"script", nullptr}});
-    }
-    json_.write_list("only_old", comparison.names.only_old);
-    json_.write_list("only_new", comparison.names.only_new);
-    json_.close('}');
-  }
-
-  void write_cut_sets() {
-    if (!result_.wants_cut_sets) {
-      json_.write("cut_sets", nullptr);
-      return;
-    }
-    json_.write_list("cut_sets", result_.cut_sets, [&](const TaskCutSets& of_task) {
-      json_.on_new_line().open('{');
-      json_.write_members(
-          {{"task", catalog_.name_of_task(of_task.task)}, {"order", of_task.order}});
-      const std::uint32_t incomplete = of_task.found.incomplete_size;
-      if (!of_task.found.complete) {
-        json_.write("complete_order",
-                    incomplete > 0 ? std::optional(incomplete - 1) : std::nullopt);
-      }
-      json_.write_list("sets", of_task.found.sets, [&](const std::vector<BehaviorId>& set) {
-        json_.open('[');
-        for (const BehaviorId behavior : set) json_.write(catalog_.name_of_behavior(behavior));
-        json_.close(']');
-      });
-      json_.close('}');
-    });
-  }
-
-  [[nodiscard]] bool explores(const Exploration& exploration, TaskId task) const {
-    return std::find(exploration.groups.begin(), exploration.groups.end(),
-                     catalog_.tasks[task].group) != exploration.groups.end();
-  }
-
-  JsonWriter& json_;
-  const VerifyResult& result_;
-  const CompiledCatalog& catalog_;
+/// An exploration with the part that it belongs to.
+struct Explored {
+  const VerifyResult& result;
+  const VerifyPart& part;
+  const Exploration& exploration;
 };
 
-}  // namespace
+constexpr auto exploration_of = [](const Explored& of) -> const auto& { return of.exploration; };
+
+constexpr auto tasks_of = [](const Exploration& of, const CompiledCatalog& catalog) {
+  return [&](const auto& put) {
+    for (const TaskId id : catalog.task_ids) {
+      const auto group = std::find(of.groups.begin(), of.groups.end(), catalog.tasks[id].group);
+      if (group != of.groups.end()) put(id);
+    }
+  };
+};
+
+constexpr auto exploration = object(
+    "exploration", "",
+    optional("file", any_text,
+             "The property file that the exploration is for; only if there are several.",
+             [](const Explored& of) {
+               return of.result.parts.size() > 1 ? &of.part.file->path : nullptr;
+             }),
+    part(
+        exploration_of,
+        group(
+            member("group", count,
+                   "The group, or the first one of several that are explored together.",
+                   [](const Exploration& of) { return of.groups.front(); }),
+            optional(
+                "groups", list(count).at_least(2).unique(),
+                "All groups that are explored together; only if there are several.",
+                [](const Exploration& of) { return of.groups.size() > 1 ? &of.groups : nullptr; }),
+            member("tasks", tasks, "All tasks, in catalog order.", tasks_of),
+            optional("reduced", always_true,
+                     "With --reduce: states that differ only in the order of requests that cannot "
+                     "interact count once.",
+                     &Exploration::reduced),
+            member("complete", boolean,
+                   "Whether every reachable state was visited; false: a limit ended the "
+                   "exploration.",
+                   &Exploration::complete),
+            member("states", integer(1), "Number of states that were found.", &Exploration::states),
+            member("transitions", count, "Number of pairs of a visited state and a move in it.",
+                   &Exploration::transitions),
+            member("depth", count,
+                   "The length of the longest shortest path to a state; of an incomplete "
+                   "exploration, the depth up to which every state was visited.",
+                   &Exploration::depth),
+            optional(
+                "states_at_depth", list(count),
+                "Only if a limit ended the exploration: the number of states at depth 0, 1 "
+                "and so on, as far as it is known.",
+                [](const Exploration& of) { return of.complete ? nullptr : &of.states_at_depth; }),
+            member("runs", map(task_at, count),
+                   "The tasks that run in some state, with the least number of moves to one, in "
+                   "catalog order.",
+                   &Exploration::runs),
+            member("active", map(behavior_at, count),
+                   "The behaviors that are active in some state, likewise.", &Exploration::active),
+            member("start_refused", map(task_at, count),
+                   "The tasks with start_on_request that do not run in some state in which a start "
+                   "with priority 1 would be rejected, likewise.",
+                   &Exploration::start_refused),
+            member("together",
+                   list(row(item(task_at, &Exploration::Together::a),
+                            item(task_at, &Exploration::Together::b),
+                            item(count, &Exploration::Together::depth))),
+                   "The pairs of tasks that run in one state, with the least number of moves to "
+                   "one, in catalog order.",
+                   &Exploration::together))));
+
+/// The script that shows an answer: `length_of` and `text_of` have a pointer to a value, or null.
+constexpr auto script = [](std::string_view meaning, auto length_of, auto text_of) {
+  return group(member("length", nullable(count),
+                      "The number of moves of `script`; null if there is none.", length_of),
+               member("script", nullable(any_text), meaning, text_of));
+};
+
+/// A property with the part that it belongs to.
+struct Answered {
+  const VerifyPart& part;
+  const ReportedAnswer& reported;
+  const Answer& answer = *reported.answer;
+  const Property& property = *answer.property;
+};
+
+/// JSON already.
+struct Conflict {
+  void write(JsonWriter& json, std::string_view value, const auto& /*context*/) const {
+    json.put_json(value);
+  }
+  void put_schema(JsonWriter& json, Definitions& definitions) const {
+    list(reason).put_schema(json, definitions);
+  }
+};
+
+constexpr auto property =
+    object(
+        "property", "",
+        member(
+            "file", any_text, "The property file.",
+            [](const Answered& of) -> const auto& { return of.part.file->path; }),
+        member("line", line_number, "The line of the property in the file.",
+               [](const Answered& of) { return of.property.line; }),
+        member("kind", words(Property::Kind::reachable),
+               "can_start: wherever the task does not run, its start is accepted. always: the "
+               "condition "
+               "holds in every state. never: it holds in none. reachable: it holds in some state.",
+               [](const Answered& of) { return of.property.kind; }),
+        member("name", nullable(text), "The name; null if it has none.",
+               [](const Answered& of) {
+                 return of.property.name.empty() ? nullptr : &of.property.name;
+               }),
+        member("result", result_word, "",
+               [](const Answered& of) { return of.answer.verdict.result; }),
+        script(
+            "A shortest event script that breaks the property, or, for reachable, leads to such a "
+            "state: its text, or with --scripts its path.",
+            [](const Answered& of) {
+              return of.answer.witness ? std::optional(of.answer.verdict.script.size())
+                                       : std::nullopt;
+            },
+            [](const Answered& of) {
+              if (!of.answer.witness) return static_cast<const std::string*>(nullptr);
+              return of.reported.script_path ? &*of.reported.script_path : &of.answer.witness->text;
+            }),
+        member("conflict", Conflict(), "Of a violated can_start: why the start is rejected.",
+               [](const Answered& of) -> std::string_view {
+                 const bool is_refused =
+                     of.property.kind == Property::Kind::can_start && of.reported.replay;
+                 return is_refused ? std::string_view(of.reported.replay->conflict) : "[]";
+               }))
+        .related(R"([
+      {"$comment": "A counterexample, or of reachable a witness.",
+       "if": {"anyOf": [
+         {"properties": {"kind": {"enum": ["can_start", "always", "never"]},
+                         "result": {"const": "violated"}}},
+         {"properties": {"kind": {"const": "reachable"}, "result": {"const": "proved"}}}]},
+       "then": {"properties": {"length": {"type": "integer"}, "script": {"type": "string"}}},
+       "else": {"properties": {"length": {"type": "null"}, "script": {"type": "null"}}}},
+      {"if": {"properties": {"kind": {"const": "can_start"}, "result": {"const": "violated"}}},
+       "then": {"properties": {"conflict": {"type": "array", "minItems": 1}}},
+       "else": {"properties": {"conflict": {"type": "array", "maxItems": 0}}}}])");
+
+constexpr auto compared = [](const ReportedComparison& of) -> const auto& { return of.comparison; };
+
+constexpr auto comparison =
+    object("comparison", "",
+           member("old", text, "The other catalog, as given.",
+                  [](const ReportedComparison& of) { return of.old_catalog->file; }),
+           member("result", result_word, "proved: every reachable event is decided alike.",
+                  [](const ReportedComparison& of) { return compared(of).result; }),
+           member("states", count, "Number of pairs of states that were found.",
+                  [](const ReportedComparison& of) { return compared(of).states; }),
+           script(
+               "A shortest event script whose last event is decided differently: its text, or with "
+               "--scripts its path.",
+               [](const ReportedComparison& of) {
+                 return compared(of).witness ? std::optional(compared(of).moves.size())
+                                             : std::nullopt;
+               },
+               [](const ReportedComparison& of) {
+                 if (!compared(of).witness) return static_cast<const std::string*>(nullptr);
+                 return of.script_path ? &*of.script_path : &compared(of).witness->text;
+               }),
+           member(
+               "only_old", names, "What only the other catalog has, in words.",
+               [](const ReportedComparison& of) -> const auto& {
+                 return compared(of).names.only_old;
+               }),
+           member(
+               "only_new", names, "What only this catalog has, in words.",
+               [](const ReportedComparison& of) -> const auto& {
+                 return compared(of).names.only_new;
+               }))
+        .related(R"([
+      {"if": {"properties": {"result": {"const": "violated"}}},
+       "then": {"properties": {"length": {"type": "integer"}, "script": {"type": "string"}}},
+       "else": {"properties": {"length": {"type": "null"}, "script": {"type": "null"}}}}])");
+
+constexpr auto cut_sets = object(
+    "cut_sets", "", member("task", task, "", &TaskCutSets::task),
+    member("order", integer(1), "The largest size of a set (--order).", &TaskCutSets::order),
+    optional(
+        "complete_order", nullable(count),
+        "All sets up to this size are there; null if it is not even known whether the task can "
+        "run without faults. Only if a limit ended the search.",
+        [](const TaskCutSets& of) {
+          using Order = std::optional<std::uint32_t>;
+          const std::uint32_t incomplete = of.found.incomplete_size;
+          if (of.found.complete) return std::optional<Order>();
+          return std::optional<Order>(std::in_place,
+                                      incomplete > 0 ? Order(incomplete - 1) : Order());
+        }),
+    member(
+        "sets", list(behaviors).unique(),
+        "The minimal sets of behaviors whose faults together make the task impossible, by size, "
+        "then in catalog order. One empty set: it cannot run even without a fault.",
+        [](const TaskCutSets& of) -> const auto& { return of.found.sets; }));
+
+constexpr auto report = object(
+    "",
+    "The output of `cbc verify --format json` (schema cbc.verify/1): what can happen on a catalog "
+    "under the assumptions of its property files, and whether the properties in them hold.",
+    schema_member("cbc.verify/1"),
+    member("catalog", any_text,
+           "The catalog, as given; for a compiled catalog, the name of its source.",
+           [](const VerifyResult& of) { return of.catalog->file; }),
+    member("groups", list(exploration).on_lines(),
+           "The explorations, in their order. Without properties each group is explored by itself; "
+           "groups that one property is about are explored together.",
+           [](const VerifyResult& of) {
+             return [&of](const auto& put) {
+               for (const VerifyPart& in_part : of.parts) {
+                 for (const Exploration& one : in_part.verification.explorations) {
+                   // A property may be about variables alone that no behavior names.
+                   if (!one.groups.empty()) put(Explored{of, in_part, one});
+                 }
+               }
+             };
+           }),
+    member("properties", list(property).on_lines(), "The properties, in the order of the files.",
+           [](const VerifyResult& of) {
+             return [&of](const auto& put) {
+               for (const VerifyPart& in_part : of.parts) {
+                 for (const ReportedAnswer& reported : in_part.answers) {
+                   put(Answered{in_part, reported});
+                 }
+               }
+             };
+           }),
+    member("same_as", nullable(comparison),
+           "The comparison with another catalog; null if none was asked for.",
+           &VerifyResult::same_as),
+    member("cut_sets", nullable(list(cut_sets).at_least(1).on_lines()),
+           "The minimal cut sets of the tasks that were named; null if none was.",
+           [](const VerifyResult& of) { return of.wants_cut_sets ? &of.cut_sets : nullptr; }));
+
+}  // namespace json::verify
 
 std::string verify_to_json(const VerifyResult& result) {
-  return json_line([&](JsonWriter& json) { VerifyWriter(json, result).write(); });
+  return json::document(json::verify::report, result, *result.catalog);
+}
+
+std::string verify_schema() {
+  return json::schema("verify", "Result of a verification", json::verify::report);
 }
 
 }  // namespace cbc

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "core/report/event_json.h"
 #include "core/report/failure_story.h"
+#include "core/report/reason_json.h"
 #include "core/report/run_text.h"
-#include "core/support/json.h"
+#include "core/support/json_description.h"
 #include "core/support/memory_file.h"
 #include "runtime/coordinator/record.h"
 #include "verify/report/verify_report.h"
@@ -41,12 +41,9 @@ class ReplayListener final : public RunListener {
     if (record.origin != Origin::script || record.verb != Verb::start) return;
     conflict_.clear();
     JsonWriter json(conflict_);
-    json.open('[');
-    for (const Reason* reason :
-         order_reasons(catalog_, record.conflict, std::span(&record.task, 1))) {
-      write_reason(json, catalog_, record, *reason);
-    }
-    json.close(']');
+    json::list(json::pointed(json::reason))
+        .write(json, order_reasons(catalog_, record.conflict, std::span(&record.task, 1)),
+               json::ReasonContext{catalog_, record});
   }
   void on_failure(const Failure& failure) override { text_.on_failure(failure); }
   void on_end(const State& state) override {

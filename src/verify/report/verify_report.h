@@ -108,37 +108,8 @@ struct VerifyResult {
 /// The result for people.
 [[nodiscard]] std::string verify_to_text(const VerifyResult& result, const Style& style);
 
-/// The result as JSON (schema cbc.verify/1):
-///
-///     {"schema": "cbc.verify/1",
-///      "catalog": "robot.yaml",
-///      "assumptions": [{"file": …}],     of each property file; see write_assumptions
-///      "groups": [                        those that were explored
-///        {"group": 0,                     the first; "groups" has all that were explored together
-///         "tasks": ["HOVER", "LAND"],     in catalog order
-///         "complete": true,               false: a limit ended it; every state up to "depth" was
-///         "states": 61, "transitions": 759, "depth": 7,                               visited
-///         "runs": {"HOVER": 1},           the least number of moves to such a state
-///         "active": {"HOVER_WITH_PID": 1},
-///         "start_refused": {"LAND": 3},
-///         "together": [["HOVER", "LAND", 4]]}],
-///      "properties": [
-///        {"file": "landing.yaml", "line": 3, "kind": "can_start", "name": "landing is possible",
-///         "result": "violated",
-///         "length": 4, "script": "…",     of a counterexample or witness: its moves, its text or
-///         "conflict": […]}],              its path; why the start was rejected
-///      "same_as": null,                   or what was found out about another catalog:
-///        {"old": "robot-1.yaml", "result": "violated", "states": 54, "length": 3, "script": "…",
-///         "only_old": ["behavior B1"], "only_new": []}
-///      "cut_sets": [                      null: none were asked for
-///        {"task": "LAND", "order": 2, "sets": [["B1"], ["B2", "B3"]]}]}
-///
-/// Groups that are not complete have "states_at_depth", from depth 0 on, as far as it is known.
-/// Groups have "reduced": true if states were merged (--reduce).
-/// "file" is also a member of groups that were explored for one of several property files. A search
-/// for cut sets that a limit ended has "complete_order": all sets up to this size are there, which
-/// is null if it is not even known whether the task can run without faults.
 [[nodiscard]] std::string verify_to_json(const VerifyResult& result);
+[[nodiscard]] std::string verify_schema();
 
 /// The properties as JUnit XML: a file is a test suite, a property a test case. One that is
 /// violated is a failure, an undecided one an error.

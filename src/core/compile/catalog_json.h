@@ -1,0 +1,177 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/catalog/situation.h"
+#include "core/compile/compile.h"
+#include "core/support/json_description.h"
+#include "runtime/compiled/compiled_catalog.h"
+
+// Parts of catalogs, as JSON. The context of descriptions is the compiled catalog, or has it as its
+// member `catalog`.
+
+namespace cbc::json {
+
+template <typename Context>
+[[nodiscard]] const CompiledCatalog& catalog_in(const Context& context) {
+  if constexpr (std::same_as<Context, CompiledCatalog>) {
+    return context;
+  } else if constexpr (requires { context.catalog(); }) {
+    return context.catalog();
+  } else {
+    return context.catalog;
+  }
+}
+
+/// A name in the catalog. `Names` says of what: it finds the name of an id, and the id of a name.
+template <typename Names>
+struct Name {
+  template <typename Context>
+  void write(JsonWriter& json, std::uint32_t id, const Context& context) const {
+    json.put(text(id, context));
+  }
+  void put_schema(JsonWriter& json, Definitions& definitions) const {
+    json::text.put_schema(json, definitions);
+  }
+  template <typename Context>
+  void read(const auto& json, std::uint32_t& id, const Context& context) const {
+    id = find(json, json.text(), context);
+  }
+  /// As the name of a member.
+  template <typename Context>
+  [[nodiscard]] std::string_view text(std::uint32_t id, const Context& context) const {
+    return Names::name(catalog_in(context), id);
+  }
+  template <typename Context>
+  void read_name(const auto& json, std::uint32_t& id, const Context& context) const {
+    id = find(json, json.name(), context);
+  }
+
+ private:
+  template <typename Context>
+  [[nodiscard]] static std::uint32_t find(const auto& json, std::string_view name,
+                                          const Context& context) {
+    const auto id = Names::find(catalog_in(context), name);
+    if (!id) json.refuse_word(Names::what, name);
+    return *id;
+  }
+};
+
+struct TaskNames {
+  static constexpr std::string_view what = "task";
+  static std::string_view name(const CompiledCatalog& catalog, TaskId task) {
+    return catalog.name_of_task(task);
+  }
+  static std::optional<TaskId> find(const CompiledCatalog& catalog, std::string_view name) {
+    const auto place = catalog.find_task(name);
+    return place ? std::optional(catalog.task_ids[*place]) : std::nullopt;
+  }
+};
+inline constexpr Name<TaskNames> task;
+
+struct BehaviorNames {
+  static constexpr std::string_view what = "behavior";
+  static std::string_view name(const CompiledCatalog& catalog, BehaviorId behavior) {
+    return catalog.name_of_behavior(behavior);
+  }
+  static std::optional<BehaviorId> find(const CompiledCatalog& catalog, std::string_view name) {
+    const auto place = catalog.find_behavior(name);
+    return place ? std::optional(catalog.behavior_ids[*place]) : std::nullopt;
+  }
+};
+inline constexpr Name<BehaviorNames> behavior;
+
+inline constexpr auto tasks = list(task).unique();
+inline constexpr auto behaviors = list(behavior).unique();
+
+struct VariableNames {
+  static std::string_view name(const CompiledCatalog& catalog, std::uint32_t variable) {
+    return catalog.name_of_variable(variable);
+  }
+};
+inline constexpr Name<VariableNames> variable;
+
+/// A value of a situation variable: a text, or true or false if the variable was declared without
+/// values.
+struct PlainValue {
+  template <typename Context>
+  void write(JsonWriter& json, VariableValue value, const Context& context) const {
+    const CompiledCatalog& catalog = catalog_in(context);
+    if (catalog.variables[value.variable].is_boolean != 0) {
+      json.put(value.value == 0);
+    } else {
+      json.put(catalog.name_of_value(value));
+    }
+  }
+  /// Whether a behavior is available, beside the values of variables.
+  template <typename Context>
+  void write(JsonWriter& json, bool available, const Context& /*context*/) const {
+    json.put(available);
+  }
+  void put_schema(JsonWriter& json, Definitions& definitions) const;
+};
+inline constexpr PlainValue plain_value;
+
+/// Values of situation variables, and whether behaviors are available, by their names.
+inline constexpr auto situation = map(text, plain_value);
+
+/// The values of a condition.
+struct ConditionValues {
+  template <typename Context>
+  void write(JsonWriter& json, const NamedCondition& condition, const Context& /*context*/) const {
+    put(json, condition);
+  }
+  void put_schema(JsonWriter& json, Definitions& definitions) const;
+
+ private:
+  static void put(JsonWriter& json, const NamedCondition& condition);
+};
+
+/// The values in which a behavior fits, by the variables that it names.
+inline constexpr auto conditions = map(text, ConditionValues());
+
+/// What a Map makes of conditions.
+[[nodiscard]] inline auto by_variable(std::vector<NamedCondition> all) {
+  return [all = std::move(all)](const auto& put) {
+    for (const NamedCondition& condition : all) put(condition.variable, condition);
+  };
+}
+
+/// A situation variable, by its place.
+inline constexpr auto variable_with_values =
+    object("situation_variable", "", member("variable", variable, "", std::identity()),
+           member("values", list(plain_value).at_least(2).unique(),
+                  "The first one is the initial value. [true, false]: declared without values.",
+                  [](std::uint32_t index, const auto& context) {
+                    return [index, &context](const auto& put) {
+                      const auto values = catalog_in(context).variables[index].value_count;
+                      for (std::uint32_t value = 0; value < values; ++value) {
+                        put(VariableValue{index, value});
+                      }
+                    };
+                  }));
+
+inline constexpr auto constraints = object(
+    "constraints", "",
+    member("exclusive_pairs", count,
+           "Distinct unordered pairs of different tasks that exclude one another.",
+           &ConstraintCount::exclusive_pairs),
+    member("requirements", count, "Distinct pairs of a behavior and a task that it requires.",
+           &ConstraintCount::requirements),
+    member("task_minimums", count, "Tasks with a minimum performance.",
+           &ConstraintCount::task_minimums),
+    member("total", count, "", &ConstraintCount::total));
+
+inline constexpr auto search_space =
+    member("search_space", matching("^[1-9][0-9]*$"),
+           "The product of (1 + number of behaviors) over all tasks. A text, since it may exceed "
+           "any number format.",
+           &CatalogNumbers::search_space);
+
+}  // namespace cbc::json

@@ -1,0 +1,55 @@
+// The JSON Schemas in schemas/ of what the program writes are those of its descriptions.
+// CBC_UPDATE_GOLDEN=1 writes them anew.
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "compile/catalog_dump.h"
+#include "coverage/report/coverage_report.h"
+#include "coverage/report/mutants_report.h"
+#include "graph/report/graph_report.h"
+#include "graph/report/situation_report.h"
+#include "graph/report/together_report.h"
+#include "lint/report/lint_report.h"
+#include "support/read_file.h"
+#include "verify/report/verify_report.h"
+
+namespace cbc::schema_files_test {
+namespace {
+
+struct File {
+  const char* name;
+  std::string (*schema)();
+};
+
+constexpr File files[] = {
+    {"catalog-dump", catalog_schema},
+    {"coverage", coverage_schema},
+    {"diff", diff_schema},
+    {"graph", graph_schema},
+    {"lint", lint_schema},
+    {"mutants", mutants_schema},
+    {"situation", situation_schema},
+    {"together", together_schema},
+    {"verify", verify_schema},
+};
+
+class SchemaFile : public testing::TestWithParam<File> {};
+
+TEST_P(SchemaFile, IsThatOfTheDescription) {
+  const std::string path = std::string(CBC_SOURCE_DIR "/schemas/") + GetParam().name + ".json";
+  const std::string schema = GetParam().schema();
+  if (std::getenv("CBC_UPDATE_GOLDEN") != nullptr) std::ofstream(path) << schema;
+  EXPECT_EQ(test::read_file(path), schema);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SchemaFile, testing::ValuesIn(files), [](const auto& info) {
+  std::string name = info.param.name;
+  std::erase(name, '-');
+  return name;
+});
+
+}  // namespace
+}  // namespace cbc::schema_files_test
