@@ -11,7 +11,8 @@
 
 #include "core/catalog/situation.h"
 #include "core/compile/catalog_json.h"
-#include "core/script/event_lines.h"
+#include "core/report/event_description.h"
+#include "core/script/situation_json.h"
 #include "core/support/json.h"
 #include "page/stream_page.h"
 #include "page_files.h"
@@ -94,7 +95,8 @@ void HtmlReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   JsonWriter json(runs_json_);
   json.open('{');
   json.write("catalog", place - catalogs_.begin());
-  write_situation(json, catalog, script.situation);
+  json.key("situation");
+  json::situation.write(json, json::entries_of(script.situation, catalog), catalog);
   json.flush();
   json_.begin_run(catalog, script);
   left_out_of_run_ = 0;
@@ -202,8 +204,9 @@ std::string state_of_page(const CompiledCatalog& catalog, std::uint64_t index, M
   json.open('{');
   json.write("index", index);
   json.write_seconds("time", time);
-  write_running(json, catalog, state);
-  write_situation(json, catalog, situation);
+  json::state_after.write(json, json::Running(catalog, state), catalog);
+  json.key("situation");
+  json::situation.write(json, json::entries_of(situation, catalog), catalog);
   json.write_list("faulty", faulty);
   json.close('}');
   json.flush();

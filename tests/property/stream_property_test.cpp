@@ -18,6 +18,7 @@
 #include "core/script/event_lines.h"
 #include "core/script/reader.h"
 #include "core/script/runner.h"
+#include "core/script/state_json.h"
 #include "core/yaml/document.h"
 #include "generator.h"
 #include "random.h"

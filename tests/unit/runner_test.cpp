@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/script/event_lines.h"
 #include "core/script/reader.h"
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"
+#include "core/script/state_json.h"
 
 namespace cbc::runner_test {
 namespace {

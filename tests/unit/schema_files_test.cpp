@@ -25,15 +25,9 @@ struct File {
 };
 
 constexpr File files[] = {
-    {"catalog-dump", catalog_schema},
-    {"coverage", coverage_schema},
-    {"diff", diff_schema},
-    {"graph", graph_schema},
-    {"lint", lint_schema},
-    {"mutants", mutants_schema},
-    {"situation", situation_schema},
-    {"together", together_schema},
-    {"verify", verify_schema},
+    {"catalog-dump", catalog_schema}, {"coverage", coverage_schema}, {"diff", diff_schema},
+    {"graph", graph_schema},          {"lint", lint_schema},         {"mutants", mutants_schema},
+    {"situation", situation_schema},  {"together", together_schema}, {"verify", verify_schema},
 };
 
 class SchemaFile : public testing::TestWithParam<File> {};

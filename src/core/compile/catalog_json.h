@@ -32,6 +32,7 @@ template <typename Context>
 /// A name in the catalog. `Names` says of what: it finds the name of an id, and the id of a name.
 template <typename Names>
 struct Name {
+  [[nodiscard]] static bool has(std::uint32_t id) { return id != none; }
   template <typename Context>
   void write(JsonWriter& json, std::uint32_t id, const Context& context) const {
     json.put(text(id, context));

@@ -6,7 +6,7 @@
 
 namespace cbc::json {
 
-inline constexpr auto entries_of = [](const SituationPart& part, const auto& context) {
+inline constexpr auto entries_of_part = [](const SituationPart& part, const auto& context) {
   return [&](const auto& put) {
     const CompiledCatalog& catalog = catalog_in(context);
     for (const VariableValue value : part.variables) {
@@ -53,10 +53,10 @@ inline constexpr auto assumptions = object(
           };
         }),
     member(
-        "never", list(projected(entries_of, situation)), "Situations that do not occur.",
+        "never", list(projected(entries_of_part, situation)), "Situations that do not occur.",
         [](const StatedAssumptions& of) -> const auto& { return of.assumptions.never; }),
     member(
-        "initially", projected(entries_of, situation),
+        "initially", projected(entries_of_part, situation),
         "What differs at first from initial values, and from available behaviors.",
         [](const StatedAssumptions& of) -> const auto& { return of.assumptions.initially; }));
 

@@ -9,7 +9,6 @@
 
 #include "core/script/runner.h"
 #include "core/script/script.h"
-#include "core/support/json.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/record.h"
@@ -18,17 +17,6 @@
 // Events of a run, as JSON.
 
 namespace cbc {
-
-/// Writes one of the reasons of a conflict set, as an object.
-void write_reason(JsonWriter& json, const CompiledCatalog& catalog, const EventRecord& record,
-                  const Reason& reason);
-
-/// Writes why tasks are not as expected, as an object.
-void write_surprise(JsonWriter& json, const CompiledCatalog& catalog, const Surprise& surprise,
-                    const State& state);
-
-/// Writes the members "running", "requests" and "queue" of an event: the state after it.
-void write_running(JsonWriter& json, const CompiledCatalog& catalog, const State& state);
 
 /// The optional keys of events.
 struct EventAdditions {
@@ -61,6 +49,9 @@ void append_event(std::string& text, const CompiledCatalog& catalog, const Event
 
 /// The last line of a stream with statistics: the effort of all searches and of the process so far.
 [[nodiscard]] std::string stream_totals(const SearchTotals& totals);
+
+/// Of a line.
+[[nodiscard]] std::string stream_schema();
 
 /// Passes on each event as a line as soon as it is solved.
 class EventStream final : public RunListener {

@@ -77,9 +77,7 @@ inline constexpr auto reason = variants(
         {Reason::Kind::performance},
         "While the behavior performs a task, `task` must have the minimum performance; without "
         "a behavior, whenever `task` runs.",
-        optional("behavior", behavior, "",
-                 [](const Reason& of) { return of.behavior != none ? &of.behavior : nullptr; }),
-        reasons::task, reasons::catalog_line,
+        optional("behavior", behavior, "", &Reason::behavior), reasons::task, reasons::catalog_line,
         optional("best", list(reasons::best).at_least(1),
                  "With what the task would do best without this minimum: its behavior and those "
                  "of all tasks that it requires; their product is its performance. Absent if it "

@@ -3,27 +3,221 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "core/report/event_description.h"
 #include "core/report/event_json.h"
 #include "core/report/run_report.h"
 #include "core/report/search_stats.h"
 #include "core/report/sentences.h"
+#include "core/report/totals_json.h"
 #include "core/support/json.h"
+#include "core/support/json_description.h"
 
 namespace cbc {
+namespace json::solve {
+
+/// Why tasks are not as expected; `event`: what decided, `state`: before it.
+struct Unexpected {
+  const Surprise& surprise;
+  const WhyNot& why_not;
+  std::span<const Reason> conflict;
+  std::span<const TaskId> tasks_in_question;
+  const State& present;
+};
+
+constexpr auto looked_back = [](const Unexpected& of) -> const LookBack& {
+  return of.surprise.look_back;
+};
+
+constexpr auto unexpected =
+    object(
+        "surprise",
+        "Why tasks of one group are not as expected: the best answer that would have met the "
+        "expectation is worse than the chosen one, or there is none.",
+        member("event", nullable(integer(1)),
+               "Index of the event that decided: the last accepted one of the group, or a rejected "
+               "start or stop since. Null if there was none, or if one is still to come.",
+               [](const Unexpected& of) {
+                 const EventRecord* const event = looked_back(of).event;
+                 return event != nullptr ? &event->index : nullptr;
+               }),
+        member(
+            "tasks", list(task).at_least(1),
+            "The tasks that are not as expected, in catalog order.",
+            [](const Unexpected& of) -> const auto& { return of.surprise.tasks; }),
+        optional("due", positive_seconds,
+                 "When a reactive task that should run starts by itself, in seconds on the clock.",
+                 [](const Unexpected& of) {
+                   return looked_back(of).kind == LookBack::Kind::due ? &looked_back(of).due
+                                                                      : nullptr;
+                 }),
+        part(
+            [](const Unexpected& of) -> const auto& { return of.why_not; },
+            why_not("The best configuration that meets the expectation in this group; null if "
+                    "there is none, or no answer.")),
+        member(
+            "conflict", list(pointed(reason)),
+            "Why there is no alternative: a minimal set of reasons. Empty if the event leaves no "
+            "choice.",
+            [](const Unexpected& of, const Decision& in) {
+              return in_order(of.conflict, of.tasks_in_question, in);
+            }),
+        optional("notes", texts.at_least(1),
+                 "What else one has to know, for people: that what prevented it no longer does, "
+                 "that a fault of an active behavior has no effect yet. Also at the end of the "
+                 "message.",
+                 [](const Unexpected& of, const Decision& in) {
+                   std::vector<std::string> notes = notes_of(in.catalog, of.surprise, of.present);
+                   return notes.empty() ? std::nullopt : std::optional(std::move(notes));
+                 }),
+        member("message", text, sentence,
+               [](const Unexpected& of, const Decision& in) {
+                 return message_of(describe_surprise(in.catalog, of.surprise, of.present));
+               }))
+        .related(R"([
+      {"if": {"properties": {"alternative": {"type": "null"}}},
+       "then": {"properties": {"loses": {"type": "null"},
+         "differences": {"type": "array", "maxItems": 0}}},
+       "else": {"properties": {"event": {"type": "integer"},
+         "limit_reached": {"const": false},
+         "loses": {"type": "object"},
+         "differences": {"type": "array", "minItems": 1},
+         "conflict": {"type": "array", "maxItems": 0}}}}])");
+
+/// A surprise in a failed expectation, which is the context.
+struct OfFailure {
+  struct Context {
+    const CompiledCatalog& catalog;
+    const Failure& failure;
+  };
+
+  void write(JsonWriter& json, const Surprise& surprise, const Context& context) const {
+    static const EventRecord nothing{};
+    static const WhyNot no_answer{};
+    const State& present = *context.failure.state;
+    const LookBack& look_back = surprise.look_back;
+    if (look_back.kind == LookBack::Kind::decided) {
+      unexpected.write(json,
+                       Unexpected{surprise, look_back.why_not, look_back.why_not.conflict,
+                                  surprise.tasks, present},
+                       Decision{context.catalog, *look_back.event, *look_back.before});
+      return;
+    }
+    const bool is_rejected = look_back.kind == LookBack::Kind::rejected;
+    const EventRecord& event = is_rejected ? *look_back.event : nothing;
+    unexpected.write(json, Unexpected{surprise, no_answer, event.conflict, {}, present},
+                     Decision{context.catalog, event, present});
+  }
+  void put_schema(JsonWriter& json, Definitions& definitions) const {
+    unexpected.put_schema(json, definitions);
+  }
+};
+
+constexpr auto failure = object(
+    "failure", "An expectation that does not hold.",
+    member("index", count, "Index of the event that it follows; 0 if it comes first.",
+           &Failure::index),
+    member("line", line_number, "Line of the script, from 1.",
+           [](const Failure& of) { return of.range.begin.line; }),
+    member("message", text, "What was expected, and what was found, for people.",
+           &Failure::message),
+    member("why", list(OfFailure()),
+           "Why tasks are not as expected, one entry for each group of tasks. Empty if the outcome "
+           "alone is wrong, if the expectation can never hold, and after the first 100 failed "
+           "expectations of a script.",
+           &Failure::surprises));
+
+constexpr auto run_begin =
+    group(member("catalog", any_text,
+                 "The catalog, as given; for a compiled catalog, the name of its source.",
+                 [](const Script&, const CompiledCatalog& catalog) { return catalog.file; }),
+          member("script", any_text, "The script, as given.", &Script::file));
+
+/// Its events are written one by one.
+constexpr auto events = member("events", list(event), "All events, in order.",
+                               [](const auto&) { return std::span<const EventWithState>(); });
+
+struct RunEnd {
+  const RunResult& result;
+  const std::string& failures;  ///< as JSON
+  const std::string& error;
+};
+
+/// The items of a list, which are JSON already.
+struct Failures {
+  void write(JsonWriter& json, std::string_view items, const auto& /*context*/) const {
+    json.begin('[');
+    json.put_json(items);
+    json.close(']');
+  }
+  void put_schema(JsonWriter& json, Definitions& definitions) const {
+    list(failure).put_schema(json, definitions);
+  }
+};
+
+constexpr auto run_end = group(
+    member("expectations",
+           object("expectations",
+                  "How many expectations of the script hold, and what is wrong with the others.",
+                  member("passed", count, "", [](const RunEnd& of) { return of.result.passed; }),
+                  member("failed", count, "", [](const RunEnd& of) { return of.result.failed; }),
+                  member(
+                      "failures", Failures(), "",
+                      [](const RunEnd& of) -> const auto& { return of.failures; })),
+           "", std::identity()),
+    optional(
+        "totals", totals, "With --stats: the effort of the searches of the run.",
+        [](const RunEnd& of) -> const auto& { return of.result.totals; }),
+    optional("error", text, "Why the run ended early, for people. Absent if it did not end early.",
+             [](const RunEnd& of) { return of.error.empty() ? nullptr : &of.error; }));
+
+constexpr auto runs = member(
+    "runs",
+    list(object("run", "A script run on a catalog.", run_begin, events, run_end)).at_least(1),
+    "One run for each script, in the order of the command line; the scripts of a folder are "
+    "ordered by name.",
+    [](const auto&) { return std::span<const RunEnd>(); });
+
+using Totals = std::optional<SearchTotals>;
+
+constexpr auto report_end = group(
+    optional(
+        "totals", totals, "With --stats: the effort of the searches of all runs.",
+        [](const Totals& of) -> const auto& { return of; }),
+    optional("process", process, "",
+             [](const Totals& of) { return of ? std::optional(process_usage()) : std::nullopt; }));
+
+constexpr auto report = object("", "The output of `cbc solve --format json` (schema cbc.solve/1).",
+                               schema_member("cbc.solve/1"), runs, report_end)
+                            .related(R"([
+      {"if": {"properties": {"totals": true}, "required": ["totals"]},
+       "then": {"properties": {"runs": {"type": "array",
+          "items": {"type": "object",
+           "properties": {"totals": true},
+           "required": ["totals"]}},
+         "process": true},
+        "required": ["process"]},
+       "else": {"properties": {"runs": {"type": "array",
+          "items": {"type": "object", "properties": {"totals": false}}},
+         "process": false}}}])");
+
+}  // namespace json::solve
+
+std::string solve_schema() {
+  return json::schema("solve", "Output of cbc solve", json::solve::report);
+}
 
 void append_failure(std::string& text, const CompiledCatalog& catalog, const Failure& failure) {
   JsonWriter json(text);
-  json.open('{');
-  json.write_members(
-      {{"index", failure.index}, {"line", failure.range.begin.line}, {"message", failure.message}});
-  json.write_list("why", failure.surprises, [&](const Surprise& surprise) {
-    write_surprise(json, catalog, surprise, *failure.state);
-  });
-  json.close('}');
+  json.begin_item();
+  json::solve::failure.write(json, failure, json::solve::OfFailure::Context{catalog, failure});
 }
 
 JsonReport::JsonReport(std::FILE* out, const EventAdditions& adds, bool is_part)
@@ -37,8 +231,8 @@ void JsonReport::begin_run(const CompiledCatalog& catalog, const Script& script)
   std::string text;
   JsonWriter json(text);
   json.open('{');
-  json.write_members({{"catalog", catalog.file}, {"script", script.file}});
-  json.open("events", '[');
+  json::solve::run_begin.write(json, script, catalog);
+  json.open(json::solve::events.name, '[');
   json.flush();
   write(text);
   is_first_event_ = true;
@@ -59,12 +253,8 @@ void JsonReport::on_failure(const Failure& failure) {
 void JsonReport::end_run(const RunResult& result, const std::string& error) {
   std::string text = "]";
   JsonWriter json(text);
-  json.open("expectations", '{');
-  json.write_members({{"passed", result.passed}, {"failed", result.failed}});
-  json.write_json("failures", "[" + failures_ + "]");
-  json.close('}');
-  if (result.totals) write_totals(json, *result.totals);
-  if (!error.empty()) json.write("error", error);
+  json::solve::run_end.write(json, json::solve::RunEnd{result, failures_, error},
+                             json::NoContext());
   json.close('}');
   write(text);
   count(result);
@@ -90,10 +280,7 @@ void JsonReport::add_part(std::string_view text, const RunResult& result) {
 void JsonReport::end() {
   std::string text = "]";
   JsonWriter json(text);
-  if (totals_) {
-    write_totals(json, *totals_);
-    write_process(json, process_usage());
-  }
+  json::solve::report_end.write(json, totals_, json::NoContext());
   json.close('}');
   write(text + "\n");
 }

@@ -12,6 +12,8 @@
 
 namespace cbc {
 
+[[nodiscard]] std::string solve_schema();
+
 /// Writes runs as one JSON document, event by event: memory does not grow with the run.
 class JsonReport final : public SolveReport {
  public:

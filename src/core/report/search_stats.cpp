@@ -13,7 +13,6 @@
 #include "core/report/sentences.h"
 #include "core/report/table_parts.h"
 #include "core/report/wrap.h"
-#include "core/support/json.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 
@@ -66,31 +65,6 @@ std::string rows(const std::string& name, const SearchEffort& effort) {
          columns_of_time(effort.nanoseconds, effort.events);
 }
 
-/// `to_unit` converts what the spread counts to the unit of the report.
-template <typename ToUnit>
-void write_spread(JsonWriter& json, std::string_view name, const Spread& spread,
-                  std::uint64_t count, double mean_unit, ToUnit to_unit) {
-  if (count == 0) {
-    json.write_object(name, {{"sum", 0}, {"mean", nullptr}, {"min", nullptr}, {"max", nullptr}});
-  } else {
-    json.write_object(name, {{"sum", to_unit(spread.sum)},
-                             {"mean", mean(spread, count) / mean_unit},
-                             {"min", to_unit(spread.least)},
-                             {"max", to_unit(spread.greatest)}});
-  }
-}
-
-void write_effort(JsonWriter& json, const SearchEffort& effort) {
-  const auto write = [&](std::string_view name, const Spread& spread) {
-    write_spread(json, name, spread, effort.events, 1, [](std::uint64_t count) { return count; });
-  };
-  json.write("events", effort.events);
-  write("solutions", effort.solutions);
-  write("nodes", effort.nodes);
-  write("propagations", effort.propagations);
-  write_spread(json, "elapsed_us", effort.nanoseconds, effort.events, 1000, to_microseconds);
-}
-
 }  // namespace
 
 double to_microseconds(std::uint64_t nanoseconds) {
@@ -120,27 +94,6 @@ std::string stats_line(const SearchRecord& search) {
                         to_microseconds(static_cast<std::uint64_t>(search.elapsed->count())));
   }
   return text;
-}
-
-void write_totals(JsonWriter& json, const SearchTotals& totals) {
-  json.open("totals", '{');
-  write_effort(json, totals.all());
-  json.open("kinds", '[');
-  for (std::size_t kind = 0; kind < SearchTotals::kinds.size(); ++kind) {
-    if (totals.of_kind(kind).events == 0) continue;
-    json.open('{');
-    const auto& [verb, origin] = SearchTotals::kinds[kind];
-    json.write_members({{"verb", name_of(verb)}, {"origin", name_of(origin)}});
-    write_effort(json, totals.of_kind(kind));
-    json.close('}');
-  }
-  json.close(']');
-  json.close('}');
-}
-
-void write_process(JsonWriter& json, const ProcessUsage& usage) {
-  json.write_object("process",
-                    {{"peak_memory_bytes", usage.peak_memory}, {"cpu_us", usage.cpu_time}});
 }
 
 }  // namespace cbc

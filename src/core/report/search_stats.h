@@ -6,7 +6,6 @@
 #include "cbc/units.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/script/runner.h"
-#include "core/support/json.h"
 #include "runtime/coordinator/record.h"
 
 // The effort of searches, for --stats.
@@ -29,15 +28,6 @@ struct ProcessUsage {
 
 /// The effort of one search, in one line.
 [[nodiscard]] std::string stats_line(const SearchRecord& search);
-
-/// Writes the member "totals", the same numbers as the table: {"events", "solutions", "nodes",
-/// "propagations", "elapsed_us", "kinds"}. Each measure is {"sum", "mean", "min", "max"}, the last
-/// three null if there was no event. Each kind that occurred has "verb", "origin" and the same
-/// measures.
-void write_totals(JsonWriter& json, const SearchTotals& totals);
-
-/// Writes the member "process": {"peak_memory_bytes", "cpu_us"}.
-void write_process(JsonWriter& json, const ProcessUsage& usage);
 
 /// Microseconds, exact to the nanosecond.
 [[nodiscard]] double to_microseconds(std::uint64_t nanoseconds);

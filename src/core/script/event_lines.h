@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,14 +9,13 @@
 #include "core/diagnostic/diagnostic.h"
 #include "core/script/reader.h"
 #include "core/script/script.h"
-#include "core/support/json.h"
 #include "core/yaml/document.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/state.h"
 
 namespace cbc {
 
-// Events that are read line by line, from streams and from logs, and saved states.
+// Events that are read line by line, from streams and from logs.
 
 /// Reads events from single lines, each a JSON object or a YAML mapping.
 class EventLines {
@@ -90,40 +88,5 @@ class EventLog {
   yaml::JsonReader json_;
   std::string error_;
 };
-
-/// The state of a coordinator as a JSON document (see `cbc solve --state-out`):
-///
-///     {"schema": "cbc.state/1",
-///      "digest": "…",                       of the catalog, see identity_of
-///      "time_us": 4080000, "events": 12,    the clock, and the number of the last event
-///      "reactive_delay_us": 80000,
-///      "timeouts": false,                   only if they are off
-///      "running": [{"task": "HOVER", "behavior": "HOVER_WITH_MPC", "since_us": 4000000,
-///                   "waits_for_timeout": false,
-///                   "request": {"priority": 2, "event": 9, "parameters": "…"}}],   or null
-///      "active": {"HOVER_WITH_MPC": 4000000},    and when it was activated
-///      "unavailable": ["GPS"], "faulty": [],
-///      "variables": {"LIGHT": "dark"},           all of them
-///      "queue": {"LAND": 4160000},               reactive tasks, and when they are due
-///      "waiting": ["LAND"]}                      those that wait for a change of their group
-///
-/// Parameters are in canonical form (see Event::parameters).
-
-/// The value of a situation variable, as a member: true or false for one without values of its own.
-void write_value(JsonWriter& json, const CompiledCatalog& catalog, VariableValue value);
-/// A situation, as the member "situation".
-void write_situation(JsonWriter& json, const CompiledCatalog& catalog, const Situation& situation);
-/// The values of all variables, as an object.
-void write_variables(JsonWriter& json, const CompiledCatalog& catalog, std::string_view key,
-                     std::span<const std::uint32_t> values);
-
-[[nodiscard]] std::string write_state(const CompiledCatalog& catalog, const Snapshot& snapshot);
-
-/// A snapshot that a coordinator on the catalog can continue from, or why there is none.
-struct StateReading {
-  std::optional<Snapshot> snapshot;
-  std::string error;
-};
-[[nodiscard]] StateReading read_state(std::string_view text, const CompiledCatalog& catalog);
 
 }  // namespace cbc

@@ -99,17 +99,22 @@ struct Boolean {
 };
 inline constexpr Boolean boolean;
 
-/// Always the same value; what is given is left out of account.
+/// Always the same value. Members of this type are there only if it is the value.
 template <typename Value>
 struct Constant {
   Value constant;
 
+  [[nodiscard]] bool has(const Value& value) const { return value == constant; }
   template <typename Context>
   void write(JsonWriter& json, const auto& /*value*/, const Context& /*context*/) const {
     json.put(constant);
   }
   void put_schema(JsonWriter& json, Definitions& /*definitions*/) const {
     json.write("const", constant);
+  }
+  template <typename Context>
+  void read(const auto& json, bool& value, const Context& /*context*/) const {
+    value = json.truth();
   }
 };
 inline constexpr Constant<bool> always_true{true};
@@ -305,18 +310,19 @@ inline constexpr FreeObject free_object;
 
 // What consists of others.
 
-/// Null if there is no value. Values are optionals or pointers.
+/// Null if there is no value: an empty optional, a null pointer, or what the type says is none.
 template <typename Type>
 struct Nullable {
   Type type;
 
   template <typename Context>
   void write(JsonWriter& json, const auto& value, const Context& context) const {
-    if (value) {
-      type.write(json, *value, context);
+    if constexpr (requires { type.has(value); }) {
+      if (type.has(value)) return type.write(json, value, context);
     } else {
-      json.put(nullptr);
+      if (value) return type.write(json, *value, context);
     }
+    json.put(nullptr);
   }
   void put_schema(JsonWriter& json, Definitions& definitions) const {
     json.open("anyOf", '[');
@@ -508,6 +514,11 @@ template <typename... Items>
 
 // Members.
 
+template <typename Value>
+inline constexpr bool is_optional_value = false;
+template <typename Value>
+inline constexpr bool is_optional_value<std::optional<Value>> = true;
+
 /// A member of an object.
 template <bool is_optional, typename Type, typename Projection>
 struct Member {
@@ -522,15 +533,14 @@ struct Member {
   template <typename Object, typename Context>
   void write(JsonWriter& json, const Object& object, const Context& context) const {
     decltype(auto) value = project(projection, object, context);
-    if constexpr (is_optional) {
-      if (!value) return;
-    }
-    if (has_line) json.on_new_line();
-    json.key(name);
-    if constexpr (is_optional && !std::same_as<std::remove_cvref_t<decltype(value)>, bool>) {
-      type.write(json, *value, context);
+    if constexpr (!is_optional) {
+      put(json, value, context);
+    } else if constexpr (requires { type.has(value); }) {
+      if (type.has(value)) put(json, value, context);
+    } else if constexpr (requires { *value; }) {
+      if (value) put(json, *value, context);
     } else {
-      type.write(json, value, context);
+      put(json, value, context);
     }
   }
   void put_property(JsonWriter& json, Definitions& definitions) const {
@@ -546,14 +556,25 @@ struct Member {
   template <typename Object, typename Context>
   void read(const auto& json, Object& object, const Context& context) const {
     if constexpr (requires { type.read(json, project(projection, object, context), context); }) {
-      if constexpr (is_optional) {
-        if (const auto part = json.find(name)) {
-          type.read(*part, project(projection, object, context), context);
+      auto& value = project(projection, object, context);
+      if constexpr (!is_optional) {
+        type.read(json[name], value, context);
+      } else if (const auto part = json.find(name)) {
+        if constexpr (is_optional_value<std::remove_reference_t<decltype(value)>>) {
+          type.read(*part, value.emplace(), context);
+        } else {
+          type.read(*part, value, context);
         }
-      } else {
-        type.read(json[name], project(projection, object, context), context);
       }
     }
+  }
+
+ private:
+  template <typename Context>
+  void put(JsonWriter& json, const auto& value, const Context& context) const {
+    if (has_line) json.on_new_line();
+    json.key(name);
+    type.write(json, value, context);
   }
 };
 template <typename Type, typename Projection>
@@ -562,7 +583,8 @@ template <typename Type, typename Projection>
                                                                Projection projection) {
   return {name, type, meaning, projection};
 }
-/// Is there only if the projection, an optional or a pointer, has a value; or is true.
+/// Documents may lack it. It is written if the projection, an optional or a pointer, has a value;
+/// or if the type says that it is one; of other types always.
 template <typename Type, typename Projection>
 [[nodiscard]] constexpr Member<true, Type, Projection> optional(std::string_view name, Type type,
                                                                 std::string_view meaning,
@@ -616,10 +638,36 @@ struct Part {
     members.put_property(json, definitions);
   }
   void put_required(JsonWriter& json) const { members.put_required(json); }
+  template <typename Object, typename Context>
+  void read(const auto& json, Object& object, const Context& context) const {
+    if constexpr (std::is_lvalue_reference_v<decltype(project(projection, object, context))>) {
+      members.read(json, project(projection, object, context), context);
+    }
+  }
 };
 template <typename Projection, typename Members>
 [[nodiscard]] constexpr Part<Projection, Members> part(Projection projection, Members members) {
   return {projection, members};
+}
+
+/// A member that is in no schema: only our own page reads it.
+template <typename Member>
+struct Unlisted : Member {
+  void put_property(JsonWriter& /*json*/, Definitions& /*definitions*/) const {}
+};
+template <typename Member>
+[[nodiscard]] constexpr Unlisted<Member> unlisted(Member member) {
+  return {member};
+}
+
+/// An optional member that the schema demands all the same.
+template <typename Member>
+struct Required : Member {
+  void put_required(JsonWriter& json) const { json.write(Member::name); }
+};
+template <typename Member>
+[[nodiscard]] constexpr Required<Member> required(Member member) {
+  return {member};
 }
 
 /// Adds what an object with these members has.
@@ -631,7 +679,6 @@ void put_members(JsonWriter& json, Definitions& definitions, const Members& memb
   json.open("required", '[');
   members.put_required(json);
   json.close(']');
-  json.write("additionalProperties", false);
 }
 
 // Objects.
@@ -663,6 +710,7 @@ struct Object {
     if (!meaning.empty()) json.write("description", meaning);
     json.write("type", "object");
     put_members(json, definitions, members);
+    json.write("additionalProperties", false);
     if (!relations.empty()) json.write_json("allOf", relations);
   }
   template <typename Value, typename Context>
@@ -750,6 +798,25 @@ struct Union {
     tail.write(json, value, context);
     json.close('}');
   }
+  template <typename Value, typename Context>
+  void read(const auto& json, Value& value, const Context& context) const {
+    const auto part = json[key];
+    const std::string word = part.text();
+    const auto read_variant = [&](const auto& variant) {
+      for (const auto kind : variant.kinds) {
+        if (name_of(kind) != word) continue;
+        project(kind_of, value, context) = kind;
+        variant.members.read(json, value, context);
+        return true;
+      }
+      return false;
+    };
+    const bool is_known = std::apply(
+        [&](const auto&... variant) { return (read_variant(variant) || ...); }, variants);
+    if (!is_known) part.refuse_word(word);
+    head.read(json, value, context);
+    tail.read(json, value, context);
+  }
   void put_schema(JsonWriter& json, Definitions& definitions) const {
     definitions.add(name, [&](JsonWriter& part) { put_definition(part, definitions); });
     json.write("$ref", "#/$defs/" + std::string(name));
@@ -765,22 +832,25 @@ struct Union {
   }
 
  private:
+  /// What all kinds have stands once.
   void put_variant(JsonWriter& json, Definitions& definitions, const auto& variant) const {
+    const std::string shared = std::string(name) + "_of_any_kind";
+    definitions.add(shared, [&](JsonWriter& part) {
+      part.write("type", "object");
+      put_members(part, definitions, group(head, tail));
+    });
     json.open('{');
     if (!variant.meaning.empty()) json.write("description", variant.meaning);
+    json.write("$ref", "#/$defs/" + shared);
     json.write("type", "object");
     json.open("properties", '{');
-    head.put_property(json, definitions);
     variant.put_property(json, definitions, key);
-    tail.put_property(json, definitions);
     json.close('}');
     json.open("required", '[');
-    head.put_required(json);
     json.write(key);
     variant.members.put_required(json);
-    tail.put_required(json);
     json.close(']');
-    json.write("additionalProperties", false);
+    json.write("unevaluatedProperties", false);
     json.close('}');
   }
 };
@@ -834,7 +904,8 @@ template <typename Projection, typename Type>
 /// What a pointer points to.
 template <typename Type>
 [[nodiscard]] constexpr auto pointed(Type type) {
-  return projected([](const auto* value) -> const auto& { return *value; }, type);
+  return projected(
+      [](const auto* value) -> const auto& { return *value; }, type);
 }
 
 /// A part with a context of its own.

@@ -64,6 +64,12 @@ class JsonValue {
   /// The name of a member.
   [[nodiscard]] std::string_view name() const { return name_; }
 
+  /// Says that a word is none of those that the value, or anything of this kind, may be.
+  [[noreturn]] void refuse_word(std::string_view word) const { refuse_word(name_, word); }
+  [[noreturn]] static void refuse_word(std::string_view what, std::string_view word) {
+    throw JsonFault(concat("there is no ", what, " ", quote(word)));
+  }
+
   [[nodiscard]] std::string text() const {
     if (node_->kind != Kind::scalar || node_->plain) fail("a text");
     return node_->text;

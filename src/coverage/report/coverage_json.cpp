@@ -56,9 +56,7 @@ constexpr auto goal_with = [](auto goal, auto tail) {
       variant({Kind::minimum_decided}, "",
               about(optional("behavior", json::behavior,
                              "That requires it; missing if it is the minimum of the task itself.",
-                             [](const Goal& of) {
-                               return of.behavior != none ? &of.behavior : nullptr;
-                             }),
+                             &Goal::behavior),
                     task(""))),
       variant({Kind::exclusion_decided}, "",
               about(task(""), member("other_task", json::task, "", &Goal::other_task))),

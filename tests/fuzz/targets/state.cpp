@@ -2,12 +2,12 @@
 #include <string>
 #include <vector>
 
-#include "core/script/event_lines.h"
 #include "core/script/runner.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/program.h"
 #include "fuzz/target.h"
 #include "support/exercise.h"
+#include "core/script/state_json.h"
 
 // A saved state, from which a mission goes on.
 namespace cbc::fuzz {

@@ -1,0 +1,492 @@
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/support/json_description.h"
+#include "core/yaml/json_value.h"
+#include "runtime/base/text.h"
+#include "sweep/engine/sweep.h"
+#include "sweep/report/sweep_report.h"
+
+namespace cbc {
+namespace json::sweep {
+
+constexpr Integer number_of_events = integer(0, largest_count);
+constexpr Integer place_from_1 = integer(1, largest_count);
+
+/// Millionths as a number from 0 to 1.
+struct Share {
+  void write(JsonWriter& json, Millionths value, const auto& /*context*/) const {
+    json.put(value / double{one_million});
+  }
+  void put_schema(JsonWriter& json, Definitions& definitions) const {
+    json::share.put_schema(json, definitions);
+  }
+  void read(const auto& json, Millionths& value, const auto& /*context*/) const {
+    const double number = json.number(0, 1, "from 0 to 1");
+    value = static_cast<Millionths>(std::lround(number * one_million));
+  }
+};
+
+constexpr auto options = object(
+    "options", "Other options that the events and the answers depend on.",
+    member(
+        "events", integer(1),
+        "Number of events in each sequence, not counting events of the clock (--events).",
+        [](auto& of) -> auto& { return of.shape.events; }),
+    member(
+        "priorities", integer(1), "Requests have priorities from 1 to this (--priorities).",
+        [](auto& of) -> auto& { return of.shape.priorities; }),
+    member(
+        "failures", Share(), "The share of finished behaviors that have failed (--failures).",
+        [](auto& of) -> auto& { return of.shape.failures; }),
+    member(
+        "faults", Share(),
+        "The share of events that are faults, repairs and changes of the situation (--faults).",
+        [](auto& of) -> auto& { return of.shape.faults; }),
+    member(
+        "max_solutions", count, "--max-solutions; 0: no limit.",
+        [](auto& of) -> auto& { return of.search.max_solutions; }),
+    member(
+        "max_nodes", count, "--max-nodes; 0: no limit.",
+        [](auto& of) -> auto& { return of.search.max_nodes; }),
+    member(
+        "tie_seed", nullable(count), "--tie-seed; null: catalog order.",
+        [](auto& of) -> auto& { return of.search.tie_seed; }),
+    member(
+        "max_clock_events", integer(1),
+        "Limit of clock events in each sequence (--max-clock-events).",
+        [](auto& of) -> auto& { return of.search.max_clock_events; }));
+
+constexpr auto shard = object("", "", member("index", integer(1), "", &SweepShard::index),
+                              member("count", integer(1, most_shards), "", &SweepShard::count));
+
+constexpr auto outcomes =
+    group(member("accepted", number_of_events, "", &OutcomeCounts::accepted),
+          member("escalated", number_of_events,
+                 "The accepted events that had no solution until tasks with higher priorities were "
+                 "allowed to stop.",
+                 &OutcomeCounts::escalated),
+          member("rejected", number_of_events, "", &OutcomeCounts::rejected),
+          member("unchanged", number_of_events, "", &OutcomeCounts::unchanged));
+
+using OfKind = std::pair<SweepKind, OutcomeCounts>;
+
+constexpr auto kind_with_outcomes = object(
+    "outcomes", "",
+    member("kind", words(SweepKind::lost),
+           "finish_success: cause goal_achieved. finish_failure: cause time_out, wrong_progress, "
+           "process_failure or interrupted. finish_situation_change: cause situation_change. "
+           "timeout: a finish caused by the clock. reactive_start: a start caused by the clock. "
+           "finish_lost: a finish of a behavior that a rejected event could not activate again.",
+           &OfKind::first),
+    part(&OfKind::second, outcomes));
+
+/// The outcomes of all kinds of events, in the order of the kinds.
+struct Events {
+  using Counts = std::array<OutcomeCounts, sweep_kinds>;
+
+  void write(JsonWriter& json, const Counts& counts, const auto& context) const {
+    const auto each = [&](const auto& put) {
+      for (std::size_t kind = 0; kind < sweep_kinds; ++kind) {
+        put(OfKind(static_cast<SweepKind>(kind), counts.at(kind)));
+      }
+    };
+    list(kind_with_outcomes).on_lines().write(json, each, context);
+  }
+  void put_schema(JsonWriter& json, Definitions& definitions) const {
+    json.write("type", "array");
+    json.open("prefixItems", '[');
+    for (std::size_t kind = 0; kind < sweep_kinds; ++kind) {
+      json.open('{');
+      kind_with_outcomes.put_schema(json, definitions);
+      json.write("type", "object");
+      json.open("properties", '{');
+      json.write_object("kind", {{"const", name_of(static_cast<SweepKind>(kind))}});
+      json.close('}');
+      json.close('}');
+    }
+    json.close(']');
+    json.write("minItems", sweep_kinds);
+    json.write("items", false);
+  }
+  void read(const auto& json, Counts& counts, const auto& context) const {
+    std::vector<OfKind> read;
+    list(kind_with_outcomes).read(json, read, context);
+    if (read.size() != sweep_kinds) {
+      throw yaml::JsonFault("'events' does not have one item for each kind");
+    }
+    for (std::size_t kind = 0; kind < sweep_kinds; ++kind) {
+      const auto& [found, of_kind] = read[kind];
+      if (found != static_cast<SweepKind>(kind)) {
+        throw yaml::JsonFault("the kinds of 'events' are not those of this version");
+      }
+      if (of_kind.escalated > of_kind.accepted) {
+        throw yaml::JsonFault("more events are 'escalated' than are 'accepted'");
+      }
+      counts.at(kind) = of_kind;
+    }
+  }
+};
+
+constexpr auto task_counts =
+    group(member("started", number_of_events, "Accepted start events, except reactive ones.",
+                 &TaskCounts::starts),
+          member("rejected", number_of_events, "Rejected start events, except reactive ones.",
+                 &TaskCounts::rejected),
+          member("runs", number_of_events, "How often it started to run, for any reason.",
+                 &TaskCounts::runs));
+
+constexpr auto behavior_counts =
+    group(member("activations", number_of_events,
+                 "Successful activations, including restarts, but not those that roll back a "
+                 "deactivation of the same event.",
+                 &BehaviorCounts::activations),
+          member("failures", number_of_events, "Failed activations.", &BehaviorCounts::failures));
+
+constexpr auto first_of = [](auto& of) -> auto& { return of.first; };
+constexpr auto second_of = [](auto& of) -> auto& { return of.second; };
+
+/// Pairs of a name and what is counted of it.
+constexpr auto counted = [](std::string_view key, auto counts) {
+  return list(object("", "", member(key, text, "", first_of), part(second_of, counts))).on_lines();
+};
+
+constexpr auto each = [](const std::vector<std::string>& names, const auto& counts) {
+  return [&](const auto& put) {
+    for (std::size_t place = 0; place < names.size(); ++place) {
+      put(std::pair<const std::string&, decltype(counts[place])>(names[place], counts[place]));
+    }
+  };
+};
+
+constexpr auto tasks =
+    member("tasks", counted("task", task_counts), "All tasks, in catalog order.",
+           [](const SweepResult& of) { return each(of.task_names, of.counts.tasks); });
+constexpr auto behaviors =
+    member("behaviors", counted("behavior", behavior_counts), "All behaviors, in catalog order.",
+           [](const SweepResult& of) { return each(of.behavior_names, of.counts.behaviors); });
+
+/// The names that are read, with their places.
+struct Places {
+  using ByName = std::unordered_map<std::string, std::uint32_t>;
+  ByName tasks;
+  ByName behaviors;
+};
+
+/// A task or a behavior, by its place.
+template <std::vector<std::string> SweepResult::*names, Places::ByName Places::*places>
+struct Place {
+  [[nodiscard]] static bool has(std::uint32_t place) { return place != none; }
+  void write(JsonWriter& json, std::uint32_t place, const SweepResult& result) const {
+    json.put((result.*names)[place]);
+  }
+  void put_schema(JsonWriter& json, Definitions& definitions) const {
+    text.put_schema(json, definitions);
+  }
+  void read(const auto& json, std::uint32_t& place, const Places& known) const {
+    const std::string name = json.text();
+    const auto found = (known.*places).find(name);
+    if (found == (known.*places).end()) json.refuse_word(name);
+    place = found->second;
+  }
+};
+constexpr Place<&SweepResult::task_names, &Places::tasks> task;
+constexpr Place<&SweepResult::behavior_names, &Places::behaviors> behavior;
+
+using CountedReason = std::pair<RejectionReason, std::uint64_t>;
+
+constexpr auto task_of_reason = member(
+    "task", task, "", [](auto& of) -> auto& { return of.first.task; });
+constexpr auto behavior_of_reason = member(
+    "behavior", behavior, "", [](auto& of) -> auto& { return of.first.behavior; });
+
+/// The two tasks of an exclusion.
+struct BothTasks {
+  void write(JsonWriter& json, const RejectionReason& reason, const SweepResult& result) const {
+    both.write(json, std::array{reason.task, reason.other_task}, result);
+  }
+  void put_schema(JsonWriter& json, Definitions& definitions) const {
+    both.put_schema(json, definitions);
+  }
+  void read(const auto& json, RejectionReason& reason, const Places& places) const {
+    std::vector<std::uint32_t> read;
+    both.read(json, read, places);
+    if (read.size() != 2) throw yaml::JsonFault("'tasks' of a reason is not a pair");
+    reason.task = read[0];
+    reason.other_task = read[1];
+  }
+  static constexpr auto both = list(task).exactly(2).unique();
+};
+
+using Kind = Reason::Kind;
+
+constexpr auto reason = variants(
+    "reason", "A reason, as in `conflict` of cbc.solve/1.", group(), "kind",
+    [](auto& of) -> auto& { return of.first.kind; },
+    group(member("count", place_from_1, "", second_of)),
+    variant({Kind::is_protected, Kind::priority, Kind::no_behavior, Kind::on_request}, "",
+            task_of_reason),
+    variant({Kind::unavailable, Kind::situation, Kind::faulty}, "", behavior_of_reason),
+    variant({Kind::exclusive}, "", member("tasks", BothTasks(), "", first_of)),
+    variant({Kind::requires_task}, "", behavior_of_reason, task_of_reason),
+    variant({Kind::performance}, "",
+            optional(
+                "behavior", behavior,
+                "The behavior that requires it; absent if it is the minimum of the task "
+                "itself.",
+                [](auto& of) -> auto& { return of.first.behavior; }),
+            task_of_reason));
+
+constexpr auto reasons = member(
+    "reasons", list(reason).on_lines(),
+    "The number of rejections in which each reason occurs, regardless of its priorities.",
+    [](const SweepResult& of) -> const auto& { return of.counts.reasons; });
+
+/// Numbers with how often each occurred.
+struct Counts {
+  void write(JsonWriter& json, const Histogram& histogram, const auto& context) const {
+    pairs.write(json, histogram.counts(), context);
+  }
+  void put_schema(JsonWriter& json, Definitions& definitions) const {
+    pairs.put_schema(json, definitions);
+  }
+  static Histogram read(const yaml::JsonValue& json) {
+    Histogram histogram;
+    std::uint64_t next = 0;
+    for (const yaml::JsonValue& entry : json.items()) {
+      const std::vector<yaml::JsonValue> pair = entry.items();
+      if (pair.size() != 2) throw yaml::JsonFault("an entry of 'histogram' is not a pair");
+      const auto value = pair[0].integer<std::uint64_t>(0, largest_count);
+      const auto times = pair[1].integer<std::uint64_t>(0, largest_count);
+      if (value < next || Histogram::round_down(value) != value || times == 0 ||
+          times > largest_count - histogram.total()) {
+        throw yaml::JsonFault("the numbers of 'histogram' are out of range or out of order");
+      }
+      histogram.add_rounded(value, times);
+      next = value + 1;
+    }
+    return histogram;
+  }
+  static constexpr auto pairs =
+      list(row(item(number_of_events, first_of), item(place_from_1, second_of)));
+};
+
+/// What events cost: `histogram` and `slowest` of an object.
+struct Costs {
+  const Histogram& histogram;
+  const std::optional<SlowestEvent>& slowest;
+};
+
+constexpr auto histogram = member(
+    "histogram", Counts(),
+    "Each number with its count, in ascending order. Numbers from 1024 on are rounded down to 10 "
+    "binary digits, and so are the percentiles.",
+    [](const Costs& of) -> const auto& { return of.histogram; });
+
+constexpr auto distribution =
+    object("distribution", "",
+           member("p50", count, "The median; 0 if there are no numbers.",
+                  [](const Costs& of) { return of.histogram.median(); }),
+           member("p99", count, "The 99th percentile.",
+                  [](const Costs& of) { return of.histogram.percentile_99(); }),
+           member("max", count, "The exact largest number.",
+                  [](const Costs& of) { return of.slowest ? of.slowest->cost : 0; }),
+           histogram);
+
+constexpr auto slowest = [](std::string_view name, std::string_view unit,
+                            std::string_view meaning) {
+  return object(
+      name, "",
+      member("sequence", place_from_1, "Number of the sequence, from 1.", &SlowestEvent::sequence),
+      member("event", place_from_1, "Index of the event in the sequence, from 1.",
+             &SlowestEvent::event),
+      member("what", text, "The event, for people.", &SlowestEvent::what),
+      member(unit, number_of_events, meaning, &SlowestEvent::cost),
+      member("script", text, "An event script in YAML that reproduces the event and ends with it.",
+             &SlowestEvent::script));
+};
+
+constexpr auto event_times =
+    member("event_ns", distribution,
+           "Time of an event in nanoseconds, over the events that needed a search.",
+           [](const SweepTimes& of) {
+             return Costs{of.events, of.slowest};
+           });
+
+constexpr auto stats = optional(
+    "stats",
+    object(
+        "stats", "With --stats: times, which differ from run to run.",
+        member("elapsed_us", number_of_events,
+               "Elapsed time in microseconds; for merged shards, the sum.", &SweepTimes::elapsed),
+        event_times,
+        member("slowest", nullable(slowest("longest", "ns", "Time in nanoseconds.")),
+               "The first event with the longest time; null if no event needed a search.",
+               &SweepTimes::slowest)),
+    "", &SweepResult::times);
+
+constexpr auto nodes =
+    member("nodes", distribution,
+           "Decisions in the searches of an event, over the events that needed a search.",
+           [](const SweepResult& of) {
+             return Costs{of.nodes, of.slowest};
+           });
+
+/// The names whose count is 0.
+constexpr auto unused = [](const std::vector<std::string>& names, const auto& counts, auto count) {
+  return [&names, &counts, count](const auto& put) {
+    for (std::size_t place = 0; place < names.size(); ++place) {
+      if (std::invoke(count, counts[place]) == 0) put(names[place]);
+    }
+  };
+};
+
+constexpr std::string_view schema_name = "cbc.sweep/1";
+
+constexpr auto report = object(
+    "",
+    "The output of `cbc solve --sweep N --format json` and of `cbc solve --merge` (schema "
+    "cbc.sweep/1): what happened in N random sequences of events on a catalog, or in one shard of "
+    "them. Except for `stats`, it is the same on every machine.",
+    schema_member(schema_name),
+    member("catalog", any_text,
+           "The catalog, as given; for a compiled catalog, the name of its source.",
+           &SweepResult::catalog)
+        .on_line(),
+    member("digest", digest,
+           "XXH3-128 digest of the meaning of the catalog: the same for the YAML and the compiled "
+           "file, whatever their paths.",
+           &SweepResult::digest)
+        .on_line(),
+    member("version", version_number, "Version of cbc; another version may draw other events.",
+           &SweepResult::version)
+        .on_line(),
+    member(
+        "sequences", place_from_1, "Number of sequences in the whole sweep (--sweep).",
+        [](auto& of) -> auto& { return of.settings.sequences; })
+        .on_line(),
+    member(
+        "seed", count, "The seed (--seed).", [](auto& of) -> auto& { return of.settings.seed; })
+        .on_line(),
+    member(
+        "options", options, "", [](auto& of) -> auto& { return of.settings; })
+        .on_line(),
+    member(
+        "shard", shard,
+        "Which shard of the sequences was run (--shard): number `index` of `count`. 1 of 1 is a "
+        "whole sweep.",
+        [](auto& of) -> auto& { return of.settings.shard; })
+        .on_line(),
+    member(
+        "events", Events(),
+        "The number of events with each outcome, for each kind of event, in this order.",
+        [](auto& of) -> auto& { return of.counts.events; })
+        .on_line(),
+    tasks.on_line(), behaviors.on_line(),
+    member("never_ran", names, "The tasks with no `runs`, in catalog order.",
+           [](const SweepResult& of) {
+             return unused(of.task_names, of.counts.tasks, &TaskCounts::runs);
+           })
+        .on_line(),
+    member("never_active", names, "The behaviors with no `activations`, in catalog order.",
+           [](const SweepResult& of) {
+             return unused(of.behavior_names, of.counts.behaviors, &BehaviorCounts::activations);
+           })
+        .on_line(),
+    reasons.on_line(), nodes.on_line(),
+    member("slowest", nullable(slowest("slowest", "nodes", "Number of decisions.")),
+           "The first event with the most nodes; null if no event needed a search.",
+           &SweepResult::slowest)
+        .on_line(),
+    stats.on_line());
+
+class Reader {
+ public:
+  /// Throws a JsonFault.
+  [[nodiscard]] SweepResult read(const yaml::JsonValue& root) {
+    if (root["schema"].text() != schema_name) {
+      throw yaml::JsonFault(concat("its schema is not ", quote(schema_name)));
+    }
+    report.read(root, result_, NoContext());
+    const SweepSettings& settings = result_.settings;
+    if (settings.shard.index > settings.shard.count) {
+      throw yaml::JsonFault("'shard' has a larger 'index' than 'count'");
+    }
+    read_counted(tasks, root, result_.task_names, result_.counts.tasks, places_.tasks);
+    read_counted(behaviors, root, result_.behavior_names, result_.counts.behaviors,
+                 places_.behaviors);
+    std::vector<CountedReason> read;
+    reasons.type.read(root[reasons.name], read, places_);
+    result_.counts.reasons.insert(read.begin(), read.end());
+    result_.nodes = Counts::read(root[nodes.name][histogram.name]);
+    check_slowest(result_.slowest, result_.nodes);
+    if (result_.times) {
+      SweepTimes& times = *result_.times;
+      times.events = Counts::read(root[stats.name][event_times.name][histogram.name]);
+      check_slowest(times.slowest, times.events);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  template <typename Counts>
+  static void read_counted(const auto& member, const yaml::JsonValue& root,
+                           std::vector<std::string>& names, std::vector<Counts>& counts,
+                           Places::ByName& places) {
+    std::vector<std::pair<std::string, Counts>> read;
+    member.type.read(root[member.name], read, NoContext());
+    for (const auto& [name, of_name] : read) {
+      if (!places.emplace(name, static_cast<std::uint32_t>(names.size())).second) {
+        throw yaml::JsonFault(quote(name) + " occurs twice");
+      }
+      names.push_back(name);
+      counts.push_back(of_name);
+    }
+  }
+
+  void check_slowest(const std::optional<SlowestEvent>& most, const Histogram& costs) const {
+    const bool fits = most ? costs.total() > 0 &&
+                                 Histogram::round_down(most->cost) == costs.maximum() &&
+                                 most->sequence <= result_.settings.sequences
+                           : costs.total() == 0;
+    if (!fits) throw yaml::JsonFault("'slowest' does not fit the rest");
+  }
+
+  SweepResult result_;
+  Places places_;
+};
+
+}  // namespace json::sweep
+
+std::string sweep_to_json(const SweepResult& result) {
+  return json::document(json::sweep::report, result, result);
+}
+
+std::string sweep_schema() {
+  return json::schema("sweep", "Result of a sweep", json::sweep::report);
+}
+
+std::variant<SweepResult, std::string> sweep_from_json(std::string_view text) {
+  yaml::JsonReader reader;
+  const yaml::Node* const root = reader.read(text);
+  if (root == nullptr) {
+    return reader.fault() + "; --merge reads what '--shard I/N --format json' writes";
+  }
+  try {
+    return json::sweep::Reader().read(yaml::JsonValue(*root));
+  } catch (const yaml::JsonFault& fault) {
+    return fault.what();
+  }
+}
+
+}  // namespace cbc
