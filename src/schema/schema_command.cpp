@@ -24,46 +24,10 @@
 namespace cbc::cli {
 namespace {
 
-std::string member_of(const EmbeddedFile& schema, std::string_view name) {
-  yaml::JsonReader reader;
-  return yaml::JsonValue(*reader.read(schema.text))[name].text();
-}
-
-std::string id_of(const EmbeddedFile& schema) { return member_of(schema, "$id"); }
-
 /// A line that says what the schema describes.
-std::string title_of(const EmbeddedFile& schema) { return member_of(schema, "title"); }
-
-/// The other schemas that this one refers to, directly or through others.
-std::vector<const EmbeddedFile*> referenced_by(const EmbeddedFile& schema) {
-  std::vector<const EmbeddedFile*> found = {&schema};
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for (const EmbeddedFile& other : schema_files) {
-      const std::string reference = R"("$ref": ")" + id_of(other);
-      if (found[i]->text.find(reference) != std::string_view::npos &&
-          std::find(found.begin(), found.end(), &other) == found.end()) {
-        found.push_back(&other);
-      }
-    }
-  }
-  found.erase(found.begin());
-  return found;
-}
-
-/// The text of a schema, including the schemas that it refers to: they become the first of its
-/// "$defs", by their ids.
-std::string standalone(const EmbeddedFile& schema) {
-  constexpr std::string_view definitions = "\n  \"$defs\": {";
-  std::string text(schema.text);
-  for (const EmbeddedFile* other : referenced_by(schema)) {
-    std::string definition = fmt::format("\n\"{}\": {}", id_of(*other), other->text);
-    definition.back() = ',';  // in place of the last line end
-    for (std::size_t at = 0; (at = definition.find('\n', at)) != std::string::npos; ++at) {
-      definition.insert(at + 1, "    ");
-    }
-    text.insert(text.find(definitions) + definitions.size(), definition);
-  }
-  return text;
+std::string title_of(const EmbeddedFile& schema) {
+  yaml::JsonReader reader;
+  return yaml::JsonValue(*reader.read(schema.text))["title"].text();
 }
 
 constexpr const char* schema_examples =
@@ -95,7 +59,7 @@ int print_schema(const std::string& name) {
   std::vector<std::string_view> names;
   for (const EmbeddedFile& schema : schema_files) {
     if (schema.name == name) {
-      fmt::print("{}", standalone(schema));
+      fmt::print("{}", schema.text);
       return exit_ok;
     }
     names.push_back(schema.name);

@@ -1,11 +1,9 @@
 // check.js PROGRAM: validates what the program writes as JSON with the schemas; see check.sh.
 'use strict';
 
-const {spawnSync} = require('child_process');
 const path = require('path');
 const {damages} = require('./damages');
 const {lies} = require('./lies');
-const {findDisorder, kindsIn} = require('./order');
 const {takeSamples} = require('./samples');
 const {goldenTexts, programTexts} = require('./texts');
 const {idOf, inputs, makeValidator, readSchemas} = require('./validator');
@@ -93,36 +91,11 @@ function checkLies(documents) {
   return count;
 }
 
-/** What `cbc schema NAME` prints needs no other schema, and accepts the same documents. */
-function checkPrinted(documents) {
-  for (const name of schemas.keys()) {
-    const {status, stdout, stderr} = spawnSync(program, ['schema', name], {encoding: 'utf8'});
-    if (status !== 0) refuse(`cbc schema ${name}: status ${status}: ${stderr}`);
-    const validate = makeValidator([JSON.parse(stdout)]).getSchema(idOf(name));
-    const ownExamples = (schemas.get(name).examples ?? []).map((document) => ({document}));
-    const own = documents.filter((item) => item.schema === name);
-    checkValid([...ownExamples, ...own].map((item) => ({...item, validate})));
-    if (validate(7)) refuse(`what cbc schema ${name} prints accepts everything`);
-  }
-}
-
-const kinds = written.flatMap((name) => [...kindsIn(schemas.get(name))]);
-
-/** Readers, and those who compare texts, rely on the order of members. */
-function checkOrder(items) {
-  for (const {source, document} of items) {
-    const object = findDisorder(document, kinds);
-    if (object) refuse(`members in another order: ${source}: ${JSON.stringify(object)}`);
-  }
-}
-
 const examples = [...schemas].flatMap(([name, schema]) => [...examplesIn(name, schema)]);
 checkValid(examples);
-const ownExamples = examples.filter((item) => !inputs.has(item.schema));
 
 const documents = [...goldenTexts(root), ...programTexts(root, program)].flatMap(documentsIn);
 checkValid(documents);
-checkOrder([...ownExamples, ...documents]);
 const least = {
   'catalog-dump': 100,
   coverage: 3,
@@ -143,9 +116,7 @@ for (const name of written) {
   if (!(found >= least[name])) refuse(`only ${found} documents of ${name}.json were found`);
 }
 
-checkPrinted(documents);
-
-const samples = [...ownExamples, ...takeSamples(documents)];
+const samples = takeSamples(documents);
 const damaged = checkDamages(samples);
 const told = checkLies(documents);
 console.log(

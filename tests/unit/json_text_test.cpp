@@ -178,11 +178,12 @@ TEST(JsonWriter, PutsItemsOnLinesOfTheirOwn) {
   json.open("list", '[');
   for (const int item : {1, 2}) json.on_new_line().write(item);
   json.close(']');
-  json.on_new_line().write_percent("whole", 80 * (one_million / 100));
-  json.write_percent("part", 1);
-  json.write_percent("none", std::nullopt);
+  json.on_new_line().key("whole");
+  json.put_percent(80 * (one_million / 100));
+  json.key("part");
+  json.put_percent(1);
   json.close('}');
-  EXPECT_EQ(text, "{\"list\":[\n1,\n2],\n\"whole\":80,\"part\":0.0001,\"none\":null}");
+  EXPECT_EQ(text, "{\"list\":[\n1,\n2],\n\"whole\":80,\"part\":0.0001}");
 }
 
 TEST(JsonText, SecondsAreExact) {

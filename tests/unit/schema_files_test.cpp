@@ -7,6 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "compile/catalog_dump.h"
+#include "core/report/event_json.h"
+#include "core/report/run_json.h"
+#include "core/script/state_json.h"
 #include "coverage/report/coverage_report.h"
 #include "coverage/report/mutants_report.h"
 #include "graph/report/graph_report.h"
@@ -14,6 +17,7 @@
 #include "graph/report/together_report.h"
 #include "lint/report/lint_report.h"
 #include "support/read_file.h"
+#include "sweep/report/sweep_report.h"
 #include "verify/report/verify_report.h"
 
 namespace cbc::schema_files_test {
@@ -24,11 +28,19 @@ struct File {
   std::string (*schema)();
 };
 
-constexpr File files[] = {
-    {"catalog-dump", catalog_schema}, {"coverage", coverage_schema}, {"diff", diff_schema},
-    {"graph", graph_schema},          {"lint", lint_schema},         {"mutants", mutants_schema},
-    {"situation", situation_schema},  {"together", together_schema}, {"verify", verify_schema},
-};
+constexpr File files[] = {{"catalog-dump", catalog_schema},
+                          {"coverage", coverage_schema},
+                          {"diff", diff_schema},
+                          {"events", stream_schema},
+                          {"graph", graph_schema},
+                          {"lint", lint_schema},
+                          {"mutants", mutants_schema},
+                          {"situation", situation_schema},
+                          {"solve", solve_schema},
+                          {"state", state_schema},
+                          {"sweep", sweep_schema},
+                          {"together", together_schema},
+                          {"verify", verify_schema}};
 
 class SchemaFile : public testing::TestWithParam<File> {};
 
@@ -39,8 +51,8 @@ TEST_P(SchemaFile, IsThatOfTheDescription) {
   EXPECT_EQ(test::read_file(path), schema);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SchemaFile, testing::ValuesIn(files), [](const auto& info) {
-  std::string name = info.param.name;
+INSTANTIATE_TEST_SUITE_P(All, SchemaFile, testing::ValuesIn(files), [](const auto& of) {
+  std::string name = of.param.name;
   std::erase(name, '-');
   return name;
 });

@@ -1,4 +1,4 @@
-// The JSON Schemas in schemas/ have the words that the program has, and no others.
+// The JSON Schemas of what people write have the words that the program reads, and no others.
 #include <filesystem>
 #include <set>
 #include <string>
@@ -13,14 +13,10 @@
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
 #include "core/property/property_reader.h"
-#include "core/script/runner.h"
 #include "core/script/script.h"
 #include "core/yaml/values.h"
 #include "runtime/coordinator/record.h"
-#include "runtime/explain/alternatives.h"
-#include "runtime/explain/reasons.h"
 #include "support/read_file.h"
-#include "sweep/engine/sequence.h"
 
 namespace cbc::schema_words_test {
 namespace {
@@ -45,15 +41,6 @@ void add_words(const Json& part, Words& words) {
 Words words_at(const Json& schema, const std::string& pointer) {
   Words words;
   add_words(schema.at(Json::json_pointer(pointer)), words);
-  return words;
-}
-
-/// Of one member, in all parts of a list.
-Words words_in_list(const Json& schema, const std::string& pointer, const char* member) {
-  Words words;
-  for (const Json& part : schema.at(Json::json_pointer(pointer))) {
-    add_words(part["properties"][member], words);
-  }
   return words;
 }
 
@@ -88,42 +75,6 @@ TEST(SchemaWords, OfSettings) {
     Diagnostics diagnostics;
     EXPECT_TRUE(read_settings(example.dump(), ".cbc.yaml", diagnostics)) << example;
   }
-}
-
-TEST(SchemaWords, OfEvents) {
-  const Json events = schema("events");
-  const std::string event = "/$defs/event/properties/";
-  EXPECT_EQ(words_at(events, event + "origin"), names_up_to(Origin::situation));
-  EXPECT_EQ(words_at(events, event + "verb"), names_up_to(Verb::wait));
-  EXPECT_EQ(words_at(events, event + "outcome"), names_up_to(Outcome::unchanged));
-  EXPECT_EQ(words_at(events, "/$defs/finish_cause"), names_up_to(FinishCause::interrupted));
-  EXPECT_EQ(words_at(events, "/$defs/change/properties/cause"), names_up_to(ChangeCause::undone));
-  EXPECT_EQ(words_at(events, "/$defs/search/properties/status"),
-            names_up_to(SearchStatus::unknown));
-  EXPECT_EQ(words_in_list(events, "/$defs/reason/oneOf", "kind"),
-            names_up_to(Reason::Kind::stopped));
-  EXPECT_EQ(words_in_list(events, "/$defs/loss/oneOf", "objective"),
-            names_up_to(Criterion::canonical));
-}
-
-TEST(SchemaWords, OfTotals) {
-  Words verbs;
-  Words origins;
-  for (const SearchTotals::Kind& kind : SearchTotals::kinds) {
-    verbs.emplace(name_of(kind.verb));
-    origins.emplace(name_of(kind.origin));
-  }
-  const Json events = schema("events");
-  EXPECT_EQ(words_at(events, "/$defs/effort_of_kind/properties/verb"), verbs);
-  EXPECT_EQ(words_at(events, "/$defs/effort_of_kind/properties/origin"), origins);
-}
-
-TEST(SchemaWords, OfSweeps) {
-  const Json sweep = schema("sweep");
-  EXPECT_EQ(words_in_list(sweep, "/properties/events/prefixItems", "kind"),
-            names_up_to(SweepKind::lost));
-  // That a behavior finished is a reason of no rejection.
-  EXPECT_EQ(words_in_list(sweep, "/$defs/reason/oneOf", "kind"), names_up_to(Reason::Kind::faulty));
 }
 
 /// The part that a reference of this schema leads to; the part itself if it is none.

@@ -33,31 +33,26 @@ template <typename Context>
 template <typename Names>
 struct Name {
   [[nodiscard]] static bool has(std::uint32_t id) { return id != none; }
-  template <typename Context>
-  void write(JsonWriter& json, std::uint32_t id, const Context& context) const {
+  void write(JsonWriter& json, std::uint32_t id, const auto& context) const {
     json.put(text(id, context));
   }
   void put_schema(JsonWriter& json, Definitions& definitions) const {
     json::text.put_schema(json, definitions);
   }
-  template <typename Context>
-  void read(const auto& json, std::uint32_t& id, const Context& context) const {
+  void read(const auto& json, std::uint32_t& id, const auto& context) const {
     id = find(json, json.text(), context);
   }
   /// As the name of a member.
-  template <typename Context>
-  [[nodiscard]] std::string_view text(std::uint32_t id, const Context& context) const {
+  [[nodiscard]] std::string_view text(std::uint32_t id, const auto& context) const {
     return Names::name(catalog_in(context), id);
   }
-  template <typename Context>
-  void read_name(const auto& json, std::uint32_t& id, const Context& context) const {
+  void read_name(const auto& json, std::uint32_t& id, const auto& context) const {
     id = find(json, json.name(), context);
   }
 
  private:
-  template <typename Context>
   [[nodiscard]] static std::uint32_t find(const auto& json, std::string_view name,
-                                          const Context& context) {
+                                          const auto& context) {
     const auto id = Names::find(catalog_in(context), name);
     if (!id) json.refuse_word(Names::what, name);
     return *id;
@@ -101,8 +96,7 @@ inline constexpr Name<VariableNames> variable;
 /// A value of a situation variable: a text, or true or false if the variable was declared without
 /// values.
 struct PlainValue {
-  template <typename Context>
-  void write(JsonWriter& json, VariableValue value, const Context& context) const {
+  void write(JsonWriter& json, VariableValue value, const auto& context) const {
     const CompiledCatalog& catalog = catalog_in(context);
     if (catalog.variables[value.variable].is_boolean != 0) {
       json.put(value.value == 0);
@@ -111,8 +105,7 @@ struct PlainValue {
     }
   }
   /// Whether a behavior is available, beside the values of variables.
-  template <typename Context>
-  void write(JsonWriter& json, bool available, const Context& /*context*/) const {
+  void write(JsonWriter& json, bool available, const auto& /*context*/) const {
     json.put(available);
   }
   void put_schema(JsonWriter& json, Definitions& definitions) const;
@@ -124,8 +117,7 @@ inline constexpr auto situation = map(text, plain_value);
 
 /// The values of a condition.
 struct ConditionValues {
-  template <typename Context>
-  void write(JsonWriter& json, const NamedCondition& condition, const Context& /*context*/) const {
+  void write(JsonWriter& json, const NamedCondition& condition, const auto& /*context*/) const {
     put(json, condition);
   }
   void put_schema(JsonWriter& json, Definitions& definitions) const;

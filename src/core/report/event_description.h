@@ -110,10 +110,11 @@ inline constexpr auto what_happened = group(
     member("verb", words(Verb::wait), "What the event requests or reports.", &EventRecord::verb),
     optional("task", task, "For finish, if a task was given in place of a behavior: the task.",
              [](const EventRecord& of) { return of.verb == Verb::finish ? of.task : none; }),
-    optional("name", SubjectName(),
-             "The task of start and stop; the behavior of finish, fault and repair. null for a "
-             "finish that names a task which nothing performs.",
-             std::identity()),
+    optional(
+        "name", SubjectName(),
+        "The task that the event is about, such as that of start; of finish, fault and repair the "
+        "behavior. null for a finish that names a task which nothing performs.",
+        std::identity()),
     optional("priority", priority,
              "For start and stop: the priority; higher is stronger. 0 for a reactive start, and by "
              "default for a stop of a task without a request.",

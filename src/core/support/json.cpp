@@ -197,13 +197,4 @@ void JsonWriter::put_percent(Millionths degree) {
   }
 }
 
-void JsonWriter::write_percent(std::string_view name, std::optional<Millionths> degree) {
-  key(name);
-  if (degree) {
-    put_percent(*degree);
-  } else {
-    put(nullptr);
-  }
-}
-
 }  // namespace cbc

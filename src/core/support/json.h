@@ -267,8 +267,6 @@ class JsonWriter {
     static_assert(second == 1'000'000);
     json_.put_millionths(time);
   }
-  /// In percent: as a whole number where it is one.
-  void write_percent(std::string_view name, std::optional<Millionths> degree);
   /// `json` is JSON already.
   void write_json(std::string_view json) {
     separate();
