@@ -6,8 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/report/search_stats.h"
+#include "core/report/totals_json.h"
 #include "core/script/runner.h"
-#include "core/support/json.h"
+#include "core/support/json_description.h"
 #include "runtime/coordinator/coordinator.h"
 #include "unit/compiled_fixture.h"
 
@@ -35,12 +36,7 @@ SearchRecord search_of(std::uint64_t solutions, std::uint64_t nodes, std::uint64
 }
 
 json to_json(const SearchTotals& totals) {
-  std::string text;
-  JsonWriter writer(text);
-  writer.open('{');
-  write_totals(writer, totals);
-  writer.close('}');
-  return json::parse(text)["totals"];
+  return json::parse(cbc::json::document(cbc::json::totals, totals));
 }
 
 TEST(SearchTotals, SumUpByKindAndInAll) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "core/support/json.h"
 #include "core/support/json_types.h"
@@ -71,16 +72,18 @@ struct Member {
   /// Members that are computed are not read.
   template <typename Object>
   void read(const auto& json, Object& object, const auto& context) const {
-    if constexpr (requires { type.read(json, project(projection, object, context), context); }) {
+    using Field = decltype(project(projection, object, context));
+    if constexpr (is_optional && is_optional_value<std::remove_reference_t<Field>> &&
+                  std::is_lvalue_reference_v<Field>) {
       auto& value = project(projection, object, context);
-      if constexpr (!is_optional) {
+      value.reset();
+      if (const auto part = json.find(name)) type.read(*part, value.emplace(), context);
+    } else if constexpr (requires { type.read(json, std::declval<Field>(), context); }) {
+      auto& value = project(projection, object, context);
+      if constexpr (is_optional) {
+        if (const auto part = json.find(name)) type.read(*part, value, context);
+      } else {
         type.read(json[name], value, context);
-      } else if (const auto part = json.find(name)) {
-        if constexpr (is_optional_value<std::remove_reference_t<decltype(value)>>) {
-          type.read(*part, value.emplace(), context);
-        } else {
-          type.read(*part, value, context);
-        }
       }
     }
   }
