@@ -4,10 +4,10 @@
 
 #include "core/files/input.h"
 #include "core/files/output.h"
+#include "core/script/state_json.h"
 #include "runtime/base/text.h"
 #include "runtime/coordinator/state.h"
 #include "solve/solve.h"
-#include "core/script/state_json.h"
 
 namespace cbc::cli {
 

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "core/script/reader.h"
+#include "core/script/state_json.h"
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"
-#include "core/script/state_json.h"
 
 namespace cbc::runner_test {
 namespace {

@@ -3,11 +3,11 @@
 #include <vector>
 
 #include "core/script/runner.h"
+#include "core/script/state_json.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/program.h"
 #include "fuzz/target.h"
 #include "support/exercise.h"
-#include "core/script/state_json.h"
 
 // A saved state, from which a mission goes on.
 namespace cbc::fuzz {
