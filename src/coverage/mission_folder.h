@@ -5,16 +5,16 @@
 
 namespace cbc::cli {
 
-/// A folder of scripts that `cbc verify` writes, and replaces when it is called again. Each says so
-/// in a comment with a digest of the rest, so that none that anybody has changed is replaced.
-class TestFolder {
+/// A folder of scripts that `cbc coverage` writes, and replaces when it is called again. Each says
+/// so in a comment with a digest of the rest, so that none that anybody has changed is replaced.
+class MissionFolder {
  public:
   struct File {
     std::string name;
     std::string text;
   };
 
-  explicit TestFolder(std::string path) : path_(std::move(path)) {}
+  explicit MissionFolder(std::string path) : path_(std::move(path)) {}
 
   /// Looks at the files of the folder, if it exists. False if there is one that is not ours, or the
   /// folder cannot be made or written to; the reason is printed. Changes nothing.

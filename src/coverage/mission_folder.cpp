@@ -1,4 +1,4 @@
-#include "coverage/test_folder.h"
+#include "coverage/mission_folder.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view mark =
-    "# Written by 'cbc verify --write-tests', which replaces this file unless it was changed: ";
+    "# Written by 'cbc coverage --write-missing', which replaces this file unless it was changed: ";
 
 std::string sign(const std::string& text) {
   return fmt::format("{}{}\n{}", mark, to_hex(digest_of(text)), text);
@@ -39,11 +39,11 @@ bool is_signed(const fs::path& path) {
 
 }  // namespace
 
-std::string TestFolder::path_of(const std::string& name) const {
+std::string MissionFolder::path_of(const std::string& name) const {
   return (fs::path(path_) / name).string();
 }
 
-bool TestFolder::open() {
+bool MissionFolder::open() {
   std::error_code error;
   fs::path lowest = fs::absolute(path_, error).lexically_normal();
   if (!lowest.has_filename()) lowest = lowest.parent_path();  // "tests/"
@@ -80,7 +80,7 @@ bool TestFolder::open() {
   if (!foreign.empty()) {
     const std::string& first = *std::min_element(foreign.begin(), foreign.end());
     complain(
-        "the folder {} has {}, which --write-tests did not write, or which was changed since; "
+        "the folder {} has {}, which --write-missing did not write, or which was changed since; "
         "expected a folder for its scripts alone",
         quote(path_), quote(first));
     return false;
@@ -88,7 +88,7 @@ bool TestFolder::open() {
   return true;
 }
 
-int TestFolder::replace(const std::vector<File>& files) {
+int MissionFolder::replace(const std::vector<File>& files) {
   std::vector<std::string> made;
   if (!files.empty()) {
     if (const std::error_code error = make_folder(path_)) {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
+#include <system_error>
 #include <vector>
 
 #include <fmt/core.h>
@@ -15,20 +15,16 @@
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
 #include "core/script/writer.h"
-#include "coverage/engine/goals.h"
+#include "coverage/coverage.h"
 #include "coverage/engine/mutants/judge.h"
 #include "coverage/engine/mutants/mutants.h"
 #include "coverage/report/mutants_report.h"
 #include "runtime/base/text.h"
-#include "verify/engine/verification.h"
-#include "verify/verify.h"
 
 namespace cbc::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-using Clock = std::chrono::steady_clock;
 
 /// False if missions do not pass on the catalog itself; which ones is printed.
 bool all_pass(const CompiledCatalog& catalog, const std::vector<Script>& missions) {
@@ -52,7 +48,7 @@ bool all_pass(const CompiledCatalog& catalog, const std::vector<Script>& mission
 }
 
 /// Judges all mutants, on several threads. What a stop leaves is not judged.
-void judge_all(const VerifyOptions& options, const MutantJudge& judge,
+void judge_all(const CoverageOptions& options, const MutantJudge& judge,
                const std::function<bool()>& is_stopped, MutantsResult& result) {
   constexpr std::chrono::milliseconds between_looks(100);
   const auto judge_one = [&](std::size_t number) {
@@ -99,7 +95,7 @@ int write_scripts(const std::string& folder, const std::string& path_of_catalog,
   return exit_ok;
 }
 
-int status_of(const VerifyOptions& options, const MutantCount& count) {
+int status_of(const CoverageOptions& options, const MutantCount& count) {
   int status = count.is_complete() ? exit_ok : exit_no;
   if (options.fail_under.empty()) return status;
   if (!count.is_score_known()) {
@@ -115,64 +111,52 @@ int status_of(const VerifyOptions& options, const MutantCount& count) {
 
 }  // namespace
 
-int verify_mutants(const VerifyOptions& options, const VerifyQuestions& questions) {
-  const CompiledCatalog& catalog = *questions.catalog;
-  if (questions.source == nullptr) {
+int judge_mutants(const CoverageOptions& options, const CoverageQuestion& question) {
+  const CompiledCatalog& catalog = *question.catalog;
+  const CatalogSource* const source = question.missions.front().source.get();
+  if (source == nullptr) {
     return complain("--mutants: the catalog {} was compiled; expected the YAML, whose lines count",
                     quote(catalog.file));
   }
-  if (const auto too_many = find_too_many_pairs(catalog)) {
-    return complain("--mutants: {}", *too_many);
+  if (!can_write_output(options.output)) return exit_unusable;
+  if (options.scripts) {
+    if (const std::error_code error = make_folder(*options.scripts)) {
+      return complain("cannot make the folder {}: {}", quote(*options.scripts), error.message());
+    }
   }
-  if (questions.files.size() > 1) {
-    return usage_error("verify", "--mutants takes at most one property file, found {}",
-                       questions.files.size());
-  }
-  if (questions.beside.empty()) {
-    return complain("--beside: found no event script in {}", quote(options.beside.back()));
-  }
-  const StatedAssumptions stated = goal_assumptions(questions);
-  if (const int status = prepare_outputs(options); status != exit_ok) return status;
   std::vector<Script> missions;
   MutantsResult result;
-  for (const Mission& mission : questions.beside) {
+  for (const Mission& mission : question.missions) {
     missions.push_back(mission.script);
     result.missions.push_back(mission.script.file);
   }
   if (!all_pass(catalog, missions)) return exit_unusable;
-  result.catalog = &questions.source->catalog;
+  result.catalog = &source->catalog;
   result.compiled = &catalog;
-  result.assumptions = stated;
+  result.assumptions = question.assumptions;
   result.writes_scripts = options.scripts.has_value();
   result.mutants = find_mutants(*result.catalog);
 
   // States of one mutant; the largest groups of catalogs have far more, and nobody would wait.
   constexpr std::uint64_t most_states = 1'000'000;
-  const StopSignals signals;
-  const Clock::time_point begin = Clock::now();
+  const Deadline deadline(options.limits.seconds());
   JudgeOptions of_judge;
-  of_judge.limits = limits_of(options);
-  const double seconds = std::exchange(of_judge.limits.seconds, 0);
-  if (of_judge.limits.max_states == 0) of_judge.limits.max_states = most_states;
-  of_judge.limits.max_memory /= thread_count(options.jobs);
-  of_judge.is_stopped = [&] {
-    const std::chrono::duration<double> elapsed = Clock::now() - begin;
-    return signals.have_come() || (seconds > 0 && elapsed.count() >= seconds);
-  };
-  const MutantJudge judge(*result.catalog, catalog, missions, stated.assumptions, of_judge);
+  of_judge.limits.max_states =
+      options.limits.max_states > 0 ? options.limits.max_states : most_states;
+  of_judge.limits.max_memory = options.limits.memory() / thread_count(options.jobs);
+  of_judge.is_stopped = [&] { return deadline.has_come(); };
+  const MutantJudge judge(*result.catalog, catalog, missions, question.assumptions.assumptions,
+                          of_judge);
   judge_all(options, judge, of_judge.is_stopped, result);
 
   if (options.scripts) {
-    if (const int status = write_scripts(
-            *options.scripts, catalog_from(*options.scripts, options, questions), result);
-        status != exit_ok)
-      return status;
+    const int status =
+        write_scripts(*options.scripts, catalog_from(*options.scripts, options), result);
+    if (status != exit_ok) return status;
   }
   const MutantsFormat& format = *find_named(mutants_formats(), options.format);
-  const bool is_on_stdout = options.output == "-";
-  const Style style = is_on_stdout ? style_for(stdout) : plain_style();
-  const std::size_t columns = is_on_stdout ? columns_for(stdout) : 0;
-  const int status = write_output(options.output, format.write(result, style, columns));
+  const int status = write_output(
+      options.output, format.write(result, style_for(options.output), columns_for(options.output)));
   return status == exit_ok ? status_of(options, result.count()) : status;
 }
 
