@@ -18,6 +18,7 @@
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
 #include "core/property/property_reader.h"
+#include "core/report/github.h"
 #include "coverage/coverage.h"
 #include "coverage/engine/coverage.h"
 #include "coverage/engine/goal_proof.h"
@@ -286,10 +287,17 @@ int run_coverage(const CoverageOptions& options) {
   if (options.merge) return merge(options);
   MissionLoader loader;
   loader.keep_sources();
+  const bool is_measured = !options.write_missing && !options.mutants;
+  if (!is_measured) loader.need_none();
   if (options.write_missing) loader.leave_out(*options.write_missing);
   std::optional<std::vector<Mission>> missions = loader.load(options.paths);
-  if (!missions) return exit_unusable;
-  if (!options.write_missing && !options.mutants) return measure(*missions, options);
+  if (!missions) {
+    if (options.format == "github") {
+      static_cast<void>(write_output(options.output, github_commands_of_errors(loader.findings())));
+    }
+    return exit_unusable;
+  }
+  if (is_measured) return measure(*missions, options);
   const auto question = find_question(loader.given_catalog(), std::move(*missions), options);
   if (!question) return exit_unusable;
   return options.mutants ? judge_mutants(options, *question) : write_missing(options, *question);
@@ -297,8 +305,8 @@ int run_coverage(const CoverageOptions& options) {
 
 constexpr const char* coverage_examples =
     "  cbc coverage robot.yaml missions/         what the missions test, and miss\n"
-    "  cbc coverage robot.yaml missions/ --write-missing tests   scripts for the rest\n"
-    "  cbc coverage robot.yaml missions/ tests/ --mutants        do they notice changes?\n";
+    "  cbc coverage robot.yaml missions/ --write-missing tests/   write the rest\n"
+    "  cbc coverage robot.yaml missions/ tests/ --mutants   what they do not notice\n";
 
 constexpr const char* coverage_footer =
     "Exit status: 0 success, 1 an expectation failed, --fail-under was missed, or not all is "
@@ -332,7 +340,7 @@ void add_coverage_command(Program& program) {
                  "Run N scripts at once (default: all processors)");
   command.add_confinement();
 
-  command.group("What is missing");
+  command.group("Proofs");
   command.flag("--prove", options->prove, "Set goals apart that no mission can reach")
       .not_with({"--mutants", "--write-missing"}, "it proves that, too");
   command

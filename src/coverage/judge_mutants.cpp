@@ -113,6 +113,9 @@ int status_of(const CoverageOptions& options, const MutantCount& count) {
 
 int judge_mutants(const CoverageOptions& options, const CoverageQuestion& question) {
   const CompiledCatalog& catalog = *question.catalog;
+  if (question.missions.empty()) {
+    return complain("--mutants: expected a script, found none in {}", quote(options.paths.back()));
+  }
   const CatalogSource* const source = question.missions.front().source.get();
   if (source == nullptr) {
     return complain("--mutants: the catalog {} was compiled; expected the YAML, whose lines count",

@@ -93,6 +93,7 @@ std::uint32_t group_count(const draw::CatalogGraph& graph) {
 }
 
 void add_drawing_options(Command& command, DrawingOptions& options) {
+  command.group("Drawing");
   constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
   command.option(
       "--view", options.view,
@@ -104,6 +105,9 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
                  "Draw frames around packages, groups or none");
   command.flag("--reduce", options.reduce, "Leave out requirements that follow (--view tasks)")
       .only_with({"--view tasks"});
+  command.flag("--legend", options.legend, "Add a legend");
+
+  command.group("Part");
   command
       .option("--task", options.tasks, name_of("NAME", ValueKind::task),
               "Draw only what is around this task; repeatable")
@@ -116,7 +120,6 @@ void add_drawing_options(Command& command, DrawingOptions& options) {
       .only_with({"--task"});
   command.option("--group", options.group, whole_number("N", 0, most),
                  "Draw only this group (see 'cbc compile --dump')");
-  command.flag("--legend", options.legend, "Add a legend");
 }
 
 draw::ViewOptions view_options(const DrawingOptions& options) {
@@ -247,6 +250,7 @@ std::string find_miss(const Script& script, const WantedState& wanted, std::uint
 }
 
 void add_state_options(Command& command, StateOptions& options) {
+  command.group("State");
   command
       .option("--script", options.script, input("SCRIPT", ValueKind::script),
               "Run this event script, and mark what runs at its end")
@@ -569,9 +573,9 @@ void add_graph_command(Program& program) {
   command.option("-o,--output", options->output, output("OUT"),
                  "The file to write, or - for standard output (default)");
   command.option("--format", options->format, one_of("FORMAT", formats), format_help);
+  command.add_confinement();
   add_drawing_options(command, options->drawing);
   add_state_options(command, options->state);
-  command.add_confinement();
   command.action([options] { return run_graph(*options); });
 }
 

@@ -203,6 +203,13 @@ void add_lint_command(Program& program) {
   command.flag("--diff", options->diff, "Show what --fix would change, as a diff")
       .not_with({"--summary"})
       .only_with_values("--format", {"text"});
+  command.option("--stdin-filename", options->stdin_filename, name_of("NAME", ValueKind::file),
+                 "Name of standard input in messages, for .cbc.yaml");
+  command.option("--max-nodes", options->max_nodes, whole_number("N", 1),
+                 "Decisions for the proof of a finding (default: 100000)");
+  command.add_confinement();
+
+  command.group("Rules");
   Values rule;
   rule.placeholder = "RULE";
   rule.expected = "a rule";
@@ -226,10 +233,6 @@ void add_lint_command(Program& program) {
   command.option("--allow", options->severities.allow, rules, "Do not report findings of a rule")
       .separated_by(',');
   command.flag("--strict", options->severities.strict, "Also fail on warnings");
-  command.option("--stdin-filename", options->stdin_filename, name_of("NAME", ValueKind::file),
-                 "Name of standard input in messages, for .cbc.yaml");
-  command.option("--max-nodes", options->max_nodes, whole_number("N", 1),
-                 "Decisions for the proof of a finding (default: 100000)");
   const std::string only_explains = "it describes rules and checks no files";
   command.option("--explain", options->explain, rule, "Explain a rule")
       .not_with({"CATALOG", "--script"}, only_explains)
@@ -237,7 +240,6 @@ void add_lint_command(Program& program) {
   command.flag("--list-rules", options->list_rules, "List all rules")
       .not_with({"CATALOG", "--script"}, only_explains)
       .only_with_values("--format", {"text"});
-  command.add_confinement();
   command.action([options] { return lint(*options); });
 }
 

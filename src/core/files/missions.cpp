@@ -30,13 +30,13 @@ std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::s
   for (std::size_t place = first_script; place < paths.size(); ++place) {
     const std::size_t known = missions_.size();
     add_path(paths[place]);
-    if (has_failed_ || missions_.size() > known || left_out_) continue;
+    if (has_failed_ || missions_.size() > known || needs_none_) continue;
     complain("found no event script in {}", quote(paths[place]));
     has_failed_ = true;
   }
   files_.print_findings();
   if (has_failed_) return std::nullopt;
-  if (missions_.empty() && !left_out_) {
+  if (missions_.empty() && !needs_none_) {
     complain("no event script given to solve on catalog {}", quote(display_name(paths.front())));
     return std::nullopt;
   }

@@ -27,7 +27,9 @@ class MissionLoader {
  public:
   /// From now on, also keeps what catalogs were compiled from.
   void keep_sources() { catalogs_.keep_sources(); }
-  /// Scripts in this folder do not count, and there need be none.
+  /// From now on, folders and paths may be without a script.
+  void need_none() { needs_none_ = true; }
+  /// Scripts in this folder do not count.
   void leave_out(std::string folder) { left_out_ = std::move(folder); }
 
   /// `paths`: a catalog (which may be missing if the scripts name theirs), then scripts; "-" is a
@@ -55,6 +57,7 @@ class MissionLoader {
   std::shared_ptr<const CompiledCatalog> given_catalog_;
   bool is_given_catalog_bad_ = false;
   std::vector<Mission> missions_;
+  bool needs_none_ = false;
   std::optional<std::string> left_out_;
   bool has_failed_ = false;
 };
