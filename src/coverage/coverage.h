@@ -62,6 +62,18 @@ void watch_missions(const std::vector<Mission>& missions, std::optional<std::uin
                     const std::function<const std::vector<Goal>&(const Mission&)>& goals_of,
                     const std::function<bool(const Mission&, WatchedResult)>& take);
 
+/// What is assumed of each catalog in proofs: what --assume says, or what holds without it. Empty
+/// if that cannot be known; the reason is printed.
+[[nodiscard]] std::optional<std::vector<StatedAssumptions>> find_assumptions(
+    const std::vector<const CompiledCatalog*>& catalogs, const CoverageOptions& options);
+
+/// Runs the missions, and reports which goals they meet. Returns the exit status.
+[[nodiscard]] int measure_coverage(const CoverageOptions& options,
+                                   const std::vector<Mission>& missions);
+/// Merges JSON results. The paths are those of the catalog and of the results. Returns the exit
+/// status.
+[[nodiscard]] int merge_coverage(const CoverageOptions& options);
+
 /// Missions on one catalog, and what else may happen.
 struct CoverageQuestion {
   std::shared_ptr<const CompiledCatalog> catalog;

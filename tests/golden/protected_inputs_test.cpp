@@ -130,7 +130,7 @@ TEST_F(ProtectedInputs, AreScriptsThatWouldBeReplaced) {
 TEST_F(ProtectedInputs, AreNotTheOnlyFilesThatAreWrittenOnce) {
   fs::create_symlink("page.html", folder / "link.html");
   for (const std::string other : {"./page.html", "missions/../page.html", "link.html"}) {
-    expect_result(cbc({"verify", "properties.yaml", "--html", "page.html", "-o", other}), 2, "",
+    expect_result(cbc({"verify", "properties.yaml", "-o", "page.html", "--html", other}), 2, "",
                   "cbc: '" + other + "' would be written twice\nSee 'cbc verify --help'.\n");
   }
 }
