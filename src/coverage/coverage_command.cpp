@@ -18,7 +18,7 @@
 namespace cbc::cli {
 namespace {
 
-/// For --write-missing and --mutants. Empty if anything is wrong; the reason is printed.
+/// What --write-missing and --mutants ask. Empty if anything is wrong; the reason is printed.
 std::optional<CoverageQuestion> find_question(std::shared_ptr<const CompiledCatalog> catalog,
                                               std::vector<Mission> missions,
                                               const CoverageOptions& options) {
@@ -49,7 +49,7 @@ int run_coverage(const CoverageOptions& options) {
   if (options.write_missing) loader.leave_out(*options.write_missing);
   std::optional<std::vector<Mission>> missions = loader.load(options.paths);
   if (!missions) {
-    if (options.format == "github") {
+    if (options.format == "github") {  // which could take no annotation for success
       static_cast<void>(write_output(options.output, github_commands_of_errors(loader.findings())));
     }
     return exit_unusable;
@@ -67,8 +67,7 @@ constexpr const char* coverage_examples =
 
 constexpr const char* coverage_footer =
     "Exit status: 0 success, 1 an expectation failed, --fail-under was missed, or not all is "
-    "known, "
-    "2 the input or the usage is wrong, 3 an internal error (please report it).\n"
+    "known, 2 the input or the usage is wrong, 3 an internal error (please report it).\n"
     "\n"
     "Read more: man cbc-coverage";
 

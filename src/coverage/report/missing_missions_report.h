@@ -26,6 +26,7 @@ struct WrittenMissions {
 };
 
 /// The result for people. `columns`: of the terminal, see wrap_line.
-[[nodiscard]] std::string written_missions_to_text(const WrittenMissions& tests, std::size_t columns = 0);
+[[nodiscard]] std::string written_missions_to_text(const WrittenMissions& tests,
+                                                   std::size_t columns = 0);
 
 }  // namespace cbc
