@@ -30,14 +30,10 @@ namespace fs = std::filesystem;
 constexpr const char* compile_examples =
     "  cbc compile robot.yaml                    writes robot.cbc\n"
     "  cbc compile --check robot.yaml            is robot.cbc up to date?\n"
-    "  cbc compile --dump robot.cbc              the contents of a compiled catalog\n";
+    "  cbc compile --dump robot.cbc              the contents of a compiled catalog\n"
+    "  cbc solve robot.cbc mission.yaml          uses it in place of the YAML\n";
 
 constexpr const char* compile_footer =
-    "More examples:\n"
-    "  cbc compile robot.yaml -o robot/catalog.cbc\n"
-    "                                            writes another file\n"
-    "  cbc solve robot.cbc mission.yaml          uses it in place of the YAML\n"
-    "\n"
     "A catalog with errors is not compiled. The same catalog gives the same bytes on every "
     "machine, and the file is replaced as a whole or not at all. On success "
     "only warnings are printed.\n"

@@ -25,6 +25,7 @@
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/state.h"
+#include "solve/saved_state.h"
 #include "solve/solve.h"
 
 namespace cbc::cli {

@@ -1,4 +1,5 @@
-#include <optional>
+#include "solve/saved_state.h"
+
 #include <string>
 #include <utility>
 
@@ -6,11 +7,8 @@
 #include "core/files/output.h"
 #include "core/script/event_lines.h"
 #include "runtime/base/text.h"
-#include "runtime/coordinator/state.h"
-#include "solve/solve.h"
 
 namespace cbc::cli {
-
 namespace {
 
 /// Whether the new state replaces the one that was read.

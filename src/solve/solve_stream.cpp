@@ -12,6 +12,7 @@
 #include <fmt/core.h>
 
 #include "core/files/input.h"
+#include "core/files/missions.h"
 #include "core/files/output.h"
 #include "core/files/read_files.h"
 #include "core/report/event_json.h"
@@ -23,6 +24,7 @@
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/state.h"
 #include "solve/live_page.h"
+#include "solve/saved_state.h"
 #include "solve/solve.h"
 
 namespace cbc::cli {

@@ -1,8 +1,5 @@
-#include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include <fmt/core.h>
@@ -10,33 +7,13 @@
 #include "core/files/input.h"
 #include "core/files/output.h"
 #include "core/property/property_reader.h"
-#include "coverage/engine/goal_proof.h"
 #include "runtime/base/text.h"
 #include "verify/verify.h"
 
 namespace cbc::cli {
 
-StatedAssumptions goal_assumptions(const VerifyQuestions& questions) {
-  if (questions.files.empty()) return {assumptions_of_goals(*questions.catalog), {}};
-  return {questions.files.front()->assumptions, questions.files.front()->path};
-}
-
-std::string catalog_from(const std::string& folder, const VerifyOptions& options,
-                         const VerifyQuestions& questions) {
-  const std::string catalog = questions.named_catalog.value_or(options.paths.front());
-  if (catalog == "-") return {};
-  // Of a folder that does not exist yet, a relative path would stay one.
-  std::error_code error;
-  const std::filesystem::path path = std::filesystem::proximate(
-      std::filesystem::absolute(catalog), std::filesystem::absolute(folder), error);
-  return error ? std::string{} : path.generic_string();
-}
-
 std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::string>& paths,
-                                                    const std::optional<std::string>& old_catalog,
-                                                    const std::vector<std::string>& beside,
-                                                    const std::optional<std::string>& left_out) {
-  catalogs_.keep_sources();
+                                                    const std::optional<std::string>& old_catalog) {
   add_first(paths.front());
   for (std::size_t place = 1; place < paths.size(); ++place) add_path(paths[place]);
   if (old_catalog) {
@@ -45,12 +22,6 @@ std::optional<VerifyQuestions> QuestionLoader::load(const std::vector<std::strin
   }
   files_.print_findings();
   if (has_failed_) return std::nullopt;
-  questions_.source = catalogs_.source_of(*questions_.catalog);
-  MissionLoader missions;
-  std::optional<std::vector<Mission>> loaded =
-      missions.load_for(questions_.catalog, beside, left_out);
-  if (!loaded) return std::nullopt;
-  questions_.beside = std::move(*loaded);
   return std::move(questions_);
 }
 
@@ -110,13 +81,12 @@ bool QuestionLoader::find_catalog(const std::string& path, const yaml::Document&
         quote(display_name(path)));
     return false;
   }
-  if (!questions_.named_catalog) {
-    questions_.named_catalog = named->path;
+  if (!named_catalog_) {
+    named_catalog_ = named->path;
     questions_.catalog = catalogs_.load(*named);
-  } else if (named->path != *questions_.named_catalog &&
-             !is_same_file(*questions_.named_catalog, named->path)) {
+  } else if (named->path != *named_catalog_ && !is_same_file(*named_catalog_, named->path)) {
     complain("{}: this property file is about another catalog, {}, than those before it, {}",
-             named->place, quote(named->path), quote(*questions_.named_catalog));
+             named->place, quote(named->path), quote(*named_catalog_));
     return false;
   }
   return questions_.catalog != nullptr;

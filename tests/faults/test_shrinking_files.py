@@ -14,7 +14,7 @@ from fault_case import FaultCase
 # With "robot.cbc", which is mapped, and "robot.yaml", of which it was made.
 COMMANDS = [
     "solve robot.cbc mission.yaml --html page.html",
-    "solve robot.cbc --sweep 3 -j 1 --slowest slow.yaml",
+    "sweep robot.cbc --sequences 3 -j 1 --slowest slow.yaml",
     "graph robot.cbc -o robot.dot",
     "graph --diff robot.cbc robot.yaml --format text -o diff.txt",
     "verify robot.cbc -j 1 --max-states 100 -o result.txt",

@@ -98,7 +98,7 @@ class Runs {
   }
 
   *sweep(catalog) {
-    const sweep = ['solve', catalog, '--sweep', '5', '--events', '20', '--format', 'json'];
+    const sweep = ['sweep', catalog, '--sequences', '5', '--events', '20', '--format', 'json'];
     yield* this.labelled(...sweep);
     yield* this.labelled(...sweep, '--stats', '--tie-seed', '3', '--max-nodes', '1');
     const shards = [];
@@ -109,7 +109,7 @@ class Runs {
       shards.push(file);
       yield text;
     }
-    yield* this.labelled('solve', '--merge', ...shards, '--format', 'json');
+    yield* this.labelled('sweep', '--merge', ...shards, '--format', 'json');
     // A share without any sequence has nothing that could be slowest.
     yield* this.labelled(...sweep, '--shard', '7/7');
   }

@@ -347,14 +347,5 @@ TEST(CoverageMerge, SaysWhatIsWrong) {
             std::string::npos);
 }
 
-TEST(CoverageFormats, FollowTheEndOfTheName) {
-  EXPECT_EQ(coverage_format_of("a/b.json").name, "json");
-  EXPECT_EQ(coverage_format_of("coverage.html").name, "html");
-  EXPECT_EQ(coverage_format_of("coverage.info").name, "lcov");
-  EXPECT_EQ(coverage_format_of("coverage.lcov").name, "lcov");
-  EXPECT_EQ(coverage_format_of("coverage.txt").name, "text");
-  EXPECT_EQ(coverage_format_of("json").name, "text");
-}
-
 }  // namespace
 }  // namespace cbc::coverage_test

@@ -99,6 +99,15 @@ Values further_output(std::string placeholder) {
   return values;
 }
 
+Values folder() {
+  Values values = name_of("DIR", ValueKind::file);
+  values.expected = "a folder";
+  values.check = [](const std::string& text) {
+    return std::string(text.empty() || text == "-" ? "expected the name of a folder" : "");
+  };
+  return values;
+}
+
 Values one_of(std::string placeholder, std::vector<std::string> choices) {
   Values values;
   values.placeholder = std::move(placeholder);
@@ -233,9 +242,8 @@ void Command::add_confinement() {
   folder.check = [](const std::string& value) -> std::string {
     return is_folder(value) ? "" : fmt::format("there is no folder {}", quote(value));
   };
-  Option& added = add("--confine", std::move(folder),
-                      "Read no file outside the folder DIR, whatever files and links name; for "
-                      "files from people you do not trust");
+  Option& added =
+      add("--confine", std::move(folder), "Read no file outside DIR, whatever files name");
   added.store = [](const std::string& value) { confine_reading(value); };
 }
 
@@ -391,6 +399,9 @@ std::string find_bad_equals(const Command& command, const std::vector<std::strin
 }
 
 std::string describe_unknown_option(const Command& command, const std::string& name) {
+  if (const auto moved = command.moved().find(name); moved != command.moved().end()) {
+    return fmt::format("{} has moved: use {}", name, moved->second);
+  }
   std::vector<std::string> names;
   for (const Option& option : command.options()) {
     if (option.name().starts_with("--")) names.push_back(option.name());

@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -57,6 +58,8 @@ struct Values {
 [[nodiscard]] Values output(std::string placeholder);
 /// Of a file to write beside the report, which has standard output.
 [[nodiscard]] Values further_output(std::string placeholder);
+/// Of a folder, which need not exist.
+[[nodiscard]] Values folder();
 /// Of a task or behavior, or of a file that need not exist.
 [[nodiscard]] Values name_of(std::string placeholder, ValueKind kind);
 [[nodiscard]] Values one_of(std::string placeholder, std::vector<std::string> choices);
@@ -185,6 +188,10 @@ class Command {
   }
   /// --confine, for commands that read files.
   void add_confinement();
+  /// Options that another command has now: "'cbc sweep'". Only a complaint about them tells of it.
+  void moved(const std::vector<std::string>& names, const std::string& place) {
+    for (const std::string& name : names) moved_.emplace(name, place);
+  }
   /// The heading in --help of the options declared next.
   void group(std::string title) { group_ = std::move(title); }
   /// What the command does. Returns the exit status.
@@ -196,6 +203,8 @@ class Command {
   [[nodiscard]] const std::deque<Option>& options() const { return options_; }
   /// Null if it has none of this name.
   [[nodiscard]] const Option* find(std::string_view name) const;
+  /// By name of an option that moved: where it is now.
+  [[nodiscard]] const std::map<std::string, std::string>& moved() const { return moved_; }
   [[nodiscard]] int run() const { return run_(); }
 
  private:
@@ -206,6 +215,7 @@ class Command {
   HelpText text_;
   std::string group_ = "Options";
   std::deque<Option> options_;  ///< a deque, as references to them are handed out
+  std::map<std::string, std::string> moved_;
   std::function<int()> run_;
 };
 

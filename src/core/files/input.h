@@ -51,6 +51,9 @@ enum class FoundFile : std::uint8_t {
 /// standard error.
 [[nodiscard]] std::optional<std::string> read_input(const std::string& path);
 
+/// The same for a JSON result that is to be merged with others.
+[[nodiscard]] std::optional<std::string> read_result(const std::string& path);
+
 /// The name of an input in messages and reports.
 [[nodiscard]] std::string display_name(const std::string& path);
 

@@ -59,6 +59,14 @@ bool wants_color(std::FILE* stream) {
 
 Style style_for(std::FILE* stream) { return wants_color(stream) ? color_style() : plain_style(); }
 
+std::size_t columns_for(const std::string& output) {
+  return output == "-" ? columns_for(stdout) : 0;
+}
+
+Style style_for(const std::string& output) {
+  return output == "-" ? style_for(stdout) : plain_style();
+}
+
 namespace {
 
 /// A longer line would wrap, and its first part could not be removed.

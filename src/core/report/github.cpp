@@ -69,4 +69,12 @@ std::string github_command_of(const Diagnostic& finding) {
                         fmt::format("cbc {}", finding.rule), message_of(finding));
 }
 
+std::string github_commands_of_errors(const std::vector<Diagnostic>& findings) {
+  std::string text;
+  for (const Diagnostic& finding : findings) {
+    if (finding.severity == Severity::error) text += github_command_of(finding);
+  }
+  return text;
+}
+
 }  // namespace cbc

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/diagnostic/diagnostic.h"
 
@@ -24,5 +25,7 @@ struct GithubPlace {
 
 /// A finding as a workflow command of GitHub Actions.
 [[nodiscard]] std::string github_command_of(const Diagnostic& finding);
+/// The errors among findings, in place of a report of what could not be read.
+[[nodiscard]] std::string github_commands_of_errors(const std::vector<Diagnostic>& findings);
 
 }  // namespace cbc

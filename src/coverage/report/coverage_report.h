@@ -8,7 +8,7 @@
 #include "core/diagnostic/diagnostic.h"
 #include "coverage/engine/coverage.h"
 
-// The reports of `cbc solve --coverage`.
+// The reports of `cbc coverage`.
 
 namespace cbc {
 
@@ -41,7 +41,5 @@ struct CoverageFormat {
 
 /// The first one is the default.
 [[nodiscard]] std::span<const CoverageFormat> coverage_formats();
-/// The format of a file, by the end of its name: .json, .html, .info or .lcov; otherwise text.
-[[nodiscard]] const CoverageFormat& coverage_format_of(std::string_view path);
 
 }  // namespace cbc

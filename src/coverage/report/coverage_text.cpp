@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -165,21 +164,6 @@ std::span<const CoverageFormat> coverage_formats() {
                     std::size_t /*columns*/) { return coverage_to_github(coverage); }},
   };
   return formats;
-}
-
-const CoverageFormat& coverage_format_of(std::string_view path) {
-  struct Suffix {
-    std::string_view end;
-    std::string_view format;
-  };
-  constexpr std::array<Suffix, 4> suffixes{
-      {{".json", "json"}, {".html", "html"}, {".info", "lcov"}, {".lcov", "lcov"}}};
-  const auto* const suffix = std::find_if(
-      suffixes.begin(), suffixes.end(), [&](const Suffix& one) { return path.ends_with(one.end); });
-  const auto formats = coverage_formats();
-  if (suffix == suffixes.end()) return formats.front();
-  return *std::find_if(formats.begin(), formats.end(),
-                       [&](const CoverageFormat& format) { return format.name == suffix->format; });
 }
 
 }  // namespace cbc

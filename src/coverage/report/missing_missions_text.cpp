@@ -14,7 +14,7 @@ namespace cbc {
 
 namespace {
 
-std::string list_goals(const WrittenTests& tests, const char* heading,
+std::string list_goals(const WrittenMissions& tests, const char* heading,
                        const std::vector<MissingMissions::Unmet>& goals, std::size_t columns) {
   if (goals.empty()) return {};
   std::string text = "\n" + wrap_line(heading, columns, 2) + "\n";
@@ -27,7 +27,7 @@ std::string list_goals(const WrittenTests& tests, const char* heading,
 
 }  // namespace
 
-std::string written_tests_to_text(const WrittenTests& tests, std::size_t columns) {
+std::string written_missions_to_text(const WrittenMissions& tests, std::size_t columns) {
   const MissingMissions& missing = *tests.missing;
   std::string text = printable(tests.catalog->file);
   if (tests.missions == 0U) {

@@ -15,6 +15,7 @@
 #include "core/support/json.h"
 #include "core/support/wording.h"
 #include "graph/engine/diagram.h"
+#include "graph/report/dot_table.h"
 #include "graph/report/palette.h"
 #include "runtime/base/text.h"
 
