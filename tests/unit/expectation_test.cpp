@@ -47,35 +47,12 @@ exclusivity_constraints:
 
 TEST_F(ExpectationTest, OfNothingAlwaysHolds) { EXPECT_EQ(mismatch(), ""); }
 
-TEST_F(ExpectationTest, OfAnOutcomeIsThatOfTheLastEvent) {
-  expectation.outcome = Outcome::accepted;
-  EXPECT_EQ(mismatch(Outcome::accepted), "");
-  EXPECT_EQ(mismatch(Outcome::rejected), "expected outcome 'accepted', but it is 'rejected'");
-  EXPECT_EQ(mismatch(), "expected outcome 'accepted', but there was no start, stop or finish yet");
-}
-
-TEST_F(ExpectationTest, OfARunningTaskMayNameItsBehavior) {
-  expect_running(2);
-  EXPECT_EQ(mismatch(), "");
-  expect_running(2, 2);
-  EXPECT_EQ(mismatch(), "");
-  expect_running(2, 1);
-  EXPECT_EQ(mismatch(), "expected task 'C' to run with 'c1', but it runs with 'c2'");
-}
-
 TEST_F(ExpectationTest, OfARunningTaskThatDoesNotRunFails) {
   expect_running(0);
   expect_running(0, 3);
   EXPECT_EQ(mismatch(),
             "expected task 'A' to run, but it does not run; "
             "expected task 'A' to run with 'a', but it does not run");
-}
-
-TEST_F(ExpectationTest, OfAStoppedTaskFailsWhereItRuns) {
-  expectation.stopped = {0};
-  EXPECT_EQ(mismatch(), "");
-  expectation.stopped = {0, 1};
-  EXPECT_EQ(mismatch(), "expected task 'B' not to run, but it runs with 'b'");
 }
 
 TEST_F(ExpectationTest, OfActiveBehaviorsIsAboutAllOfThemInAnyOrder) {

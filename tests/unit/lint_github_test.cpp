@@ -1,5 +1,4 @@
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -11,41 +10,6 @@ namespace {
 
 std::string lint_github_of(const Diagnostic& finding) {
   return lint_github({{finding.file, "", {finding}, {}}});
-}
-
-TEST(LintGithub, WritesACommandForEachSeverity) {
-  const std::vector<LintedFile> files = {
-      {"a.yaml",
-       "",
-       {{rule::wrong_type, Severity::error, "a.yaml", {{1, 2}, {3, 4}}, "one", {}},
-        {rule::dead_task, Severity::warning, "a.yaml", {{5, 6}, {5, 8}}, "two", {}}},
-       {}},
-      {"b/c.yaml",
-       "",
-       {{rule::implicit_task, Severity::note, "b/c.yaml", {{7, 1}, {7, 2}}, "three", {}}},
-       {}}};
-  EXPECT_EQ(
-      lint_github(files),
-      "::error file=a.yaml,line=1,endLine=3,col=2,endColumn=4,title=cbc wrong-type::one\n"
-      "::warning file=a.yaml,line=5,endLine=5,col=6,endColumn=8,title=cbc dead-task::two\n"
-      "::notice file=b/c.yaml,line=7,endLine=7,col=1,endColumn=2,title=cbc implicit-task::three\n");
-}
-
-TEST(LintGithub, WritesNothingForNothing) {
-  EXPECT_EQ(lint_github({}), "");
-  EXPECT_EQ(lint_github({{"a.yaml", "tasks: []", {}, {}}}), "");
-}
-
-TEST(LintGithub, AppendsNotesToTheMessage) {
-  EXPECT_EQ(lint_github_of({rule::duplicate_task,
-                            Severity::warning,
-                            "a.yaml",
-                            {{9, 1}, {9, 2}},
-                            "again",
-                            {{"a.yaml", {{3, 4}, {3, 5}}, "first here"},
-                             {"b.yaml", {{5, 6}, {5, 7}}, "and there"}}}),
-            "::warning file=a.yaml,line=9,endLine=9,col=1,endColumn=2,title=cbc duplicate-task"
-            "::again%0Aa.yaml:3:4: first here%0Ab.yaml:5:6: and there\n");
 }
 
 TEST(LintGithub, NamesFilesAsGitHubDoes) {

@@ -1,5 +1,4 @@
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -23,55 +22,6 @@ CatalogSummary example_summary() {
   summary.groups[1].task_names = {"BLINK"};
   summary.total.search_space = "123456789012345678901234567890";
   return summary;
-}
-
-TEST(LintJson, WritesAllMembersInTheirOrder) {
-  const std::vector<LintedFile> files = {
-      {"a.yaml",
-       "",
-       {{rule::requirement_cycle,
-         Severity::error,
-         "a.yaml",
-         {{12, 5}, {13, 20}},
-         "cycle",
-         {{"b.yaml", {{30, 6}, {30, 7}}, "here"}}},
-        {rule::dead_task, Severity::warning, "a.yaml", {{14, 1}, {14, 2}}, "dead", {}}},
-       {}},
-      {"b.yaml", "", {}, example_summary()}};
-  EXPECT_EQ(lint_json(files),
-            R"({"schema":"cbc.lint/1","files":[
-{"file":"a.yaml","diagnostics":[
-{"rule":"requirement-cycle","severity":"error","message":"cycle","line":12,"column":5,"end_line":13,"end_column":20,"related":[{"file":"b.yaml","line":30,"column":6,"message":"here"}]},
-{"rule":"dead-task","severity":"warning","message":"dead","line":14,"column":1,"end_line":14,"end_column":2,"related":[]}],"summary":null},
-{"file":"b.yaml","diagnostics":[],"summary":{"tasks":4,"behaviors":5,"constraints":{"exclusive_pairs":3,"requirements":2,"task_minimums":1,"total":6},"groups":[{"tasks":["HOVER","LAND","LOCALIZE"],"constraints":6},{"tasks":["BLINK"],"constraints":0}],"search_space":"123456789012345678901234567890"}}],
-"errors":1,"warnings":1,"notes":0}
-)");
-}
-
-TEST(LintJson, CountsFindingsOfAllFiles) {
-  const auto finding = [](Severity severity) {
-    return Diagnostic{rule::dead_task, severity, "a", {}, "m", {}};
-  };
-  const std::vector<LintedFile> files = {
-      {"a", "", {finding(Severity::note), finding(Severity::error), finding(Severity::note)}, {}},
-      {"b",
-       "",
-       {finding(Severity::note), finding(Severity::warning), finding(Severity::error)},
-       {}}};
-  const Json json = Json::parse(lint_json(files));
-  EXPECT_EQ(json["errors"], 2);
-  EXPECT_EQ(json["warnings"], 1);
-  EXPECT_EQ(json["notes"], 3);
-}
-
-TEST(LintJson, IsValidForNoFileAndForEmptyCatalogs) {
-  EXPECT_EQ(Json::parse(lint_json({})), Json::parse(R"({"schema": "cbc.lint/1", "files": [],
-                            "errors": 0, "warnings": 0, "notes": 0})"));
-  CatalogSummary summary;
-  summary.total.search_space = "1";
-  const Json json = Json::parse(lint_json({{"a.yaml", "", {}, summary}}));
-  EXPECT_EQ(json["files"][0]["summary"]["groups"], Json::array());
-  EXPECT_EQ(json["files"][0]["summary"]["search_space"], "1");
 }
 
 TEST(LintJson, GivesHostileNamesBack) {

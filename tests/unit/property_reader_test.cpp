@@ -309,44 +309,6 @@ TEST(Properties, HaveConditionsOfManyParts) {
             "active TALK_LOUD available SLAM requested TALK 1 requested HOVER 0 LIGHT=dusk SLAM+");
 }
 
-TEST(Properties, HaveOneKind) {
-  EXPECT_EQ(
-      findings_of_property("{can_start: LAND, never: {running: [LAND]}}"),
-      "3:21-26 error invalid-value: a property must be of exactly one kind, found 'can_start' "
-      "and 'never'; each needs an entry of its own\n"
-      "  3:4-13 the first one is here\n");
-  EXPECT_EQ(findings_of_property("name: x"),
-            "3:3-4 error missing-key: a property needs one of 'can_start', 'always', 'never' and "
-            "'reachable'\n");
-  EXPECT_EQ(findings_of_property("always: ~"), "3:3-9 error missing-key: 'always' has no value\n");
-  EXPECT_EQ(findings_of_property("can_strat: LAND"),
-            "3:3-12 error unknown-key: unknown key 'can_strat' in a property; did you mean "
-            "'can_start'?\n");
-  EXPECT_EQ(findings_of_property("LAND"),
-            "3:3-7 error wrong-type: a property must be a mapping ('can_start: TASK'), found "
-            "'LAND'\n");
-}
-
-TEST(Properties, HaveDetailsOfTheirKind) {
-  EXPECT_EQ(
-      findings_of_property("{can_start: LAND, when: {running: [TALK]}, settled: true}"),
-      "3:21-25 error unknown-key: 'when' does not belong to 'can_start', only to 'always'\n"
-      "3:46-53 error unknown-key: 'settled' does not belong to 'can_start', only to 'always', "
-      "'never' and 'reachable'\n");
-  EXPECT_EQ(
-      findings_of_property("{never: {running: [LAND]}, priority: 2, when: {running: [LAND]}}"),
-      "3:30-38 error unknown-key: 'priority' does not belong to 'never', only to "
-      "'can_start'\n"
-      "3:43-47 error unknown-key: 'when' does not belong to 'never', only to 'always'\n");
-  EXPECT_EQ(
-      findings_of_property("{can_start: LND, priority: 0}"),
-      "3:15-18 error undefined-task: there is no task 'LND'; did you mean 'LAND'?\n"
-      "3:30-31 error invalid-value: 'priority' must be an integer from 1 to 2147483647, found "
-      "'0'\n");
-  EXPECT_EQ(findings_of_property("{always: {running: [LAND]}, settled: 1}"),
-            "3:40-41 error wrong-type: 'settled' must be true or false, found '1'\n");
-}
-
 TEST(Properties, HaveConditionsThatSaySomething) {
   constexpr const char* message =
       "error missing-key: 'never' needs a condition: one of 'running', 'stopped', 'active', "
@@ -407,24 +369,6 @@ TEST(Conditions, MustNotContradictThemselves) {
             "3:23-26 error impossible-expectation: this can never hold: behavior 'GPS' is also "
             "expected to be unavailable\n"
             "  3:41-44 expected to be unavailable here\n");
-}
-
-TEST(Conditions, LeaveATaskForEachActiveBehavior) {
-  EXPECT_EQ(findings_of_property("never: {active: [HOVER_PID], running: {HOVER: HOVER_MPC}}"),
-            "3:20-29 error impossible-expectation: this can never hold: no task is left for "
-            "behavior 'HOVER_PID'\n"
-            "  3:49-58 'HOVER' is expected to run with another behavior here\n");
-  EXPECT_EQ(findings_of_property("never: {active: [HOVER_PID, HOVER_MPC]}"),
-            "3:31-40 error impossible-expectation: this can never hold: no task is left for "
-            "behavior 'HOVER_MPC'\n"
-            "  3:20-29 'HOVER' is expected to run with another behavior here\n");
-  EXPECT_EQ(findings_of_property("never: {active: [EYE], stopped: [SEE, LOOK]}"),
-            "3:20-23 error impossible-expectation: this can never hold: no task is left for "
-            "behavior 'EYE'\n"
-            "  3:36-39 'SEE' is expected to be stopped here\n"
-            "  3:41-45 'LOOK' is expected to be stopped here\n");
-  EXPECT_EQ(findings_of_property("never: {active: [EYE], stopped: [SEE], running: {LOOK: EYE}}"),
-            "");
 }
 
 TEST(Conditions, MayBeRuledOutByTheCatalog) {

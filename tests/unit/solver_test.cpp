@@ -74,32 +74,6 @@ std::string text_of(const CompiledCatalog& catalog, const Problem& problem,
   return "";
 }
 
-TEST(Solver, StopsWhatNothingNeeds) {
-  const CompiledCatalog catalog = compile_text(R"(
-default_values: {tasks: {start_on_request: false}}
-behaviors:
-- {behavior: a, task: A, requires: [{task: B}]}
-- {behavior: b, task: B}
-)");
-  Problem problem = open_problem(catalog);
-  test::set_present(problem, catalog, "B", "b");
-  EXPECT_EQ(text_of(catalog, problem), "");
-}
-
-TEST(Solver, TakesTheBestProductOfTheWholeClosure) {
-  const CompiledCatalog catalog = compile_text(R"(
-default_values: {tasks: {start_on_request: false}}
-behaviors:
-- {behavior: a1, task: A, requires: [{task: B}]}
-- {behavior: a2, task: A, suitability: 75}
-- {behavior: b, task: B, suitability: 70}
-)");
-  Problem problem = open_problem(catalog);
-  test::demand(problem, catalog, "A");
-  test::request(problem, catalog, "A");
-  EXPECT_EQ(text_of(catalog, problem), "A=a2");
-}
-
 TEST(Solver, ComparesProductsExactlyWhereLogarithmsAreTooClose) {
   // 0.999999 * 0.999999 = 0.999998000001, and 0.900001 * 0.899999 = 0.809999999999.
   const CompiledCatalog catalog = compile_text(R"(
@@ -140,128 +114,6 @@ behaviors:
   for (const SearchOptions& options :
        {restarting_after(never), restarting_after(0), learning_after(0, 0)}) {
     EXPECT_EQ(text_of(catalog, problem, options), "A=a2 C=c");
-  }
-}
-
-TEST(Solver, KeepsMoreRequestsBeforeBetterBehaviors) {
-  const CompiledCatalog catalog = compile_text(R"(
-behaviors:
-- {behavior: a1, task: A, requires: [{task: C}]}
-- {behavior: a2, task: A, suitability: 1}
-- {behavior: b, task: B}
-- {behavior: c, task: C}
-exclusivity_constraints:
-- mutually_exclusive: [B, C]
-)");
-  Problem problem = open_problem(catalog);
-  test::demand(problem, catalog, "A");
-  test::request(problem, catalog, "A");
-  test::request(problem, catalog, "B");
-  EXPECT_EQ(text_of(catalog, problem), "A=a2 B=b");
-}
-
-TEST(Solver, SaysThatThereIsNoSolution) {
-  const CompiledCatalog catalog = compile_text(R"(
-behaviors:
-- {behavior: a, task: A}
-- {behavior: b, task: B}
-exclusivity_constraints:
-- mutually_exclusive: [A, B]
-)");
-  Problem problem = open_problem(catalog);
-  test::demand(problem, catalog, "A");
-  test::demand(problem, catalog, "B");
-  EXPECT_EQ(text_of(catalog, problem), "infeasible");
-}
-
-TEST(Solver, AProductOfZeroTiesAllComponents) {
-  // P, Q and Z have nothing to do with one another, but behind Z the product is 0 in any case, and
-  // then the fewest supporting tasks decide.
-  const CompiledCatalog catalog = compile_text(R"(
-default_values: {tasks: {start_on_request: false}}
-behaviors:
-- {behavior: x1, task: X, suitability: 80}
-- {behavior: x2, task: X}
-- {behavior: all, task: ALL, requires: [{task: P}, {task: Q}, {task: Z}]}
-- {behavior: p1, task: P, requires: [{task: S}]}
-- {behavior: p2, task: P, suitability: 90}
-- {behavior: q1, task: Q, requires: [{task: T}]}
-- {behavior: q2, task: Q, suitability: 90}
-- {behavior: z1, task: Z, requires: [{task: Y}]}
-- {behavior: z2, task: Z, requires: [{task: W}]}
-- {behavior: s, task: S}
-- {behavior: t, task: T}
-- {behavior: y, task: Y, suitability: 0}
-- {behavior: w, task: W, suitability: 0}
-)");
-  Problem without_zero = open_problem(catalog, 0);
-  test::demand(without_zero, catalog, "X");
-  Problem with_zero = open_problem(catalog, 1);
-  test::demand(with_zero, catalog, "ALL");
-  for (const std::uint64_t easy_nodes : {std::uint64_t{0}, never}) {
-    const std::vector<std::uint32_t> ranks;
-    Solver solver(catalog, restarting_after(easy_nodes), ranks);
-    Assignment answer;
-    EXPECT_EQ(solver.solve(without_zero, answer).status, SearchStatus::optimal);
-    EXPECT_EQ(test::show(catalog, answer, 0), "X=x2");
-    EXPECT_EQ(solver.solve(with_zero, answer).status, SearchStatus::optimal);
-    EXPECT_EQ(test::show(catalog, answer, 1), "ALL=all P=p2 Q=q2 Z=z1 Y=y");
-  }
-}
-
-TEST(Solver, EachComponentHasCostsOutsideOfItsOwn) {
-  // P, Q and R are decided one after the other. q1 looks best, but Y and Z exclude one another, so
-  // that it needs u1 or w1.
-  const CompiledCatalog catalog = compile_text(R"(
-default_values: {tasks: {start_on_request: false}}
-behaviors:
-- {behavior: all, task: ALL, suitability: 50, requires: [{task: P}, {task: Q}, {task: R}]}
-- {behavior: p1, task: P, requires: [{task: A}]}
-- {behavior: p2, task: P, suitability: 90}
-- {behavior: a, task: A, requires: [{task: B}]}
-- {behavior: b, task: B, requires: [{task: C}]}
-- {behavior: c, task: C, requires: [{task: D}]}
-- {behavior: d, task: D}
-- {behavior: q1, task: Q, requires: [{task: U}, {task: W}]}
-- {behavior: q2, task: Q, suitability: 80}
-- {behavior: u1, task: U, suitability: 50}
-- {behavior: u2, task: U, requires: [{task: Y}]}
-- {behavior: w1, task: W, suitability: 50}
-- {behavior: w2, task: W, requires: [{task: Z}]}
-- {behavior: y, task: Y}
-- {behavior: z, task: Z}
-- {behavior: r1, task: R, requires: [{task: S}]}
-- {behavior: r2, task: R, suitability: 90}
-- {behavior: s, task: S}
-exclusivity_constraints:
-- mutually_exclusive: [Y, Z]
-)");
-  Problem problem = open_problem(catalog);
-  test::demand(problem, catalog, "ALL");
-  EXPECT_EQ(text_of(catalog, problem, restarting_after(0)),
-            "ALL=all P=p1 A=a B=b C=c D=d Q=q2 R=r1 S=s");
-}
-
-TEST(Solver, CanBeUsedAgainForOtherGroups) {
-  const CompiledCatalog catalog = compile_text(R"(
-behaviors:
-- {behavior: a, task: A}
-- {behavior: b1, task: B, suitability: 50}
-- {behavior: b2, task: B, suitability: 60, requires: [{task: C}]}
-- {behavior: c, task: C}
-)");
-  const std::vector<std::uint32_t> ranks;
-  Solver solver(catalog, {}, ranks);
-  Assignment assignment;
-  for (int round = 0; round < 3; ++round) {
-    Problem one = open_problem(catalog, 0);
-    test::demand(one, catalog, "A");
-    EXPECT_EQ(solver.solve(one, assignment).status, SearchStatus::optimal);
-    EXPECT_EQ(test::show(catalog, assignment, 0), "A=a");
-    Problem other = open_problem(catalog, 1);
-    test::demand(other, catalog, "B");
-    EXPECT_EQ(solver.solve(other, assignment).status, SearchStatus::optimal);
-    EXPECT_EQ(test::show(catalog, assignment, 1), "B=b2 C=c");
   }
 }
 
@@ -786,26 +638,6 @@ TEST(Solver, ABoundWithoutASearchLeavesOpenWhichRequestsAreServed) {
   EXPECT_EQ(bound.more_requests, 0U);
   EXPECT_FALSE(bound.same_requests);
   EXPECT_NEAR(bound.suitability, 0.9, 1e-6);
-}
-
-TEST(Solver, TheFirstSolutionsCountImprovingOrNot) {
-  const CompiledCatalog catalog = compile_text(R"(
-behaviors:
-- {behavior: a1, task: A}
-- {behavior: a2, task: A, suitability: 50}
-- {behavior: b1, task: B, suitability: 90, requires: [{task: A}]}
-- {behavior: b2, task: B, suitability: 60}
-)");
-  Problem problem = open_problem(catalog);
-  test::demand(problem, catalog, "B");
-  // In order: "B=b2" (A does not run), then A=a1 with b1, b2, then A=a2 with b1, b2.
-  EXPECT_EQ(text_of(catalog, problem, first_solutions(1)), "feasible B=b2");
-  EXPECT_EQ(text_of(catalog, problem, first_solutions(2)), "feasible A=a1 B=b1");
-  EXPECT_EQ(text_of(catalog, problem, first_solutions(4)), "feasible A=a1 B=b1");
-  EXPECT_EQ(text_of(catalog, problem, first_solutions(5)), "A=a1 B=b1")
-      << "there are no more than five";
-  EXPECT_EQ(solve(catalog, problem, first_solutions(3)).result.solutions, 3U);
-  EXPECT_EQ(solve(catalog, problem, first_solutions(9)).result.solutions, 5U);
 }
 
 }  // namespace
