@@ -220,20 +220,6 @@ TEST(ScriptReader, WrongSituationVariables) {
 
 // What a start gives -----------------------------------------------------------------------------
 
-TEST(ScriptReader, ValuesThatAreNotAllowed) {
-  EXPECT_EQ(findings("- {start: HOVER, parameters: {angle: 400, direction: [LEFT]}}\n"
-                     "- start: HOVER\n  parameters:\n    direction: FORWRD\n"
-                     "    path: [[1, 2], [1], [a, b]]\n"),
-            "1:38-41 warning parameter-value: parameter 'angle' of task 'HOVER': expected a number "
-            "from -360 to 360, found '400'\n"
-            "1:54-55 warning parameter-value: parameter 'direction' of task 'HOVER': expected one "
-            "of LEFT, RIGHT, FORWARD, found a list\n"
-            "4:16-22 warning parameter-value: parameter 'direction' of task 'HOVER': expected one "
-            "of LEFT, RIGHT, FORWARD, found 'FORWRD'; did you mean 'FORWARD'?\n"
-            "5:20-21 warning parameter-value: parameter 'path' of task 'HOVER': expected a point "
-            "(2 or 3 numbers), found a list of 1\n");
-}
-
 TEST(ScriptReader, FindingsAboutParametersHaveTheSeverityThatIsAskedFor) {
   const std::string text = "- {start: HOVER, parameters: {angle: 400, yaw: 3}}\n";
   const Result mild = read_any(text, Severity::warning);

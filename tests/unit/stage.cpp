@@ -141,29 +141,6 @@ std::string Stage::running() const {
   return text;
 }
 
-std::string Stage::requests() const {
-  std::string text;
-  for (std::uint32_t index = 0; index < catalog_.task_names.size(); ++index) {
-    const TaskId task = catalog_.task_ids[index];
-    if (!state().has_request(task)) continue;
-    append(text,
-           std::string(catalog_.task_names[index]) + ":" +
-               std::to_string(state().request(task).priority),
-           " ");
-  }
-  return text;
-}
-
-std::string Stage::active() const {
-  std::string text;
-  for (std::uint32_t index = 0; index < catalog_.behavior_names.size(); ++index) {
-    if (state().is_active(catalog_.behavior_ids[index])) {
-      append(text, std::string(catalog_.behavior_names[index]), " ");
-    }
-  }
-  return text;
-}
-
 std::uint32_t Stage::task_index(std::string_view name) const {
   return catalog_.tasks[task_id(catalog_, name)].catalog_index;
 }

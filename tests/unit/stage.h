@@ -42,14 +42,8 @@ class Stage final : private EventListener {
   [[nodiscard]] const std::string& searches() const { return searches_; }
   [[nodiscard]] Coordinator::Status status() const { return status_; }
 
-  // The state, in catalog order.
-
-  /// "A=a B=b"
+  /// In catalog order, "A=a B=b"
   [[nodiscard]] std::string running() const;
-  /// "A:2 B:0"
-  [[nodiscard]] std::string requests() const;
-  /// "a b"
-  [[nodiscard]] std::string active() const;
 
   [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
   [[nodiscard]] const State& state() const { return coordinator_.state(); }
