@@ -136,6 +136,18 @@ TEST(JsonReader, UnderstandsSurrogatePairs) {
   EXPECT_EQ(root->text, "\U0001F680");
 }
 
+TEST(JsonReader, RefusesWhatIsNoJson) {
+  yaml::JsonReader reader;
+  for (const std::string_view text :
+       {"",           " ",       "{",         "[1",          "{\"a\"}",     "{\"a\":}",
+        "{\"a\":1,}", "[1,]",    "{a: 1}",    "01",          "1.",          ".5",
+        "+1",         "1e",      "-",         "tru",         "nul",         "\"a",
+        "\"\t\"",     R"("\x")", R"("\u12")", R"("\ud800")", R"("\udc00")", R"("\ud800A")",
+        "{} {}",      "[1] x",   "\"\xff\"",  "'a'"}) {
+    EXPECT_EQ(reader.read(text, 1), nullptr) << text;
+  }
+}
+
 TEST(JsonReader, SkipsAByteOrderMark) {
   yaml::JsonReader reader;
   const yaml::Node* const root = reader.read("\xEF\xBB\xBF{\"a\": 1}");

@@ -20,6 +20,13 @@ std::string findings(const std::string& text) {
   return show(diagnostics);
 }
 
+// A_WITH_WINGS may have been meant to perform A, but hardly G.
+TEST(LintCascade, OtherFaultsAreFoundBesideABehaviorWithoutTask) {
+  EXPECT_EQ(findings("behaviors:\n- {behavior: A_WITH_WINGS}\ntasks: [{task: A}, {task: G}]\n"),
+            "2:14-26 error missing-key: missing key 'task' in behavior 'A_WITH_WINGS'\n"
+            "3:27-28 warning task-without-behavior: no behavior performs task 'G'\n");
+}
+
 /// What is found if findings of exclusive-requirement are not reported.
 std::string findings_behind(const std::string& text) {
   Diagnostics diagnostics;

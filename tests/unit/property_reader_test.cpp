@@ -309,6 +309,24 @@ TEST(Properties, HaveConditionsOfManyParts) {
             "active TALK_LOUD available SLAM requested TALK 1 requested HOVER 0 LIGHT=dusk SLAM+");
 }
 
+TEST(Properties, HaveOneKind) {
+  EXPECT_EQ(
+      findings_of_property("{can_start: LAND, never: {running: [LAND]}}"),
+      "3:21-26 error invalid-value: a property must be of exactly one kind, found 'can_start' "
+      "and 'never'; each needs an entry of its own\n"
+      "  3:4-13 the first one is here\n");
+  EXPECT_EQ(findings_of_property("name: x"),
+            "3:3-4 error missing-key: a property needs one of 'can_start', 'always', 'never' and "
+            "'reachable'\n");
+  EXPECT_EQ(findings_of_property("always: ~"), "3:3-9 error missing-key: 'always' has no value\n");
+  EXPECT_EQ(findings_of_property("can_strat: LAND"),
+            "3:3-12 error unknown-key: unknown key 'can_strat' in a property; did you mean "
+            "'can_start'?\n");
+  EXPECT_EQ(findings_of_property("LAND"),
+            "3:3-7 error wrong-type: a property must be a mapping ('can_start: TASK'), found "
+            "'LAND'\n");
+}
+
 TEST(Properties, HaveConditionsThatSaySomething) {
   constexpr const char* message =
       "error missing-key: 'never' needs a condition: one of 'running', 'stopped', 'active', "

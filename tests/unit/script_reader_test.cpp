@@ -179,6 +179,21 @@ TEST(ScriptReader, NamesInExpectations) {
       "5:25-26 error wrong-type: 'active' must be the name of a behavior, found nothing\n");
 }
 
+TEST(ScriptReader, Priorities) {
+  const std::string must = "error invalid-value: 'priority' must be an integer from ";
+  EXPECT_EQ(findings("- {start: LAND, priority: 0}\n- {stop: LAND, priority: -1}\n"
+                     "- {start: LAND, priority: 2147483648}\n"),
+            "1:27-28 " + must + "1 to 2147483647, found '0'\n" + "2:26-28 " + must +
+                "0 to 2147483647, found '-1'\n" + "3:27-37 " + must +
+                "1 to 2147483647, found '2147483648'\n");
+  EXPECT_EQ(findings("- {start: LAND, priority: 1.5}\n- {start: LAND, priority: '1'}\n"),
+            "1:27-30 error wrong-type: 'priority' must be an integer from 1 to 2147483647, found "
+            "'1.5'\n"
+            "2:27-30 error wrong-type: 'priority' must be an integer from 1 to 2147483647, found "
+            "'1' in quotes\n");
+  EXPECT_EQ(findings("- {start: LAND, priority: 2147483647}"), "");
+}
+
 constexpr const char* with_variables = R"(behaviors:
 - {behavior: CAMERA, task: LOOK, situation: {LIGHT: [day, dusk]}}
 - {behavior: LIDAR, task: LOOK, situation: {LIGHT: night, DRY: true}}

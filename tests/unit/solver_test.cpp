@@ -117,6 +117,74 @@ behaviors:
   }
 }
 
+TEST(Solver, AProductOfZeroTiesAllComponents) {
+  // P, Q and Z have nothing to do with one another, but behind Z the product is 0 in any case, and
+  // then the fewest supporting tasks decide.
+  const CompiledCatalog catalog = compile_text(R"(
+default_values: {tasks: {start_on_request: false}}
+behaviors:
+- {behavior: x1, task: X, suitability: 80}
+- {behavior: x2, task: X}
+- {behavior: all, task: ALL, requires: [{task: P}, {task: Q}, {task: Z}]}
+- {behavior: p1, task: P, requires: [{task: S}]}
+- {behavior: p2, task: P, suitability: 90}
+- {behavior: q1, task: Q, requires: [{task: T}]}
+- {behavior: q2, task: Q, suitability: 90}
+- {behavior: z1, task: Z, requires: [{task: Y}]}
+- {behavior: z2, task: Z, requires: [{task: W}]}
+- {behavior: s, task: S}
+- {behavior: t, task: T}
+- {behavior: y, task: Y, suitability: 0}
+- {behavior: w, task: W, suitability: 0}
+)");
+  Problem without_zero = open_problem(catalog, 0);
+  test::demand(without_zero, catalog, "X");
+  Problem with_zero = open_problem(catalog, 1);
+  test::demand(with_zero, catalog, "ALL");
+  for (const std::uint64_t easy_nodes : {std::uint64_t{0}, never}) {
+    const std::vector<std::uint32_t> ranks;
+    Solver solver(catalog, restarting_after(easy_nodes), ranks);
+    Assignment answer;
+    EXPECT_EQ(solver.solve(without_zero, answer).status, SearchStatus::optimal);
+    EXPECT_EQ(test::show(catalog, answer, 0), "X=x2");
+    EXPECT_EQ(solver.solve(with_zero, answer).status, SearchStatus::optimal);
+    EXPECT_EQ(test::show(catalog, answer, 1), "ALL=all P=p2 Q=q2 Z=z1 Y=y");
+  }
+}
+
+TEST(Solver, EachComponentHasCostsOutsideOfItsOwn) {
+  // P, Q and R are decided one after the other. q1 looks best, but Y and Z exclude one another, so
+  // that it needs u1 or w1.
+  const CompiledCatalog catalog = compile_text(R"(
+default_values: {tasks: {start_on_request: false}}
+behaviors:
+- {behavior: all, task: ALL, suitability: 50, requires: [{task: P}, {task: Q}, {task: R}]}
+- {behavior: p1, task: P, requires: [{task: A}]}
+- {behavior: p2, task: P, suitability: 90}
+- {behavior: a, task: A, requires: [{task: B}]}
+- {behavior: b, task: B, requires: [{task: C}]}
+- {behavior: c, task: C, requires: [{task: D}]}
+- {behavior: d, task: D}
+- {behavior: q1, task: Q, requires: [{task: U}, {task: W}]}
+- {behavior: q2, task: Q, suitability: 80}
+- {behavior: u1, task: U, suitability: 50}
+- {behavior: u2, task: U, requires: [{task: Y}]}
+- {behavior: w1, task: W, suitability: 50}
+- {behavior: w2, task: W, requires: [{task: Z}]}
+- {behavior: y, task: Y}
+- {behavior: z, task: Z}
+- {behavior: r1, task: R, requires: [{task: S}]}
+- {behavior: r2, task: R, suitability: 90}
+- {behavior: s, task: S}
+exclusivity_constraints:
+- mutually_exclusive: [Y, Z]
+)");
+  Problem problem = open_problem(catalog);
+  test::demand(problem, catalog, "ALL");
+  EXPECT_EQ(text_of(catalog, problem, restarting_after(0)),
+            "ALL=all P=p1 A=a B=b C=c D=d Q=q2 R=r1 S=s");
+}
+
 // Compared with brute force --------------------------------------------------------------------
 
 /// Orders the values of equal suitability of each task at random.

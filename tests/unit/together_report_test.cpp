@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "lint/together.h"
 #include "report/lint_report.h"
@@ -132,6 +133,42 @@ TEST(LintSummary, ListsTenTasksThatCanRunTogether) {
                       "    and 3 more tasks ('cbc graph --view together' shows all)\n"),
             std::string::npos)
       << text;
+}
+
+TEST(LintJson, HasTasksThatCanRunTogether) {
+  const CompiledCatalog catalog = test::compile_text(R"(default_values:
+  tasks: {execution_goal: keep_running}
+behaviors:
+- {behavior: HOVER_WITH_PID, task: HOVER, requires: [{task: PID}]}
+- {behavior: FLY_LAND, task: LAND, requires: [{task: DF}]}
+- {behavior: PID_CONTROLLER, task: PID}
+- {behavior: DF_CONTROLLER, task: DF}
+- {behavior: BLINK, task: BLINK}
+- {behavior: MOVE, task: MOVE, requires: [{task: PID}]}
+- {behavior: SPIN, task: SPIN, requires: [{task: PID}, {task: DF}]}
+tasks:
+- task: HOVER
+- task: BLINK
+- task: LAND
+- task: MOVE
+- task: SPIN
+- {task: PID, start_on_request: FALSE}
+- {task: DF, start_on_request: FALSE}
+exclusivity_constraints:
+- mutually_exclusive: [PID, DF]
+- mutually_exclusive: [HOVER, MOVE]
+)");
+  LintedFile file{"a.yaml", "", {}, summarize(catalog)};
+  EXPECT_FALSE(
+      nlohmann::json::parse(lint_json({file}))["files"][0]["summary"].contains("together"));
+  file.together = summarize_together(catalog, LintOptions().max_nodes);
+  EXPECT_EQ(nlohmann::json::parse(lint_json({file}))["files"][0]["summary"]["together"],
+            nlohmann::json::parse(R"({
+    "all_tasks": false,
+    "tasks": ["HOVER", "BLINK", "LAND", "MOVE"], "never_run": ["SPIN"],
+    "possible": [["HOVER", "BLINK"], ["BLINK", "LAND"], ["BLINK", "MOVE"]],
+    "excluded": 1, "excluded_indirectly": 2, "excluded_in_each_situation": 0,
+    "excluded_by_situation": 0, "undecided": 0})"));
 }
 
 }  // namespace
