@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "core/catalog/reader.h"
 #include "core/compile/compile.h"
@@ -38,35 +37,6 @@ std::string replaced(std::string_view old, std::string_view by) {
   std::string result = robot;
   result.replace(result.find(old), old.size(), by);
   return result;
-}
-
-TEST(CatalogDiff, NamesWhatChanged) {
-  EXPECT_EQ(text_of(robot, robot), "");
-  EXPECT_EQ(text_of(robot, replaced("timeout: 20", "timeout: 2.5")),
-            "~ task FLY: timeout 20 s -> 2.5 s\n");
-  EXPECT_EQ(text_of(robot, replaced("timeout: 20, ", "")), "~ task FLY: timeout 20 s -> none\n");
-  EXPECT_EQ(text_of(robot, replaced("[0, 30]", "[0, 31]")),
-            "~ task FLY: parameter speed [0, 30] -> [0, 31]\n");
-  EXPECT_EQ(text_of(robot, replaced("suitability: 80", "suitability: 90")),
-            "~ FLY_FAST performs FLY: suitability 80 % -> 90 %\n");
-  EXPECT_EQ(text_of(robot, replaced("minimum_performance: 50", "minimum_performance: 60")),
-            "~ FLY_FAST requires SEE: minimum_performance 50 % -> 60 %\n");
-  EXPECT_EQ(text_of(robot, replaced("reactive_start: true, start_on_request: false",
-                                    "execution_goal: keep_running")),
-            "~ task LAND: execution_goal achieve_goal -> keep_running, reactive_start true -> "
-            "false, start_on_request false -> true\n");
-  EXPECT_EQ(
-      text_of(
-          robot,
-          replaced("[FLY, LAND]", "[LAND, SEE]").replace(robot.find("FLY_FAST"), 8, "FLY_SLOW")),
-      "- behavior FLY_FAST\n"
-      "+ behavior FLY_SLOW\n"
-      "- FLY_FAST performs FLY: suitability 80 %\n"
-      "+ FLY_SLOW performs FLY: suitability 80 %\n"
-      "- FLY_FAST requires SEE: minimum_performance 50 %\n"
-      "+ FLY_SLOW requires SEE: minimum_performance 50 %\n"
-      "- FLY excludes LAND\n"
-      "+ LAND excludes SEE\n");
 }
 
 TEST(CatalogDiff, HasSituationVariablesAndConditions) {
@@ -180,16 +150,6 @@ TEST(CatalogDiff, ListsTheSameExclusionsWhateverTheOrder) {
   ASSERT_GT(compare_catalogs(compiled(none), compiled(up)).further_exclusions, 0U);
   EXPECT_TRUE(text_of(none, up) == text_of(none, down));
   EXPECT_TRUE(text_of(up, none) == text_of(down, none));
-}
-
-TEST(CatalogDiff, IsJson) {
-  const std::string after = replaced("timeout: 20", "timeout: 2.5");
-  const auto json = nlohmann::json::parse(
-      diff_json(compare_catalogs(compiled(robot), compiled(after)), "old.yaml", "new.yaml"));
-  EXPECT_EQ(json, nlohmann::json::parse(R"({"schema": "cbc.diff/1", "old": "old.yaml",
-    "new": "new.yaml", "changes": [{"kind": "changed", "subject": "task", "task": "FLY",
-    "attributes": [{"name": "timeout", "before": 20.0, "after": 2.5}]}],
-    "further_exclusions": 0})"));
 }
 
 }  // namespace

@@ -20,7 +20,6 @@
 namespace cbc::cut_sets_test {
 namespace {
 
-using test::behavior_id;
 using test::compile_text;
 using test::task_id;
 
@@ -51,19 +50,6 @@ std::string cut_sets(const CompiledCatalog& catalog, std::string_view task, std:
   return show_sets(catalog, found);
 }
 
-TEST(CutSets, AreAllBehaviorsOfATaskThatRequiresNothing) {
-  const CompiledCatalog catalog = compile_text(R"(behaviors:
-- {behavior: a, task: A}
-- {behavior: b, task: A, suitability: 50}
-- {behavior: c, task: C}
-)");
-  EXPECT_EQ(cut_sets(catalog, "A", 3), "{a b}");
-  EXPECT_EQ(cut_sets(catalog, "A", 2), "{a b}");
-  EXPECT_EQ(cut_sets(catalog, "A", 1), "");
-  EXPECT_EQ(cut_sets(catalog, "C", 3), "{c}");
-  EXPECT_EQ(cut_sets(catalog, "C", 0), "");
-}
-
 constexpr std::string_view survey = R"(behaviors:
 - {behavior: far, task: SURVEY, suitability: 60, requires: [{task: FLY}]}
 - {behavior: close, task: SURVEY, requires: [{task: FLY, minimum_performance: 56}]}
@@ -72,104 +58,6 @@ constexpr std::string_view survey = R"(behaviors:
 - {behavior: rtk, task: LOCALIZE, suitability: 80}
 - {behavior: gps, task: LOCALIZE, suitability: 75}
 )";
-
-TEST(CutSets, ComeBySizeAndInCatalogOrder) {
-  const CompiledCatalog catalog = compile_text(survey);
-  EXPECT_EQ(cut_sets(catalog, "FLY", 3), "{precisely plainly} {plainly rtk gps}");
-  EXPECT_EQ(cut_sets(catalog, "LOCALIZE", 3), "{rtk gps}");
-}
-
-/// `close` needs `precisely` with `rtk`: 0.7 * 0.75 is less than 0.56.
-TEST(CutSets, RespectMinimumPerformances) {
-  const CompiledCatalog catalog = compile_text(survey);
-  EXPECT_EQ(cut_sets(catalog, "SURVEY", 4),
-            "{far close} {far precisely} {far rtk} {precisely plainly} {plainly rtk gps}");
-}
-
-TEST(CutSets, RespectTheMinimumOfTheTaskItself) {
-  const CompiledCatalog catalog = compile_text(R"(behaviors:
-- {behavior: a, task: A, suitability: 90, requires: [{task: B}]}
-- {behavior: good, task: B, suitability: 90}
-- {behavior: bad, task: B, suitability: 80}
-tasks: [{task: A, minimum_performance: 81}]
-)");
-  EXPECT_EQ(cut_sets(catalog, "A", 3), "{a} {good}");
-  EXPECT_EQ(cut_sets(catalog, "B", 3), "{good bad}");
-}
-
-/// With x, A runs only if L does not need X.
-TEST(CutSets, RespectExclusivity) {
-  const CompiledCatalog catalog = compile_text(R"(behaviors:
-- {behavior: a, task: A, requires: [{task: L}, {task: R}]}
-- {behavior: lx, task: L, requires: [{task: X}]}
-- {behavior: ly, task: L, requires: [{task: Y}]}
-- {behavior: rx, task: R, requires: [{task: X}]}
-- {behavior: ry, task: R, requires: [{task: Y}]}
-- {behavior: x, task: X}
-- {behavior: y, task: Y}
-exclusivity_constraints:
-- mutually_exclusive: [X, Y]
-)");
-  EXPECT_EQ(cut_sets(catalog, "A", 7),
-            "{a} {lx ly} {lx ry} {lx y} {ly rx} {ly x} {rx ry} {rx y} {ry x} {x y}");
-}
-
-TEST(CutSets, CountABehaviorOfSeveralTasksOnce) {
-  const CompiledCatalog catalog = compile_text(R"(behaviors:
-- {behavior: a, task: A, requires: [{task: L}, {task: R}]}
-- {behavior: both, tasks: [{task: L}, {task: R}]}
-- {behavior: l, task: L}
-- {behavior: r, task: R}
-)");
-  EXPECT_EQ(cut_sets(catalog, "A", 4), "{a} {both l} {both r}");
-}
-
-TEST(CutSets, OfATaskThatCannotRunAreOneEmptySet) {
-  const CompiledCatalog catalog = compile_text(R"(behaviors:
-- {behavior: a, task: A, requires: [{task: B}, {task: C}]}
-- {behavior: b, task: B, requires: [{task: D}]}
-- {behavior: c, task: C}
-- {behavior: d, task: D}
-exclusivity_constraints:
-- mutually_exclusive: [C, D]
-tasks: [{task: E}]
-)");
-  EXPECT_EQ(cut_sets(catalog, "A", 2), "{}");
-  EXPECT_EQ(cut_sets(catalog, "B", 2), "{b} {d}");
-  EXPECT_EQ(cut_sets(catalog, "E", 0), "{}") << "no behavior performs it";
-}
-
-constexpr std::string_view by_situation = R"(behaviors:
-- {behavior: gps, task: LOCALIZE, situation: {GPS: true}}
-- {behavior: slam, task: LOCALIZE, situation: {LIGHT: [DAY, DUSK]}}
-- {behavior: lidar, task: LOCALIZE}
-situation:
-- {variable: GPS}
-- {variable: LIGHT, values: [DAY, DUSK, NIGHT]}
-)";
-
-TEST(CutSets, CountTheSituationOnlyIfItIsGiven) {
-  const CompiledCatalog catalog = compile_text(by_situation);
-  const VariableValue no_gps{*catalog.find_variable("GPS"),
-                             *catalog.find_value(*catalog.find_variable("GPS"), "false")};
-  const VariableValue gps{no_gps.variable, 1 - no_gps.value};
-  const std::uint32_t light = *catalog.find_variable("LIGHT");
-  const VariableValue dusk{light, *catalog.find_value(light, "DUSK")};
-  const VariableValue night{light, *catalog.find_value(light, "NIGHT")};
-  const auto sets = [&](const SituationPart& part) {
-    return cut_sets(catalog, "LOCALIZE", 3, part);
-  };
-  EXPECT_EQ(cut_sets(catalog, "LOCALIZE", 3), "{gps slam lidar}");
-  EXPECT_EQ(sets({}), "{gps slam lidar}");
-  EXPECT_EQ(sets({{no_gps}, {}}), "{slam lidar}") << "LIGHT is not fixed";
-  EXPECT_EQ(sets({{gps, night}, {}}), "{gps lidar}");
-  EXPECT_EQ(sets({{no_gps, dusk}, {}}), "{slam lidar}");
-  EXPECT_EQ(sets({{no_gps, night}, {}}), "{lidar}");
-  const BehaviorId lidar = behavior_id(catalog, "lidar");
-  EXPECT_EQ(sets({{}, {{lidar, true}}}), "{gps slam lidar}");
-  EXPECT_EQ(sets({{}, {{lidar, false}}}), "{gps slam}");
-  EXPECT_EQ(sets({{no_gps, night}, {{lidar, false}}}), "{}");
-}
 
 TEST(CutSets, SayWhatIsCompleteWhenTheyAreStopped) {
   const CompiledCatalog catalog = compile_text(survey);

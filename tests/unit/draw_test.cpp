@@ -8,7 +8,6 @@
 
 #include "core/catalog/reader.h"
 #include "core/compile/compile.h"
-#include "core/yaml/document.h"
 #include "graph/engine/catalog_graph.h"
 #include "graph/engine/diagram.h"
 #include "graph/report/graph_report.h"
@@ -39,76 +38,6 @@ CatalogGraph graph_of_reading(const Subject& subject) {
   return to_graph(subject.reading, subject.diagnostics.all());
 }
 
-std::string show(const CatalogGraph& graph, const Part& part) {
-  std::string text;
-  for (const std::uint32_t task : part.tasks) {
-    text += std::string(graph.tasks[task].name) + (part.is_beside[task] ? "* " : " ");
-  }
-  text += "|";
-  for (const std::uint32_t behavior : part.behaviors) {
-    text += " " + std::string(graph.behaviors[behavior].name);
-  }
-  return text;
-}
-
-std::string around(const CatalogGraph& graph, const std::string& task, const Reach& reach) {
-  const auto found = std::find_if(graph.tasks.begin(), graph.tasks.end(),
-                                  [&](const auto& one) { return one.name == task; });
-  const auto place = static_cast<std::uint32_t>(found - graph.tasks.begin());
-  return show(graph, part_around(graph, {place}, reach));
-}
-
-constexpr Reach up(std::uint32_t depth) { return {true, false, depth}; }
-constexpr Reach down(std::uint32_t depth) { return {false, true, depth}; }
-
-// A requires B and C, B requires C, C requires D; c2 also performs E, which A excludes F beside.
-constexpr const char* chain = R"(
-behaviors:
-- {behavior: a1, task: A, requires: [{task: B}, {task: C}]}
-- {behavior: a2, task: A}
-- {behavior: b1, task: B, requires: [{task: C}]}
-- {behavior: c1, task: C, requires: [{task: D}]}
-- {behavior: c2, tasks: [{task: C}, {task: E}]}
-- {behavior: d1, task: D}
-- {behavior: f1, task: F}
-- {behavior: g1, task: G}
-tasks: [{task: A}, {task: B}, {task: C}, {task: D}, {task: E}, {task: F}, {task: G}]
-exclusivity_constraints:
-- mutually_exclusive: [F, A]
-)";
-
-TEST(Part, GoesDownStepByStep) {
-  const auto subject = understand(chain);
-  const CatalogGraph graph = to_graph(subject->compiled);
-  EXPECT_EQ(around(graph, "A", down(0)), "A F* | a1 a2");
-  EXPECT_EQ(around(graph, "A", down(1)), "A B C E* F* | a1 a2 b1 c1 c2");
-  EXPECT_EQ(around(graph, "A", down(2)), "A B C D E* F* | a1 a2 b1 c1 c2 d1");
-  EXPECT_EQ(around(graph, "A", {false, true, {}}), "A B C D E* F* | a1 a2 b1 c1 c2 d1");
-}
-
-TEST(Part, GoesUpStepByStep) {
-  const auto subject = understand(chain);
-  const CatalogGraph graph = to_graph(subject->compiled);
-  EXPECT_EQ(around(graph, "D", up(0)), "D | d1");
-  EXPECT_EQ(around(graph, "D", up(1)), "C D | c1 d1");
-  EXPECT_EQ(around(graph, "D", up(2)), "A B C D | a1 b1 c1 d1");
-  EXPECT_EQ(around(graph, "D", {true, false, {}}), "A B C D | a1 b1 c1 d1");
-}
-
-TEST(Part, GoesBothWaysButNotBack) {
-  const auto subject = understand(chain);
-  const CatalogGraph graph = to_graph(subject->compiled);
-  EXPECT_EQ(around(graph, "B", {}), "A B C D E* | a1 b1 c1 c2 d1");
-  EXPECT_EQ(around(graph, "G", {}), "G | g1");
-}
-
-TEST(Part, OfAGroupHasAllOfIt) {
-  const auto subject = understand(chain);
-  const CatalogGraph graph = to_graph(subject->compiled);
-  EXPECT_EQ(show(graph, part_of_group(graph, 0)), "A B C D E F | a1 a2 b1 c1 c2 d1 f1");
-  EXPECT_EQ(show(graph, part_of_group(graph, 1)), "G | g1");
-}
-
 TEST(Part, ManyExclusiveTasksAreCountedInstead) {
   std::string text = "behaviors:\n";
   std::string names;
@@ -119,7 +48,6 @@ TEST(Part, ManyExclusiveTasksAreCountedInstead) {
   text += "exclusivity_constraints:\n- mutually_exclusive: [" + names + "]\n";
   const auto subject = understand(text);
   const CatalogGraph graph = to_graph(subject->compiled);
-  EXPECT_EQ(around(graph, "E", {}), "E | bE");
   const Diagram diagram = make_diagram(graph, part_around(graph, {4}, {}), {});
   ASSERT_EQ(diagram.nodes.size(), 3U);
   EXPECT_EQ(diagram.nodes.back().kind, NodeKind::hub);
@@ -190,6 +118,22 @@ std::string all_formats(const CatalogGraph& graph) {
   return text;
 }
 
+// A requires B and C, B requires C, C requires D; c2 also performs E, which A excludes F beside.
+constexpr const char* chain = R"(
+behaviors:
+- {behavior: a1, task: A, requires: [{task: B}, {task: C}]}
+- {behavior: a2, task: A}
+- {behavior: b1, task: B, requires: [{task: C}]}
+- {behavior: c1, task: C, requires: [{task: D}]}
+- {behavior: c2, tasks: [{task: C}, {task: E}]}
+- {behavior: d1, task: D}
+- {behavior: f1, task: F}
+- {behavior: g1, task: G}
+tasks: [{task: A}, {task: B}, {task: C}, {task: D}, {task: E}, {task: F}, {task: G}]
+exclusivity_constraints:
+- mutually_exclusive: [F, A]
+)";
+
 // Of a good catalog, what was read and what was compiled look alike.
 TEST(CatalogGraph, IsTheSameFromBothForms) {
   const auto subject = understand(chain);
@@ -242,36 +186,6 @@ std::vector<std::string> faults(const CatalogGraph& graph) {
 
 using Faults = std::vector<std::string>;
 
-TEST(CatalogGraph, CyclesAreFaultyAndWhatHangsOnThemIsNot) {
-  const auto subject = understand(
-      "behaviors:\n"
-      "- {behavior: top, task: TOP, requires: [{task: A}]}\n"
-      "- {behavior: a, task: A, requires: [{task: B}]}\n"
-      "- {behavior: a2, task: A}\n"
-      "- {behavior: b, task: B, requires: [{task: A}, {task: C}]}\n"
-      "- {behavior: c, task: C}\n");
-  EXPECT_EQ(faults(graph_of_reading(*subject)),
-            (Faults{"task:A", "task:B", "behavior:a", "behavior:b", "task:A -> behavior:a",
-                    "task:B -> behavior:b", "behavior:a -> task:B", "behavior:b -> task:A"}));
-}
-
-TEST(CatalogGraph, BadConditionsAreFaulty) {
-  const auto subject = understand(
-      "situation:\n"
-      "- {variable: V, values: [x, y]}\n"
-      "behaviors:\n"
-      "- {behavior: a, task: A, situation: {U: x}}\n"
-      "- behavior: b\n"
-      "  task: A\n"
-      "  situation:\n"
-      "    V:\n"
-      "    - x\n"
-      "    - z\n"
-      "- {behavior: c, task: A, situation: {V: []}}\n"
-      "- {behavior: d, task: A, situation: {V: y}}\n");
-  EXPECT_EQ(faults(graph_of_reading(*subject)), (Faults{"behavior:a", "behavior:b", "behavior:c"}));
-}
-
 TEST(CatalogGraph, UndefinedTasksAreDrawn) {
   const auto subject = understand(
       "behaviors:\n"
@@ -290,17 +204,6 @@ TEST(CatalogGraph, UndefinedTasksAreDrawn) {
             (Faults{"task:X", "task:Y", "behavior:a -> task:X", "behavior:b -> task:X"}));
 }
 
-TEST(CatalogGraph, ExclusiveRequirementsAreFaultyOnBothSides) {
-  const auto subject = understand(
-      "behaviors:\n"
-      "- {behavior: a, task: A, requires: [{task: B}]}\n"
-      "- {behavior: b, task: B}\n"
-      "exclusivity_constraints:\n"
-      "- mutually_exclusive: [A, B]\n");
-  EXPECT_EQ(faults(graph_of_reading(*subject)),
-            (Faults{"behavior:a -> task:B", "task:A -> task:B"}));
-}
-
 TEST(CatalogGraph, BehaviorsOfOneNameHaveIdsOfTheirOwn) {
   const auto subject = understand(
       "behaviors:\n"
@@ -312,19 +215,6 @@ TEST(CatalogGraph, BehaviorsOfOneNameHaveIdsOfTheirOwn) {
   EXPECT_EQ(faults(graph), (Faults{"behavior:a", "behavior:a#2", "behavior:"}));
   const Diagram diagram = make_diagram(graph, whole(graph), {});
   EXPECT_EQ(diagram.nodes.back().id, "behavior:a%232");
-}
-
-TEST(TaskView, LeavesOutWhatFollowsOnRequest) {
-  const auto subject = understand(chain);
-  const CatalogGraph graph = to_graph(subject->compiled);
-  const Diagram all = make_diagram(graph, whole(graph), {View::tasks, {}, {}, false});
-  const Diagram reduced = make_diagram(graph, whole(graph), {View::tasks, {}, {}, true});
-  EXPECT_EQ(all.edges.size(), 4U);
-  ASSERT_EQ(reduced.edges.size(), 3U);
-  EXPECT_EQ(all.edges[0].label, "1 of 2");
-  for (const Edge& edge : reduced.edges) {
-    EXPECT_FALSE(reduced.nodes[edge.from].name == "A" && reduced.nodes[edge.to].name == "C");
-  }
 }
 
 }  // namespace

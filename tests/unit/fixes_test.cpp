@@ -8,7 +8,6 @@
 
 #include "core/check/check.h"
 #include "core/diagnostic/rules.h"
-#include "unit/findings.h"
 
 namespace cbc::fixes_test {
 namespace {
@@ -45,73 +44,6 @@ void expect_unchanged(std::string_view text) { EXPECT_EQ(fix(text), text); }
 std::string with_behaviors(const std::string& text) {
   return text +
          "behaviors: [{behavior: a, task: A}, {behavior: b, task: B}, {behavior: c, task: C}]\n";
-}
-
-TEST(FixOlderKeys, AreRenamedWithTheirValues) {
-  EXPECT_EQ(fix(R"(# defaults
-default_values:
-- tasks:
-  - category: recurrent   # for ever
-    automatic_activation: TRUE
-    default:    FALSE
-- behaviors:
-  - efficacy: 50
-behaviors:
-- behavior: B
-  efficacy: 40
-  tasks: [{task: X, efficacy: 30}, {task: Y}]
-tasks:
-- task: X
-  category: goal_based
-)"),
-            R"(# defaults
-default_values:
-- tasks:
-  - execution_goal: keep_running   # for ever
-    start_on_request: FALSE
-    reactive_start:    FALSE
-- behaviors:
-  - suitability: 50
-behaviors:
-- behavior: B
-  suitability: 40
-  tasks: [{task: X, suitability: 30}, {task: Y}]
-tasks:
-- task: X
-  execution_goal: achieve_goal
-)");
-}
-
-TEST(FixOlderKeys, BooleansKeepTheirSpelling) {
-  const std::pair<std::string, std::string> spellings[] = {
-      {"true", "false"}, {"True", "False"}, {"TRUE", "FALSE"}, {"yes", "no"},
-      {"Yes", "No"},     {"YES", "NO"},     {"on", "off"},     {"On", "Off"},
-      {"ON", "OFF"},     {"y", "n"},        {"Y", "N"},
-  };
-  const auto with = [](const std::string& key, const std::string& value) {
-    std::string text = "behaviors: []\ntasks: [{task: A, ";
-    return text.append(key).append(": ").append(value).append("}]");
-  };
-  for (const auto& [yes, no] : spellings) {
-    EXPECT_EQ(fix(with("automatic_activation", yes)), with("start_on_request", no));
-    EXPECT_EQ(fix(with("automatic_activation", no)), with("start_on_request", yes));
-  }
-}
-
-TEST(FixOlderKeys, QuotesStay) {
-  EXPECT_EQ(fix("{\"behaviors\":[{\"behavior\":\"a\",\"task\":\"A\",\"efficacy\":3}],"
-                "'tasks':[{'task':'A','category':'recurrent',\"automatic_activation\":true}]}"),
-            "{\"behaviors\":[{\"behavior\":\"a\",\"task\":\"A\",\"suitability\":3}],"
-            "'tasks':[{'task':'A','execution_goal':'keep_running',\"start_on_request\":false}]}");
-}
-
-TEST(FixOlderKeys, ByteOrderMarkLineBreaksAndCharactersStay) {
-  EXPECT_EQ(fix("\xEF\xBB\xBF"
-                "behaviors:\r\n- {behavior: é日😀, task: A, efficacy: 3}\r\n"
-                "# x \t\r\n- behavior: b\r\n  task: A\r\n  efficacy: 4"),
-            "\xEF\xBB\xBF"
-            "behaviors:\r\n- {behavior: é日😀, task: A, suitability: 3}\r\n"
-            "# x \t\r\n- behavior: b\r\n  task: A\r\n  suitability: 4");
 }
 
 TEST(FixOlderKeys, WithoutAValue) {

@@ -215,35 +215,6 @@ situation: [{variable: QUIET, values: ["true", "false"]}]
   EXPECT_EQ(found.at("task HUM gave way"), "HUM_ON fits no reachable situation");
 }
 
-TEST(UnreachableGoals, OfPriorities) {
-  const char* const text = R"(
-behaviors: [{behavior: DRIVE_NOW, task: DRIVE}, {behavior: DOCK_NOW, task: DOCK}]
-tasks: [{task: DRIVE}, {task: DOCK}]
-exclusivity_constraints: [{mutually_exclusive: [DRIVE, DOCK]}]
-)";
-  const auto with = [&](std::vector<std::int32_t> of_drive, std::vector<std::int32_t> of_dock) {
-    return reasons(text, [&](const CompiledCatalog& catalog, Assumptions& assumptions) {
-      for (Assumptions::Start& start : assumptions.start) {
-        start.priorities = catalog.name_of_task(start.task) == "DRIVE" ? of_drive : of_dock;
-      }
-      std::erase_if(assumptions.start, [](const auto& start) { return start.priorities.empty(); });
-    });
-  };
-  EXPECT_EQ(with({1, 2}, {1, 2}), Reasons());
-  EXPECT_EQ(with({2}, {1}), (Reasons{
-                                {"a start of DRIVE was rejected for a higher priority",
-                                 "no start of task DRIVE is rejected"},
-                                {"a start of DRIVE displaced an equal priority",
-                                 "no start of task DRIVE stops a task with the same priority"},
-                                {"a start of DOCK displaced a lower priority",
-                                 "no start of task DOCK stops a task with a lower priority"},
-                                {"a start of DOCK displaced an equal priority",
-                                 "no start of task DOCK stops a task with the same priority"},
-                            }));
-  EXPECT_EQ(with({1}, {}).at("a start of DOCK displaced a lower priority"),
-            "no event requests task DOCK");
-}
-
 TEST(UnreachableGoals, OfTimeouts) {
   const char* const text = R"(
 behaviors:

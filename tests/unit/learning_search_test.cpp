@@ -217,25 +217,5 @@ TEST(Nogoods, ForgetThoseUsedLeast) {
   EXPECT_EQ(count_implied_by(negate(6)), 2U);
 }
 
-/// Also where the numbers would become too large: 1.001 to the power of 400,000 is about 10 to that
-/// of 174.
-TEST(Nogoods, CountLaterUsesMore) {
-  Nogoods nogoods;
-  nogoods.clear(8);
-  for (Literal literal = 0; literal < 8; literal += 2) {
-    const std::array<Literal, 3> clause{literal, literal + 2, literal + 4};
-    static_cast<void>(nogoods.add(clause, 3));
-  }
-  for (int conflict = 0; conflict < 400'000; ++conflict) {
-    nogoods.note_use(conflict % 3 == 0 ? 1 : 2);
-    nogoods.age();
-  }
-  nogoods.note_use(0);
-  nogoods.forget_half();
-  ASSERT_EQ(nogoods.size(), 2U);
-  EXPECT_EQ(nogoods.literals(0)[0], 2U) << "one late use is less than many";
-  EXPECT_EQ(nogoods.literals(1)[0], 4U);
-}
-
 }  // namespace
 }  // namespace cbc::learning_search_test

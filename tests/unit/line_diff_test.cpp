@@ -24,19 +24,6 @@ TEST(LineDiff, EqualTexts) {
   EXPECT_EQ(diff("a\nb", "a\nb"), "");
 }
 
-TEST(LineDiff, OneLine) {
-  EXPECT_EQ(diff("1\n2\n3\n4\n5\n6\n7\n8\n9\n", "1\n2\n3\n4\nfive\n6\n7\n8\n9\n"),
-            std::string(head) + "@@ -2,7 +2,7 @@\n 2\n 3\n 4\n-5\n+five\n 6\n 7\n 8\n");
-  EXPECT_EQ(diff("1\n", "one\n"), std::string(head) + "@@ -1 +1 @@\n-1\n+one\n");
-}
-
-TEST(LineDiff, LinesThatGoAndCome) {
-  EXPECT_EQ(diff("1\n2\n3\n", "1\n3\n"), std::string(head) + "@@ -1,3 +1,2 @@\n 1\n-2\n 3\n");
-  EXPECT_EQ(diff("1\n3\n", "1\n2\n3\n"), std::string(head) + "@@ -1,2 +1,3 @@\n 1\n+2\n 3\n");
-  EXPECT_EQ(diff("", "1\n2\n"), std::string(head) + "@@ -0,0 +1,2 @@\n+1\n+2\n");
-  EXPECT_EQ(diff("1\n", ""), std::string(head) + "@@ -1 +0,0 @@\n-1\n");
-}
-
 TEST(LineDiff, NearChangesShareAHunk) {
   EXPECT_EQ(diff("a\n1\n2\n3\n4\n5\n6\nb\n", "A\n1\n2\n3\n4\n5\n6\nB\n"),
             std::string(head) + "@@ -1,8 +1,8 @@\n-a\n+A\n 1\n 2\n 3\n 4\n 5\n 6\n-b\n+B\n");

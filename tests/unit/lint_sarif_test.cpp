@@ -122,28 +122,6 @@ TEST(LintSarif, WritesAResult) {
        "message": {"text": "two"}}]})"));
 }
 
-TEST(LintSarif, PointsToTheRuleOfEachResult) {
-  std::vector<Diagnostic> findings;
-  for (const Rule& rule : all_rules()) findings.push_back(finding_at(1, "message", rule.name));
-  const Json run = run_of({linted(findings)});
-  ASSERT_EQ(run["results"].size(), all_rules().size());
-  for (const Json& result : run["results"]) {
-    EXPECT_EQ(run["tool"]["driver"]["rules"][result["ruleIndex"].get<std::size_t>()]["id"],
-              result["ruleId"]);
-  }
-}
-
-TEST(LintSarif, KeepsSeverities) {
-  Diagnostic note = finding_at(1);
-  note.severity = Severity::note;
-  Diagnostic error = finding_at(2);
-  error.severity = Severity::error;
-  const Json run = run_of({linted({note, error, finding_at(3)})});
-  EXPECT_EQ(run["results"][0]["level"], "note");
-  EXPECT_EQ(run["results"][1]["level"], "error");
-  EXPECT_EQ(run["results"][2]["level"], "warning");
-}
-
 TEST(LintSarif, NamesFilesBelowTheWorkingDirectoryRelativeToIt) {
   EXPECT_EQ(location_of("a.yaml"), below_root("a.yaml"));
   EXPECT_EQ(location_of("./b/../sub/a.yaml"), below_root("sub/a.yaml"));

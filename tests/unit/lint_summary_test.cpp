@@ -43,45 +43,6 @@ std::string group_line(std::vector<std::string> tasks) {
   return text.substr(names, text.find('\n', names) - names);
 }
 
-TEST(LintSummary, ShowsACatalogInNumbers) {
-  CatalogSummary summary;
-  summary.total.tasks = 9;
-  summary.total.behaviors = 12;
-  summary.total.constraints = {3, 2, 1};
-  summary.groups = {group_of({"HOVER", "LAND", "LOCALIZE"}, 5), group_of({"BLINK"}, 0),
-                    group_of({"SING"}, 1), group_of({"LOOK", "LISTEN"}, 0), group_of({"WAIT"}, 0)};
-  summary.total.search_space = "1327104";
-  EXPECT_EQ(show(summary),
-            "a.yaml\n"
-            "  tasks                      9\n"
-            "  behaviors                 12\n"
-            "  constraints                6\n"
-            "    exclusive pairs          3\n"
-            "    requirements             2\n"
-            "    task minimums            1\n"
-            "  groups                     5\n"
-            "    3 tasks, 5 constraints: HOVER, LAND, LOCALIZE\n"
-            "    1 task, 1 constraint: SING\n"
-            "    2 tasks, 0 constraints: LOOK, LISTEN\n"
-            "    2 groups of one task without constraints\n"
-            "  search space         1327104 (~1.3e6)\n");
-}
-
-TEST(LintSummary, ShowsAnEmptyCatalog) {
-  CatalogSummary summary;
-  summary.total.search_space = "1";
-  EXPECT_EQ(show(summary),
-            "a.yaml\n"
-            "  tasks                      0\n"
-            "  behaviors                  0\n"
-            "  constraints                0\n"
-            "    exclusive pairs          0\n"
-            "    requirements             0\n"
-            "    task minimums            0\n"
-            "  groups                     0\n"
-            "  search space               1\n");
-}
-
 TEST(LintSummary, SaysThatACatalogWasNotUnderstood) {
   EXPECT_EQ(lint_summary({"a\n.yaml", "", {}, {}}, plain_style()),
             "a\\n.yaml: no summary, as the file could not be understood\n");

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace cbc::look_alikes_test {
@@ -20,42 +21,58 @@ std::string look_alike(std::string_view name, std::string_view other) {
   return difference_of(name, other);
 }
 
-TEST(LookAlikes, DifferInCase) {
-  EXPECT_EQ(look_alike("TAKE_OFF", "Take_Off"), "they differ only in upper and lower case");
-  EXPECT_EQ(look_alike("LÖSCHEN", "löschen"), "they differ only in upper and lower case");
-  EXPECT_EQ(look_alike("ВЕТЕР", "ветер"), "they differ only in upper and lower case");
+std::string character(int place, std::string_view one, std::string_view other) {
+  return fmt::format("character {} is {} in the one and {} in the other", place, one, other);
 }
 
-TEST(LookAlikes, DifferInSeparators) {
-  EXPECT_EQ(look_alike("TAKE_OFF", "TAKE-OFF"), "they differ only in what separates the words");
-  EXPECT_EQ(look_alike("TAKE_OFF", "TAKE__OFF"), "they differ only in what separates the words");
-  EXPECT_EQ(look_alike("TAKE OFF", "take_off"),
-            "they differ only in case and in what separates the words");
-  EXPECT_EQ(look_alike("TAKE_OFF", "TAKEOFF"), "-");
-  EXPECT_EQ(look_alike("ARM_1_1", "ARM_11"), "-");
-  EXPECT_EQ(look_alike("-1", "1"), "-");
-}
-
-TEST(LookAlikes, DifferInCharacters) {
-  EXPECT_EQ(look_alike("MODE_0", "MODE_O"),
-            "character 6 is U+0030 in the one and U+004F in the other");
-  EXPECT_EQ(look_alike("AXIS_I", "AXIS_1"),
-            "character 6 is U+0049 in the one and U+0031 in the other");
-  EXPECT_EQ(look_alike("\u041DOVER", "HOVER"),
-            "character 1 is U+041D in the one and U+0048 in the other");
-  EXPECT_EQ(look_alike("\u03A4EST", "TEST"),
-            "character 1 is U+03A4 in the one and U+0054 in the other");
-  EXPECT_EQ(look_alike("RUN \u21667", "RUN Vll7"),
-            "character 5 is U+2166 in the one and U+0056 in the other");
-  EXPECT_EQ(look_alike("\U0001D407OVER", "HOVER"),
-            "character 1 is U+1D407 in the one and U+0048 in the other");
-  EXPECT_EQ(look_alike("\uFF28OVER", "HOVER"),
-            "character 1 is U+FF28 in the one and U+0048 in the other");
-  EXPECT_EQ(look_alike("\u212AEEP", "KEEP"),
-            "character 1 is U+212A in the one and U+004B in the other");
-  EXPECT_EQ(look_alike("ARM_L", "ARM_1"), "-");
-  EXPECT_EQ(look_alike("ARM_L", "ARM_R"), "-");
-  EXPECT_EQ(look_alike("drucken", "drücken"), "-");
+TEST(LookAlikes, SayHowTheyDiffer) {
+  const std::string none = "-";
+  const std::string in_case = "they differ only in upper and lower case";
+  const std::string separators = "they differ only in what separates the words";
+  const std::string both = "they differ only in case and in what separates the words";
+  const std::string shape = "they differ only in case and in characters that look alike";
+  struct Case {
+    std::string_view name;
+    std::string_view other;
+    std::string difference;
+  };
+  const std::vector<Case> cases{{"TAKE_OFF", "Take_Off", in_case},
+                                {"LÖSCHEN", "löschen", in_case},
+                                {"ВЕТЕР", "ветер", in_case},
+                                {"TAKE_OFF", "TAKE-OFF", separators},
+                                {"TAKE_OFF", "TAKE__OFF", separators},
+                                {"TAKE OFF", "take_off", both},
+                                {"TAKE_OFF", "TAKEOFF", none},
+                                {"ARM_1_1", "ARM_11", none},
+                                {"-1", "1", none},
+                                // Characters.
+                                {"MODE_0", "MODE_O", character(6, "U+0030", "U+004F")},
+                                {"AXIS_I", "AXIS_1", character(6, "U+0049", "U+0031")},
+                                {"\u041DOVER", "HOVER", character(1, "U+041D", "U+0048")},
+                                {"\u03A4EST", "TEST", character(1, "U+03A4", "U+0054")},
+                                {"RUN \u21667", "RUN Vll7", character(5, "U+2166", "U+0056")},
+                                {"\U0001D407OVER", "HOVER", character(1, "U+1D407", "U+0048")},
+                                {"\uFF28OVER", "HOVER", character(1, "U+FF28", "U+0048")},
+                                {"\u212AEEP", "KEEP", character(1, "U+212A", "U+004B")},
+                                {"ARM_L", "ARM_1", none},
+                                {"ARM_L", "ARM_R", none},
+                                {"drucken", "drücken", none},
+                                // Case and shape.
+                                {"Hold", "H\u041ELD", shape},
+                                {"H0VER", "hover", shape},
+                                {"ARM_L", "arm_1", none},
+                                // Accents.
+                                {"\u1EA4", "\u1EA5", in_case},
+                                {"\u017E", "z", none},
+                                // What cannot be seen.
+                                {"HOVER", "HO\u200BVER", character(3, "U+0056", "U+200B")},
+                                {"HOVER", "HOVER ", character(6, "missing", "U+0020")},
+                                {"HOVER", "HOVER\u2800", character(6, "missing", "U+2800")},
+                                {"caf\u00E9", "cafe\u0301", character(4, "U+00E9", "U+0065")}};
+  for (const Case& one : cases) {
+    EXPECT_EQ(look_alike(one.name, one.other), one.difference) << one.name << " " << one.other;
+  }
+  EXPECT_NE(look_alike("\u017E", "z\u030C"), none);
 }
 
 /// Of these, each letter looks like a Latin one in the confusable characters of Unicode.
@@ -70,30 +87,6 @@ TEST(LookAlikes, AreLettersOfOtherScripts) {
   }
   EXPECT_EQ(look_alike("\u0416", "K"), "-");
   EXPECT_EQ(look_alike("\u03A9", "O"), "-");
-}
-
-TEST(LookAlikes, DifferInCaseAndShape) {
-  constexpr std::string_view both = "they differ only in case and in characters that look alike";
-  EXPECT_EQ(look_alike("Hold", "H\u041ELD"), both);
-  EXPECT_EQ(look_alike("H0VER", "hover"), both);
-  EXPECT_EQ(look_alike("ARM_L", "arm_1"), "-");
-}
-
-TEST(LookAlikes, DifferInAccents) {
-  EXPECT_NE(look_alike("\u017E", "z\u030C"), "-");
-  EXPECT_EQ(look_alike("\u1EA4", "\u1EA5"), "they differ only in upper and lower case");
-  EXPECT_EQ(look_alike("\u017E", "z"), "-");
-}
-
-TEST(LookAlikes, DifferInWhatCannotBeSeen) {
-  EXPECT_EQ(look_alike("HOVER", "HO\u200BVER"),
-            "character 3 is U+0056 in the one and U+200B in the other");
-  EXPECT_EQ(look_alike("HOVER", "HOVER "),
-            "character 6 is missing in the one and U+0020 in the other");
-  EXPECT_EQ(look_alike("HOVER", "HOVER\u2800"),
-            "character 6 is missing in the one and U+2800 in the other");
-  EXPECT_EQ(look_alike("caf\u00E9", "cafe\u0301"),
-            "character 4 is U+00E9 in the one and U+0065 in the other");
 }
 
 TEST(LookAlikes, AreFoundAmongAllNames) {

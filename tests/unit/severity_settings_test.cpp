@@ -1,6 +1,5 @@
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -60,19 +59,6 @@ TEST(SeveritySettings, ReadOptions) {
   EXPECT_EQ(severity(settings, rule::required_goal), "note");
   EXPECT_TRUE(settings.is_strict());
   EXPECT_FALSE(read({.error = {"dead-task"}, .warn = {}, .allow = {}}).is_strict());
-}
-
-TEST(SeveritySettings, ReportAllBadOptions) {
-  EXPECT_EQ(
-      errors_of({.error = {"ded-task", "dead-behavior"},
-                 .warn = {"missing-key", "", "Dead_Task"},
-                 .allow = {"dead-behavior", "no-such-thing"}}),
-      "--error: there is no rule 'ded-task'; did you mean 'dead-task'?\n"
-      "--warn: 'missing-key' is always an error: a file that breaks this rule has no meaning\n"
-      "--warn: there is no rule ''\n"
-      "--warn: there is no rule 'Dead_Task'; did you mean 'dead-task'?\n"
-      "--allow: rule 'dead-behavior' is also given to --error\n"
-      "--allow: there is no rule 'no-such-thing'\n");
 }
 
 TEST(SeveritySettings, OnlyFixedRulesCannotBeLowered) {

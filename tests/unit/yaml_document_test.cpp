@@ -271,22 +271,12 @@ TEST(YamlDocument, RefusesWhatIsNotClosed) {
   EXPECT_EQ(tree("a: b # it's\nc: 'it''s"), syntax_error("2:4-5", message));
 }
 
-TEST(YamlDocument, RefusesTabsAsIndentation) {
-  EXPECT_EQ(tree("a:\n\tb: 1\n"), syntax_error("2:1-2", "a tab may not indent; use spaces"));
-  EXPECT_EQ(tree("a:\n  \tb: 1\n"), syntax_error("2:3-4", "a tab may not indent; use spaces"));
-}
-
 TEST(YamlDocument, RefusesHalfCharacters) {
   EXPECT_EQ(tree("a: \"\\u00e9\\U0001F600\""), "{a: \"é😀\"}");
   EXPECT_EQ(tree("a: \"x\\ud83d\\ude00\""),
             syntax_error("1:12-13",
                          "this escape is no character; write the character itself, or \\U and 8 "
                          "digits"));
-}
-
-TEST(YamlDocument, RefusesSeveralDocuments) {
-  EXPECT_EQ(tree("a: 1\n---\nb: 2\n"),
-            syntax_error("2:1-4", "expected one document, found a second one"));
 }
 
 TEST(YamlDocument, RefusesKeysThatAreNoNames) {
