@@ -38,6 +38,76 @@ CatalogGraph graph_of_reading(const Subject& subject) {
   return to_graph(subject.reading, subject.diagnostics.all());
 }
 
+std::string show(const CatalogGraph& graph, const Part& part) {
+  std::string text;
+  for (const std::uint32_t task : part.tasks) {
+    text += std::string(graph.tasks[task].name) + (part.is_beside[task] ? "* " : " ");
+  }
+  text += "|";
+  for (const std::uint32_t behavior : part.behaviors) {
+    text += " " + std::string(graph.behaviors[behavior].name);
+  }
+  return text;
+}
+
+std::string around(const CatalogGraph& graph, const std::string& task, const Reach& reach) {
+  const auto found = std::find_if(graph.tasks.begin(), graph.tasks.end(),
+                                  [&](const auto& one) { return one.name == task; });
+  const auto place = static_cast<std::uint32_t>(found - graph.tasks.begin());
+  return show(graph, part_around(graph, {place}, reach));
+}
+
+constexpr Reach up(std::uint32_t depth) { return {true, false, depth}; }
+constexpr Reach down(std::uint32_t depth) { return {false, true, depth}; }
+
+// A requires B and C, B requires C, C requires D; c2 also performs E, which A excludes F beside.
+constexpr const char* chain = R"(
+behaviors:
+- {behavior: a1, task: A, requires: [{task: B}, {task: C}]}
+- {behavior: a2, task: A}
+- {behavior: b1, task: B, requires: [{task: C}]}
+- {behavior: c1, task: C, requires: [{task: D}]}
+- {behavior: c2, tasks: [{task: C}, {task: E}]}
+- {behavior: d1, task: D}
+- {behavior: f1, task: F}
+- {behavior: g1, task: G}
+tasks: [{task: A}, {task: B}, {task: C}, {task: D}, {task: E}, {task: F}, {task: G}]
+exclusivity_constraints:
+- mutually_exclusive: [F, A]
+)";
+
+TEST(Part, GoesDownStepByStep) {
+  const auto subject = understand(chain);
+  const CatalogGraph graph = to_graph(subject->compiled);
+  EXPECT_EQ(around(graph, "A", down(0)), "A F* | a1 a2");
+  EXPECT_EQ(around(graph, "A", down(1)), "A B C E* F* | a1 a2 b1 c1 c2");
+  EXPECT_EQ(around(graph, "A", down(2)), "A B C D E* F* | a1 a2 b1 c1 c2 d1");
+  EXPECT_EQ(around(graph, "A", {false, true, {}}), "A B C D E* F* | a1 a2 b1 c1 c2 d1");
+}
+
+TEST(Part, GoesUpStepByStep) {
+  const auto subject = understand(chain);
+  const CatalogGraph graph = to_graph(subject->compiled);
+  EXPECT_EQ(around(graph, "D", up(0)), "D | d1");
+  EXPECT_EQ(around(graph, "D", up(1)), "C D | c1 d1");
+  EXPECT_EQ(around(graph, "D", up(2)), "A B C D | a1 b1 c1 d1");
+  EXPECT_EQ(around(graph, "D", {true, false, {}}), "A B C D | a1 b1 c1 d1");
+}
+
+TEST(Part, GoesBothWaysButNotBack) {
+  const auto subject = understand(chain);
+  const CatalogGraph graph = to_graph(subject->compiled);
+  EXPECT_EQ(around(graph, "B", {}), "A B C D E* | a1 b1 c1 c2 d1");
+  EXPECT_EQ(around(graph, "G", {}), "G | g1");
+}
+
+TEST(Part, OfAGroupHasAllOfIt) {
+  const auto subject = understand(chain);
+  const CatalogGraph graph = to_graph(subject->compiled);
+  EXPECT_EQ(show(graph, part_of_group(graph, 0)), "A B C D E F | a1 a2 b1 c1 c2 d1 f1");
+  EXPECT_EQ(show(graph, part_of_group(graph, 1)), "G | g1");
+}
+
 TEST(Part, ManyExclusiveTasksAreCountedInstead) {
   std::string text = "behaviors:\n";
   std::string names;
@@ -117,22 +187,6 @@ std::string all_formats(const CatalogGraph& graph) {
   }
   return text;
 }
-
-// A requires B and C, B requires C, C requires D; c2 also performs E, which A excludes F beside.
-constexpr const char* chain = R"(
-behaviors:
-- {behavior: a1, task: A, requires: [{task: B}, {task: C}]}
-- {behavior: a2, task: A}
-- {behavior: b1, task: B, requires: [{task: C}]}
-- {behavior: c1, task: C, requires: [{task: D}]}
-- {behavior: c2, tasks: [{task: C}, {task: E}]}
-- {behavior: d1, task: D}
-- {behavior: f1, task: F}
-- {behavior: g1, task: G}
-tasks: [{task: A}, {task: B}, {task: C}, {task: D}, {task: E}, {task: F}, {task: G}]
-exclusivity_constraints:
-- mutually_exclusive: [F, A]
-)";
 
 // Of a good catalog, what was read and what was compiled look alike.
 TEST(CatalogGraph, IsTheSameFromBothForms) {

@@ -25,6 +25,20 @@ std::string plain_of(std::vector<Diagnostic> findings) {
   return plain({{"a.yaml", "", std::move(findings), {}}});
 }
 
+TEST(LintText, SaysThatThereIsNothing) {
+  EXPECT_EQ(plain({}), "no findings in 0 files\n");
+  EXPECT_EQ(plain({{"a.yaml", "", {}, {}}}), "no findings in 1 catalog\n");
+  EXPECT_EQ(plain({{"a.yaml", "", {}, {}}, {"b.yaml", "", {}, {}}}), "no findings in 2 catalogs\n");
+  using Kind = LintedFile::Kind;
+  std::vector<LintedFile> files;
+  for (const Kind kind : {Kind::unknown, Kind::settings, Kind::script, Kind::properties,
+                          Kind::catalog, Kind::script}) {
+    files.push_back({"a.yaml", "", {}, {}, {}, kind});
+  }
+  EXPECT_EQ(plain(files),
+            "no findings in 1 catalog, 2 scripts, 1 property file, 1 settings file, 1 file\n");
+}
+
 TEST(LintText, GroupsWithinOneRuleSeverityAndFileOnly) {
   Diagnostic elsewhere = finding_at(3);
   elsewhere.file = "b.yaml";

@@ -135,6 +135,18 @@ TEST(LintSummary, ListsTenTasksThatCanRunTogether) {
       << text;
 }
 
+/// Any task may be requested where none waits for a request.
+TEST(LintSummary, CountsPairsOfAllTasks) {
+  const CompiledCatalog catalog = test::compile_text(R"(default_values:
+  tasks: {start_on_request: FALSE}
+behaviors: [{behavior: a, task: A}, {behavior: b, task: B}, {behavior: c, task: C}]
+)");
+  LintedFile file{"a.yaml", "", {}, summarize(catalog)};
+  file.together = summarize_together(catalog, LintOptions().max_nodes);
+  EXPECT_NE(lint_summary(file, plain_style()).find("  pairs of tasks             3\n"),
+            std::string::npos);
+}
+
 TEST(LintJson, HasTasksThatCanRunTogether) {
   const CompiledCatalog catalog = test::compile_text(R"(default_values:
   tasks: {execution_goal: keep_running}

@@ -375,7 +375,30 @@ TEST(CatalogReader, UndefinedTasksThatOtherFindingsExplain) {
             "  1:1-6 first given here\n");
 }
 
+TEST(CatalogReader, AliasesGiveOneFinding) {
+  EXPECT_EQ(findings("behaviors:\n- {behavior: A, task: X, requires: &r [{task: MOON, suit: 3}]}\n"
+                     "- {behavior: A2, task: X, requires: *r}\n"),
+            "2:47-51 error undefined-task: task 'MOON', required by behavior 'A', is not defined\n"
+            "2:53-57 warning unknown-key: unknown key 'suit' in a requirement\n");
+}
+
 // Requirements ---------------------------------------------------------------------------------
+
+TEST(CatalogReader, OneShortestCycleForEachSetOfTasks) {
+  EXPECT_EQ(findings(R"(behaviors:
+- {behavior: A, task: P, requires: [{task: Q}]}
+- {behavior: B, task: Q, requires: [{task: R}, {task: X}]}
+- {behavior: C, task: R, requires: [{task: P}, {task: Q}]}
+- {behavior: D, task: X, requires: [{task: Y}]}
+- {behavior: E, task: Y, requires: [{task: X}]}
+)"),
+            "3:44-45 error requirement-cycle: tasks require one another: 'Q' -> 'R' -> 'Q'\n"
+            "  3:44-45 behavior 'B', which performs 'Q', requires 'R'\n"
+            "  4:55-56 behavior 'C', which performs 'R', requires 'Q'\n"
+            "5:44-45 error requirement-cycle: tasks require one another: 'X' -> 'Y' -> 'X'\n"
+            "  5:44-45 behavior 'D', which performs 'X', requires 'Y'\n"
+            "  6:44-45 behavior 'E', which performs 'Y', requires 'X'\n");
+}
 
 TEST(CatalogReader, LongCyclesAreShownByTheirBeginning) {
   std::string text = "behaviors:\n";

@@ -254,5 +254,13 @@ TEST_F(Inconsistency, OfConstraintsInEachGroup) {
   EXPECT_NE(find_inconsistency(catalog, snapshot), std::nullopt);
 }
 
+TEST_F(Inconsistency, TheFirstOneIsTold) {
+  EXPECT_EQ(with([](Snapshot& state) {
+              state.now = -1;
+              state.events = UINT64_MAX;
+            }),
+            "its time is not between 0 and 1000000000 s");
+}
+
 }  // namespace
 }  // namespace cbc::inconsistency_test

@@ -20,6 +20,25 @@ std::string findings(const std::string& text) {
   return show(diagnostics);
 }
 
+TEST(LintCascade, AttributesThatCouldNotBeRead) {
+  constexpr const char* behaviors =
+      "behaviors:\n"
+      "- {behavior: A, task: X, requires: [{task: Y}]}\n"
+      "- {behavior: B, task: Y, timeout: 3}\n";
+  // The task has achieve_goal by default, and says itself that it starts reactively.
+  EXPECT_EQ(findings(std::string("tasks:\n"
+                                 "- task: X\n"
+                                 "- {task: Y, execution_goal: forever, reactive_start: TRUE}\n") +
+                     behaviors),
+            "3:29-36 error invalid-value: 'execution_goal' must be achieve_goal or keep_running, "
+            "found 'forever'\n");
+  EXPECT_EQ(findings(std::string("default_values: {tasks: {start_on_request: 3, "
+                                 "reactive_start: TRUE, execution_goal: keep_running}}\n"
+                                 "tasks: [{task: X}, {task: Y}]\n") +
+                     behaviors),
+            "1:44-45 error wrong-type: 'start_on_request' must be true or false, found '3'\n");
+}
+
 // A_WITH_WINGS may have been meant to perform A, but hardly G.
 TEST(LintCascade, OtherFaultsAreFoundBesideABehaviorWithoutTask) {
   EXPECT_EQ(findings("behaviors:\n- {behavior: A_WITH_WINGS}\ntasks: [{task: A}, {task: G}]\n"),

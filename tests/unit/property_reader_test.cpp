@@ -389,6 +389,24 @@ TEST(Conditions, MustNotContradictThemselves) {
             "  3:41-44 expected to be unavailable here\n");
 }
 
+TEST(Conditions, LeaveATaskForEachActiveBehavior) {
+  EXPECT_EQ(findings_of_property("never: {active: [HOVER_PID], running: {HOVER: HOVER_MPC}}"),
+            "3:20-29 error impossible-expectation: this can never hold: no task is left for "
+            "behavior 'HOVER_PID'\n"
+            "  3:49-58 'HOVER' is expected to run with another behavior here\n");
+  EXPECT_EQ(findings_of_property("never: {active: [HOVER_PID, HOVER_MPC]}"),
+            "3:31-40 error impossible-expectation: this can never hold: no task is left for "
+            "behavior 'HOVER_MPC'\n"
+            "  3:20-29 'HOVER' is expected to run with another behavior here\n");
+  EXPECT_EQ(findings_of_property("never: {active: [EYE], stopped: [SEE, LOOK]}"),
+            "3:20-23 error impossible-expectation: this can never hold: no task is left for "
+            "behavior 'EYE'\n"
+            "  3:36-39 'SEE' is expected to be stopped here\n"
+            "  3:41-45 'LOOK' is expected to be stopped here\n");
+  EXPECT_EQ(findings_of_property("never: {active: [EYE], stopped: [SEE], running: {LOOK: EYE}}"),
+            "");
+}
+
 TEST(Conditions, MayBeRuledOutByTheCatalog) {
   const std::string exclusion =
       " impossible-expectation: this can never hold: 'HOVER' excludes 'LAND' (a.yaml:18)\n";

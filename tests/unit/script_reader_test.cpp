@@ -83,6 +83,7 @@ TEST(ScriptReader, NullIsAbsent) {
   ASSERT_EQ(script.steps.size(), 2U);
   EXPECT_FALSE(script.steps[0].time || script.steps[0].priority || script.steps[0].parameters);
   EXPECT_FALSE(script.steps[1].expect->outcome || script.steps[1].expect->active);
+  EXPECT_TRUE(read("situation: {HOVER_PID: ~}\nevents: []").situation.availability.empty());
   EXPECT_EQ(read("- {start: LAND, parameters: {}}").steps.at(0).parameters.value().canonical, "");
 }
 
@@ -161,6 +162,20 @@ TEST(ScriptReader, AForgottenColonOrSpaceIsNamed) {
                    "5:3-7 ", start, "'stop'\n"));
 }
 
+TEST(ScriptReader, KeysOfOtherVerbs) {
+  EXPECT_EQ(
+      findings("- {finish: HOVER_PID, priority: 2}\n- {start: LAND, cause: time_out}\n"
+               "- {stop: LAND, parameters: {}}\n- {wait: 3, priority: 1}\n"
+               "- {expect: {}, cause: time_out}\n"),
+      "1:23-31 error unknown-key: 'priority' does not belong to 'finish', only to 'start' and "
+      "'stop'\n"
+      "2:17-22 error unknown-key: 'cause' does not belong to 'start', only to 'finish'\n"
+      "3:16-26 error unknown-key: 'parameters' does not belong to 'stop', only to 'start'\n"
+      "4:13-21 error unknown-key: 'priority' does not belong to 'wait', only to 'start' and "
+      "'stop'\n"
+      "5:16-21 error unknown-key: 'cause' does not belong to 'expect', only to 'finish'\n");
+}
+
 // Names and values -----------------------------------------------------------------------------
 
 TEST(ScriptReader, NamesInExpectations) {
@@ -234,6 +249,13 @@ TEST(ScriptReader, WrongSituationVariables) {
 }
 
 // What a start gives -----------------------------------------------------------------------------
+
+TEST(ScriptReader, ParametersOfAnUnknownTaskAreNotChecked) {
+  EXPECT_EQ(findings("- {start: HOVR, parameters: {angle: 400, y: 3}}\n"
+                     "- {stop: TAKE_OFF, parameters: {y: 3}}\n"),
+            "1:11-15 error undefined-task: there is no task 'HOVR'; did you mean 'HOVER'?\n"
+            "2:20-30 error unknown-key: 'parameters' does not belong to 'stop', only to 'start'\n");
+}
 
 TEST(ScriptReader, FindingsAboutParametersHaveTheSeverityThatIsAskedFor) {
   const std::string text = "- {start: HOVER, parameters: {angle: 400, yaw: 3}}\n";

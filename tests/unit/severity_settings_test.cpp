@@ -61,6 +61,19 @@ TEST(SeveritySettings, ReadOptions) {
   EXPECT_FALSE(read({.error = {"dead-task"}, .warn = {}, .allow = {}}).is_strict());
 }
 
+TEST(SeveritySettings, ReportAllBadOptions) {
+  EXPECT_EQ(
+      errors_of({.error = {"ded-task", "dead-behavior"},
+                 .warn = {"missing-key", "", "Dead_Task"},
+                 .allow = {"dead-behavior", "no-such-thing"}}),
+      "--error: there is no rule 'ded-task'; did you mean 'dead-task'?\n"
+      "--warn: 'missing-key' is always an error: a file that breaks this rule has no meaning\n"
+      "--warn: there is no rule ''\n"
+      "--warn: there is no rule 'Dead_Task'; did you mean 'dead-task'?\n"
+      "--allow: rule 'dead-behavior' is also given to --error\n"
+      "--allow: there is no rule 'no-such-thing'\n");
+}
+
 TEST(SeveritySettings, OnlyFixedRulesCannotBeLowered) {
   for (const Rule& rule : all_rules()) {
     const std::string name(rule.name);
