@@ -34,7 +34,6 @@ struct VerifyOptions {
   std::vector<std::string> cut_sets;  ///< names of tasks
   std::uint32_t order = 2;
   std::vector<std::string> situation;  ///< KEY=VALUE
-  std::optional<std::string> open_psa;
 };
 
 /// A size of memory, as "512M", in bytes; empty if the text is none.

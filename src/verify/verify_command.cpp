@@ -84,8 +84,6 @@ constexpr const char* verify_footer =
     "                                            the missions that are missing\n"
     "  cbc verify robot.yaml --mutants --beside missions/ --fail-under 80\n"
     "                                            whether the missions notice changes\n"
-    "  cbc verify robot.yaml --cut-sets DRIVE --open-psa drive.xml\n"
-    "                                            a fault tree for other programs\n"
     "\n"
     "A property file says what may happen (assume), how it begins (initially), and what has to "
     "hold (properties: can_start, always, never, reachable). Without one, all tasks with "
@@ -102,10 +100,6 @@ constexpr const char* verify_footer =
 int run_verify(const VerifyOptions& options) {
   if (options.paths.empty()) {
     return usage_error("verify", "expected a catalog or a property file");
-  }
-  if (options.open_psa && options.cut_sets.size() != 1) {
-    return usage_error("verify", "--open-psa takes one --cut-sets, found {}",
-                       options.cut_sets.size());
   }
   return verify(options);
 }
@@ -199,10 +193,6 @@ void add_verify_command(Program& program) {
               "Behaviors that do not fit this situation cannot be active: the value of a "
               "situation variable, or of a behavior true or false. Without it, 'initially' of a "
               "property file counts. May be repeated")
-      .only_with({"--cut-sets"});
-  command
-      .option("--open-psa", options->open_psa, further_output("FILE"),
-              "Also write the fault tree of TASK to FILE, in the XML format of Open-PSA")
       .only_with({"--cut-sets"});
   command.action([options] { return run_verify(*options); });
 }
