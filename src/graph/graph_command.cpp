@@ -355,12 +355,12 @@ constexpr const char* graph_footer =
     "request: + they can run together, - a list excludes them, x what they require excludes them, "
     "X so does what fits in each situation, s they fit in no common situation, with the reasons; "
     "! they can, though never_together in .cbc.yaml forbids it. A search decides it. If no task "
-    "starts on request, all tasks are in the table. It is not drawn as mermaid; json is of the "
-    "schema cbc.together/1.\n"
+    "starts on request, all tasks are in the table. It is text or json (schema "
+    "cbc.together/1).\n"
     "\n"
     "--view situation is a table, as text by default: + a behavior fits in a value, - it does not, "
     ". it does not name the variable; then the tasks without a behavior that fits. It "
-    "is not drawn as mermaid; json is of the schema cbc.situation/1.\n"
+    "is text or json (schema cbc.situation/1).\n"
     "\n"
     "Exit status: 0 success, or the catalog has errors but was drawn, 1 the catalogs of "
     "--diff differ, 2 nothing could be drawn, a file could not be read or written, or the usage "
@@ -388,8 +388,7 @@ struct TableView {
   std::string_view answer;  ///< what it shows, after "it is not known"
   /// Why there can be none, if so.
   std::optional<std::string> (*find_obstacle)(const CompiledCatalog& catalog);
-  std::vector<std::string> (*formats)();
-  /// `format` is one of these; of one by Graphviz, the input of `dot`.
+  /// `format` is text or json.
   std::string (*write)(const CompiledCatalog& catalog, const SeveritySettings& settings,
                        std::string_view format, const Style& style);
 };
@@ -397,15 +396,15 @@ struct TableView {
 std::string write_situation_table(const CompiledCatalog& catalog,
                                   const SeveritySettings& /*settings*/, std::string_view format,
                                   const Style& style) {
-  return find_named(situation_formats(), format)->write(catalog, style);
+  return format == "json" ? situation_json(catalog) : situation_text(catalog, style);
 }
 
 std::string write_table_of_pairs(const CompiledCatalog& catalog, const SeveritySettings& settings,
                                  std::string_view format, const Style& style) {
   TogetherOptions options;
   options.never_together = settings.never_together();
-  return find_named(together_formats(), format)
-      ->write(catalog, make_together_table(catalog, options), style);
+  const TogetherTable table = make_together_table(catalog, options);
+  return format == "json" ? together_json(catalog, table) : together_text(catalog, table, style);
 }
 
 std::optional<std::string> find_too_many_tasks(const CompiledCatalog& catalog) {
@@ -417,10 +416,8 @@ std::optional<std::string> find_too_many_tasks(const CompiledCatalog& catalog) {
 }
 
 constexpr TableView table_views[] = {
-    {"together", "which tasks can run together", find_too_many_tasks,
-     [] { return names_in(together_formats()); }, write_table_of_pairs},
-    {"situation", "which behaviors fit", find_too_large_situation,
-     [] { return names_in(situation_formats()); }, write_situation_table},
+    {"together", "which tasks can run together", find_too_many_tasks, write_table_of_pairs},
+    {"situation", "which behaviors fit", find_too_large_situation, write_situation_table},
 };
 
 /// Null if it is a drawing.
@@ -464,10 +461,9 @@ std::string find_misuse_of_table(const TableView& table, const GraphCommand& com
     return fmt::format("other options of the drawing cannot be used with --view {}", table.name);
   }
   const std::string format = format_of(command);
-  const std::vector<std::string> formats = table.formats();
-  if (std::find(formats.begin(), formats.end(), format) != formats.end()) return {};
-  return fmt::format("--view {} cannot be written as {}; expected {}", table.name, format,
-                     join_with_or(formats));
+  if (format == text_format || format == "json") return {};
+  return fmt::format("--view {} cannot be written as {}; expected text or json", table.name,
+                     format);
 }
 
 /// Says what is wrong with the format or the number of catalogs; empty if nothing is.
@@ -545,12 +541,9 @@ int write_table(const TableView& table, const GraphCommand& command) {
     return exit_unusable;
   }
   if (const auto obstacle = table.find_obstacle(*drawable->compiled)) return complain(*obstacle);
-  const std::string format = format_of(command);
   const Style style = output_of(command) == "-" ? style_for(stdout) : plain_style();
-  std::optional<std::string> content = table.write(*drawable->compiled, *settings, format, style);
-  const GraphFormat* const drawn = find_named(graph_formats(), format);
-  if (drawn != nullptr && drawn->is_by_graphviz) content = run_graphviz(*content, format);
-  return content ? write_output(output_of(command), *content) : exit_unusable;
+  return write_output(output_of(command),
+                      table.write(*drawable->compiled, *settings, format_of(command), style));
 }
 
 int draw_catalog(const GraphCommand& command) {
@@ -599,9 +592,10 @@ int run_graph(const GraphCommand& command) {
 void add_graph_command(Program& program) {
   std::vector<std::string> formats = names_in(graph_formats());
   const std::string format_help = fmt::format(
-      "{}, with --diff and tables also {} (default: by the suffix of OUT; without "
-      "one {}, of a table {})",
-      join_with_or(formats), text_format, formats.front(), text_format);
+      "{}, with --diff also {}; of a table text or json (default: by the suffix of OUT; without "
+      "one "
+      "{}, of a table text)",
+      join_with_or(formats), text_format, formats.front());
   formats.emplace_back(text_format);
   const auto options = std::make_shared<GraphCommand>();
   Command& command = program.add_command(

@@ -15,7 +15,6 @@
 #include "core/support/json.h"
 #include "core/support/wording.h"
 #include "graph/engine/diagram.h"
-#include "graph/report/palette.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
@@ -327,79 +326,6 @@ std::string situation_json(const CompiledCatalog& catalog) {
     });
     json.write("unconditional", table.unconditional());
   });
-}
-
-namespace {
-
-std::string_view color_of(Fit fit) {
-  switch (fit) {
-    case Fit::fits:
-      return palette::groups[1].fill;  // bluish green
-    case Fit::does_not_fit:
-      return palette::groups[0].fill;  // orange
-    case Fit::in_any:
-      break;
-  }
-  return palette::paper;
-}
-
-/// A text that the catalog gives.
-std::string html_label(std::string_view text) { return escape_html(draw::label_of(text)); }
-
-/// The rows and columns for DotTable.
-std::vector<std::string> matrix_of(const CompiledCatalog& catalog, const SituationTable& table) {
-  std::string variables = "<TD></TD>";
-  for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
-    variables +=
-        fmt::format("<TD COLSPAN=\"{}\"><B>{}</B></TD>", catalog.variables[variable].value_count,
-                    html_label(catalog.name_of_variable(variable)));
-  }
-  std::string titles = "<TD></TD>";
-  const std::vector<VariableValue> values = table.values();
-  for (const VariableValue value : values) {
-    titles += fmt::format("<TD>{}</TD>", html_label(catalog.name_of_value(value)));
-  }
-  std::vector<std::string> rows = {variables, titles};
-  for (const BehaviorId behavior : table.behaviors()) {
-    std::string& row =
-        rows.emplace_back(DotTable::name_cell(html_label(catalog.name_of_behavior(behavior))));
-    for (const VariableValue value : values) {
-      const Fit fit = table.fit(behavior, value);
-      row += DotTable::color_cell(color_of(fit), sign_of(fit));
-    }
-  }
-  return rows;
-}
-
-}  // namespace
-
-std::string situation_dot(const CompiledCatalog& catalog) {
-  const SituationTable table(catalog);
-  DotTable dot("situation", catalog, describe_size(catalog, table));
-  if (!table.behaviors().empty()) {
-    dot.add_matrix(3, matrix_of(catalog, table));
-    for (const std::string_view line : legend) dot.add_line(escape_html(line));
-  }
-  const std::vector<std::string> gaps = describe_gaps(catalog, table);
-  if (!gaps.empty()) dot.add_line(fmt::format("<B>{}</B>", gaps_title));
-  for (const std::string& line : gaps) dot.add_line(escape_html(line));
-  return std::move(dot).finish();
-}
-
-std::span<const SituationFormat> situation_formats() {
-  constexpr auto as_dot = [](const CompiledCatalog& catalog, const Style& /*style*/) {
-    return situation_dot(catalog);
-  };
-  static constexpr SituationFormat formats[] = {
-      {"text", situation_text},
-      {"json", [](const CompiledCatalog& catalog,
-                  const Style& /*style*/) { return situation_json(catalog); }},
-      {"dot", as_dot},
-      {"svg", as_dot},
-      {"png", as_dot},
-      {"pdf", as_dot},
-  };
-  return formats;
 }
 
 }  // namespace cbc

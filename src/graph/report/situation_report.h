@@ -1,9 +1,7 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "core/diagnostic/diagnostic.h"
 #include "runtime/compiled/compiled_catalog.h"
@@ -36,16 +34,5 @@ namespace cbc {
 ///
 /// Bytes of names that are no valid UTF-8 are replaced.
 [[nodiscard]] std::string situation_json(const CompiledCatalog& catalog);
-
-/// The table for Graphviz's program `dot`.
-[[nodiscard]] std::string situation_dot(const CompiledCatalog& catalog);
-
-/// A format of the table.
-struct SituationFormat {
-  std::string_view name;  ///< that of a format of graph_formats(), or "text"
-  std::string (*write)(const CompiledCatalog& catalog, const Style& style);
-};
-
-[[nodiscard]] std::span<const SituationFormat> situation_formats();
 
 }  // namespace cbc

@@ -15,7 +15,6 @@
 #include "core/support/json.h"
 #include "core/support/wording.h"
 #include "graph/engine/diagram.h"
-#include "graph/report/palette.h"
 #include "runtime/base/text.h"
 #include "runtime/coordinator/record.h"
 
@@ -236,83 +235,6 @@ std::string together_json(const CompiledCatalog& catalog, const TogetherTable& t
       json.close('}');
     });
   });
-}
-
-namespace {
-
-std::string_view color_of(const TaskPair& pair) {
-  if (pair.is_forbidden) return palette::groups[2].fill;  // reddish purple
-  switch (pair.together) {
-    case Together::possible:
-      return palette::groups[1].fill;  // bluish green
-    case Together::excluded:
-      return "#EEEEEE";
-    case Together::excluded_indirectly:
-      return palette::groups[0].fill;  // orange
-    case Together::excluded_in_each_situation:
-    case Together::excluded_by_situation:
-      return palette::groups[3].fill;  // yellow
-    case Together::undecided:
-      break;
-  }
-  return palette::paper;
-}
-
-/// The matrix for DotTable.
-std::vector<std::string> rows_of(const CompiledCatalog& catalog, const TogetherTable& table) {
-  const Matrix matrix(table);
-  std::vector<std::string> rows = {"<TD></TD>"};
-  for (std::size_t column = 0; column + 1 < matrix.size(); ++column) {
-    rows.front() += fmt::format("<TD>{}</TD>", column + 1);
-  }
-  for (std::size_t row = 0; row < matrix.size(); ++row) {
-    std::string& cells = rows.emplace_back(DotTable::name_cell(fmt::format(
-        "{} {}", row + 1, escape_html(draw::label_of(catalog.name_of_task(table.tasks[row]))))));
-    for (std::size_t column = 0; column < row; ++column) {
-      const TaskPair& pair = matrix.at(row, column);
-      cells += DotTable::color_cell(color_of(pair), sign_of(pair));
-    }
-  }
-  return rows;
-}
-
-}  // namespace
-
-std::string together_dot(const CompiledCatalog& catalog, const TogetherTable& table) {
-  DotTable dot("together", catalog, "which tasks can run together");
-  if (table.tasks.size() > 1) dot.add_matrix(2, rows_of(catalog, table));
-  if (table.is_of_all_tasks) dot.add_line(escape_html(size_of(table)));
-  for (const std::string& line : legend_of(table)) dot.add_line(escape_html(line));
-  if (!table.never_run.empty()) {
-    dot.add_line(escape_html("can never run: " + list_names(catalog, table.never_run)));
-  }
-  for_each_indirect(table, [&](const TaskPair& pair) {
-    std::string line =
-        fmt::format("<B>{}</B>", escape_html(list_names(catalog, {pair.first, pair.second})));
-    for (const std::string& reason : reasons_of(catalog, pair)) {
-      line += "<BR ALIGN=\"LEFT\"/>   " + escape_html(reason);
-    }
-    dot.add_line(line + "<BR ALIGN=\"LEFT\"/>");
-  });
-  return std::move(dot).finish();
-}
-
-std::span<const TogetherFormat> together_formats() {
-  using Compiled = const CompiledCatalog&;
-  using Table = const TogetherTable&;
-  constexpr auto as_dot = [](Compiled catalog, Table table, const Style& /*style*/) {
-    return together_dot(catalog, table);
-  };
-  static constexpr TogetherFormat formats[] = {
-      {"text", together_text},
-      {"json", [](Compiled catalog, Table table,
-                  const Style& /*style*/) { return together_json(catalog, table); }},
-      {"dot", as_dot},
-      {"svg", as_dot},
-      {"png", as_dot},
-      {"pdf", as_dot},
-  };
-  return formats;
 }
 
 }  // namespace cbc

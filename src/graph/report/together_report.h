@@ -1,8 +1,6 @@
 #pragma once
 
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "core/check/together.h"
 #include "core/diagnostic/diagnostic.h"
@@ -37,17 +35,5 @@ namespace cbc {
 ///
 /// Bytes of names that are no valid UTF-8 are replaced.
 [[nodiscard]] std::string together_json(const CompiledCatalog& catalog, const TogetherTable& table);
-
-/// The matrix as a table for Graphviz's program `dot`, with its signs, and the reasons below.
-[[nodiscard]] std::string together_dot(const CompiledCatalog& catalog, const TogetherTable& table);
-
-/// A format of the table.
-struct TogetherFormat {
-  std::string_view name;  ///< that of a format of graph_formats(), or "text"
-  std::string (*write)(const CompiledCatalog& catalog, const TogetherTable& table,
-                       const Style& style);
-};
-
-[[nodiscard]] std::span<const TogetherFormat> together_formats();
 
 }  // namespace cbc
