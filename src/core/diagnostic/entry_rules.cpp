@@ -258,8 +258,7 @@ const Rule confusable_name = {
     .explanation =
         "Two names differ only in upper and lower case, in what separates the words ('_', '-', "
         "'.', '/' or blanks), in characters that look alike (0 and O; 1, l and I; a Latin letter "
-        "and "
-        "what looks like it in other scripts, by the confusable characters of Unicode), or in "
+        "and a Cyrillic or Greek one that looks like it), or in "
         "characters that cannot be seen. To the coordinator they are different names, so it goes "
         "unnoticed where one stands in place of the other. A name with a character that cannot be "
         "seen is reported also if there is no other one.\n\n"
