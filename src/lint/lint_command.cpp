@@ -212,8 +212,9 @@ void add_lint_command(Program& program) {
                  fmt::format("{} (default: {})", join_with_or(formats), formats.front()));
   command
       .flag("--summary", options->summary,
-            "Show figures for each catalog: tasks, behaviors, constraints, groups, search space, "
-            "tasks that can run together; also for compiled catalogs")
+            "Show figures for each catalog: tasks, behaviors, constraints, groups, search space; "
+            "also "
+            "for compiled catalogs")
       .only_with_values("--format", {"text", "json"});
   command.flag("--fix", options->fix,
                "Fix in place what can be fixed without changing the meaning");

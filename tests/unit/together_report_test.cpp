@@ -124,21 +124,6 @@ TEST(TogetherText, OfNoTasks) {
             std::string(catalog.file) + "\n  0 tasks on request, 0 pairs\n");
 }
 
-/// Their pairs would take minutes and gigabytes.
-TEST(TogetherSummary, IsNotOfVeryManyTasks) {
-  const auto summary_of = [](std::size_t tasks) {
-    LintedFile file;
-    const CompiledCatalog catalog = many_tasks(tasks, "T");
-    file.summary = summarize(catalog);
-    file.together = summarize_together(catalog, LintOptions().max_nodes);
-    return lint_summary(file, plain_style());
-  };
-  EXPECT_NE(summary_of(10).find("pairs on request          45\n"), std::string::npos);
-  const std::string summary = summary_of(50'000);
-  EXPECT_TRUE(summary.ends_with("    pairs of more than 2000 tasks are not looked at\n"))
-      << summary;
-}
-
 /// Any task may be requested, so a catalog in which none waits for a request has its pairs, too.
 TEST(TogetherText, OfAllTasks) {
   const CompiledCatalog catalog = test::compile_text(R"(default_values:
@@ -159,10 +144,6 @@ exclusivity_constraints: [{mutually_exclusive: [A, C]}]
                 "  2 B +\n"
                 "  3 C -+\n");
   EXPECT_EQ(Json::parse(together_json(catalog, table_of(catalog)))["all_tasks"], true);
-  LintedFile file{"a.yaml", "", {}, summarize(catalog)};
-  file.together = summarize_together(catalog, LintOptions().max_nodes);
-  EXPECT_NE(lint_summary(file, plain_style()).find("  pairs of tasks             3\n"),
-            std::string::npos);
 }
 
 TEST(TogetherText, MarksWhatTheSettingsForbid) {
@@ -184,8 +165,6 @@ TEST(TogetherText, MarksWhatTheSettingsForbid) {
   EXPECT_EQ(json["forbidden"], 2);
   EXPECT_EQ(json["pairs"][0]["forbidden"], true);
   EXPECT_EQ(json["pairs"][1]["forbidden"], false);
-  const std::string dot = together_dot(catalog, table);
-  EXPECT_NE(dot.find("\">!</TD>"), std::string::npos) << dot;
 }
 
 TEST(TogetherTable, LeavesOpenWhatTakesTooLong) {
@@ -346,53 +325,6 @@ TEST(TogetherJson, HasAllPairs) {
   EXPECT_EQ(pair["reasons"][2]["behavior"], "FLY_LAND");
   EXPECT_EQ(json["pairs"][2]["together"], "excluded");
   EXPECT_EQ(json["pairs"][2]["reasons"][0]["line"], 21);
-}
-
-TEST(TogetherDot, EscapesNames) {
-  const CompiledCatalog catalog = test::compile_text(
-      "behaviors: [{behavior: a, task: 'A<&\"B>'}, {behavior: c, task: C}]\n"
-      "tasks: [{task: 'A<&\"B>'}, {task: C}]\n");
-  const std::string dot = together_dot(catalog, table_of(catalog));
-  EXPECT_NE(dot.find("1 A&lt;&amp;&quot;B&gt;"), std::string::npos) << dot;
-  EXPECT_NE(dot.find("\">+</TD>"), std::string::npos) << dot;
-}
-
-TEST(LintSummary, ListsTasksThatCanRunTogether) {
-  const CompiledCatalog catalog = robot();
-  LintedFile file{"a.yaml", "", {}, summarize(catalog)};
-  file.together = summarize_together(catalog, LintOptions().max_nodes);
-  const std::string text = lint_summary(file, plain_style());
-  EXPECT_EQ(text.substr(text.find("  pairs on request")),
-            "  pairs on request           6\n"
-            "    excluded by lists        1\n"
-            "    excluded otherwise       2\n"
-            "    can run together         3\n"
-            "    HOVER with BLINK\n"
-            "    BLINK with LAND, MOVE\n");
-}
-
-TEST(LintSummary, ListsTenTasksThatCanRunTogether) {
-  const CompiledCatalog catalog = many_tasks(14, "T");
-  LintedFile file{"a.yaml", "", {}, summarize(catalog)};
-  file.together = summarize_together(catalog, LintOptions().max_nodes);
-  const std::string text = lint_summary(file, plain_style());
-  EXPECT_NE(text.find("    T9 with T10, T11, T12, T13\n"
-                      "    and 3 more tasks ('cbc graph --view together' shows all)\n"),
-            std::string::npos)
-      << text;
-}
-
-TEST(LintJson, HasTasksThatCanRunTogether) {
-  const CompiledCatalog catalog = robot();
-  LintedFile file{"a.yaml", "", {}, summarize(catalog)};
-  EXPECT_FALSE(Json::parse(lint_json({file}))["files"][0]["summary"].contains("together"));
-  file.together = summarize_together(catalog, LintOptions().max_nodes);
-  EXPECT_EQ(Json::parse(lint_json({file}))["files"][0]["summary"]["together"], Json::parse(R"({
-    "all_tasks": false,
-    "tasks": ["HOVER", "BLINK", "LAND", "MOVE"], "never_run": ["SPIN"],
-    "possible": [["HOVER", "BLINK"], ["BLINK", "LAND"], ["BLINK", "MOVE"]],
-    "excluded": 1, "excluded_indirectly": 2, "excluded_in_each_situation": 0,
-    "excluded_by_situation": 0, "undecided": 0})"));
 }
 
 }  // namespace
