@@ -28,11 +28,6 @@ namespace cbc {
 /// The file that write_atomically would write, which need not exist: absolute, without links.
 [[nodiscard]] std::string target_of(const std::string& path);
 
-/// Removes what killed runs of these functions left behind in the folder of an output: files of
-/// this user with the names that they give to unfinished ones, older than an hour. Reads the
-/// folder.
-void remove_leftovers(const std::string& path);
-
 /// What a program made of a text.
 struct Filtered {
   bool is_found = false;     ///< the program could be started
