@@ -428,33 +428,6 @@ const Rule parameter_value = {
 )",
 };
 
-const Rule fault_of_active = {
-    .name = "fault-of-active",
-    .severity = Severity::note,
-    .is_of_scripts = true,
-    .summary = "A behavior becomes faulty while it is active, which does not stop it.",
-    .explanation =
-        "From a fault on, attempts to activate the behavior fail; where it is active, it goes on. "
-        "What is active at a place of a script is known only by running it, except where the "
-        "script says so itself: the expectation right before the fault has the behavior active. "
-        "There is no finding if the behavior finishes with a failure right after the fault.",
-    .example = R"(events:
-- start: ROTATE
-- expect: {running: {ROTATE: ROTATE_WITH_PID}}
-- fault: ROTATE_WITH_PID
-)",
-    .mending =
-        "If the behavior should stop, add 'finish: BEHAVIOR' with a cause such as process_failure "
-        "after the fault. If not, leave the script as it is; 'cbc solve' says the same.",
-    .mended = R"(events:
-- start: ROTATE
-- expect: {running: {ROTATE: ROTATE_WITH_PID}}
-- fault: ROTATE_WITH_PID
-- finish: ROTATE_WITH_PID
-  cause: process_failure
-)",
-};
-
 const Rule still_available = {
     .name = "still-available",
     .severity = Severity::warning,

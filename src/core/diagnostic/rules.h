@@ -58,7 +58,6 @@ struct Rule {
   RULE(duplicate_task)           \
   RULE(empty_range)              \
   RULE(exclusive_requirement)    \
-  RULE(fault_of_active)          \
   RULE(implicit_task)            \
   RULE(impossible_expectation)   \
   RULE(invalid_value)            \
