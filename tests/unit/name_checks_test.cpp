@@ -26,7 +26,7 @@ std::string findings(const std::vector<std::string>& names) {
 
 /// How two names that look alike differ.
 std::string look_alike(const std::string& name, const std::string& other) {
-  const std::string text = findings({name, other});
+  const std::string text = findings({other, name});
   const std::size_t colon = text.find("': ");
   return colon == std::string::npos ? "-" : text.substr(colon + 3, text.size() - colon - 4);
 }
