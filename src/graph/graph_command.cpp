@@ -32,8 +32,7 @@
 #include "graph/engine/diagram.h"
 #include "graph/engine/state_recorder.h"
 #include "graph/report/graph_report.h"
-#include "graph/report/situation_report.h"
-#include "graph/report/together_report.h"
+#include "graph/report/tables.h"
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "solve/solve.h"
@@ -386,7 +385,7 @@ constexpr std::string_view text_format = "text";
 struct TableView {
   std::string_view name;
   std::string_view answer;  ///< what it shows, after "it is not known"
-  /// Why there can be none, if so.
+  /// Why there can be none, if so; null: there always can.
   std::optional<std::string> (*find_obstacle)(const CompiledCatalog& catalog);
   /// `format` is text or json.
   std::string (*write)(const CompiledCatalog& catalog, const SeveritySettings& settings,
@@ -417,7 +416,7 @@ std::optional<std::string> find_too_many_tasks(const CompiledCatalog& catalog) {
 
 constexpr TableView table_views[] = {
     {"together", "which tasks can run together", find_too_many_tasks, write_table_of_pairs},
-    {"situation", "which behaviors fit", find_too_large_situation, write_situation_table},
+    {"situation", "which behaviors fit", nullptr, write_situation_table},
 };
 
 /// Null if it is a drawing.
@@ -540,7 +539,9 @@ int write_table(const TableView& table, const GraphCommand& command) {
              table.answer);
     return exit_unusable;
   }
-  if (const auto obstacle = table.find_obstacle(*drawable->compiled)) return complain(*obstacle);
+  if (table.find_obstacle != nullptr) {
+    if (const auto obstacle = table.find_obstacle(*drawable->compiled)) return complain(*obstacle);
+  }
   const Style style = output_of(command) == "-" ? style_for(stdout) : plain_style();
   return write_output(output_of(command),
                       table.write(*drawable->compiled, *settings, format_of(command), style));

@@ -14,7 +14,7 @@
 #include "core/files/output.h"
 #include "core/support/wording.h"
 #include "coverage/report/coverage_report.h"
-#include "page/serve/address.h"
+#include "page/serve/server.h"
 #include "runtime/base/text.h"
 #include "solve/solve.h"
 #include "sweep/report/sweep_report.h"

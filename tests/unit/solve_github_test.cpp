@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/support/memory_file.h"
+#include "core/support/system.h"
 #include "solve/report/solve_report.h"
 #include "unit/compiled_fixture.h"
 

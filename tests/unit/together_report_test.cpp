@@ -1,6 +1,4 @@
 // The table of tasks that can run together, as text, JSON and DOT.
-#include "graph/report/together_report.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -11,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/check/together.h"
+#include "graph/report/tables.h"
 #include "lint/report/lint_report.h"
 #include "unit/compiled_fixture.h"
 

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "core/check/situations.h"
 #include "core/check/together_search.h"
 
 namespace cbc {
