@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 constexpr const char* compile_examples =
     "  cbc compile robot.yaml                    writes robot.cbc\n"
     "  cbc compile --check robot.yaml            is robot.cbc up to date?\n"
-    "  cbc compile --dump robot.cbc              the contents of a compiled catalog\n"
+    "  cbc compile --dump robot.cbc              its contents, as JSON\n"
     "  cbc solve robot.cbc mission.yaml          uses it in place of the YAML\n";
 
 constexpr const char* compile_footer =
@@ -46,7 +46,6 @@ constexpr const char* compile_footer =
 struct CompileCommand {
   std::string catalog;
   std::optional<std::string> output;
-  std::string format;
   bool check = false;
   bool dump = false;
 };
@@ -179,7 +178,7 @@ std::optional<CompiledFile> read_for_dump(const std::string& path) {
 int dump(const CompileCommand& command) {
   const std::optional<CompiledFile> file = read_for_dump(command.catalog);
   if (!file) return exit_unusable;
-  fmt::print("{}", command.format == "json" ? catalog_json(*file) : catalog_text(*file));
+  fmt::print("{}", catalog_json(*file));
   return exit_ok;
 }
 
@@ -214,12 +213,9 @@ void add_compile_command(Program& program) {
       .not_with({"--output -"}, "it checks a file");
   command
       .flag("--dump", options->dump,
-            "Write nothing; list the contents of the catalog (YAML or compiled)")
+            "Write nothing; print the contents of the catalog (YAML or compiled) as JSON (schema "
+            "cbc.catalog/1)")
       .not_with({"--check"});
-  command
-      .option("--format", options->format, one_of("FORMAT", {"text", "json"}),
-              "With --dump: text (the default) or json")
-      .only_with({"--dump"});
   command.add_confinement();
   command.action([options] { return run_compile(*options); });
 }

@@ -14,7 +14,7 @@
 #include "core/command_line/command_line.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
-#include "core/script/writer.h"
+#include "core/script/script.h"
 #include "coverage/coverage.h"
 #include "coverage/engine/mutants/judge.h"
 #include "coverage/engine/mutants/mutants.h"

@@ -33,8 +33,7 @@
 #include "graph/engine/diagram.h"
 #include "graph/engine/state_recorder.h"
 #include "graph/report/graph_report.h"
-#include "graph/report/situation_report.h"
-#include "graph/report/together_report.h"
+#include "graph/report/tables.h"
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_catalog.h"
 
@@ -348,10 +347,9 @@ constexpr std::string_view text_format = "text";
 struct TableView {
   std::string_view name;
   std::string_view answer;  ///< what it shows, after "it is not known"
-  /// Why there can be none, if so.
+  /// Why there can be none, if so; null: there always can.
   std::optional<std::string> (*find_obstacle)(const CompiledCatalog& catalog);
-  std::vector<std::string> (*formats)();
-  /// `format` is one of these; of one by Graphviz, the input of `dot`.
+  /// `format` is text or json.
   std::string (*write)(const CompiledCatalog& catalog, const SeveritySettings& settings,
                        std::string_view format, const Style& style);
 };
@@ -359,15 +357,15 @@ struct TableView {
 std::string write_situation_table(const CompiledCatalog& catalog,
                                   const SeveritySettings& /*settings*/, std::string_view format,
                                   const Style& style) {
-  return find_named(situation_formats(), format)->write(catalog, style);
+  return format == "json" ? situation_json(catalog) : situation_text(catalog, style);
 }
 
 std::string write_table_of_pairs(const CompiledCatalog& catalog, const SeveritySettings& settings,
                                  std::string_view format, const Style& style) {
   TogetherOptions options;
   options.never_together = settings.never_together();
-  return find_named(together_formats(), format)
-      ->write(catalog, make_together_table(catalog, options), style);
+  const TogetherTable table = make_together_table(catalog, options);
+  return format == "json" ? together_json(catalog, table) : together_text(catalog, table, style);
 }
 
 std::optional<std::string> find_too_many_tasks(const CompiledCatalog& catalog) {
@@ -379,10 +377,8 @@ std::optional<std::string> find_too_many_tasks(const CompiledCatalog& catalog) {
 }
 
 constexpr TableView table_views[] = {
-    {"together", "which tasks can run together", find_too_many_tasks,
-     [] { return names_in(together_formats()); }, write_table_of_pairs},
-    {"situation", "which behaviors fit", find_too_large_situation,
-     [] { return names_in(situation_formats()); }, write_situation_table},
+    {"together", "which tasks can run together", find_too_many_tasks, write_table_of_pairs},
+    {"situation", "which behaviors fit", nullptr, write_situation_table},
 };
 
 /// Null if it is a drawing.
@@ -426,10 +422,9 @@ std::string find_misuse_of_table(const TableView& table, const GraphCommand& com
     return fmt::format("other options of the drawing cannot be used with --view {}", table.name);
   }
   const std::string format = format_of(command);
-  const std::vector<std::string> formats = table.formats();
-  if (std::find(formats.begin(), formats.end(), format) != formats.end()) return {};
-  return fmt::format("--view {} cannot be written as {}; expected {}", table.name, format,
-                     join_with_or(formats));
+  if (format == text_format || format == "json") return {};
+  return fmt::format("--view {} cannot be written as {}; expected text or json", table.name,
+                     format);
 }
 
 /// Says what is wrong with the format or the number of catalogs; empty if nothing is.
@@ -506,13 +501,12 @@ int write_table(const TableView& table, const GraphCommand& command) {
              table.answer);
     return exit_unusable;
   }
-  if (const auto obstacle = table.find_obstacle(*drawable->compiled)) return complain(*obstacle);
-  const std::string format = format_of(command);
-  const Style style = style_for(output_of(command));
-  std::optional<std::string> content = table.write(*drawable->compiled, *settings, format, style);
-  const GraphFormat* const drawn = find_named(graph_formats(), format);
-  if (drawn != nullptr && drawn->is_by_graphviz) content = run_graphviz(*content, format);
-  return content ? write_output(output_of(command), *content) : exit_unusable;
+  if (table.find_obstacle != nullptr) {
+    if (const auto obstacle = table.find_obstacle(*drawable->compiled)) return complain(*obstacle);
+  }
+  const Style style = output_of(command) == "-" ? style_for(stdout) : plain_style();
+  return write_output(output_of(command),
+                      table.write(*drawable->compiled, *settings, format_of(command), style));
 }
 
 int draw_catalog(const GraphCommand& command) {

@@ -123,11 +123,7 @@ void Linter::take_compiled(const CatalogInput& input) {
   const auto catalog = std::make_shared<const CompiledCatalog>(std::move(file->catalog));
   catalogs_.keep(input.path, catalog);
   if (command_.summary) {
-    files_.push_back({name_of(input.path),
-                      {},
-                      {},
-                      summarize(*catalog),
-                      summarize_together(*catalog, command_.max_nodes)});
+    files_.push_back({name_of(input.path), {}, {}, summarize(*catalog)});
   }
 }
 
@@ -170,9 +166,6 @@ Linter::Linted Linter::lint_text(const std::string& name, std::string text,
                                          LintOptions{command_.max_nodes}, std::move(diagnostics));
   if (checked.compiled) {
     linted.file.summary = summarize(*checked.compiled);
-    if (command_.summary) {
-      linted.file.together = summarize_together(*checked.compiled, command_.max_nodes);
-    }
     linted.compiled = std::make_shared<const CompiledCatalog>(std::move(*checked.compiled));
   }
   linted.catalog = std::move(checked.reading.catalog);

@@ -13,7 +13,6 @@
 #include "core/report/catalog_json.h"
 #include "core/script/event_lines.h"
 #include "core/support/json.h"
-#include "page/stream_page.h"
 #include "page_files.h"
 
 namespace cbc {

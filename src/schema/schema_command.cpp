@@ -11,7 +11,6 @@
 
 #include "commands.h"
 #include "core/command_line/command_line.h"
-#include "core/command_line/embedded_file.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/files/input.h"
 #include "core/files/output.h"

@@ -21,7 +21,6 @@
 #include "core/script/runner.h"
 #include "core/yaml/document.h"
 #include "page/html_report.h"
-#include "page/stream_page.h"
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/state.h"

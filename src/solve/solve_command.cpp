@@ -13,7 +13,7 @@
 #include "core/files/input.h"
 #include "core/files/output.h"
 #include "core/support/wording.h"
-#include "page/serve/address.h"
+#include "page/serve/server.h"
 #include "runtime/base/text.h"
 #include "solve/report/solve_report.h"
 #include "solve/solve.h"

@@ -18,7 +18,7 @@
 #include "core/files/read_files.h"
 #include "core/report/run_report.h"
 #include "core/script/runner.h"
-#include "core/support/memory_file.h"
+#include "core/support/system.h"
 #include "core/support/wording.h"
 #include "page/html_report.h"
 #include "runtime/base/text.h"

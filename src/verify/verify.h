@@ -27,7 +27,6 @@ struct VerifyOptions {
   std::vector<std::string> cut_sets;  ///< names of tasks
   std::uint32_t order = 2;
   std::vector<std::string> situation;  ///< KEY=VALUE
-  std::optional<std::string> open_psa;
 };
 
 /// What a command line asks about, checked before anything is explored.

@@ -44,10 +44,6 @@ int run_verify(const VerifyOptions& options) {
   if (options.paths.empty()) {
     return usage_error("verify", "expected a catalog or a property file");
   }
-  if (options.open_psa && options.cut_sets.size() != 1) {
-    return usage_error("verify", "--open-psa takes one --cut-sets, found {}",
-                       options.cut_sets.size());
-  }
   return verify(options);
 }
 
@@ -96,10 +92,6 @@ void add_verify_command(Program& program) {
       .only_with({"--cut-sets"});
   command
       .option("--situation", options->situation, situation_entry(), "In this situation; repeatable")
-      .only_with({"--cut-sets"});
-  command
-      .option("--open-psa", options->open_psa, further_output("FILE"),
-              "Also write the fault tree as XML (Open-PSA)")
       .only_with({"--cut-sets"});
 
   command.moved({"--write-tests"}, "'cbc coverage --write-missing'");

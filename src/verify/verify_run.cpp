@@ -15,11 +15,10 @@
 #include "core/command_line/command_line.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
+#include "core/report/sentences.h"
 #include "core/support/system.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
-#include "verify/engine/fault_tree.h"
-#include "verify/report/open_psa.h"
 #include "verify/report/verify_report.h"
 #include "verify/verify.h"
 
@@ -104,9 +103,7 @@ ExplorationLimits limits_of(const StateLimits& limits) {
 int prepare_outputs(const VerifyOptions& options) {
   std::vector<std::string> outputs;
   if (options.output != "-") outputs.push_back(options.output);
-  for (const auto& output : {options.html, options.open_psa}) {
-    if (output) outputs.push_back(*output);
-  }
+  if (options.html) outputs.push_back(*options.html);
   for (const std::string& output : outputs) {
     if (!can_write_output(output)) return exit_unusable;
   }
@@ -131,7 +128,7 @@ class Call {
     if (const int status = check(); status != exit_ok) return status;
     explore();
     if (const std::string error = first_error(); !error.empty()) return complain(error);
-    if (const int status = find_cut_sets(); status != exit_ok) return status;
+    find_cut_sets();
     if (const int status = replay_scripts(); status != exit_ok) return status;
     if (const int status = compare(); status != exit_ok) return status;
     return report();
@@ -303,7 +300,7 @@ class Call {
     return {};
   }
 
-  int find_cut_sets() {
+  void find_cut_sets() {
     const std::vector<bool> ruled_out = ruled_out_by(catalog_, situation_);
     for (const TaskId task : cut_tasks_) {
       result_.cut_sets.push_back(cut_sets_of(task, options_.order, ruled_out, Clock::now()));
@@ -318,12 +315,6 @@ class Call {
         result_.single_faults.push_back(cut_sets_of(task, 1, ruled_out, begin));
       }
     }
-    if (!options_.open_psa) return exit_ok;
-    const auto tree = make_fault_tree(catalog_, cut_tasks_.front(), ruled_out);
-    if (const auto* const reason = std::get_if<std::string>(&tree)) {
-      return complain("cannot write {}: {}", quote(*options_.open_psa), *reason);
-    }
-    return write_output(*options_.open_psa, open_psa_text(catalog_, std::get<FaultTree>(tree)));
   }
 
   /// `begin`: since when the time limit counts.

@@ -33,7 +33,7 @@ TEST(LintText, SaysThatThereIsNothing) {
   std::vector<LintedFile> files;
   for (const Kind kind : {Kind::unknown, Kind::settings, Kind::script, Kind::properties,
                           Kind::catalog, Kind::script}) {
-    files.push_back({"a.yaml", "", {}, {}, {}, kind});
+    files.push_back({"a.yaml", "", {}, {}, kind});
   }
   EXPECT_EQ(plain(files),
             "no findings in 1 catalog, 2 scripts, 1 property file, 1 settings file, 1 file\n");

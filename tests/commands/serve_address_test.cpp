@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "page/serve/address.h"
+#include "page/serve/server.h"
 
 namespace cbc::serve::serve_address_test {
 namespace {

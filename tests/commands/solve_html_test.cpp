@@ -8,7 +8,7 @@
 #include "core/report/run_json.h"
 #include "core/report/run_report.h"
 #include "core/script/reader.h"
-#include "core/support/memory_file.h"
+#include "core/support/system.h"
 #include "page/html_report.h"
 #include "unit/compiled_fixture.h"
 #include "unit/findings.h"

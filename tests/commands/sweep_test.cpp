@@ -15,7 +15,7 @@
 #include "core/report/event_json.h"
 #include "core/script/reader.h"
 #include "core/script/runner.h"
-#include "core/script/writer.h"
+#include "core/script/script.h"
 #include "support/read_file.h"
 #include "sweep/engine/sequence.h"
 #include "sweep/report/sweep_report.h"

@@ -1,6 +1,4 @@
 // The table of tasks that can run together, where it is large, limited or hostile.
-#include "graph/report/together_report.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -10,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/check/together.h"
+#include "graph/report/tables.h"
 #include "lint/report/lint_report.h"
 #include "unit/compiled_fixture.h"
 
@@ -57,21 +56,6 @@ TEST(TogetherText, FitsIntoEightyColumns) {
   EXPECT_EQ(std::count(hundred.begin(), hundred.end(), '+'), 1 + 100 * 99 / 2);
 }
 
-/// Their pairs would take minutes and gigabytes.
-TEST(TogetherSummary, IsNotOfVeryManyTasks) {
-  const auto summary_of = [](std::size_t tasks) {
-    LintedFile file;
-    const CompiledCatalog catalog = many_tasks(tasks, "T");
-    file.summary = summarize(catalog);
-    file.together = summarize_together(catalog, LintOptions().max_nodes);
-    return lint_summary(file, plain_style());
-  };
-  EXPECT_NE(summary_of(10).find("pairs on request          45\n"), std::string::npos);
-  const std::string summary = summary_of(50'000);
-  EXPECT_TRUE(summary.ends_with("    pairs of more than 2000 tasks are not looked at\n"))
-      << summary;
-}
-
 TEST(TogetherTable, LeavesOpenWhatTakesTooLong) {
   // Of two neighboring sensors at most one is on.
   const CompiledCatalog catalog = test::compile_text(R"(default_values:
@@ -113,74 +97,6 @@ exclusivity_constraints:
   EXPECT_NE(together_text(catalog, limited, plain_style())
                 .find("? not decided: there is too much to search: 1\n"),
             std::string::npos);
-}
-
-TEST(TogetherDot, EscapesNames) {
-  const CompiledCatalog catalog = test::compile_text(
-      "behaviors: [{behavior: a, task: 'A<&\"B>'}, {behavior: c, task: C}]\n"
-      "tasks: [{task: 'A<&\"B>'}, {task: C}]\n");
-  const std::string dot = together_dot(catalog, table_of(catalog));
-  EXPECT_NE(dot.find("1 A&lt;&amp;&quot;B&gt;"), std::string::npos) << dot;
-  EXPECT_NE(dot.find("\">+</TD>"), std::string::npos) << dot;
-}
-
-TEST(LintSummary, ListsTenTasksThatCanRunTogether) {
-  const CompiledCatalog catalog = many_tasks(14, "T");
-  LintedFile file{"a.yaml", "", {}, summarize(catalog)};
-  file.together = summarize_together(catalog, LintOptions().max_nodes);
-  const std::string text = lint_summary(file, plain_style());
-  EXPECT_NE(text.find("    T9 with T10, T11, T12, T13\n"
-                      "    and 3 more tasks ('cbc graph --view together' shows all)\n"),
-            std::string::npos)
-      << text;
-}
-
-/// Any task may be requested where none waits for a request.
-TEST(LintSummary, CountsPairsOfAllTasks) {
-  const CompiledCatalog catalog = test::compile_text(R"(default_values:
-  tasks: {start_on_request: FALSE}
-behaviors: [{behavior: a, task: A}, {behavior: b, task: B}, {behavior: c, task: C}]
-)");
-  LintedFile file{"a.yaml", "", {}, summarize(catalog)};
-  file.together = summarize_together(catalog, LintOptions().max_nodes);
-  EXPECT_NE(lint_summary(file, plain_style()).find("  pairs of tasks             3\n"),
-            std::string::npos);
-}
-
-TEST(LintJson, HasTasksThatCanRunTogether) {
-  const CompiledCatalog catalog = test::compile_text(R"(default_values:
-  tasks: {execution_goal: keep_running}
-behaviors:
-- {behavior: HOVER_WITH_PID, task: HOVER, requires: [{task: PID}]}
-- {behavior: FLY_LAND, task: LAND, requires: [{task: DF}]}
-- {behavior: PID_CONTROLLER, task: PID}
-- {behavior: DF_CONTROLLER, task: DF}
-- {behavior: BLINK, task: BLINK}
-- {behavior: MOVE, task: MOVE, requires: [{task: PID}]}
-- {behavior: SPIN, task: SPIN, requires: [{task: PID}, {task: DF}]}
-tasks:
-- task: HOVER
-- task: BLINK
-- task: LAND
-- task: MOVE
-- task: SPIN
-- {task: PID, start_on_request: FALSE}
-- {task: DF, start_on_request: FALSE}
-exclusivity_constraints:
-- mutually_exclusive: [PID, DF]
-- mutually_exclusive: [HOVER, MOVE]
-)");
-  LintedFile file{"a.yaml", "", {}, summarize(catalog)};
-  EXPECT_FALSE(
-      nlohmann::json::parse(lint_json({file}))["files"][0]["summary"].contains("together"));
-  file.together = summarize_together(catalog, LintOptions().max_nodes);
-  EXPECT_EQ(nlohmann::json::parse(lint_json({file}))["files"][0]["summary"]["together"],
-            nlohmann::json::parse(R"({
-    "all_tasks": false,
-    "tasks": ["HOVER", "BLINK", "LAND", "MOVE"], "never_run": ["SPIN"],
-    "possible": [["HOVER", "BLINK"], ["BLINK", "LAND"], ["BLINK", "MOVE"]],
-    "excluded": 1, "excluded_indirectly": 2, "excluded_in_each_situation": 0,
-    "excluded_by_situation": 0, "undecided": 0})"));
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ COMMANDS = [
         ".cbc/settings.json")), replaces=False),
     Command("verify", "verify robot.properties.yaml -j 1 --format json -o result.json --html page.html --scripts scripts",
             ("result.json", "page.html", "scripts/robot.2.mission.yaml"), status=1),
-    Command("cut_sets", "verify robot.yaml -j 1 --cut-sets DRIVE --open-psa tree.xml", ("tree.xml",)),
+    Command("cut_sets", "verify robot.yaml -j 1 --cut-sets DRIVE -o sets.txt", ("sets.txt",)),
 ]
 
 

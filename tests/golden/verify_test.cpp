@@ -97,20 +97,6 @@ TEST_F(Verify, DrawsAPageWithoutCounterexamples) {
   EXPECT_NE(page.find(R"(,"run":null}])"), std::string::npos);
 }
 
-TEST_F(Verify, WritesAFaultTree) {
-  const Result alone = verify({catalog, "--cut-sets", "FOLLOW_PATH"});
-  const Result result =
-      verify({catalog, "--cut-sets", "FOLLOW_PATH", "--open-psa", scratch / "tree.xml"});
-  EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.out, alone.out);
-  const std::string tree = scratch.read("tree.xml");
-  EXPECT_NE(tree.find("<opsa-mef>"), std::string::npos);
-  EXPECT_NE(tree.find("CAMERA is faulty"), std::string::npos);
-  static_cast<void>(verify({catalog, "--cut-sets", "FOLLOW_PATH", "--situation", "LIGHT=dark",
-                            "--open-psa", scratch / "tree.xml"}));
-  EXPECT_EQ(scratch.read("tree.xml").find("CAMERA is faulty"), std::string::npos);
-}
-
 TEST_F(Verify, WritesItsReportToAFile) {
   for (const char* const format : {"text", "json", "junit", "github"}) {
     const Result shown = verify({properties, "--format", format});

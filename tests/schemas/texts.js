@@ -133,7 +133,7 @@ const swept = new Set([
 
 /** What the program makes of a catalog, and of the scripts that belong to it. */
 function* textsOfCatalog(runs, file) {
-  const [dump] = runs.labelled('compile', '--dump', '--format', 'json', file);
+  const [dump] = runs.labelled('compile', '--dump', file);
   if (dump === undefined) return; // it has errors
   yield dump;
   const folder = path.dirname(file);

@@ -11,7 +11,6 @@
 
 #include "core/catalog/reader.h"
 #include "core/check/controls.h"
-#include "core/check/together.h"
 #include "core/compile/compile.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/yaml/document.h"
@@ -44,6 +43,10 @@ struct LintResult {
 [[nodiscard]] LintResult lint_catalog(const yaml::Document& document, const LintOptions& options,
                                       Diagnostics& diagnostics);
 
+/// Reports names that are easily taken for one another. A task may have the name of a behavior, so
+/// the two are not compared. Events of the situation name behaviors and variables alike.
+void check_names(const Catalog& catalog, Reporter& reporter);
+
 /// A catalog, checked under the control of its comments and of settings.
 struct CheckedCatalog {
   CatalogReading reading;
@@ -62,12 +65,11 @@ struct CheckedCatalog {
 struct LintedFile {
   /// What the file is. `unknown`: it is not valid YAML.
   enum class Kind : std::uint8_t { catalog, script, properties, settings, unknown };
-  std::string file;                              ///< name in messages
-  std::string text;                              ///< as it was read
-  std::vector<Diagnostic> findings;              ///< in the order of Diagnostics::sort
-  std::optional<CatalogSummary> summary;         ///< of a catalog that was understood
-  std::optional<TogetherSummary> together = {};  ///< the same, if it was asked for
-  Kind kind = Kind::catalog;                     ///< only a catalog has a summary
+  std::string file;                       ///< name in messages
+  std::string text;                       ///< as it was read
+  std::vector<Diagnostic> findings;       ///< in the order of Diagnostics::sort
+  std::optional<CatalogSummary> summary;  ///< of a catalog that was understood
+  Kind kind = Kind::catalog;              ///< only a catalog has a summary
 };
 
 /// Number of findings of a severity in a file, in all files.

@@ -20,6 +20,12 @@
 /// command line, and completion all follow from the declarations.
 namespace cbc::cli {
 
+/// A file of the source tree that is part of the program; embed_files.cmake makes tables of them.
+struct EmbeddedFile {
+  std::string_view name;  ///< its path in its folder
+  std::string_view text;
+};
+
 /// What completion offers for a value.
 enum class ValueKind : std::uint8_t {
   text,               ///< its choices or names, if it has any

@@ -86,7 +86,7 @@ std::string describe_finding(const Diagnostic& finding) {
 std::string unreadable_suite(const std::string& file, const std::string& message,
                              const std::string& text) {
   return open_suite(file, 1, 0, 1, 0) +
-         broken_case("can be read", file, junit_problem("error", "input", message, details)) +
+         broken_case("can be read", file, junit_problem("error", "input", message, text)) +
          close_suite();
 }
 

@@ -9,7 +9,6 @@
 #include "cbc/event.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
-#include "core/script/names.h"
 #include "core/script/reader.h"
 #include "core/support/json.h"
 #include "core/yaml/document.h"
@@ -204,8 +203,7 @@ constexpr std::string_view state_schema = "cbc.state/1";
 
 class StateReader {
  public:
-  StateReader(const Node& root, const CompiledCatalog& catalog)
-      : root_(root), catalog_(catalog), situation_(catalog) {}
+  StateReader(const Node& root, const CompiledCatalog& catalog) : root_(root), catalog_(catalog) {}
 
   [[nodiscard]] Snapshot read() {
     if (const std::string schema = root_["schema"].text(); schema != state_schema) {
@@ -268,11 +266,11 @@ class StateReader {
   }
 
   void read_variable(const JsonValue& value) {
-    const auto variable = situation_.find_variable(value.name());
+    const auto variable = catalog_.find_variable(value.name());
     if (!variable) throw JsonFault("there is no situation variable " + quote(value.name()));
     const bool is_boolean = catalog_.variables[*variable].is_boolean != 0;
     const std::string text = !is_boolean ? value.text() : value.truth() ? "true" : "false";
-    const auto place = situation_.find_value(*variable, text);
+    const auto place = catalog_.find_value(*variable, text);
     if (!place) {
       throw JsonFault("situation variable " + quote(value.name()) + " has no value " + quote(text));
     }
@@ -301,7 +299,6 @@ class StateReader {
 
   const JsonValue root_;
   const CompiledCatalog& catalog_;
-  SituationNames situation_;
   Snapshot out_;
 };
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/script/expected_values.h"
+#include "core/script/expectation.h"
 #include "runtime/base/text.h"
 
 namespace cbc {

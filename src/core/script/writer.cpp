@@ -1,11 +1,10 @@
-#include "core/script/writer.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <sstream>
 
 #include <fmt/format.h>
 
+#include "core/script/script.h"
 #include "core/support/json.h"
 #include "runtime/base/text.h"
 #include "runtime/coordinator/record.h"

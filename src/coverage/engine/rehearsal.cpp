@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/script/runner.h"
-#include "core/script/writer.h"
+#include "core/script/script.h"
 #include "coverage/engine/goal_watch.h"
 #include "verify/engine/witness.h"
 

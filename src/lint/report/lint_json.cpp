@@ -49,28 +49,7 @@ void write_finding(JsonWriter& json, const Diagnostic& finding) {
   json.close('}');
 }
 
-/// The tasks that start on request, and which of them can run together.
-void write_together(JsonWriter& json, const TogetherSummary& together) {
-  json.open("together", '{');
-  json.write("all_tasks", together.is_of_all_tasks);
-  json.write_list("tasks", together.tasks);
-  json.write_list("never_run", together.never_run);
-  json.write_list("possible", together.possible, [&](const auto& pair) {
-    json.open('[');
-    json.write(pair.first);
-    json.write(pair.second);
-    json.close(']');
-  });
-  json.write_members({{"excluded", together.excluded},
-                      {"excluded_indirectly", together.excluded_indirectly},
-                      {"excluded_in_each_situation", together.excluded_in_each_situation},
-                      {"excluded_by_situation", together.excluded_by_situation},
-                      {"undecided", together.undecided}});
-  json.close('}');
-}
-
-void write_summary(JsonWriter& json, const CatalogSummary& summary,
-                   const std::optional<TogetherSummary>& together) {
+void write_summary(JsonWriter& json, const CatalogSummary& summary) {
   json.open("summary", '{');
   json.write_members({{"tasks", summary.total.tasks}, {"behaviors", summary.total.behaviors}});
   write_constraints(json, summary.total.constraints);
@@ -81,7 +60,6 @@ void write_summary(JsonWriter& json, const CatalogSummary& summary,
     json.close('}');
   });
   json.write("search_space", summary.total.search_space);
-  if (together) write_together(json, *together);
   json.close('}');
 }
 
@@ -91,7 +69,7 @@ void write_file(JsonWriter& json, const LintedFile& file) {
   json.write_list("diagnostics", file.findings,
                   [&](const Diagnostic& finding) { write_finding(json, finding); });
   if (file.summary) {
-    write_summary(json, *file.summary, file.together);
+    write_summary(json, *file.summary);
   } else {
     json.write("summary", nullptr);
   }

@@ -211,38 +211,6 @@ void add_groups(Table& table, const std::vector<CatalogNumbers>& groups) {
   }
 }
 
-/// The pairs of tasks on request, and which of them can run together: for each task the later ones
-/// that it can run with.
-void add_together(Table& table, const TogetherSummary& together) {
-  constexpr std::size_t most_tasks = 10;
-  const std::size_t by_situation =
-      together.excluded_in_each_situation + together.excluded_by_situation;
-  const std::size_t excluded = together.excluded + together.excluded_indirectly + by_situation;
-  const std::size_t pairs = together.possible.size() + excluded + together.undecided;
-  if (pairs == 0) return;
-  table.add(together.is_of_all_tasks ? "pairs of tasks" : "pairs on request", pairs);
-  table.add("  excluded by lists", together.excluded);
-  table.add("  excluded otherwise", together.excluded_indirectly);
-  if (by_situation > 0) table.add("  by their situation", by_situation);
-  if (together.undecided > 0) table.add("  undecided", together.undecided);
-  table.add("  can run together", together.possible.size());
-  std::size_t tasks = 0;
-  for (auto pair = together.possible.begin(); pair != together.possible.end();) {
-    const std::string& first = pair->first;
-    std::vector<std::string> others;
-    for (; pair != together.possible.end() && pair->first == first; ++pair) {
-      others.push_back(pair->second);
-    }
-    if (++tasks > most_tasks) continue;
-    const Cut name = cut_name(first);
-    table.add_line(fmt::format("{} with {}", name.text, list_names(others, name.columns)));
-  }
-  if (tasks > most_tasks) {
-    table.add_line(fmt::format("and {} ('cbc graph --view together' shows all)",
-                               quantity(tasks - most_tasks, "more task")));
-  }
-}
-
 }  // namespace
 
 std::string lint_summary(const LintedFile& file, const Style& style) {
@@ -258,12 +226,6 @@ std::string lint_summary(const LintedFile& file, const Style& style) {
   table.add("  task minimums", total.constraints.task_minimums);
   add_groups(table, file.summary->groups);
   table.add("search space", describe_search_space(total.search_space));
-  if (file.together) {
-    add_together(table, *file.together);
-  } else if (total.tasks > most_tasks_in_pairs) {
-    table.add_line(
-        fmt::format("pairs of more than {} tasks are not looked at", most_tasks_in_pairs));
-  }
   return name + "\n" + table.text();
 }
 

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "core/script/names.h"
 #include "runtime/base/disjoint_sets.h"
 #include "runtime/base/text.h"
 #include "runtime/coordinator/record.h"
@@ -35,14 +34,13 @@ struct Translation {
       const auto found = to.find_behavior(from.name_of_behavior(behavior));
       behaviors.push_back(found ? to.behavior_ids[*found] : none);
     }
-    SituationNames names(to);
     for (std::uint32_t variable = 0; variable < from.variables.size(); ++variable) {
-      const auto found = names.find_variable(from.name_of_variable(variable));
+      const auto found = to.find_variable(from.name_of_variable(variable));
       variables.push_back(found.value_or(none));
       auto& of_variable = values.emplace_back(from.variables[variable].value_count, none);
       for (std::uint32_t value = 0; found && value < of_variable.size(); ++value) {
         of_variable[value] =
-            names.find_value(*found, from.name_of_value({variable, value})).value_or(none);
+            to.find_value(*found, from.name_of_value({variable, value})).value_or(none);
       }
     }
   }

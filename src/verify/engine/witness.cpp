@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/script/writer.h"
+#include "core/script/script.h"
 #include "runtime/base/text.h"
 #include "verify/engine/model.h"
 #include "verify/engine/stepper.h"

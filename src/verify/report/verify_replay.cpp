@@ -4,7 +4,7 @@
 #include "core/report/failure_story.h"
 #include "core/report/run_text.h"
 #include "core/support/json.h"
-#include "core/support/memory_file.h"
+#include "core/support/system.h"
 #include "runtime/coordinator/record.h"
 #include "verify/report/verify_report.h"
 

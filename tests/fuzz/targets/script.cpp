@@ -7,7 +7,7 @@
 #include "core/report/run_report.h"
 #include "core/script/reader.h"
 #include "core/script/runner.h"
-#include "core/support/memory_file.h"
+#include "core/support/system.h"
 #include "core/yaml/document.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/program.h"

@@ -7,7 +7,7 @@
 #include "core/diagnostic/diagnostic.h"
 #include "core/script/reader.h"
 #include "core/script/runner.h"
-#include "core/script/writer.h"
+#include "core/script/script.h"
 #include "core/yaml/document.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/record.h"
