@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "runtime/solver/checker.h"
-#include "runtime/solver/nogoods.h"
 #include "runtime/solver/solver.h"
+#include "runtime/solver/trail.h"
 #include "support/rounds.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
