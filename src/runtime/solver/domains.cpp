@@ -4,6 +4,14 @@
 #include <bit>
 
 namespace cbc {
+namespace {
+
+/// Most changes are of one bit, and std::popcount may be the call of a function.
+std::uint32_t count_bits(std::uint64_t word) {
+  return (word & (word - 1)) == 0 ? 1 : static_cast<std::uint32_t>(std::popcount(word));
+}
+
+}  // namespace
 
 Domains::Domains(const CompiledCatalog& catalog)
     : Domains(catalog, most_in_a_group(catalog.group_tasks), most_values_in_a_group(catalog)) {}
@@ -121,7 +129,7 @@ bool Domains::narrow(std::uint32_t task, std::uint32_t word, std::uint64_t after
   TaskState& state = tasks_[task];
   trail_.push_back({task, word, before});
   words_[word] = after;
-  state.count -= static_cast<std::uint32_t>(std::popcount(before ^ after));
+  state.count -= count_bits(before ^ after);
   if (state.count == 0) {
     note_change(task);
     return state.may_stop;
@@ -145,9 +153,11 @@ void Domains::undo_to(const Mark& mark) {
     if (change.word == none) {
       state.may_stop = true;
     } else {
-      state.count += static_cast<std::uint32_t>(std::popcount(words_[change.word] ^ change.before));
+      const std::uint32_t first = 64 * (change.word - state.word) +
+                                  static_cast<std::uint32_t>(std::countr_zero(change.before));
+      if (state.count == 0 || first < state.best) state.best = first;
+      state.count += count_bits(words_[change.word] ^ change.before);
       words_[change.word] = change.before;
-      find_best(state);
     }
     trail_.pop_back();
   }
