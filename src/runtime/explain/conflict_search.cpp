@@ -89,8 +89,7 @@ bool RelaxedTrail::follow_running(std::uint32_t task) {
   effort_ += exclusions.size();
   for (const std::uint32_t index : exclusions) {
     const Reason& reason = constraints_[index];
-    const bool is_first = reason.task == first_task_ + task;
-    const TaskId rival = is_first ? reason.other_task : reason.task;
+    const TaskId rival = reason.task == first_task_ + task ? reason.other_task : reason.task;
     const Cause cause{Cause::Kind::literal, runs(task), index};
     if (!imply(negate(runs(rival - first_task_)), cause)) return false;
   }
@@ -202,18 +201,13 @@ bool ConflictSearch::begin(std::span<const Reason> reasons) {
 }
 
 bool ConflictSearch::demand(const Demand& demand) {
+  using Kind = Demand::Kind;
   const std::uint32_t task = demand.task - first_task_;
-  switch (demand.kind) {
-    case Demand::Kind::run:
-      return trail_.imply(Trail::runs(task), {});
-    case Demand::Kind::stop:
-      return trail_.imply(negate(Trail::runs(task)), {});
-    case Demand::Kind::has:
-      return trail_.imply(trail_.has_value(task, demand.value_index), {});
-    case Demand::Kind::has_not:
-      return trail_.imply(negate(trail_.has_value(task, demand.value_index)), {});
-  }
-  return true;
+  const bool is_about_running = demand.kind == Kind::run || demand.kind == Kind::stop;
+  const bool is_ruled_out = demand.kind == Kind::stop || demand.kind == Kind::has_not;
+  const Literal literal =
+      is_about_running ? Trail::runs(task) : trail_.has_value(task, demand.value_index);
+  return trail_.imply(is_ruled_out ? negate(literal) : literal, {});
 }
 
 /// Sorts out the reasons that the trail does not propagate.
@@ -221,16 +215,11 @@ void ConflictSearch::sort(std::span<const Reason> reasons) {
   performances_.clear();
   state_.clear();
   for (std::uint32_t index = 0; index < reasons.size(); ++index) {
-    switch (reasons[index].kind) {
-      case Reason::Kind::exclusive:
-      case Reason::Kind::requires_task:
-        break;
-      case Reason::Kind::performance:
-        performances_.push_back(index);
-        break;
-      default:
-        state_.push_back(index);
-        break;
+    const Reason::Kind kind = reasons[index].kind;
+    if (kind == Reason::Kind::performance) {
+      performances_.push_back(index);
+    } else if (kind != Reason::Kind::exclusive && kind != Reason::Kind::requires_task) {
+      state_.push_back(index);
     }
   }
   std::stable_sort(state_.begin(), state_.end(), [&](std::uint32_t a, std::uint32_t b) {
