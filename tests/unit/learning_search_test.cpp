@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "runtime/solver/checker.h"
-#include "runtime/solver/nogoods.h"
 #include "runtime/solver/solver.h"
+#include "runtime/solver/trail.h"
 #include "support/rounds.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
@@ -209,8 +209,9 @@ TEST(Nogoods, ForgetThoseUsedLeast) {
   EXPECT_EQ(nogoods.literals(2)[0], 1U) << "few levels";
   const auto count_implied_by = [&nogoods](Literal literal) {
     std::size_t count = 0;
-    static_cast<void>(nogoods.follow(
-        literal, [](Literal) { return -1; }, [&](Literal, std::uint32_t) { return ++count > 0; }));
+    const std::vector<std::int8_t> all_false(16, -1);
+    static_cast<void>(
+        nogoods.follow(literal, all_false, [&](Literal, std::uint32_t) { return ++count > 0; }));
     return count;
   };
   EXPECT_EQ(count_implied_by(negate(0)), 0U);

@@ -11,7 +11,7 @@
 #include "runtime/solver/components.h"
 #include "runtime/solver/cost_bound.h"
 #include "runtime/solver/objective.h"
-#include "runtime/solver/propagator.h"
+#include "runtime/solver/propagation.h"
 #include "support/rounds.h"
 #include "unit/brute_force.h"
 #include "unit/compiled_fixture.h"

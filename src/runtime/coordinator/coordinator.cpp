@@ -1,3 +1,13 @@
+// Every event is one problem of constraint optimization, after M. Molina and P. Santamaria,
+// "Behavior coordination for self-adaptive robots using constraint-based configuration": out of all
+// sets of behaviors that are consistent after the event, the best one is found, checked by code of
+// its own, and applied as a whole. What the clock brings, timeouts and reactive starts, are events
+// like all others, handled one after the other in the order of time. An event concerns the tasks of
+// one group: groups share no constraint, so the best answer of one is part of the best of all.
+//
+// To change what is active step by step, starting what a task requires and stopping its rivals,
+// would be quicker. But then the answer depends on the order of the steps and on all earlier
+// events, and a task may be refused for which there was a place.
 #include "runtime/coordinator/coordinator.h"
 
 #include <algorithm>
