@@ -22,7 +22,7 @@
 #include "coverage/report/coverage_report.h"
 #include "runtime/base/text.h"
 #include "solve/solve.h"
-#include "verify/engine/verification.h"
+#include "verify/engine/explore.h"
 
 namespace cbc::cli {
 namespace {

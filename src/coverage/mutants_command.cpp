@@ -20,7 +20,7 @@
 #include "coverage/engine/mutants/mutants.h"
 #include "coverage/report/mutants_report.h"
 #include "runtime/base/text.h"
-#include "verify/engine/verification.h"
+#include "verify/engine/explore.h"
 #include "verify/verify.h"
 
 namespace cbc::cli {

@@ -20,7 +20,7 @@
 #include "coverage/report/missing_missions_report.h"
 #include "coverage/test_folder.h"
 #include "runtime/base/text.h"
-#include "verify/engine/verification.h"
+#include "verify/engine/explore.h"
 #include "verify/verify.h"
 
 namespace cbc::cli {

@@ -35,8 +35,7 @@ Timeline follow(const Model& model, const std::vector<const Model::Choice*>& pat
   timeline.is_due.push_back(false);
   const Model::Layout& layout = model.layout();
   std::vector<std::size_t> joined(layout.reactive_count, beginning);
-  std::vector<std::uint32_t> packed(model.packed_words());
-  model.pack(model.first_state().data(), packed.data());
+  std::vector<std::uint32_t> packed = model.packed_first();
   const auto add_point = [&](bool is_due) {
     timeline.is_due.push_back(is_due);
     auto& first = timeline.first_joined.emplace_back();

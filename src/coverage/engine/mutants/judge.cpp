@@ -163,7 +163,7 @@ std::uint32_t MutantJudge::group_of(const Mutant& mutant) const {
 /// The original is the new catalog of the comparison, so that the script tells what it does.
 void MutantJudge::compare(const Mutant& mutant, const CompiledCatalog& changed,
                           MutantVerdict& verdict) const {
-  VerificationOptions options;
+  ExplorationOptions options;
   options.limits = options_.limits;
   options.reduce = true;
   options.on_progress = [this](const std::vector<std::uint32_t>& /*groups*/,
@@ -214,7 +214,8 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
   ExplorationOptions options;
   options.limits = options_.limits;
   options.reduce = true;
-  options.on_progress = [this](const ExplorationProgress& /*progress*/) { return !is_stopped(); };
+  options.on_progress = [this](const std::vector<std::uint32_t>& /*groups*/,
+                               const ExplorationProgress& /*progress*/) { return !is_stopped(); };
   const Exploration found = explore(catalog_, groups, assumptions_, asked, options);
   for (std::size_t place = 0; place < properties.size(); ++place) {
     if (!found.verdicts[place].has_script) continue;
