@@ -16,9 +16,9 @@
 #include "core/files/output.h"
 #include "core/property/property_reader.h"
 #include "coverage/engine/coverage.h"
+#include "coverage/engine/goal_monitor.h"
 #include "coverage/engine/goal_proof.h"
 #include "coverage/engine/goals.h"
-#include "coverage/engine/watched_run.h"
 #include "coverage/report/coverage_report.h"
 #include "runtime/base/text.h"
 #include "solve/solve.h"
@@ -110,8 +110,8 @@ CatalogCoverage* CoverageCollector::find(const CompiledCatalog& catalog) {
 RunResult CoverageCollector::run(const Mission& mission, const CoordinatorOptions& options,
                                  RunListener& listener) {
   const CompiledCatalog& catalog = *mission.catalog;
-  WatchedResult watched =
-      run_watched(catalog, find(catalog)->goals(), mission.script, options, listener);
+  MonitoredResult watched =
+      run_monitored(catalog, find(catalog)->goals(), mission.script, options, listener);
   met_[static_cast<std::size_t>(&mission - missions_.data())] = std::move(watched.met);
   return std::move(watched.result);
 }
@@ -149,7 +149,7 @@ bool prove(CatalogCoverage& coverage, const Assumptions& assumptions, const std:
   const CompiledCatalog& catalog = coverage.catalog();
   GroupProgress progress("proving", catalog.group_count());
   GoalProofOptions options;
-  options.walk.on_progress = [&](std::uint32_t group, std::uint64_t states) {
+  options.search.on_progress = [&](std::uint32_t group, std::uint64_t states) {
     progress.show(group, states);
     return !signals.have_come();
   };

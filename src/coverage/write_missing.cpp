@@ -14,9 +14,9 @@
 #include "core/command_line/command_line.h"
 #include "core/files/output.h"
 #include "core/support/wording.h"
+#include "coverage/engine/goal_monitor.h"
 #include "coverage/engine/goals.h"
 #include "coverage/engine/missing_missions.h"
-#include "coverage/engine/watched_run.h"
 #include "coverage/report/missing_missions_report.h"
 #include "coverage/test_folder.h"
 #include "runtime/base/text.h"
@@ -57,8 +57,8 @@ std::optional<std::vector<std::uint8_t>> goals_met_by(const std::vector<Mission>
     SilentRun silent;
     CoordinatorOptions options;
     options.is_stopped = [&] { return deadline.has_come(); };
-    const WatchedResult watched =
-        run_watched(*mission.catalog, goals, mission.script, options, silent);
+    const MonitoredResult watched =
+        run_monitored(*mission.catalog, goals, mission.script, options, silent);
     if (deadline.has_come()) return std::nullopt;
     const std::string reason = describe_end(watched.result, options);
     if (!reason.empty()) {

@@ -18,7 +18,7 @@
 #include "core/script/reader.h"
 #include "core/script/runner.h"
 #include "core/yaml/document.h"
-#include "coverage/engine/goal_watch.h"
+#include "coverage/engine/goal_monitor.h"
 #include "coverage/engine/goals.h"
 #include "coverage/report/coverage_report.h"
 #include "unit/compiled_fixture.h"
@@ -30,7 +30,7 @@ using Texts = std::set<std::string>;
 
 class Watched final : public RunListener {
  public:
-  explicit Watched(GoalWatch& watch) : watch_(watch) {}
+  explicit Watched(GoalMonitor& watch) : watch_(watch) {}
   void on_decision(const EventRecord& record, const Circumstances& circumstances,
                    const Assignment* solution) override {
     watch_.on_decision(record, circumstances, solution);
@@ -40,7 +40,7 @@ class Watched final : public RunListener {
   }
 
  private:
-  GoalWatch& watch_;
+  GoalMonitor& watch_;
 };
 
 struct Mission {
@@ -54,7 +54,7 @@ Mission run_mission(const CompiledCatalog& catalog, std::string_view script_text
   const auto script = read_script(*document, catalog, Severity::warning, diagnostics);
   EXPECT_TRUE(script.has_value());
   const std::vector<Goal> goals = find_goals(catalog);
-  GoalWatch watch(catalog, goals, {});
+  GoalMonitor watch(catalog, goals, {});
   State first(catalog);
   first.change_situation(script->situation.availability, script->situation.variables);
   watch.begin(first);

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/script/runner.h"
+#include "coverage/engine/goal_proof.h"
 #include "coverage/engine/mission_plan.h"
-#include "coverage/engine/rehearsal.h"
-#include "coverage/engine/watched_run.h"
+#include "coverage/engine/simulated_run.h"
 
 namespace cbc {
 namespace {
@@ -29,7 +29,7 @@ class MissionFinder {
         goals_(goals),
         assumptions_(assumptions),
         options_(options),
-        rehearsal_(catalog, goals, assumptions) {}
+        simulator_(catalog, goals, assumptions) {}
 
   MissingMissions find(const std::vector<std::uint8_t>& met) {
     missing_.assign(goals_.size(), 0);
@@ -37,7 +37,7 @@ class MissionFinder {
       missing_[goal] = met[goal] == 0 ? 1 : 0;
       result_.wanted += missing_[goal];
     }
-    GroupWalkOptions of_exploration = options_.exploration;
+    GoalSearchOptions of_exploration = options_.exploration;
     of_exploration.on_progress = [&](std::uint32_t group, std::uint64_t states) {
       const auto& on_progress = options_.exploration.on_progress;
       return !is_stopped() && (!on_progress || on_progress(group, states));
@@ -132,7 +132,7 @@ class MissionFinder {
     for (const MissionPlanner::Path& path : planner.plan(wanted)) {
       show_progress();
       if (is_stopped()) return;
-      result_.reached = Phase::rehearsal;
+      result_.reached = Phase::simulation;
       std::vector<std::uint8_t> is_timeout;
       for (const std::uint32_t edge : path.edges) {
         const auto items = graph_.items_of(graph_.edges[edge]);
@@ -142,8 +142,8 @@ class MissionFinder {
         }));
       }
       const std::uint32_t group = graph_.parts[path.part].group;
-      add(is_any(is_timeout) ? rehearsal_.run_by_clock(group, moves_of(path), is_timeout)
-                             : rehearsal_.run(group, moves_of(path)));
+      add(is_any(is_timeout) ? simulator_.run_by_clock(group, moves_of(path), is_timeout)
+                             : simulator_.run(group, moves_of(path)));
     }
   }
 
@@ -180,18 +180,18 @@ class MissionFinder {
 
   /// Adds the script that meets most of these goals; false if none of those tried meets any.
   bool wait_once(const MissionPlanner& planner, const Goals& wanted, std::size_t most_tries) {
-    std::optional<Rehearsal> best;
+    std::optional<SimulatedRun> best;
     std::size_t most = 0;
     for (const MissionPlanner::Path& path : planner.paths_toward(wanted, most_tries)) {
       show_progress();
       if (is_stopped()) return false;
       const std::uint32_t limit = planner.most_events(path.part);
       if (path.edges.size() >= limit) continue;
-      Rehearsal tried =
-          rehearsal_.wait_after(graph_.parts[path.part].group, moves_of(path), wanted,
+      SimulatedRun tried =
+          simulator_.wait_after(graph_.parts[path.part].group, moves_of(path), wanted,
                                 limit - static_cast<std::uint32_t>(path.edges.size()));
       std::size_t count = 0;
-      for (const Rehearsal::Moment& moment : tried.moments) {
+      for (const SimulatedRun::Moment& moment : tried.moments) {
         for (const std::uint32_t goal : moment.goals) count += wanted[goal];
       }
       if (count <= most) continue;
@@ -210,11 +210,11 @@ class MissionFinder {
   }
 
   /// Writes the script, if it meets anything that is missing.
-  void add(Rehearsal rehearsal) {
-    rehearsal.script.catalog = options_.catalog;
+  void add(SimulatedRun run) {
+    run.script.catalog = options_.catalog;
     MissingMissions::Mission mission;
     Goals counts(goals_.size(), 0);
-    for (const Rehearsal::Moment& moment : rehearsal.moments) {
+    for (const SimulatedRun::Moment& moment : run.moments) {
       for (const std::uint32_t goal : moment.goals) {
         if (missing_[goal] == 0 && first_values_[goal] == 0) continue;
         missing_[goal] = 0;
@@ -223,12 +223,12 @@ class MissionFinder {
         mission.goals.push_back(goal);
       }
     }
-    if (!rehearsal.fault.empty()) result_.fault = rehearsal.fault;
+    if (!run.fault.empty()) result_.fault = run.fault;
     if (mission.goals.empty()) return;
     const Goal& last = goals_[mission.goals.back()];
-    mission.group = rehearsal.group;
+    mission.group = run.group;
     mission.name = unique_name(last);
-    WrittenScript written = write_down(catalog_, goals_, rehearsal, counts, title_of(last));
+    WrittenScript written = write_down(catalog_, goals_, run, counts, title_of(last));
     mission.script = std::move(written.script);
     mission.script.file = mission.name;
     mission.text = std::move(written.text);
@@ -263,7 +263,7 @@ class MissionFinder {
 
   /// The values at the beginning, if nothing else is missing.
   void show_first_values() {
-    if (is_any(first_values_) && catalog_.group_count() > 0) add(rehearsal_.run(0, {}));
+    if (is_any(first_values_) && catalog_.group_count() > 0) add(simulator_.run(0, {}));
   }
 
   void list_unmet() {
@@ -284,7 +284,7 @@ class MissionFinder {
   const std::span<const Goal> goals_;
   const Assumptions& assumptions_;
   const MissingMissionOptions& options_;
-  const MissionRehearsal rehearsal_;
+  const MissionSimulator simulator_;
   GoalGraph graph_;
   MissingMissions result_;
   Goals missing_;       ///< by goal: no mission meets it, and one can
