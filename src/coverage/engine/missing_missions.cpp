@@ -66,7 +66,7 @@ class MissionFinder {
     }
     perform(planner, missing_);
     wait_for_timeouts(planner);
-    perform(planner, without_timeouts());
+    perform(planner, missing_timeouts(false));
     if (is_stopped()) return std::move(result_);
     result_.reached = Phase::done;
     show_first_values();
@@ -147,29 +147,23 @@ class MissionFinder {
     }
   }
 
-  [[nodiscard]] Goals timeouts() const {
-    Goals timeouts = missing_;
+  /// What is missing of the timeouts, or of all other goals.
+  [[nodiscard]] Goals missing_timeouts(bool are_timeouts = true) const {
+    Goals wanted = missing_;
     for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
-      if (goals_[goal].kind != Goal::Kind::timeout_fired) timeouts[goal] = 0;
+      if ((goals_[goal].kind == Goal::Kind::timeout_fired) != are_timeouts) wanted[goal] = 0;
     }
-    return timeouts;
-  }
-  [[nodiscard]] Goals without_timeouts() const {
-    Goals others = missing_;
-    for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
-      if (goals_[goal].kind == Goal::Kind::timeout_fired) others[goal] = 0;
-    }
-    return others;
+    return wanted;
   }
 
   /// States have no times, so what fires in a state is tried out.
   void wait_for_timeouts(const MissionPlanner& planner) {
     constexpr std::size_t most_tries = 200;
-    for (Goals wanted = timeouts(); is_any(wanted); wanted = timeouts()) {
+    for (Goals wanted = missing_timeouts(); is_any(wanted); wanted = missing_timeouts()) {
       if (!wait_once(planner, wanted, most_tries)) break;
     }
     // Where many timeouts are possible, others may come first.
-    const Goals left = timeouts();
+    const Goals left = missing_timeouts();
     for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
       if (left[goal] == 0 || missing_[goal] == 0) continue;
       Goals one(goals_.size(), 0);
@@ -299,91 +293,6 @@ MissingMissions find_missing_missions(const CompiledCatalog& catalog, std::span<
                                       const Assumptions& assumptions,
                                       const MissingMissionOptions& options) {
   return MissionFinder(catalog, goals, assumptions, options).find(met);
-}
-
-std::string name_after(const CompiledCatalog& catalog, const Goal& goal) {
-  const auto task_name = [&](TaskId task) {
-    return task == none ? std::string_view() : catalog.name_of_task(task);
-  };
-  const std::string_view task = task_name(goal.task);
-  const std::string_view behavior =
-      goal.behavior == none ? std::string_view() : catalog.name_of_behavior(goal.behavior);
-  std::string words;
-  switch (goal.kind) {
-    case Goal::Kind::task_ran:
-      words = fmt::format("{} runs", task);
-      break;
-    case Goal::Kind::behavior_active:
-      words = fmt::format("{} is active", behavior);
-      break;
-    case Goal::Kind::behavior_succeeded:
-      words = fmt::format("{} succeeds", behavior);
-      break;
-    case Goal::Kind::behavior_failed:
-      words = fmt::format("{} fails", behavior);
-      break;
-    case Goal::Kind::behavior_replaced:
-      words = fmt::format("{} is replaced", behavior);
-      break;
-    case Goal::Kind::requirement_used:
-      words = fmt::format("{} with {}", behavior, task);
-      break;
-    case Goal::Kind::requirement_decided:
-      words = fmt::format("{} requires {}", behavior, task);
-      break;
-    case Goal::Kind::minimum_decided:
-      words = fmt::format("minimum of {} {}", task, behavior);
-      break;
-    case Goal::Kind::exclusion_decided:
-      words = fmt::format("{} excludes {}", task, task_name(goal.other_task));
-      break;
-    case Goal::Kind::timeout_fired:
-      words = fmt::format("{} times out", behavior.empty() ? task : behavior);
-      break;
-    case Goal::Kind::reactive_started:
-      words = fmt::format("{} starts by itself", task);
-      break;
-    case Goal::Kind::reactive_gave_way:
-      words = fmt::format("{} gives way", task);
-      break;
-    case Goal::Kind::reactive_returned:
-      words = fmt::format("{} returns", task);
-      break;
-    case Goal::Kind::variable_value:
-      words = fmt::format("{} is {}", catalog.name_of_variable(goal.variable),
-                          catalog.name_of_value({goal.variable, goal.value}));
-      break;
-    case Goal::Kind::behavior_began_to_fit:
-      words = fmt::format("{} begins to fit", behavior);
-      break;
-    case Goal::Kind::behavior_ceased_to_fit:
-      words = fmt::format("{} ceases to fit", behavior);
-      break;
-    case Goal::Kind::higher_displaced:
-      words = fmt::format("{} displaces lower", task);
-      break;
-    case Goal::Kind::lower_rejected:
-      words = fmt::format("{} yields to higher", task);
-      break;
-    case Goal::Kind::equal_displaced:
-      words = fmt::format("{} displaces equal", task);
-      break;
-  }
-  constexpr std::size_t longest = 100;
-  std::string name;
-  for (const char character : words) {
-    const bool is_upper = character >= 'A' && character <= 'Z';
-    const bool is_kept = is_upper || (character >= 'a' && character <= 'z') ||
-                         (character >= '0' && character <= '9');
-    if (is_kept) {
-      name += is_upper ? static_cast<char>(character - 'A' + 'a') : character;
-    } else if (!name.empty() && name.back() != '-') {
-      name += '-';
-    }
-  }
-  name.resize(std::min(name.size(), longest));
-  while (name.ends_with('-')) name.pop_back();
-  return name;
 }
 
 }  // namespace cbc

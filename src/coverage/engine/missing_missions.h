@@ -66,7 +66,4 @@ struct MissingMissionOptions {
                                                     const Assumptions& assumptions,
                                                     const MissingMissionOptions& options);
 
-/// A name for a script about a goal: words of lower-case letters and digits, with hyphens.
-[[nodiscard]] std::string name_after(const CompiledCatalog& catalog, const Goal& goal);
-
 }  // namespace cbc

@@ -1,3 +1,10 @@
+// Whether two catalogs decide alike: no reachable state of their product has a move with two
+// answers (equivalence of sequential machines: Coudert, Berthet and Madre, "Verification of
+// synchronous sequential machines based on symbolic execution", 1989). To merge pairs whose states
+// are known to be alike (Hopcroft and Karp, 1971) would spare nothing: two catalogs that are alike
+// have about as many pairs as states. And comparing the answers of each decision, whether it can
+// come or not, would find differences that no event shows.
+
 #include "verify/engine/same_as.h"
 
 #include <algorithm>
@@ -211,36 +218,25 @@ struct ModelPair {
             const Assumptions& new_assumptions, const Translation& to_old,
             const Translation& to_new)
       : old_model(old_catalog, groups.old_groups, old_assumptions),
-        new_model(new_catalog, groups.new_groups, new_assumptions) {
+        new_model(new_catalog, groups.new_groups, new_assumptions),
+        to_new_(to_new) {
     add_moves(to_old);
-    const auto is_due = [](const Model::Choice& choice) {
-      return choice.move.kind == Move::Kind::due;
-    };
-    const auto& old_moves = old_model.moves();
-    if (new_model.reactive().empty() && !old_moves.empty() && is_due(old_moves.back())) {
-      moves.push_back({nullptr, &old_moves.back(), old_moves.back().move});
+    add_variables_of_old();
+    for (std::uint32_t task = 0; task < old_model.tasks().size(); ++task) {
+      const TaskId known = to_new.tasks[old_model.tasks()[task].id];
+      tasks.emplace_back(known != none ? new_model.find_task(known) : none, task);
     }
-    add_variables_of_old(to_new);
-    // What only one model has gets a number that nothing in the other has.
-    for (const auto& behavior : new_model.behaviors()) new_behaviors.push_back(behavior.id);
-    for (const auto& task : new_model.tasks()) new_tasks.push_back(task.id);
-    const auto behavior_count = static_cast<std::uint32_t>(new_catalog.behaviors.size());
-    const auto task_count = static_cast<std::uint32_t>(new_catalog.tasks.size());
-    for (const auto& behavior : old_model.behaviors()) {
-      const BehaviorId known = to_new.behaviors[behavior.id];
-      old_behaviors.push_back(known != none ? known : behavior_count + behavior.id);
-    }
-    for (const auto& task : old_model.tasks()) {
-      const TaskId known = to_new.tasks[task.id];
-      old_tasks.push_back(known != none ? known : task_count + task.id);
-      const std::uint32_t other = known != none ? new_model.find_task(known) : none;
-      tasks.emplace_back(other, static_cast<std::uint32_t>(old_tasks.size() - 1));
-    }
-    for (std::uint32_t task = 0; task < new_tasks.size(); ++task) {
-      if (to_old.tasks[new_tasks[task]] == none) tasks.emplace_back(task, none);
+    for (std::uint32_t task = 0; task < new_model.tasks().size(); ++task) {
+      if (to_old.tasks[new_model.tasks()[task].id] == none) tasks.emplace_back(task, none);
     }
   }
 
+  [[nodiscard]] bool is_same_task(std::uint32_t of_new, std::uint32_t of_old) const {
+    return new_model.tasks()[of_new].id == to_new_.tasks[old_model.tasks()[of_old].id];
+  }
+  [[nodiscard]] bool is_same_behavior(std::uint32_t of_new, std::uint32_t of_old) const {
+    return new_model.behaviors()[of_new].id == to_new_.behaviors[old_model.behaviors()[of_old].id];
+  }
   /// A task of the new model and the same of the old one; none: one of them does not have it.
   using TaskPair = std::pair<std::uint32_t, std::uint32_t>;
   /// Their numbers among the reactive tasks; none: it is not one of them.
@@ -259,73 +255,66 @@ struct ModelPair {
   };
   std::vector<PairedMove> moves;
   std::vector<TaskPair> tasks;
-  // By number in the model: a number that is the same in both.
-  std::vector<std::uint32_t> new_tasks;
-  std::vector<std::uint32_t> old_tasks;
-  std::vector<std::uint32_t> new_behaviors;
-  std::vector<std::uint32_t> old_behaviors;
 
  private:
-  /// A move, with the id of its task, behavior or variable, and its priority or value, both as the
-  /// old catalog counts.
+  /// A move, with the id of its task, behavior or variable, and its priority or value.
   using Key = std::tuple<Move::Kind, std::uint32_t, std::int64_t>;
 
-  [[nodiscard]] Key key_of_old(const Model::Choice& choice) const {
-    switch (choice.move.kind) {
+  /// As the catalog of the model counts, or as the other one does.
+  [[nodiscard]] static Key key_of(const Model& model, const Model::Choice& choice,
+                                  const Translation* to_other) {
+    const Move::Kind kind = choice.move.kind;
+    const auto id_of = [&](std::uint32_t id, std::vector<std::uint32_t> Translation::*ids) {
+      return to_other == nullptr ? id : (to_other->*ids)[id];
+    };
+    switch (kind) {
       case Move::Kind::due:
-        return {choice.move.kind, 0, 0};
+        return {kind, 0, 0};
       case Move::Kind::start:
       case Move::Kind::stop:
-        return {choice.move.kind, old_model.tasks()[choice.subject].id, choice.move.choice};
-      case Move::Kind::variable:
-        return {choice.move.kind, old_model.variables()[choice.subject].id, choice.choice};
-      default:
-        return {choice.move.kind, old_model.behaviors()[choice.subject].id, 0};
-    }
-  }
-  [[nodiscard]] Key key_of_new(const Model::Choice& choice, const Translation& to_old) const {
-    switch (choice.move.kind) {
-      case Move::Kind::due:
-        return {choice.move.kind, 0, 0};
-      case Move::Kind::start:
-      case Move::Kind::stop:
-        return {choice.move.kind, to_old.tasks[new_model.tasks()[choice.subject].id],
+        return {kind, id_of(model.tasks()[choice.subject].id, &Translation::tasks),
                 choice.move.choice};
       case Move::Kind::variable: {
-        const std::uint32_t variable = new_model.variables()[choice.subject].id;
-        return {choice.move.kind, to_old.variables[variable],
-                to_old.values[variable][choice.choice]};
+        const std::uint32_t variable = model.variables()[choice.subject].id;
+        return {kind, id_of(variable, &Translation::variables),
+                to_other == nullptr ? choice.choice : to_other->values[variable][choice.choice]};
       }
       default:
-        return {choice.move.kind, to_old.behaviors[new_model.behaviors()[choice.subject].id], 0};
+        return {kind, id_of(model.behaviors()[choice.subject].id, &Translation::behaviors), 0};
     }
   }
 
   /// Adds the moves of the new model together with those of the old one.
   void add_moves(const Translation& to_old) {
     std::map<Key, const Model::Choice*> of_old;
-    for (const Model::Choice& choice : old_model.moves()) of_old[key_of_old(choice)] = &choice;
+    for (const Model::Choice& choice : old_model.moves()) {
+      of_old[key_of(old_model, choice, nullptr)] = &choice;
+    }
     for (const Model::Choice& choice : new_model.moves()) {
-      const auto found = of_old.find(key_of_new(choice, to_old));
-      if (found != of_old.end()) {
-        moves.push_back({&choice, found->second, choice.move});
-      } else if (choice.move.kind == Move::Kind::due || is_of_one(choice, to_old)) {
-        moves.push_back({&choice, nullptr, choice.move});
+      const Key key = key_of(new_model, choice, &to_old);
+      const auto found = of_old.find(key);
+      const bool is_in_both = found != of_old.end();
+      // The old catalog may have a variable and its value, although no behavior of its groups names
+      // it.
+      const bool is_known = choice.move.kind == Move::Kind::variable && std::get<1>(key) != none &&
+                            std::get<2>(key) != none;
+      if (is_in_both || is_known || choice.move.kind == Move::Kind::due) {
+        moves.push_back({&choice, is_in_both ? found->second : nullptr, choice.move});
       }
+    }
+    if (new_model.reactive().empty() && !old_model.reactive().empty()) {
+      moves.push_back({nullptr, &old_model.moves().back(), old_model.moves().back().move});
     }
   }
 
   /// Adds the changes of variables that both catalogs have and only behaviors of the old groups
   /// name.
-  void add_variables_of_old(const Translation& to_new) {
+  void add_variables_of_old() {
     for (const Model::Choice& choice : old_model.moves()) {
       if (choice.move.kind != Move::Kind::variable) continue;
-      const std::uint32_t old_variable = old_model.variables()[choice.subject].id;
-      const std::uint32_t variable = to_new.variables[old_variable];
-      const std::uint32_t value = to_new.values[old_variable][choice.choice];
+      const auto [kind, variable, value] = key_of(old_model, choice, &to_new_);
       if (variable == none || value == none || new_model.find_variable(variable) != none) continue;
-      moves.push_back(
-          {nullptr, &choice, {Move::Kind::variable, variable, static_cast<std::int32_t>(value)}});
+      moves.push_back({nullptr, &choice, {kind, variable, static_cast<std::int32_t>(value)}});
     }
     // Those of the new groups are in order, and so are moves of one kind that is no change.
     std::stable_sort(moves.begin(), moves.end(), [](const PairedMove& a, const PairedMove& b) {
@@ -335,13 +324,7 @@ struct ModelPair {
     });
   }
 
-  /// Whether both catalogs have the variable and its value, but only the behaviors of the new
-  /// groups name it.
-  [[nodiscard]] bool is_of_one(const Model::Choice& choice, const Translation& to_old) const {
-    if (choice.move.kind != Move::Kind::variable) return false;
-    const std::uint32_t variable = new_model.variables()[choice.subject].id;
-    return to_old.variables[variable] != none && to_old.values[variable][choice.choice] != none;
-  }
+  const Translation& to_new_;
 };
 
 /// Takes pairs of states from one move to the next. A packed pair is the state of the new catalog,
@@ -460,20 +443,17 @@ class DifferenceVisitor {
         ours.outcome != theirs.outcome) {
       return false;
     }
-    const auto& new_subjects =
-        ours.verb == Verb::finish ? models_.new_behaviors : models_.new_tasks;
-    const auto& old_subjects =
-        ours.verb == Verb::finish ? models_.old_behaviors : models_.old_tasks;
-    if (ours.verb != Verb::situation &&
-        new_subjects[ours.subject] != old_subjects[theirs.subject]) {
+    if (ours.verb == Verb::finish
+            ? !models_.is_same_behavior(ours.subject, theirs.subject)
+            : ours.verb != Verb::situation && !models_.is_same_task(ours.subject, theirs.subject)) {
       return false;
     }
     const auto is_same_change = [&](const MoveTrace::Change& a, const MoveTrace::Change& b) {
       return a.is_activation == b.is_activation && a.success == b.success &&
-             models_.new_behaviors[a.behavior] == models_.old_behaviors[b.behavior];
+             models_.is_same_behavior(a.behavior, b.behavior);
     };
     const auto is_same_stop = [&](const auto& a, const auto& b) {
-      return models_.new_tasks[a.first] == models_.old_tasks[b.first] && a.second == b.second;
+      return models_.is_same_task(a.first, b.first) && a.second == b.second;
     };
     return std::equal(ours.changes.begin(), ours.changes.end(), theirs.changes.begin(),
                       theirs.changes.end(), is_same_change) &&
@@ -485,13 +465,15 @@ class DifferenceVisitor {
   /// Whether the same tasks run with the same behaviors.
   [[nodiscard]] bool run_alike() const {
     const auto behavior_in = [](const Model& model, const std::vector<std::uint16_t>& cells,
-                                const std::vector<std::uint32_t>& behaviors, std::uint32_t task) {
+                                std::uint32_t task) {
       if (task == none || cells[task] == 0) return none;
-      return behaviors[model.behavior_of(model.tasks()[task].values.begin + cells[task] - 1U)];
+      return model.behavior_of(model.tasks()[task].values.begin + cells[task] - 1U);
     };
     return std::all_of(models_.tasks.begin(), models_.tasks.end(), [&](const auto& task) {
-      return behavior_in(models_.new_model, new_cells_, models_.new_behaviors, task.first) ==
-             behavior_in(models_.old_model, old_cells_, models_.old_behaviors, task.second);
+      const std::uint32_t ours = behavior_in(models_.new_model, new_cells_, task.first);
+      const std::uint32_t theirs = behavior_in(models_.old_model, old_cells_, task.second);
+      return ours == none || theirs == none ? ours == theirs
+                                            : models_.is_same_behavior(ours, theirs);
     });
   }
 

@@ -183,6 +183,16 @@ Situation situation_of(const CompiledCatalog& catalog, const SituationPart& part
   return situation;
 }
 
+/// Without steps.
+Script begin_script(const CompiledCatalog& catalog, const Assumptions& assumptions,
+                    const Schedule& schedule) {
+  Script script;
+  script.timeouts = false;
+  script.reactive_delay = schedule.delay;
+  script.situation = situation_of(catalog, assumptions.initially);
+  return script;
+}
+
 }  // namespace
 
 Step step_of(const Move& move) {
@@ -244,9 +254,7 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<std::uint
 
   Witness witness;
   Script& script = witness.script;
-  script.timeouts = false;
-  script.reactive_delay = schedule.delay;
-  script.situation = situation_of(catalog, assumptions.initially);
+  script = begin_script(catalog, assumptions, schedule);
   std::vector<std::string> comments;
   std::string due;
   for (std::size_t place = 0; place < moves.size(); ++place) {
@@ -274,10 +282,7 @@ Script make_script(const CompiledCatalog& catalog, const std::vector<std::uint32
   Stepper stepper(model);
   const Schedule schedule =
       find_schedule(follow(model, find_choices(model, moves), stepper), pause);
-  Script script;
-  script.timeouts = false;
-  script.reactive_delay = schedule.delay;
-  script.situation = situation_of(catalog, assumptions.initially);
+  Script script = begin_script(catalog, assumptions, schedule);
   for (std::size_t place = 0; place < moves.size(); ++place) {
     Step& step = script.steps.emplace_back(step_of(moves[place]));
     const bool is_due = moves[place].kind == Move::Kind::due;
