@@ -69,7 +69,7 @@ void check_stop(const VerifyCase& sample, const std::vector<Goal>& goals,
     constexpr std::uint64_t soon = 200;
     demand(asked <= most + soon, "it goes on for long");
     static constexpr std::array<const char*, 3> phases = {
-        "stopped in the exploration", "stopped in the planning", "stopped in the rehearsal"};
+        "stopped in the exploration", "stopped in the planning", "stopped in the simulation"};
     statistics.count(phases.at(static_cast<std::size_t>(found.reached)));
   }
 }

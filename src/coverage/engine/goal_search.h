@@ -43,8 +43,8 @@ struct SeenMove {
 /// Visits the reachable states of a group (docs/verify.md, "States"), numbered by the least number
 /// of moves to them, and makes each move from each of them on a coordinator that is monitored for
 /// goals. `on_move` sees the moves of the states, one state after the other. `unwanted`: null, or
-/// what GoalMonitor::restart() gets before each move. A complete search also tells the monitor which
-/// timeouts always come before others.
+/// what GoalMonitor::restart() gets before each move. A complete search also tells the monitor
+/// which timeouts always come before others.
 [[nodiscard]] GoalSearchResult search_goals(const CompiledCatalog& catalog, std::uint32_t group,
                                             const Assumptions& assumptions, GoalMonitor& monitor,
                                             const std::vector<std::uint8_t>* unwanted,
