@@ -13,8 +13,8 @@
 #include "core/files/output.h"
 #include "core/property/properties.h"
 #include "coverage/engine/goals.h"
-#include "coverage/engine/group_walk.h"
-#include "coverage/engine/watched_run.h"
+#include "coverage/engine/goal_search.h"
+#include "coverage/engine/goal_monitor.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
 
@@ -60,7 +60,7 @@ class Deadline {
 void watch_missions(const std::vector<Mission>& missions, std::optional<std::uint64_t> jobs,
                     const CoordinatorOptions& options,
                     const std::function<const std::vector<Goal>&(const Mission&)>& goals_of,
-                    const std::function<bool(const Mission&, WatchedResult)>& take);
+                    const std::function<bool(const Mission&, MonitoredResult)>& take);
 
 /// What is assumed of each catalog in proofs: what --assume says, or what holds without it. Empty
 /// if that cannot be known; the reason is printed.

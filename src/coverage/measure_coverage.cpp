@@ -27,21 +27,21 @@ namespace cbc::cli {
 void watch_missions(const std::vector<Mission>& missions, std::optional<std::uint64_t> jobs,
                     const CoordinatorOptions& options,
                     const std::function<const std::vector<Goal>&(const Mission&)>& goals_of,
-                    const std::function<bool(const Mission&, WatchedResult)>& take) {
+                    const std::function<bool(const Mission&, MonitoredResult)>& take) {
   constexpr std::chrono::milliseconds between_looks(100);
   if (missions.empty()) return;
   const auto watch = [&](std::size_t number) {
     const Mission& mission = missions[number];
     SilentRun silent;
-    return run_watched(*mission.catalog, goals_of(mission), mission.script, options, silent);
+    return run_monitored(*mission.catalog, goals_of(mission), mission.script, options, silent);
   };
   Progress progress("solving", missions.size());
-  OrderedWork<WatchedResult> work(
+  OrderedWork<MonitoredResult> work(
       missions.size(), std::min<std::size_t>(thread_count(jobs), missions.size()), watch);
   for (const Mission& mission : missions) {
     progress.begin(mission.script.file);
     while (!work.wait_for(between_looks)) progress.show();
-    WatchedResult result = work.take();
+    MonitoredResult result = work.take();
     progress.clear();
     if (!take(mission, std::move(result))) return;
   }
@@ -166,7 +166,7 @@ bool prove(CatalogCoverage& coverage, const StatedAssumptions& stated,
   GroupProgress progress("proving", catalog.group_count());
   GoalProofOptions of_proof;
   of_proof.walk = walk_options(options.limits);
-  of_proof.walk.on_progress = [&](std::uint32_t group, std::uint64_t states) {
+  of_proof.search.on_progress = [&](std::uint32_t group, std::uint64_t states) {
     progress.show(group, states);
     return !deadline.has_come();
   };
@@ -222,7 +222,7 @@ int measure_coverage(const CoverageOptions& options, const std::vector<Mission>&
       [&](const Mission& mission) -> const std::vector<Goal>& {
         return find(*coverage, *mission.catalog)->goals();
       },
-      [&](const Mission& mission, const WatchedResult& watched) {
+      [&](const Mission& mission, const MonitoredResult& watched) {
         const std::string reason = describe_end(watched.result, coordination);
         if (!reason.empty()) complain_of_run(mission, watched.result, reason);
         // Coverage alone is reported, but failures should not go unnoticed.

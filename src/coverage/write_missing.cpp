@@ -36,7 +36,7 @@ std::optional<std::vector<std::uint8_t>> goals_met_by(const std::vector<Mission>
   watch_missions(
       missions, options.jobs, coordination,
       [&](const Mission&) -> const std::vector<Goal>& { return goals; },
-      [&](const Mission& mission, const WatchedResult& watched) {
+      [&](const Mission& mission, const MonitoredResult& watched) {
         const std::string reason = describe_end(watched.result, coordination);
         is_done = reason.empty() && !deadline.has_come();
         if (!is_done && !deadline.has_come()) {

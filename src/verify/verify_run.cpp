@@ -195,7 +195,7 @@ class Call {
     const bool asks_otherwise = result_.wants_cut_sets || options_.same_as;
     if (questions_.files.empty() && asks_otherwise) return;
     Progress progress("exploring", count_explorations());
-    VerificationOptions of_verification;
+    ExplorationOptions of_verification;
     of_verification.limits = result_.limits;
     of_verification.jobs = thread_count(options_.jobs);
     of_verification.reduce = options_.reduce;
@@ -229,7 +229,7 @@ class Call {
     const CompiledCatalog& old_catalog = *questions_.old_catalog;
     Progress progress("comparing", 1);
     progress.begin(std::string(old_catalog.file));
-    VerificationOptions of_comparison;
+    ExplorationOptions of_comparison;
     of_comparison.limits = result_.limits;
     of_comparison.jobs = thread_count(options_.jobs);
     const auto begin = Clock::now();

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -39,35 +39,62 @@ Graph dense(std::uint32_t count) {
   };
 }
 
-class Numbers final : public Expander {
+/// A system of two words: a number and its complement. A choice is the number that comes next.
+class Numbers {
  public:
-  /// `last`: the search is done with this state.
-  explicit Numbers(Graph graph, Number last = UINT32_MAX) : graph_(std::move(graph)), last_(last) {}
+  explicit Numbers(Graph graph) : graph_(std::move(graph)) {}
 
-  void expand(const std::uint32_t* state, Number number, Successors& successors) override {
-    EXPECT_TRUE(numbers_.empty() || numbers_.back() < number);
-    numbers_.push_back(number);
-    for (const std::uint32_t next : graph_(*state)) {
-      if (!successors.may_go_on()) return;
-      if (next == *state) {
-        successors.add_loop();
-      } else {
-        std::uint32_t* const words = successors.add();
-        words[0] = next;
-        words[1] = ~next;
-      }
-    }
+  void load(const std::uint32_t* state) { successors_ = graph_(*state); }
+  [[nodiscard]] const std::vector<std::uint32_t>& choices() const { return successors_; }
+  [[nodiscard]] bool try_move(std::uint32_t next) {
+    next_ = next;
+    return true;
   }
-  [[nodiscard]] bool is_done() const override {
-    return std::binary_search(numbers_.begin(), numbers_.end(), last_);
+  void pack(std::uint32_t* words) const {
+    words[0] = next_;
+    words[1] = ~next_;
   }
-
-  [[nodiscard]] const std::vector<Number>& numbers() const { return numbers_; }
+  [[nodiscard]] std::uint32_t move_of(std::uint32_t next) const { return next; }
 
  private:
   Graph graph_;
+  std::vector<std::uint32_t> successors_;
+  std::uint32_t next_ = 0;
+};
+
+class Visitor {
+ public:
+  /// `last`: the search is done with this state.
+  explicit Visitor(Graph graph, Number last = UINT32_MAX)
+      : system_(std::move(graph)), last_(last) {}
+
+  [[nodiscard]] Numbers& system() { return system_; }
+  [[nodiscard]] bool is_done() const { return is_done_; }
+  void visit(Number number, Successors& /*successors*/) {
+    EXPECT_TRUE(numbers_.empty() || numbers_.back() < number);
+    numbers_.push_back(number);
+    is_done_ = number == last_;
+  }
+  void on_move(Number number, std::uint32_t next, const std::uint32_t* successor) {
+    EXPECT_EQ(number, numbers_.back());
+    EXPECT_EQ(successor[0], next);
+    EXPECT_EQ(successor[1], ~next);
+  }
+  void on_move(Number number, std::uint32_t next, Number to) {
+    EXPECT_EQ(number, numbers_.back());
+    EXPECT_EQ(reached_.emplace(next, to).first->second, to);
+  }
+
+  [[nodiscard]] const std::vector<Number>& numbers() const { return numbers_; }
+  /// By state: the number that it was said to have.
+  [[nodiscard]] const std::map<std::uint32_t, Number>& reached() const { return reached_; }
+
+ private:
+  Numbers system_;
   Number last_;
+  bool is_done_ = false;
   std::vector<Number> numbers_;
+  std::map<std::uint32_t, Number> reached_;
 };
 
 /// All that a search finds out, by number.
@@ -91,17 +118,14 @@ Found search_plainly(const Graph& graph) {
   return found;
 }
 
-std::vector<std::unique_ptr<Expander>> expanders_for(const ExplorationOptions& options,
-                                                     const Graph& graph) {
-  std::vector<std::unique_ptr<Expander>> expanders;
-  for (unsigned job = 0; job < options.jobs; ++job) {
-    expanders.push_back(std::make_unique<Numbers>(graph));
-  }
-  return expanders;
+void run(BreadthFirst& search, const Graph& graph, unsigned jobs) {
+  std::deque<Visitor> visitors;
+  while (visitors.size() < jobs) visitors.emplace_back(graph);
+  search.run(visitors);
 }
 
 /// The states that the search knows must be the first of the plain one, with the same paths.
-void expect_beginning(const BreadthFirst& search, const Found& expected) {
+void expect_beginning(const BreadthFirst& search, const Graph& graph, const Found& expected) {
   const StateStore& store = search.store();
   ASSERT_LE(store.size(), expected.states.size());
   for (Number number = 0; number < store.size(); ++number) {
@@ -112,6 +136,12 @@ void expect_beginning(const BreadthFirst& search, const Found& expected) {
   const std::vector<Number> path = search.path_to(store.size() - 1);
   EXPECT_EQ(path.size(), expected.depths[store.size() - 1] + 1);
   EXPECT_EQ(path.front(), 0U);
+  Numbers system(graph);
+  const std::vector<std::uint32_t> moves = search.moves_to(system, store.size() - 1);
+  ASSERT_EQ(moves.size() + 1, path.size());
+  for (std::size_t place = 0; place < moves.size(); ++place) {
+    EXPECT_EQ(moves[place], expected.states[path[place + 1]]);
+  }
   const std::vector<std::uint64_t> counts = search.states_at_depth();
   for (std::uint32_t depth = 0; depth < counts.size(); ++depth) {
     EXPECT_EQ(counts[depth], static_cast<std::uint64_t>(std::count(expected.depths.begin(),
@@ -126,113 +156,122 @@ void expect_beginning(const BreadthFirst& search, const Found& expected) {
 constexpr std::uint32_t all_numbers = 100'000;
 
 TEST(BreadthFirst, FindsTheSameWithAnyNumberOfJobs) {
-  const auto run = [](const Graph& graph, std::uint32_t count, std::uint64_t moves) {
+  const auto find = [](const Graph& graph, std::uint32_t count, std::uint64_t moves) {
     const Found expected = search_plainly(graph);
     ASSERT_EQ(expected.states.size(), count);
-    for (const unsigned jobs : {1U, 2U, 5U}) {
-      ExplorationOptions options;
-      options.jobs = jobs;
-      BreadthFirst search({0, ~0U}, options);
-      search.run(expanders_for(options, graph));
+    for (const unsigned jobs : {0U, 1U, 2U, 5U}) {
+      BreadthFirst search({0, ~0U}, {}, {});
+      if (jobs > 0) {
+        run(search, graph, jobs);
+      } else {
+        Visitor visitor(graph);
+        search.run_in_order(visitor);
+        for (const auto& [state, number] : visitor.reached()) {
+          ASSERT_EQ(expected.states[number], state);
+        }
+      }
       EXPECT_TRUE(search.is_complete());
       EXPECT_EQ(search.store().size(), count);
       EXPECT_EQ(search.transitions(), count * moves);
       EXPECT_EQ(search.expanded_depth(), expected.depths.back());
       EXPECT_EQ(search.states_at_depth().size(), expected.depths.back() + std::size_t{1});
-      expect_beginning(search, expected);
+      expect_beginning(search, graph, expected);
     }
   };
-  run(sparse(all_numbers), all_numbers, 4);
-  run(dense(1499), 1499, 2500);
+  find(sparse(all_numbers), all_numbers, 4);
+  find(dense(1499), 1499, 2500);
 }
 
 TEST(BreadthFirst, EndsAtALimitWithWhatIsKnown) {
   const Graph graph = sparse(all_numbers);
   const Found expected = search_plainly(graph);
-  const auto run = [&](ExplorationOptions options) {
+  const auto find = [&](const ExplorationLimits& limits, const BreadthFirst::OnProgress& asked) {
     for (const unsigned jobs : {1U, 3U}) {
-      options.jobs = jobs;
-      BreadthFirst search({0, ~0U}, options);
-      search.run(expanders_for(options, graph));
+      BreadthFirst search({0, ~0U}, limits, asked);
+      run(search, graph, jobs);
       EXPECT_FALSE(search.is_complete());
       EXPECT_LT(search.expanded(), search.store().size());
       EXPECT_EQ(search.transitions(), search.expanded() * std::uint64_t{4});
-      expect_beginning(search, expected);
+      expect_beginning(search, graph, expected);
     }
   };
-  ExplorationOptions states;
-  states.limits.max_states = 30'000;
-  run(states);
-  ExplorationOptions memory;
-  memory.limits.max_memory = 4'000'000;
-  run(memory);
-  ExplorationOptions asked;
-  asked.on_progress = [](const ExplorationProgress& progress) { return progress.depth < 10; };
-  run(asked);
+  find({.max_states = 30'000}, {});
+  find({.max_memory = 4'000'000}, {});
+  find({}, [](const ExplorationProgress& progress) { return progress.depth < 10; });
+}
+
+TEST(BreadthFirst, InOrderALimitCountsPartsOfStates) {
+  const Graph graph = dense(1499);
+  Visitor visitor(graph);
+  BreadthFirst search({0, ~0U}, {.max_states = 200}, {});
+  search.run_in_order(visitor);
+  EXPECT_FALSE(search.is_complete());
+  EXPECT_EQ(search.end(), ExplorationEnd::max_states);
+  EXPECT_GE(search.store().size(), 200U);
+  EXPECT_LT(search.transitions(), 2500U);
+  EXPECT_EQ(search.transitions() % 64, 0U);
+  EXPECT_EQ(visitor.numbers(), std::vector<Number>{0});
 }
 
 /// How far a search comes in the first state, which has a million moves.
-std::uint32_t moves_before_the_end(const ExplorationOptions& options, std::size_t words,
+std::uint32_t moves_before_the_end(const ExplorationLimits& limits,
+                                   const BreadthFirst::OnProgress& on_progress, std::size_t words,
                                    ExplorationEnd end) {
-  class Endless final : public Expander {
+  class Endless {
    public:
-    void expand(const std::uint32_t* /*state*/, Number /*number*/,
-                Successors& successors) override {
-      while (moves_ < 1'000'000 && successors.may_go_on()) *successors.add() = ++moves_;
-    }
+    Endless() : choices_(1'000'000) {}
+    [[nodiscard]] Endless& system() { return *this; }
+    [[nodiscard]] bool is_done() const { return false; }
+    void load(const std::uint32_t* /*state*/) {}
+    [[nodiscard]] const std::vector<std::uint8_t>& choices() const { return choices_; }
+    [[nodiscard]] bool try_move(std::uint8_t /*choice*/) { return ++moves_ != 0; }
+    void pack(std::uint32_t* words) const { *words = moves_; }
+    [[nodiscard]] std::uint8_t move_of(std::uint8_t choice) const { return choice; }
+    void visit(Number /*number*/, Successors& /*successors*/) {}
+    void on_move(Number /*number*/, std::uint8_t /*choice*/, const std::uint32_t* /*words*/) {}
     [[nodiscard]] std::uint32_t moves() const { return moves_; }
 
    private:
+    std::vector<std::uint8_t> choices_;
     std::uint32_t moves_ = 0;
   };
-  BreadthFirst search(std::vector<std::uint32_t>(words, 0), options);
-  std::vector<std::unique_ptr<Expander>> expanders;
-  auto expander = std::make_unique<Endless>();
-  const Endless& endless = *expander;
-  expanders.push_back(std::move(expander));
-  search.run(expanders);
+  BreadthFirst search(std::vector<std::uint32_t>(words, 0), limits, on_progress);
+  std::deque<Endless> endless(1);
+  search.run(endless);
   EXPECT_FALSE(search.is_complete());
   EXPECT_TRUE(search.was_cut_short());
   EXPECT_EQ(search.end(), end);
   EXPECT_EQ(search.expanded(), 0U);
   EXPECT_EQ(search.store().size(), 1U);
   EXPECT_EQ(search.transitions(), 0U);
-  return endless.moves();
+  return endless.front().moves();
 }
 
 TEST(BreadthFirst, EndsWithinAState) {
-  ExplorationOptions asked;
   int looks = 0;
-  asked.on_progress = [&looks](const ExplorationProgress& /*progress*/) { return ++looks < 10; };
-  EXPECT_LT(moves_before_the_end(asked, 1, ExplorationEnd::stopped), 10'000U);
+  const auto asked = [&looks](const ExplorationProgress& /*progress*/) { return ++looks < 10; };
+  EXPECT_LT(moves_before_the_end({}, asked, 1, ExplorationEnd::stopped), 10'000U);
   EXPECT_EQ(looks, 10);
 
   // The successors alone take more than what the limit leaves beside the room for the next states.
   constexpr std::size_t words = 1000;
-  ExplorationOptions memory;
-  memory.limits.max_memory = StateStore(words).bytes_for(150'000) + (std::uint64_t{20} << 20U);
-  EXPECT_LT(moves_before_the_end(memory, words, ExplorationEnd::max_memory), 10'000U);
+  const std::uint64_t memory = StateStore(words).bytes_for(150'000) + (std::uint64_t{20} << 20U);
+  EXPECT_LT(moves_before_the_end({.max_memory = memory}, {}, words, ExplorationEnd::max_memory),
+            10'000U);
 }
 
 TEST(BreadthFirst, ExpandsAllStatesBeforeTheOneThatEndsIt) {
   constexpr Number last = 40'000;
   for (const unsigned jobs : {1U, 3U}) {
-    ExplorationOptions options;
-    options.jobs = jobs;
-    BreadthFirst search({0, ~0U}, options);
-    std::vector<std::unique_ptr<Expander>> expanders;
-    std::vector<const Numbers*> of_numbers;
-    for (unsigned job = 0; job < jobs; ++job) {
-      auto expander = std::make_unique<Numbers>(sparse(all_numbers), last);
-      of_numbers.push_back(expander.get());
-      expanders.push_back(std::move(expander));
-    }
-    search.run(expanders);
+    BreadthFirst search({0, ~0U}, {}, {});
+    std::deque<Visitor> visitors;
+    while (visitors.size() < jobs) visitors.emplace_back(sparse(all_numbers), last);
+    search.run(visitors);
     EXPECT_FALSE(search.is_complete());
     EXPECT_FALSE(search.was_cut_short());
     std::vector<bool> is_expanded(all_numbers, false);
-    for (const Numbers* const numbers : of_numbers) {
-      for (const Number number : numbers->numbers()) is_expanded[number] = true;
+    for (const Visitor& visitor : visitors) {
+      for (const Number number : visitor.numbers()) is_expanded[number] = true;
     }
     EXPECT_EQ(std::count(is_expanded.begin(), is_expanded.begin() + last + 1, true), last + 1);
     EXPECT_LT(std::count(is_expanded.begin(), is_expanded.end(), true), all_numbers);
@@ -240,9 +279,8 @@ TEST(BreadthFirst, ExpandsAllStatesBeforeTheOneThatEndsIt) {
 }
 
 TEST(BreadthFirst, AStateWithoutSuccessorsIsAll) {
-  ExplorationOptions options;
-  BreadthFirst search({0, ~0U}, options);
-  search.run(expanders_for(options, sparse(1)));
+  BreadthFirst search({0, ~0U}, {}, {});
+  run(search, sparse(1), 1);
   EXPECT_TRUE(search.is_complete());
   EXPECT_EQ(search.transitions(), 4U);
   EXPECT_EQ(search.expanded_depth(), 0U);

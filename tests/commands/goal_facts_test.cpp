@@ -1,6 +1,4 @@
 // Why no mission can meet a goal: a catalog for each reason.
-#include "coverage/engine/goal_facts.h"
-
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -41,22 +39,22 @@ using Reasons = std::map<std::string, std::string>;
 /// The first state of this group has 2,000 moves.
 TEST(GoalProof, EndsWithinAStateAndProvesNothingThen) {
   const CompiledCatalog catalog = test::compile_text(test::exclusive_tasks(1000));
-  const auto prove = [&](const GroupWalkOptions& walk) {
+  const auto prove = [&](const GoalSearchOptions& walk) {
     const GoalProof proof =
         prove_unreachable(catalog, {}, assumptions_of_goals(catalog), {{}, walk});
     EXPECT_EQ(proof.groups.size(), 1U);
     return proof.groups.front();
   };
   int looks = 0;
-  GroupWalkOptions asked;
+  GoalSearchOptions asked;
   asked.on_progress = [&looks](std::uint32_t, std::uint64_t) { return ++looks < 5; };
-  const GroupWalkResult stopped = prove(asked);
+  const GoalSearchResult stopped = prove(asked);
   EXPECT_FALSE(stopped.is_complete);
   EXPECT_EQ(looks, 5);
   EXPECT_LT(stopped.moves, 500U);
-  GroupWalkOptions memory;
+  GoalSearchOptions memory;
   memory.max_memory = 40'000;
-  const GroupWalkResult full = prove(memory);
+  const GoalSearchResult full = prove(memory);
   EXPECT_FALSE(full.is_complete);
   EXPECT_LT(full.moves, 500U);
 }

@@ -19,7 +19,6 @@
 #include "unit/random_problems.h"
 #include "verify/engine/explore.h"
 #include "verify/engine/same_as.h"
-#include "verify/engine/verification.h"
 
 namespace cbc::model_test {
 namespace {
@@ -110,7 +109,7 @@ TEST(Model, RefusesMoreTasksThanACellHolds) {
 TEST(Model, KeepsADifferenceThatALimitFollows) {
   const CompiledCatalog before = compile_text("behaviors: [{behavior: OLD, task: T}]\n");
   const CompiledCatalog after = compile_text("behaviors: [{behavior: NEW, task: T}]\n");
-  VerificationOptions options;
+  ExplorationOptions options;
   int looks = 0;
   // Before the pair of groups, and before its first state.
   options.on_progress = [&looks](const auto& /*groups*/, const ExplorationProgress& /*so_far*/) {
@@ -125,7 +124,7 @@ TEST(Model, KeepsADifferenceThatALimitFollows) {
 /// Going through all old moves for each new one would take hours here.
 TEST(Model, PairsVeryManyMoves) {
   const CompiledCatalog catalog = compile_text(behaviors_of_one_task(Model::most_in_cell - 1));
-  VerificationOptions options;
+  ExplorationOptions options;
   options.limits.max_states = 1;
   const CatalogComparison comparison =
       compare_catalogs(catalog, catalog, common_assumptions(catalog, catalog), options, {});

@@ -1,10 +1,10 @@
-#include "verify/engine/state_store.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "verify/engine/breadth_first.h"
 
 namespace cbc::state_store_test {
 namespace {
@@ -20,10 +20,10 @@ TEST(StateStore, KeepsWhatItFoundWhileItGrows) {
   std::uint32_t expected = 0;
   for (std::uint32_t number = 0; number < count; ++number) {
     const std::vector<std::uint32_t> state = state_of(number);
-    ASSERT_TRUE(store.insert(state.data(), store.hash(state.data()), number / 2)) << number;
+    ASSERT_EQ(store.insert(state.data(), store.hash(state.data()), number / 2), number);
     // One of those before is known, and keeps its parent.
     const std::vector<std::uint32_t> known = state_of(number * 7 / 11);
-    ASSERT_FALSE(store.insert(known.data(), store.hash(known.data()), count)) << number;
+    ASSERT_EQ(store.insert(known.data(), store.hash(known.data()), count), number * 7 / 11);
     ASSERT_EQ(store.size(), ++expected);
   }
   for (std::uint32_t number = 0; number < count; ++number) {
@@ -44,8 +44,8 @@ TEST(StateStore, FullBucketsOverflowIntoTheNext) {
   for (std::uint32_t number = 0; number < count; ++number) {
     const std::vector<std::uint32_t> state = state_of(number);
     ASSERT_FALSE(store.contains(state.data(), same_hash));
-    ASSERT_TRUE(store.insert(state.data(), same_hash, 0));
-    ASSERT_FALSE(store.insert(state.data(), same_hash, 0));
+    ASSERT_EQ(store.insert(state.data(), same_hash, 0), number);
+    ASSERT_EQ(store.insert(state.data(), same_hash, 0), number);
   }
   EXPECT_EQ(store.size(), count);
   for (std::uint32_t number = 0; number < count; ++number) {

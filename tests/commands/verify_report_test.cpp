@@ -11,7 +11,7 @@
 
 #include "support/exclusive_tasks.h"
 #include "unit/compiled_fixture.h"
-#include "verify/engine/verification.h"
+#include "verify/engine/explore.h"
 
 namespace cbc::verify_report_test {
 namespace {
@@ -76,7 +76,7 @@ std::string limit_of(const ExplorationLimits& limits, bool stops) {
   VerifyResult result;
   result.catalog = robot();
   result.limits = limits;
-  VerificationOptions options;
+  ExplorationOptions options;
   options.limits = limits;
   options.on_progress = [stops](const auto& /*groups*/, const ExplorationProgress& /*progress*/) {
     return !stops;

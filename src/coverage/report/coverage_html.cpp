@@ -10,7 +10,7 @@
 #include "core/support/wording.h"
 #include "coverage/report/coverage_report.h"
 #include "page_files.h"
-#include "verify/engine/verification.h"
+#include "verify/engine/explore.h"
 
 // The page needs no script: what a line shows on demand is in elements that unfold.
 

@@ -1,4 +1,4 @@
-#include "coverage/engine/goal_watch.h"
+#include "coverage/engine/goal_monitor.h"
 
 #include <algorithm>
 
@@ -30,10 +30,43 @@ BehaviorId behavior_in(const CompiledCatalog& catalog, TaskId task, std::uint32_
   return index == none ? none : catalog.values[task][index].behavior;
 }
 
+/// Forwards everything, and monitors it.
+class MonitoredRun final : public RunListener {
+ public:
+  MonitoredRun(RunListener& listener, GoalMonitor& monitor)
+      : listener_(listener), monitor_(monitor) {}
+
+  void on_decision(const EventRecord& record, const Circumstances& circumstances,
+                   const Assignment* solution) override {
+    monitor_.on_decision(record, circumstances, solution);
+  }
+  void on_event(const EventRecord& record, const Step* step, const State& state) override {
+    monitor_.on_event(record, state);
+    listener_.on_event(record, step, state);
+  }
+  void on_failure(const Failure& failure) override { listener_.on_failure(failure); }
+  void on_end(const State& state) override { listener_.on_end(state); }
+
+ private:
+  RunListener& listener_;
+  GoalMonitor& monitor_;
+};
+
 }  // namespace
 
-GoalWatch::GoalWatch(const CompiledCatalog& catalog, std::span<const Goal> goals,
-                     const CoordinatorOptions& options)
+GoalFacts::GoalFacts(const CompiledCatalog& catalog, std::size_t goals)
+    : performed(catalog.values.items.size(), 0),
+      fitted(catalog.behaviors.size(), 0),
+      misfitted(catalog.behaviors.size(), 0),
+      start_accepted(catalog.tasks.size(), 0),
+      start_rejected(catalog.tasks.size(), 0),
+      started_itself(catalog.tasks.size(), 0),
+      gave_way(catalog.tasks.size(), 0),
+      was_asked(goals, 0),
+      forestalled_by(catalog.values.items.size(), none) {}
+
+GoalMonitor::GoalMonitor(const CompiledCatalog& catalog, std::span<const Goal> goals,
+                         const CoordinatorOptions& options)
     : catalog_(catalog),
       goals_(goals),
       relaxation_(catalog, options),
@@ -62,7 +95,7 @@ GoalWatch::GoalWatch(const CompiledCatalog& catalog, std::span<const Goal> goals
   }
 }
 
-void GoalWatch::begin(const State& state) {
+void GoalMonitor::begin(const State& state) {
   std::fill(has_given_way_.begin(), has_given_way_.end(), std::uint8_t{0});
   fits_.clear();
   for (const BehaviorId behavior : conditional_) fits_.push_back(state.fits(behavior) ? 1 : 0);
@@ -70,14 +103,14 @@ void GoalWatch::begin(const State& state) {
 }
 
 /// Does nothing if the catalog has no such goal.
-void GoalWatch::meet(Kind kind, std::uint32_t subject) {
+void GoalMonitor::meet(Kind kind, std::uint32_t subject) {
   const auto& places = places_.at(static_cast<std::size_t>(kind));
   if (places.empty() || places[subject] == none) return;
   met_[places[subject]] = 1;
 }
 
-void GoalWatch::on_decision(const EventRecord& record, const Circumstances& circumstances,
-                            const Assignment* solution) {
+void GoalMonitor::on_decision(const EventRecord& record, const Circumstances& circumstances,
+                              const Assignment* solution) {
   const Trigger& trigger = circumstances.trigger;
   if (solution != nullptr) {
     note_values(circumstances.state, trigger, *solution);
@@ -87,8 +120,8 @@ void GoalWatch::on_decision(const EventRecord& record, const Circumstances& circ
   ask_for_deciding(record, circumstances, solution);
 }
 
-void GoalWatch::note_values(const State& before, const Trigger& trigger,
-                            const Assignment& solution) {
+void GoalMonitor::note_values(const State& before, const Trigger& trigger,
+                              const Assignment& solution) {
   const TaskId first = catalog_.group_tasks[trigger.group];
   for (std::uint32_t place = 0; place < solution.size(); ++place) {
     const BehaviorId behavior = before.behavior(first + place);
@@ -122,7 +155,7 @@ void GoalWatch::note_values(const State& before, const Trigger& trigger,
 
 /// A reactive task gives way if it joins the queue as it stops (docs/semantics.md, "Reactive
 /// tasks").
-void GoalWatch::note_stop(const Trigger& trigger, const State& before, TaskId task) {
+void GoalMonitor::note_stop(const Trigger& trigger, const State& before, TaskId task) {
   if (catalog_.tasks[task].reactive_start == 0) return;
   const bool is_own_end = has_finished(before, trigger, task)
                               ? trigger.cause != FinishCause::situation_change
@@ -133,8 +166,8 @@ void GoalWatch::note_stop(const Trigger& trigger, const State& before, TaskId ta
   meet(Kind::reactive_gave_way, task);
 }
 
-void GoalWatch::note_start(const EventRecord& record, const Circumstances& circumstances,
-                           const Assignment& solution) {
+void GoalMonitor::note_start(const EventRecord& record, const Circumstances& circumstances,
+                             const Assignment& solution) {
   const Trigger& trigger = circumstances.trigger;
   if (trigger.is_reactive) {
     facts_.started_itself[trigger.task] = 1;
@@ -151,7 +184,7 @@ void GoalWatch::note_start(const EventRecord& record, const Circumstances& circu
   }
 }
 
-void GoalWatch::note_finish(const EventRecord& record, const State& before) {
+void GoalMonitor::note_finish(const EventRecord& record, const State& before) {
   if (record.cause == FinishCause::situation_change) return;
   const bool is_failure = record.cause != FinishCause::goal_achieved;
   meet(is_failure ? Kind::behavior_failed : Kind::behavior_succeeded, record.behavior);
@@ -160,7 +193,7 @@ void GoalWatch::note_finish(const EventRecord& record, const State& before) {
   }
 }
 
-void GoalWatch::note_timeout(const EventRecord& record, const State& before) {
+void GoalMonitor::note_timeout(const EventRecord& record, const State& before) {
   const BehaviorId behavior = record.behavior;
   for (const ValueId value : catalog_.performs[behavior]) {
     const TaskId task = catalog_.task_of(value);
@@ -175,8 +208,8 @@ void GoalWatch::note_timeout(const EventRecord& record, const State& before) {
 }
 
 /// Only of what no earlier event has decided.
-void GoalWatch::ask_for_deciding(const EventRecord& record, const Circumstances& circumstances,
-                                 const Assignment* solution) {
+void GoalMonitor::ask_for_deciding(const EventRecord& record, const Circumstances& circumstances,
+                                   const Assignment* solution) {
   const auto& rejectable = places_.at(static_cast<std::size_t>(Kind::lower_rejected));
   const auto& deciding = deciding_[circumstances.trigger.group];
   if (rejectable.empty() && deciding.empty()) return;
@@ -200,7 +233,7 @@ void GoalWatch::ask_for_deciding(const EventRecord& record, const Circumstances&
   if (relaxation_.was_protection_alone()) met_[number] = 1;
 }
 
-void GoalWatch::on_event(const EventRecord& record, const State& state) {
+void GoalMonitor::on_event(const EventRecord& record, const State& state) {
   for (const Change& change : record.changes) {
     if (change.is_activation && !change.success) meet(Kind::behavior_failed, change.behavior);
   }
@@ -211,7 +244,7 @@ void GoalWatch::on_event(const EventRecord& record, const State& state) {
   }
 }
 
-void GoalWatch::note_situation(const State& state) {
+void GoalMonitor::note_situation(const State& state) {
   for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
     meet(Kind::variable_value, catalog_.variables[variable].first_value + state.value_of(variable));
   }
@@ -226,6 +259,18 @@ void GoalWatch::note_situation(const State& state) {
     }
     fits_[place] = fits ? 1 : 0;
   }
+}
+
+MonitoredResult run_monitored(const CompiledCatalog& catalog, std::span<const Goal> goals,
+                              const Script& script, const CoordinatorOptions& options,
+                              RunListener& listener) {
+  GoalMonitor monitor(catalog, goals, options);
+  State first(catalog);
+  first.change_situation(script.situation.availability, script.situation.variables);
+  monitor.begin(first);
+  MonitoredRun monitored(listener, monitor);
+  RunResult result = run_script(catalog, script, options, monitored);
+  return {std::move(result), monitor.met()};
 }
 
 }  // namespace cbc

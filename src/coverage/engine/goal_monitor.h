@@ -8,9 +8,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "coverage/engine/goal_facts.h"
+#include "core/script/runner.h"
+#include "core/script/script.h"
+#include "coverage/engine/constraint_relaxation.h"
 #include "coverage/engine/goals.h"
-#include "coverage/engine/relaxation.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
 #include "runtime/coordinator/explainer.h"
@@ -20,13 +21,33 @@
 
 namespace cbc {
 
+/// What an exploration has seen, beside the goals that were met: from this follows why others were
+/// not.
+struct GoalFacts {
+  GoalFacts() = default;
+  GoalFacts(const CompiledCatalog& catalog, std::size_t goals);
+
+  std::vector<std::uint8_t> performed;       ///< by value: its task ran with its behavior
+  std::vector<std::uint8_t> fitted;          ///< by behavior: it fit some situation
+  std::vector<std::uint8_t> misfitted;       ///< by behavior: it did not fit some situation
+  std::vector<std::uint8_t> start_accepted;  ///< by task: a start of a script was
+  std::vector<std::uint8_t> start_rejected;  ///< the same
+  std::vector<std::uint8_t> started_itself;  ///< by task
+  std::vector<std::uint8_t> gave_way;        ///< by task
+  /// By goal about deciding: some event could have had another answer without the constraint, as
+  /// far as one sees without a search.
+  std::vector<std::uint8_t> was_asked;
+  /// By value: another one that always times out before it, or none.
+  std::vector<ValueId> forestalled_by;
+};
+
 /// Sees the events of a coordinator, and notes the goals that they meet (docs/coverage.md,
 /// "Goals"). Not for use by several threads.
-class GoalWatch {
+class GoalMonitor {
  public:
   /// `goals` are those of find_goals. Catalog and goals must outlive this object.
-  GoalWatch(const CompiledCatalog& catalog, std::span<const Goal> goals,
-            const CoordinatorOptions& options);
+  GoalMonitor(const CompiledCatalog& catalog, std::span<const Goal> goals,
+              const CoordinatorOptions& options);
 
   /// Begins a mission: nothing runs, and the situation is that of the state.
   void begin(const State& state);
@@ -73,7 +94,7 @@ class GoalWatch {
 
   const CompiledCatalog& catalog_;
   const std::span<const Goal> goals_;
-  Relaxation relaxation_;
+  ConstraintRelaxation relaxation_;
   /// By kind and its subject: the goal, or none. See subject_of.
   std::array<std::vector<std::uint32_t>, Goal::kinds> places_;
   std::vector<std::vector<std::uint32_t>> deciding_;  ///< by group: goals about deciding
@@ -88,5 +109,17 @@ class GoalWatch {
   bool takes_failures_for_timeouts_ = false;
   std::vector<std::uint8_t> was_active_;  ///< by behavior; kept for its memory
 };
+
+/// A run of a script, and the goals that it met.
+struct MonitoredResult {
+  RunResult result;
+  std::vector<std::uint8_t> met;  ///< by goal
+};
+
+/// Runs a script as run_script does, and monitors it. `goals` are those of find_goals.
+[[nodiscard]] MonitoredResult run_monitored(const CompiledCatalog& catalog,
+                                            std::span<const Goal> goals, const Script& script,
+                                            const CoordinatorOptions& options,
+                                            RunListener& listener);
 
 }  // namespace cbc

@@ -1,4 +1,4 @@
-#include "coverage/engine/relaxation.h"
+#include "coverage/engine/constraint_relaxation.h"
 
 #include <algorithm>
 #include <limits>
@@ -135,7 +135,8 @@ CompiledCatalog without_constraint(const CompiledCatalog& catalog, const Goal& g
   return to_catalog(std::move(without));
 }
 
-Relaxation::Relaxation(const CompiledCatalog& catalog, const CoordinatorOptions& options)
+ConstraintRelaxation::ConstraintRelaxation(const CompiledCatalog& catalog,
+                                           const CoordinatorOptions& options)
     : catalog_(catalog),
       options_(options.search),
       ranks_(options.tie_seed ? draw_ranks(catalog, *options.tie_seed)
@@ -143,8 +144,8 @@ Relaxation::Relaxation(const CompiledCatalog& catalog, const CoordinatorOptions&
       most_variants_(most_variants_of(catalog)),
       solver_(catalog, options_, ranks_) {}
 
-bool Relaxation::load(const EventRecord& record, const Circumstances& circumstances,
-                      const Assignment* solution) {
+bool ConstraintRelaxation::load(const EventRecord& record, const Circumstances& circumstances,
+                                const Assignment* solution) {
   const SearchStatus status = record.search->result.status;
   if (status != SearchStatus::optimal && status != SearchStatus::infeasible) return false;
   solution_ = solution;
@@ -167,7 +168,7 @@ bool Relaxation::load(const EventRecord& record, const Circumstances& circumstan
   return true;
 }
 
-std::string Relaxation::digest() const {
+std::string ConstraintRelaxation::digest() const {
   std::string bytes;
   for (const Problem& problem : problems_) {
     bytes.append(reinterpret_cast<const char*>(&problem.group), sizeof(problem.group));
@@ -180,13 +181,13 @@ std::string Relaxation::digest() const {
   return to_hex(digest_of(bytes));
 }
 
-bool Relaxation::was_protection_alone() {
+bool ConstraintRelaxation::was_protection_alone() {
   if (!unprotected_) return false;
   ++solved_;
   return has_solution(solver_.solve(*unprotected_, relaxed_).status);
 }
 
-bool Relaxation::decided(const Goal& goal, std::size_t number) {
+bool ConstraintRelaxation::decided(const Goal& goal, std::size_t number) {
   if (!may_matter(goal)) return false;
   Solver& solver = variant_of(goal, number).solver;
   for (const Problem& problem : problems_) {
@@ -202,14 +203,14 @@ bool Relaxation::decided(const Goal& goal, std::size_t number) {
 /// The answer without a constraint is another one only if it violates the constraint; otherwise the
 /// one would be the best with it, too. So both tasks of a pair have to run in it, and the behavior
 /// of a requirement has to be active.
-bool Relaxation::may_matter(const Goal& goal) const {
+bool ConstraintRelaxation::may_matter(const Goal& goal) const {
   if (goal.kind == Goal::Kind::exclusion_decided) {
     return may_run(goal.task) && may_run(goal.other_task);
   }
   return goal.behavior == none ? may_run(goal.task) : may_be_active(goal.behavior);
 }
 
-bool Relaxation::may_run(TaskId task) const {
+bool ConstraintRelaxation::may_run(TaskId task) const {
   const Problem& problem = problems_.back();
   const std::uint32_t first = catalog_.words[catalog_.group_tasks[problem.group]];
   const auto words = problem.domains.begin();
@@ -218,7 +219,7 @@ bool Relaxation::may_run(TaskId task) const {
                      [](std::uint64_t word) { return word != 0; });
 }
 
-bool Relaxation::may_be_active(BehaviorId behavior) const {
+bool ConstraintRelaxation::may_be_active(BehaviorId behavior) const {
   const Problem& problem = problems_.back();
   const std::uint32_t first = catalog_.words[catalog_.group_tasks[problem.group]];
   const auto values = catalog_.performs[behavior];
@@ -230,7 +231,8 @@ bool Relaxation::may_be_active(BehaviorId behavior) const {
   });
 }
 
-Relaxation::Variant& Relaxation::variant_of(const Goal& goal, std::size_t number) {
+ConstraintRelaxation::Variant& ConstraintRelaxation::variant_of(const Goal& goal,
+                                                                std::size_t number) {
   const auto known = variants_.find(number);
   if (known != variants_.end()) return *known->second;
   if (variants_.size() >= most_variants_) variants_.clear();

@@ -1,4 +1,4 @@
-#include "coverage/engine/rehearsal.h"
+#include "coverage/engine/simulated_run.h"
 
 #include <algorithm>
 #include <utility>
@@ -7,22 +7,22 @@
 
 #include "core/script/runner.h"
 #include "core/script/script.h"
-#include "coverage/engine/goal_watch.h"
+#include "coverage/engine/goal_monitor.h"
 #include "verify/engine/witness.h"
 
 namespace cbc {
 
-/// A coordinator whose events are watched.
-class MissionRehearsal::Stage final : public RunListener {
+/// A coordinator whose events are monitored.
+class MissionSimulator::Simulation final : public RunListener {
  public:
-  Stage(const MissionRehearsal& rehearsal, std::uint32_t group, Script script)
-      : catalog_(rehearsal.catalog_),
-        watch_(catalog_, rehearsal.goals_, {}),
+  Simulation(const MissionSimulator& simulator, std::uint32_t group, Script script)
+      : catalog_(simulator.catalog_),
+        monitor_(catalog_, simulator.goals_, {}),
         runner_(catalog_, without_conflicts(script), *this) {
     result_.group = group;
     result_.script = std::move(script);
     runner_.begin(result_.script.situation);
-    watch_.begin(runner_.coordinator().state());
+    monitor_.begin(runner_.coordinator().state());
   }
 
   /// Takes the steps of the script that were not taken.
@@ -56,9 +56,9 @@ class MissionRehearsal::Stage final : public RunListener {
     take();
   }
 
-  [[nodiscard]] const Rehearsal& result() const { return result_; }
-  [[nodiscard]] Rehearsal take_result() { return std::move(result_); }
-  [[nodiscard]] const std::vector<std::uint8_t>& met() const { return watch_.met(); }
+  [[nodiscard]] const SimulatedRun& result() const { return result_; }
+  [[nodiscard]] SimulatedRun take_result() { return std::move(result_); }
+  [[nodiscard]] const std::vector<std::uint8_t>& met() const { return monitor_.met(); }
   void cut(std::size_t steps) {
     result_.script.steps.resize(steps);
     result_.moments.resize(steps);
@@ -92,10 +92,10 @@ class MissionRehearsal::Stage final : public RunListener {
 
   void on_decision(const EventRecord& record, const Circumstances& circumstances,
                    const Assignment* solution) override {
-    watch_.on_decision(record, circumstances, solution);
+    monitor_.on_decision(record, circumstances, solution);
   }
   void on_event(const EventRecord& record, const Step* /*step*/, const State& state) override {
-    watch_.on_event(record, state);
+    monitor_.on_event(record, state);
     if (record.origin == Origin::script && form_of(record.verb).is_decided) {
       outcome_ = record.outcome;
     }
@@ -109,11 +109,11 @@ class MissionRehearsal::Stage final : public RunListener {
   }
 
   void note_moment() {
-    Rehearsal::Moment& moment = result_.moments.emplace_back();
+    SimulatedRun::Moment& moment = result_.moments.emplace_back();
     moment.outcome = outcome_;
-    known_.resize(watch_.met().size(), 0);
+    known_.resize(monitor_.met().size(), 0);
     for (std::uint32_t goal = 0; goal < known_.size(); ++goal) {
-      if (watch_.met()[goal] == 0 || std::exchange(known_[goal], std::uint8_t{1}) != 0) continue;
+      if (monitor_.met()[goal] == 0 || std::exchange(known_[goal], std::uint8_t{1}) != 0) continue;
       moment.goals.push_back(goal);
     }
     const State& state = runner_.coordinator().state();
@@ -124,69 +124,69 @@ class MissionRehearsal::Stage final : public RunListener {
   }
 
   const CompiledCatalog& catalog_;
-  GoalWatch watch_;
+  GoalMonitor monitor_;
   Runner runner_;
-  Rehearsal result_;
+  SimulatedRun result_;
   std::optional<Outcome> outcome_;
   Microseconds last_reactive_ = -1;
   std::vector<std::uint8_t> known_;  ///< by goal
 };
 
-Rehearsal MissionRehearsal::run(std::uint32_t group, const std::vector<Move>& moves) const {
-  Stage stage(*this, group, make_script(catalog_, {group}, assumptions_, moves, second));
-  stage.take();
-  return stage.take_result();
+SimulatedRun MissionSimulator::run(std::uint32_t group, const std::vector<Move>& moves) const {
+  Simulation simulation(*this, group, make_script(catalog_, {group}, assumptions_, moves, second));
+  simulation.take();
+  return simulation.take_result();
 }
 
-Rehearsal MissionRehearsal::run_by_clock(std::uint32_t group, const std::vector<Move>& moves,
-                                         const std::vector<std::uint8_t>& is_timeout) const {
+SimulatedRun MissionSimulator::run_by_clock(std::uint32_t group, const std::vector<Move>& moves,
+                                            const std::vector<std::uint8_t>& is_timeout) const {
   Script script = make_script(catalog_, {group}, assumptions_, moves, second);
   const std::vector<Step> steps = std::exchange(script.steps, {});
   script.timeouts = true;
   script.reactive_delay = Script{}.reactive_delay;
-  Stage stage(*this, group, std::move(script));
+  Simulation simulation(*this, group, std::move(script));
   std::uint64_t made = 0;
   for (std::size_t place = 0; place < moves.size(); ++place) {
-    const std::size_t taken = stage.result().moments.size();
+    const std::size_t taken = simulation.result().moments.size();
     if (moves[place].kind != Move::Kind::due && is_timeout[place] == 0) {
-      stage.take_soon(steps[place]);
+      simulation.take_soon(steps[place]);
       ++made;
-    } else if (!stage.wait()) {
+    } else if (!simulation.wait()) {
       break;
     }
     // Where several timeouts come at once, the mission would be longer than it may be.
-    if (made + stage.result().clock_events > moves.size()) {
-      stage.cut(taken);
+    if (made + simulation.result().clock_events > moves.size()) {
+      simulation.cut(taken);
       break;
     }
   }
-  return stage.take_result();
+  return simulation.take_result();
 }
 
-Rehearsal MissionRehearsal::wait_after(std::uint32_t group, const std::vector<Move>& moves,
-                                       const std::vector<std::uint8_t>& wanted,
-                                       std::uint32_t most_clock_events) const {
+SimulatedRun MissionSimulator::wait_after(std::uint32_t group, const std::vector<Move>& moves,
+                                          const std::vector<std::uint8_t>& wanted,
+                                          std::uint32_t most_clock_events) const {
   constexpr Microseconds soon = second / 100;
   Script script = make_script(catalog_, {group}, assumptions_, moves, soon);
   script.timeouts = true;
-  Stage stage(*this, group, std::move(script));
-  stage.take();
-  std::size_t useful = stage.result().script.steps.size();
+  Simulation simulation(*this, group, std::move(script));
+  simulation.take();
+  std::size_t useful = simulation.result().script.steps.size();
   const auto count = [&] {
     std::size_t met = 0;
     for (std::size_t goal = 0; goal < wanted.size(); ++goal) {
-      if (wanted[goal] != 0 && stage.met()[goal] != 0) ++met;
+      if (wanted[goal] != 0 && simulation.met()[goal] != 0) ++met;
     }
     return met;
   };
-  for (std::size_t met = count(); stage.result().clock_events < most_clock_events;) {
-    if (!stage.wait() || stage.result().clock_events > most_clock_events) break;
+  for (std::size_t met = count(); simulation.result().clock_events < most_clock_events;) {
+    if (!simulation.wait() || simulation.result().clock_events > most_clock_events) break;
     const std::size_t now = count();
-    if (now > met) useful = stage.result().script.steps.size();
+    if (now > met) useful = simulation.result().script.steps.size();
     met = now;
   }
-  stage.cut(useful);
-  return stage.take_result();
+  simulation.cut(useful);
+  return simulation.take_result();
 }
 
 namespace {
@@ -209,7 +209,7 @@ std::string describe_goals(const CompiledCatalog& catalog, std::span<const Goal>
 /// What an event has decided: its outcome, and what has changed by it, or since the last
 /// expectation. Where it matters that nothing else was chosen, also what goes on.
 Expectation expect(const CompiledCatalog& catalog, std::uint32_t group,
-                   const Rehearsal::Moment& moment, const std::vector<BehaviorId>& before,
+                   const SimulatedRun::Moment& moment, const std::vector<BehaviorId>& before,
                    const std::vector<BehaviorId>& expected, bool tells_all) {
   Expectation expectation;
   if (moment.outcome == Outcome::accepted || moment.outcome == Outcome::rejected) {
@@ -239,24 +239,24 @@ bool is_empty(const Expectation& expectation) {
 }  // namespace
 
 WrittenScript write_down(const CompiledCatalog& catalog, std::span<const Goal> goals,
-                         const Rehearsal& rehearsal, const std::vector<std::uint8_t>& counts,
+                         const SimulatedRun& run, const std::vector<std::uint8_t>& counts,
                          const std::string& title) {
   WrittenScript written;
   Script& script = written.script;
-  script = rehearsal.script;
+  script = run.script;
   script.steps.clear();
   std::vector<std::string> comments;
-  std::vector<BehaviorId> before(rehearsal.moments.front().behaviors.size(), none);
+  std::vector<BehaviorId> before(run.moments.front().behaviors.size(), none);
   std::vector<BehaviorId> expected = before;
-  const auto counts_here = [&](const Rehearsal::Moment& moment) {
+  const auto counts_here = [&](const SimulatedRun::Moment& moment) {
     return std::any_of(moment.goals.begin(), moment.goals.end(),
                        [&](std::uint32_t goal) { return counts[goal] != 0; });
   };
-  std::size_t end = rehearsal.moments.size();
-  while (end > 0 && !counts_here(rehearsal.moments[end - 1])) --end;
+  std::size_t end = run.moments.size();
+  while (end > 0 && !counts_here(run.moments[end - 1])) --end;
   for (std::size_t place = 0; place < end; ++place) {
-    const Step& step = rehearsal.script.steps[place];
-    const Rehearsal::Moment& moment = rehearsal.moments[place];
+    const Step& step = run.script.steps[place];
+    const SimulatedRun::Moment& moment = run.moments[place];
     std::vector<std::uint32_t> shown = moment.goals;
     std::erase_if(shown, [&](std::uint32_t goal) { return counts[goal] == 0; });
     const bool is_deciding = std::any_of(shown.begin(), shown.end(), [&](std::uint32_t goal) {
@@ -270,9 +270,8 @@ WrittenScript write_down(const CompiledCatalog& catalog, std::span<const Goal> g
     const bool is_rejected = moment.outcome == Outcome::rejected;
     Step checked;
     checked.time = step.time;
-    checked.expect =
-        expect(catalog, rehearsal.group, moment, std::exchange(before, moment.behaviors), expected,
-               is_deciding || is_rejected);
+    checked.expect = expect(catalog, run.group, moment, std::exchange(before, moment.behaviors),
+                            expected, is_deciding || is_rejected);
     if (shown.empty()) continue;
     if (is_empty(*checked.expect)) {
       if (!step.expect) continue;

@@ -27,10 +27,10 @@ namespace cbc {
 /// Asks what the answer to an event would have been without some constraint. Keeps the catalogs
 /// that it compiles for this, as long as they do not become too large together. Not for use by
 /// several threads.
-class Relaxation {
+class ConstraintRelaxation {
  public:
   /// The limits and the order of ties are those of the coordinator. The catalog must outlive this.
-  Relaxation(const CompiledCatalog& catalog, const CoordinatorOptions& options);
+  ConstraintRelaxation(const CompiledCatalog& catalog, const CoordinatorOptions& options);
 
   /// Takes up an event. `solution`: its answer, null if it was rejected. False: the answer is not
   /// proven, so that nothing can be asked.
