@@ -286,7 +286,8 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
                  SolveReport& report, CoverageCollector* collector) {
   const auto run = [&](const Mission& mission, SolveReport& report_of_run) {
     CoordinatorOptions coordination = coordinator_options(options, *mission.catalog);
-    coordination.hindsight = !options.coverage.replaces_runs();  // to explain failed expectations
+    coordination.last_decisions =
+        !options.coverage.replaces_runs();  // to explain failed expectations
     report_of_run.begin_run(*mission.catalog, mission.script);
     RunResult result = collector != nullptr ? collector->run(mission, coordination, report_of_run)
                                             : run_script(*mission.catalog, mission.script,

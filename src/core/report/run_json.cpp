@@ -20,8 +20,8 @@ void append_failure(std::string& text, const CompiledCatalog& catalog, const Fai
   json.open('{');
   json.write_members(
       {{"index", failure.index}, {"line", failure.range.begin.line}, {"message", failure.message}});
-  json.write_list("why", failure.surprises, [&](const Surprise& surprise) {
-    write_surprise(json, catalog, surprise, *failure.state);
+  json.write_list("why", failure.unexpected, [&](const UnexpectedTasks& unexpected) {
+    write_unexpected(json, catalog, unexpected, *failure.state);
   });
   json.close('}');
 }

@@ -49,7 +49,7 @@ std::string join_tasks(const CompiledCatalog& catalog, std::span<const TaskId> t
 
 void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
   catalog_ = &catalog;
-  story_.begin_run(catalog);
+  explanation_.begin_run(catalog);
   summary_.begin_run(catalog, script);
   script_file_ = printable(script.file);
   behavior_width_ = column_width(catalog.behavior_names, 8);
@@ -71,7 +71,7 @@ void TextReport::begin_run(const CompiledCatalog& catalog, const Script& script)
 }
 
 void TextReport::on_event(const EventRecord& record, const Step* step, const State& state) {
-  story_.add(record, step, state);
+  explanation_.add(record, step, state);
   summary_.add(record, step);
   const std::string note = describe_note(*catalog_, record, state);
   std::string line = fmt::format("{:>10}  {}{}{}{}", format_time(record.time), style_.strong,
@@ -240,7 +240,7 @@ void TextReport::on_failure(const Failure& failure) {
   write_line(fmt::format("{}{}: {}{}", style_.bad, format_place(script_file_, failure.range.begin),
                          failure.message, style_.reset),
              text_column);
-  for (const Sentences& sentences : story_.explain(failure)) write(sentences);
+  for (const Sentences& sentences : explanation_.explain(failure)) write(sentences);
 }
 
 void TextReport::on_end(const State& state) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
-#include "core/report/failure_story.h"
+#include "core/report/failure_explanation.h"
 #include "core/report/run_report.h"
 #include "core/report/run_summary.h"
 #include "core/report/sentences.h"
@@ -64,7 +64,7 @@ class TextReport final : public SolveReport {
   const TextLayout layout_;
   std::FILE* const out_;
   const CompiledCatalog* catalog_ = nullptr;
-  FailureStory story_;
+  FailureExplanation explanation_;
   RunSummary summary_;
   ScriptTable scripts_;
   std::string script_file_;

@@ -173,21 +173,21 @@ void Runner::check(const Step& step) {
     ++result_.failed;
     result_.failures.push_back({step.range, mismatch});
     Failure failure{result_.failed, index_, step.range, std::move(mismatch), &step, &state, {}};
-    if (has_hindsight_ && failure.number <= most_explained) {
-      failure.surprises = find_surprises(*step.expect);
+    if (keeps_decisions_ && failure.number <= most_explained) {
+      failure.unexpected = find_unexpected(*step.expect);
     }
     listener_.on_failure(failure);
   }
 }
 
-std::vector<Surprise> Runner::find_surprises(const Expectation& expectation) {
-  std::vector<Surprise> surprises;
+std::vector<UnexpectedTasks> Runner::find_unexpected(const Expectation& expectation) {
+  std::vector<UnexpectedTasks> unexpected;
   for (ExpectedValues& expected :
        find_expected_values(expectation, catalog_, coordinator_.state())) {
-    surprises.push_back({expected.group, std::move(expected.tasks),
-                         coordinator_.look_back(expected.group, expected.ways)});
+    unexpected.push_back({expected.group, std::move(expected.tasks),
+                          coordinator_.why_unmet(expected.group, expected.ways)});
   }
-  return surprises;
+  return unexpected;
 }
 
 Event event_of(const Step& step) {
@@ -213,9 +213,9 @@ RunResult run_script(const CompiledCatalog& catalog, const Script& script,
                      const CoordinatorOptions& options, RunListener& listener) {
   CoordinatorOptions of_script = options_of(script, options);
   // Without expectations nobody asks.
-  of_script.hindsight =
-      options.hindsight && std::any_of(script.steps.begin(), script.steps.end(),
-                                       [](const Step& step) { return step.expect.has_value(); });
+  of_script.last_decisions = options.last_decisions &&
+                             std::any_of(script.steps.begin(), script.steps.end(),
+                                         [](const Step& step) { return step.expect.has_value(); });
   Runner runner(catalog, of_script, listener);
   runner.begin(script.situation);
   bool goes_on = true;

@@ -25,19 +25,19 @@ JunitReport::JunitReport(std::FILE* out, bool is_part) : out_(out) {
 void JunitReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
   catalog_ = &catalog;
   script_ = &script;
-  story_.begin_run(catalog);
+  explanation_.begin_run(catalog);
   failed_.clear();
 }
 
 void JunitReport::on_event(const EventRecord& record, const Step* step, const State& state) {
-  story_.add(record, step, state);
+  explanation_.add(record, step, state);
 }
 
 void JunitReport::on_failure(const Failure& failure) {
   std::string details =
       fmt::format("{}: {}\n", format_place(xml_text(script_->file), failure.range.begin),
                   xml_text(failure.message));
-  for (const std::string& line : story_.tell(failure)) details += xml_text(line) + "\n";
+  for (const std::string& line : explanation_.tell(failure)) details += xml_text(line) + "\n";
   failed_.push_back({failure.step, failure.message, std::move(details)});
 }
 
@@ -99,16 +99,16 @@ void JunitReport::report_unreadable(std::FILE* out, const std::vector<Diagnostic
 
 void GithubReport::begin_run(const CompiledCatalog& catalog, const Script& script) {
   script_file_ = script.file;
-  story_.begin_run(catalog);
+  explanation_.begin_run(catalog);
 }
 
 void GithubReport::on_event(const EventRecord& record, const Step* step, const State& state) {
-  story_.add(record, step, state);
+  explanation_.add(record, step, state);
 }
 
 void GithubReport::on_failure(const Failure& failure) {
   std::string message = failure.message;
-  for (const std::string& line : story_.tell(failure)) message += "\n" + line;
+  for (const std::string& line : explanation_.tell(failure)) message += "\n" + line;
   fmt::print(
       out_, "{}",
       github_command("error", {script_file_, failure.range}, "cbc expectation failed", message));

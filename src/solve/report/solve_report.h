@@ -9,7 +9,7 @@
 
 #include "core/diagnostic/diagnostic.h"
 #include "core/report/event_json.h"
-#include "core/report/failure_story.h"
+#include "core/report/failure_explanation.h"
 #include "core/report/run_report.h"
 #include "core/report/run_text.h"
 #include "core/script/runner.h"
@@ -40,7 +40,7 @@ class GithubReport final : public SolveReport {
  private:
   std::FILE* const out_;
   std::string script_file_;
-  FailureStory story_;
+  FailureExplanation explanation_;
 };
 
 /// Writes runs as JUnit XML (the schema that Jenkins validates with): a script is a test suite, an
@@ -75,7 +75,7 @@ class JunitReport final : public SolveReport {
   std::FILE* const out_;
   const CompiledCatalog* catalog_ = nullptr;
   const Script* script_ = nullptr;
-  FailureStory story_;
+  FailureExplanation explanation_;
   std::vector<FailedCase> failed_;  ///< in the order of the script
 };
 

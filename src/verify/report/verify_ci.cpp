@@ -46,7 +46,7 @@ std::string test_case(const VerifyResult& result, const VerifyPart& part,
   const bool is_violated = answer.verdict.result == Verdict::Result::violated;
   std::string details = xml_text(describe(*result.catalog, *answer.property)) + "\n";
   if (reported.replay) {
-    for (const std::string& line : reported.replay->story) details += xml_text(line) + "\n";
+    for (const std::string& line : reported.replay->explanation) details += xml_text(line) + "\n";
     details += "\n" + xml_lines(answer.witness->text);
   }
   return broken_case(
@@ -81,7 +81,7 @@ std::string verify_to_github(const VerifyResult& result) {
       if (!property.name.empty()) message += describe(*result.catalog, property) + "\n";
       message += describe_answer(result, part, answer);
       if (reported.replay) {
-        for (const std::string& line : reported.replay->story) message += "\n" + line;
+        for (const std::string& line : reported.replay->explanation) message += "\n" + line;
       }
       const Position begin{static_cast<std::uint32_t>(property.line), 1};
       text +=

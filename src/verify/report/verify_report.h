@@ -28,7 +28,7 @@ struct Replay {
   std::string text;      ///< event by event, as in the text of `cbc solve`
   std::string conflict;  ///< why the last scripted start was rejected, as in cbc.solve/1
   /// What led to the end, in sentences.
-  std::vector<std::string> story;
+  std::vector<std::string> explanation;
 };
 
 /// Runs the script of an answer, which has one.

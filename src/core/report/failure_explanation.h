@@ -26,18 +26,19 @@ namespace cbc {
 /// What else one has to know of tasks that are not as expected: that what prevented it no longer
 /// does, and that faults of their behaviors have no effect yet. `state`: as below.
 [[nodiscard]] std::vector<std::string> notes_of(const CompiledCatalog& catalog,
-                                                const Surprise& surprise, const State& state);
+                                                const UnexpectedTasks& unexpected,
+                                                const State& state);
 
 /// Why tasks are not as expected: the event that decided, the objective with both values, and what
 /// differs; or what prevents it; then the notes. `state`: the one in which the expectation does not
 /// hold.
-[[nodiscard]] Sentences describe_surprise(const CompiledCatalog& catalog, const Surprise& surprise,
-                                          const State& state);
+[[nodiscard]] Sentences describe_unexpected(const CompiledCatalog& catalog,
+                                            const UnexpectedTasks& unexpected, const State& state);
 
 /// Tells what led to a failed expectation: the event before it; why the last scripted start, stop
 /// or finish was rejected, if it was; and when and why tasks stopped that are expected to run, or
 /// why they wait.
-class FailureStory {
+class FailureExplanation {
  public:
   /// Starts a run. The catalog must outlive it.
   void begin_run(const CompiledCatalog& catalog);

@@ -1,4 +1,4 @@
-#include "core/report/failure_story.h"
+#include "core/report/failure_explanation.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -29,11 +29,11 @@ std::string value_text(const CompiledCatalog& catalog, TaskId task, std::uint32_
 }
 
 /// "decided by ...": the objective, and its values in both answers.
-std::string describe_decision(const CompiledCatalog& catalog, const Surprise& surprise) {
-  const State& state = *surprise.look_back.before;
-  const Configuration& chosen = surprise.look_back.event->explanation.chosen;
-  const Configuration& other = *surprise.look_back.why_not.alternative;
-  const Difference& difference = surprise.look_back.why_not.difference;
+std::string describe_decision(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected) {
+  const State& state = *unexpected.why_unmet.before;
+  const Configuration& chosen = unexpected.why_unmet.event->explanation.chosen;
+  const Configuration& other = *unexpected.why_unmet.why_not.alternative;
+  const Difference& difference = unexpected.why_unmet.why_not.difference;
   const auto both = [](std::string_view what, const auto& ours, const auto& theirs) {
     return fmt::format("by {}: {}; with what is expected, {} at best", what, ours, theirs);
   };
@@ -50,8 +50,8 @@ std::string describe_decision(const CompiledCatalog& catalog, const Surprise& su
           task_name(catalog, difference.task), task_name(catalog, difference.other_task));
     case Criterion::suitability: {
       const auto [ours, theirs] =
-          shorten_both(exact_suitability(catalog, state, surprise.group, chosen.assignment),
-                       exact_suitability(catalog, state, surprise.group, other.assignment));
+          shorten_both(exact_suitability(catalog, state, unexpected.group, chosen.assignment),
+                       exact_suitability(catalog, state, unexpected.group, other.assignment));
       return both("the suitability of all that runs", ours, theirs);
     }
     case Criterion::idle:
@@ -67,9 +67,9 @@ std::string describe_decision(const CompiledCatalog& catalog, const Surprise& su
   return {};
 }
 
-Sentences describe_decided(const CompiledCatalog& catalog, const Surprise& surprise) {
-  const EventRecord& event = *surprise.look_back.event;
-  const WhyNot& why_not = surprise.look_back.why_not;
+Sentences describe_decided(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected) {
+  const EventRecord& event = *unexpected.why_unmet.event;
+  const WhyNot& why_not = unexpected.why_unmet.why_not;
   Sentences text;
   if (why_not.is_cut) {
     const bool is_proven = event.search->result.status == SearchStatus::optimal;
@@ -79,24 +79,24 @@ Sentences describe_decided(const CompiledCatalog& catalog, const Surprise& surpr
     return text;
   }
   if (!why_not.alternative) {
-    text.more = describe_reasons(catalog, event, why_not.conflict, surprise.tasks);
+    text.more = describe_reasons(catalog, event, why_not.conflict, unexpected.tasks);
     text.first = fmt::format("decided at {}: no answer meets the expectation{}",
                              describe_place(catalog, event),
                              text.more.empty() ? ", since the event leaves no other choice" : ":");
     return text;
   }
-  const std::vector<TaskId> unneeded = unneeded_tasks(catalog, event, why_not, surprise.tasks);
+  const std::vector<TaskId> unneeded = unneeded_tasks(catalog, event, why_not, unexpected.tasks);
   text.first = fmt::format("decided at {}{} {}:", describe_place(catalog, event),
                            unneeded.empty() ? std::string()
                                             : fmt::format(", where nothing that ran required {},",
                                                           list_tasks(catalog, unneeded, "or")),
-                           describe_decision(catalog, surprise));
+                           describe_decision(catalog, unexpected));
   std::size_t count = 0;
   for (const TaskId task :
-       differing_tasks(catalog, surprise.group, event.explanation.chosen.assignment,
+       differing_tasks(catalog, unexpected.group, event.explanation.chosen.assignment,
                        why_not.alternative->assignment)) {
     if (++count > most_differences) continue;
-    const TaskId first = catalog.group_tasks[surprise.group];
+    const TaskId first = catalog.group_tasks[unexpected.group];
     text.more.push_back(
         fmt::format("{}: {} instead of {}", task_name(catalog, task),
                     value_text(catalog, task, event.explanation.chosen.assignment[task - first]),
@@ -109,9 +109,9 @@ Sentences describe_decided(const CompiledCatalog& catalog, const Surprise& surpr
 }
 
 /// Whether all that is missing is a request for some tasks.
-bool needs_request_only(const LookBack& look_back) {
-  const std::vector<Reason>& conflict = look_back.why_not.conflict;
-  return look_back.kind == LookBack::Kind::decided && !conflict.empty() &&
+bool needs_request_only(const WhyUnmet& why_unmet) {
+  const std::vector<Reason>& conflict = why_unmet.why_not.conflict;
+  return why_unmet.kind == WhyUnmet::Kind::decided && !conflict.empty() &&
          std::all_of(conflict.begin(), conflict.end(),
                      [](const Reason& reason) { return reason.kind == Reason::Kind::on_request; });
 }
@@ -130,22 +130,22 @@ bool is_over(const Reason& reason, const State& state) {
   }
 }
 
-Sentences describe_look_back(const CompiledCatalog& catalog, const Surprise& surprise) {
-  const LookBack& look_back = surprise.look_back;
-  switch (look_back.kind) {
-    case LookBack::Kind::undecided:
-      return {"no event so far has started " + list_tasks(catalog, surprise.tasks, "or") +
+Sentences describe_unmet(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected) {
+  const WhyUnmet& why_unmet = unexpected.why_unmet;
+  switch (why_unmet.kind) {
+    case WhyUnmet::Kind::undecided:
+      return {"no event so far has started " + list_tasks(catalog, unexpected.tasks, "or") +
                   ", or what requires it",
               {}};
-    case LookBack::Kind::due:
+    case WhyUnmet::Kind::due:
       return {fmt::format("{} is due to start by itself at {} s",
-                          task_name(catalog, look_back.queued_task), format_time(look_back.due)),
+                          task_name(catalog, why_unmet.queued_task), format_time(why_unmet.due)),
               {}};
-    case LookBack::Kind::rejected:
-      return {describe_place(catalog, *look_back.event) + " was rejected:",
-              describe_rejection(catalog, *look_back.event)};
-    case LookBack::Kind::decided:
-      return describe_decided(catalog, surprise);
+    case WhyUnmet::Kind::rejected:
+      return {describe_place(catalog, *why_unmet.event) + " was rejected:",
+              describe_rejection(catalog, *why_unmet.event)};
+    case WhyUnmet::Kind::decided:
+      return describe_decided(catalog, unexpected);
   }
   return {};
 }
@@ -177,8 +177,8 @@ void add_once(Sentences sentences, std::vector<Sentences>& all) {
 }
 
 /// The event whose rejection explains why tasks are not as expected, or 0.
-std::uint64_t rejection_of(const LookBack& look_back) {
-  return look_back.kind == LookBack::Kind::rejected ? look_back.event->index : 0;
+std::uint64_t rejection_of(const WhyUnmet& why_unmet) {
+  return why_unmet.kind == WhyUnmet::Kind::rejected ? why_unmet.event->index : 0;
 }
 
 }  // namespace
@@ -196,18 +196,18 @@ std::vector<TaskId> differing_tasks(const CompiledCatalog& catalog, std::uint32_
   return tasks;
 }
 
-std::vector<std::string> notes_of(const CompiledCatalog& catalog, const Surprise& surprise,
+std::vector<std::string> notes_of(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected,
                                   const State& state) {
   std::vector<std::string> notes;
-  const LookBack& look_back = surprise.look_back;
-  const std::vector<Reason>& reasons = look_back.kind == LookBack::Kind::rejected
-                                           ? look_back.event->conflict
-                                           : look_back.why_not.conflict;
+  const WhyUnmet& why_unmet = unexpected.why_unmet;
+  const std::vector<Reason>& reasons = why_unmet.kind == WhyUnmet::Kind::rejected
+                                           ? why_unmet.event->conflict
+                                           : why_unmet.why_not.conflict;
   if (std::any_of(reasons.begin(), reasons.end(),
                   [&state](const Reason& reason) { return is_over(reason, state); })) {
     notes.emplace_back("this has changed since, but no later event has decided it anew");
   }
-  for (const TaskId task : surprise.tasks) {
+  for (const TaskId task : unexpected.tasks) {
     if (!state.is_running(task) || !state.is_faulty(state.behavior(task))) continue;
     std::string note = describe_late_fault(catalog, state.behavior(task));
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) {
@@ -219,21 +219,22 @@ std::vector<std::string> notes_of(const CompiledCatalog& catalog, const Surprise
 
 namespace {
 
-void add_notes(const CompiledCatalog& catalog, const Surprise& surprise, const State& state,
-               Sentences& text) {
-  for (std::string& note : notes_of(catalog, surprise, state)) text.more.push_back(std::move(note));
+void add_notes(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected,
+               const State& state, Sentences& text) {
+  for (std::string& note : notes_of(catalog, unexpected, state))
+    text.more.push_back(std::move(note));
 }
 
 }  // namespace
 
-Sentences describe_surprise(const CompiledCatalog& catalog, const Surprise& surprise,
-                            const State& state) {
-  Sentences text = describe_look_back(catalog, surprise);
-  add_notes(catalog, surprise, state, text);
+Sentences describe_unexpected(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected,
+                              const State& state) {
+  Sentences text = describe_unmet(catalog, unexpected);
+  add_notes(catalog, unexpected, state, text);
   return text;
 }
 
-void FailureStory::begin_run(const CompiledCatalog& catalog) {
+void FailureExplanation::begin_run(const CompiledCatalog& catalog) {
   catalog_ = &catalog;
   last_ = nullptr;
   rejected_.clear();
@@ -242,7 +243,7 @@ void FailureStory::begin_run(const CompiledCatalog& catalog) {
   waits_.clear();
 }
 
-void FailureStory::add(const EventRecord& record, const Step* step, const State& state) {
+void FailureExplanation::add(const EventRecord& record, const Step* step, const State& state) {
   last_ = &record;
   last_step_ = step;
   note_stops(record, step, state);
@@ -258,7 +259,8 @@ void FailureStory::add(const EventRecord& record, const Step* step, const State&
   reasons_ = describe_rejection(*catalog_, record);
 }
 
-void FailureStory::note_stops(const EventRecord& record, const Step* step, const State& state) {
+void FailureExplanation::note_stops(const EventRecord& record, const Step* step,
+                                    const State& state) {
   std::erase_if(stops_, [&state](const auto& stop) { return state.is_running(stop.first); });
   for (const StoppedTask& stopped : record.stopped_tasks) {
     Stop& stop = stops_[stopped.task];
@@ -269,7 +271,7 @@ void FailureStory::note_stops(const EventRecord& record, const Step* step, const
   }
 }
 
-void FailureStory::note_waits(const EventRecord& record, const State& state) {
+void FailureExplanation::note_waits(const EventRecord& record, const State& state) {
   std::erase_if(waits_, [&state](const auto& wait) { return !state.is_waiting(wait.first); });
   if (record.origin != Origin::reactive || record.outcome != Outcome::rejected) return;
   if (!state.is_waiting(record.task)) return;
@@ -280,7 +282,7 @@ void FailureStory::note_waits(const EventRecord& record, const State& state) {
        describe_rejection(*catalog_, record)}};
 }
 
-std::vector<std::string> FailureStory::tell(const Expectation& failed) const {
+std::vector<std::string> FailureExplanation::tell(const Expectation& failed) const {
   std::vector<std::string> lines = tell_events(true);
   std::vector<Sentences> more;
   for (const Expectation::Running& expected : failed.running) {
@@ -292,13 +294,13 @@ std::vector<std::string> FailureStory::tell(const Expectation& failed) const {
   return lines;
 }
 
-std::vector<std::string> FailureStory::tell(const Failure& failure) const {
+std::vector<std::string> FailureExplanation::tell(const Failure& failure) const {
   std::vector<std::string> lines = tell_events(is_rejection_of_interest(failure));
   for (const Sentences& sentences : explain(failure)) add_lines(sentences, lines);
   return lines;
 }
 
-std::vector<Sentences> FailureStory::explain(const Failure& failure) const {
+std::vector<Sentences> FailureExplanation::explain(const Failure& failure) const {
   std::vector<Sentences> lines;
   if (failure.number == most_explained + 1) {
     lines.push_back({fmt::format("not explained, as only the first {} of a script are; nor are "
@@ -306,58 +308,58 @@ std::vector<Sentences> FailureStory::explain(const Failure& failure) const {
                                  most_explained),
                      {}});
   }
-  for (const Surprise& surprise : failure.surprises) {
-    const LookBack& look_back = surprise.look_back;
-    const bool needs_request = needs_request_only(look_back);
+  for (const UnexpectedTasks& unexpected : failure.unexpected) {
+    const WhyUnmet& why_unmet = unexpected.why_unmet;
+    const bool needs_request = needs_request_only(why_unmet);
     // The reasons of the event that decided are those of the stops in it, unless one task that
     // nobody requested is reason enough.
     const std::uint64_t told =
-        look_back.event == nullptr || needs_request ? 0 : look_back.event->index;
+        why_unmet.event == nullptr || needs_request ? 0 : why_unmet.event->index;
     std::vector<TaskId> stopped;
-    for (const TaskId task : surprise.tasks) {
+    for (const TaskId task : unexpected.tasks) {
       const auto wait = waits_.find(task);
-      if (wait != waits_.end() && wait->second.event != rejection_of(look_back)) {
+      if (wait != waits_.end() && wait->second.event != rejection_of(why_unmet)) {
         tell_wait(task, lines);
       }
-      if (look_back.kind == LookBack::Kind::due) continue;
+      if (why_unmet.kind == WhyUnmet::Kind::due) continue;
       if (tell_stop(task, told, lines)) stopped.push_back(task);
     }
-    const std::vector<Reason>& conflict = look_back.why_not.conflict;
+    const std::vector<Reason>& conflict = why_unmet.why_not.conflict;
     if (needs_request &&
         std::all_of(conflict.begin(), conflict.end(), [&stopped](const Reason& reason) {
           return std::count(stopped.begin(), stopped.end(), reason.task) > 0;
         })) {
       continue;
     }
-    add_once(describe_look_back(*catalog_, surprise), lines);
-    add_notes(*catalog_, surprise, *failure.state, lines.back());
+    add_once(describe_unmet(*catalog_, unexpected), lines);
+    add_notes(*catalog_, unexpected, *failure.state, lines.back());
   }
   return lines;
 }
 
-bool FailureStory::is_rejection_of_interest(const Failure& failure) const {
+bool FailureExplanation::is_rejection_of_interest(const Failure& failure) const {
   if (rejected_.empty()) return false;
-  for (const Surprise& surprise : failure.surprises) {
+  for (const UnexpectedTasks& unexpected : failure.unexpected) {
     // Told with the tasks.
-    if (rejection_of(surprise.look_back) == rejected_index_) return false;
+    if (rejection_of(unexpected.why_unmet) == rejected_index_) return false;
   }
   const Expectation& expected = *failure.step->expect;
-  if (expected.outcome || failure.surprises.empty()) return true;
+  if (expected.outcome || failure.unexpected.empty()) return true;
   // A rejected start does not explain why something runs, nor a rejected stop why it does not.
   RelevantTasks relevant(*catalog_, catalog_->tasks[rejected_task_].group);
   relevant.add(rejected_task_);
   relevant.close();
   return std::any_of(
-      failure.surprises.begin(), failure.surprises.end(), [&](const Surprise& surprise) {
-        return surprise.group == catalog_->tasks[rejected_task_].group &&
-               std::any_of(surprise.tasks.begin(), surprise.tasks.end(), [&](TaskId task) {
+      failure.unexpected.begin(), failure.unexpected.end(), [&](const UnexpectedTasks& unexpected) {
+        return unexpected.group == catalog_->tasks[rejected_task_].group &&
+               std::any_of(unexpected.tasks.begin(), unexpected.tasks.end(), [&](TaskId task) {
                  return relevant.contains(task) &&
                         failure.state->is_running(task) != is_start_rejected_;
                });
       });
 }
 
-std::vector<std::string> FailureStory::tell_events(bool tells_rejection) const {
+std::vector<std::string> FailureExplanation::tell_events(bool tells_rejection) const {
   if (last_ == nullptr) return {"before the first event"};
   const std::string last = describe(*last_, last_step_);
   std::vector<std::string> lines{"after " + last};
@@ -367,12 +369,13 @@ std::vector<std::string> FailureStory::tell_events(bool tells_rejection) const {
   return lines;
 }
 
-void FailureStory::tell_wait(TaskId task, std::vector<Sentences>& lines) const {
+void FailureExplanation::tell_wait(TaskId task, std::vector<Sentences>& lines) const {
   const auto wait = waits_.find(task);
   if (wait != waits_.end()) add_once(wait->second.why, lines);
 }
 
-bool FailureStory::tell_stop(TaskId task, std::uint64_t told, std::vector<Sentences>& lines) const {
+bool FailureExplanation::tell_stop(TaskId task, std::uint64_t told,
+                                   std::vector<Sentences>& lines) const {
   const auto found = stops_.find(task);
   if (found == stops_.end() || found->second.event == told) return false;
   const Stop& stop = found->second;
@@ -383,7 +386,7 @@ bool FailureStory::tell_stop(TaskId task, std::uint64_t told, std::vector<Senten
   return true;
 }
 
-std::string FailureStory::describe(const EventRecord& record, const Step* step) const {
+std::string FailureExplanation::describe(const EventRecord& record, const Step* step) const {
   const std::string outcome = ": " + std::string(name_of(record.outcome));
   return fmt::format("event {} at {} s: {}{}", record.index, format_time(record.time),
                      describe_event(*catalog_, record, step),
