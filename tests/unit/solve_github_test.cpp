@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/command_line/command_line.h"
 #include "core/support/memory_file.h"
 #include "solve/report/solve_report.h"
 #include "unit/compiled_fixture.h"
@@ -20,10 +21,12 @@ std::string report_of(const std::string& file, const std::string& error = "") {
   script.file = file;
   script.steps.push_back(expectation);
   MemoryFile memory;
-  GithubReport report(memory.stream());
-  report.begin_run(catalog, script);
-  report.end_run(run_script(catalog, script, {}, report), error);
-  report.end();
+  ReportSettings settings;
+  settings.out = memory.stream();
+  const auto report = cli::find_named(solve_formats(), "github")->make(settings);
+  report->begin_run(catalog, script);
+  report->end_run(run_script(catalog, script, {}, *report), error);
+  report->end();
   return std::string(memory.text());
 }
 

@@ -10,7 +10,6 @@
 #include "core/report/event_json.h"
 #include "core/report/run_report.h"
 #include "core/report/search_stats.h"
-#include "core/report/sentences.h"
 #include "core/support/json.h"
 
 namespace cbc {

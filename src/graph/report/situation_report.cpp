@@ -10,7 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/report/catalog_json.h"
-#include "core/report/sentences.h"
+#include "core/report/catalog_words.h"
+#include "core/report/table.h"
 #include "core/report/table_parts.h"
 #include "core/support/json.h"
 #include "core/support/wording.h"
@@ -116,10 +117,9 @@ std::vector<std::string> describe_gaps(const CompiledCatalog& catalog,
                                        const SituationTable& table) {
   std::vector<std::string> lines;
   for (const VariableValue value : table.values()) {
-    std::string names;
-    for (const TaskId task : table.tasks_without_behavior(value)) {
-      names += (names.empty() ? "" : ", ") + draw::label_of(catalog.name_of_task(task));
-    }
+    const std::string names = join(table.tasks_without_behavior(value), ", ", [&](TaskId task) {
+      return draw::label_of(catalog.name_of_task(task));
+    });
     if (!names.empty()) lines.push_back(describe_value(catalog, value) + ": " + names);
   }
   return lines;
@@ -190,15 +190,6 @@ class TextTable {
     return titles_[value.variable][value.value];
   }
 
-  static void pad(std::string& line, std::size_t width) {
-    const std::size_t present = width_of(line);
-    if (present < width) line.append(width - present, ' ');
-  }
-
-  void add_line(const std::string& line, std::string_view color) {
-    text_ += style_.paint(color, without_end_blanks(line)) + "\n";
-  }
-
   /// Writes the columns that have been collected.
   void flush(std::size_t& width) {
     if (!values_.empty()) add_part();
@@ -208,43 +199,28 @@ class TextTable {
   }
 
   void add_part() {
-    text_ += '\n';
-    std::string variables;
-    std::string titles;
-    std::size_t end = left_;
+    std::vector<Table::Column> columns = {{{}, {}, left_ - column_gap.size()}};
+    Table::Row variables = {""};
+    Table::Row titles = {""};
     for (std::size_t column = 0; column < values_.size(); ++column) {
       const VariableValue value = values_[column];
-      end += column_gap.size();
-      pad(titles, end);
-      titles += title_of(value);
-      if (column == 0 || values_[column - 1].variable != value.variable) {
-        pad(variables, end);
-        variables += name_of(value.variable);
-      }
-      end += widths_[column];
+      const bool is_first = column == 0 || values_[column - 1].variable != value.variable;
+      columns.push_back({{}, {}, widths_[column]});
+      variables.emplace_back(is_first ? name_of(value.variable) : std::string());
+      titles.emplace_back(title_of(value));
     }
-    add_line(variables, style_.strong);
-    add_line(titles, style_.faint);
+    const Table table(style_, std::move(columns));
+    text_ += "\n" + table.line(variables, style_.strong) + table.line(titles, style_.faint);
     for (std::size_t row = 0; row < names_.size(); ++row) {
-      const BehaviorId behavior = table_.behaviors()[row];
-      const bool names_any = std::any_of(values_.begin(), values_.end(), [&](VariableValue value) {
-        return table_.fit(behavior, value) != Fit::in_any;
-      });
-      if (names_any) add_row(row);
+      Table::Row cells = {names_[row]};
+      bool names_any = false;
+      for (const VariableValue value : values_) {
+        const Fit fit = table_.fit(table_.behaviors()[row], value);
+        names_any = names_any || fit != Fit::in_any;
+        cells.emplace_back(std::string(1, sign_of(fit)), color_of(fit));
+      }
+      if (names_any) text_ += table.line(cells);
     }
-  }
-
-  void add_row(std::size_t row) {
-    std::string line = "  " + names_[row];
-    pad(line, left_);
-    std::size_t blanks = 0;
-    for (std::size_t column = 0; column < values_.size(); ++column) {
-      const Fit fit = table_.fit(table_.behaviors()[row], values_[column]);
-      line.append(blanks + column_gap.size(), ' ');
-      line += style_.paint(color_of(fit), std::string(1, sign_of(fit)));
-      blanks = widths_[column] - 1;
-    }
-    text_ += line + "\n";
   }
 
   [[nodiscard]] std::string_view color_of(Fit fit) const {

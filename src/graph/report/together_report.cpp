@@ -10,7 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/report/event_json.h"
-#include "core/report/sentences.h"
+#include "core/report/reason_words.h"
+#include "core/report/table.h"
 #include "core/report/table_parts.h"
 #include "core/support/json.h"
 #include "core/support/wording.h"
@@ -96,12 +97,7 @@ void for_each_indirect(const TogetherTable& table, const Action& action) {
 }
 
 std::string list_names(const CompiledCatalog& catalog, const std::vector<TaskId>& tasks) {
-  std::string text;
-  for (const TaskId task : tasks) {
-    if (!text.empty()) text += ", ";
-    text += draw::label_of(catalog.name_of_task(task));
-  }
-  return text;
+  return join(tasks, ", ", [&](TaskId task) { return draw::label_of(catalog.name_of_task(task)); });
 }
 
 constexpr std::size_t columns_in_a_block = 5;
@@ -126,43 +122,50 @@ class TextMatrix {
     std::size_t most = (width + 1) / (columns_in_a_block + 1) * columns_in_a_block;
     if (columns + (columns - 1) / columns_in_a_block <= width) most = columns;
     for (std::size_t first = 0; first + 1 < matrix_.size(); first += most) {
-      add_part(first, std::min(first + most, matrix_.size() - 1), left);
+      add_part(first, std::min(first + most, matrix_.size() - 1));
     }
     return std::move(text_);
   }
 
  private:
-  void add_part(std::size_t first, std::size_t end, std::size_t left) {
+  void add_part(std::size_t first, std::size_t end) {
+    std::vector<Table::Column> columns = {number_column({}, digits_), {{}, {}, name_width_, 1}};
+    for (std::size_t column = first; column < end; ++column) {
+      const bool begins_block = (column - first) % columns_in_a_block == 0;
+      columns.push_back({{}, {}, 1, begins_block ? std::size_t{1} : 0});
+    }
+    const Table table(style_, std::move(columns));
     text_ += '\n';
     for (std::size_t digit = 0; digit < digits_; ++digit) {
-      std::string line(left, ' ');
+      Table::Row row = {"", ""};
       for (std::size_t column = first; column < end; ++column) {
-        add_gap(line, column, first);
-        line += fmt::format("{:>{}}", column + 1, digits_)[digit];
+        const std::string number = fmt::format("{:>{}}", column + 1, digits_);
+        row.emplace_back(number[digit] == ' ' ? "" : number.substr(digit, 1));
       }
-      text_ += style_.paint(style_.faint, without_end_blanks(line)) + "\n";
+      text_ += table.line(row, style_.faint);
     }
     for (std::size_t row = first; row < matrix_.size(); ++row) {
-      text_ += fmt::format("  {:>{}} {}", row + 1, digits_, names_[row]);
-      std::string cells(name_width_ - width_of(names_[row]) + 1, ' ');
+      Table::Row cells = {row + 1, names_[row]};
       for (std::size_t column = first; column < std::min(row, end); ++column) {
-        add_gap(cells, column, first);
-        cells += cell(matrix_.at(row, column));
+        cells.push_back(cell(matrix_.at(row, column)));
       }
-      text_ += row == first ? "\n" : cells + "\n";
+      text_ += table.line(cells);
     }
   }
 
-  static void add_gap(std::string& line, std::size_t column, std::size_t first) {
-    if (column > first && (column - first) % columns_in_a_block == 0) line += ' ';
-  }
-
-  [[nodiscard]] std::string cell(const TaskPair& pair) const {
+  [[nodiscard]] Table::Cell cell(const TaskPair& pair) const {
     const std::string sign(1, sign_of(pair));
-    if (pair.is_forbidden) return style_.paint(style_.error, sign);
-    if (pair.together == Together::possible) return style_.paint(style_.good, sign);
-    if (pair.together == Together::undecided) return style_.paint(style_.warning, sign);
-    return pair.together == Together::excluded ? style_.paint(style_.faint, sign) : sign;
+    if (pair.is_forbidden) return {sign, style_.error};
+    switch (pair.together) {
+      case Together::possible:
+        return {sign, style_.good};
+      case Together::undecided:
+        return {sign, style_.warning};
+      case Together::excluded:
+        return {sign, style_.faint};
+      default:
+        return sign;
+    }
   }
 
   const Matrix matrix_;
@@ -299,13 +302,13 @@ std::string together_dot(const CompiledCatalog& catalog, const TogetherTable& ta
 
 std::span<const TogetherFormat> together_formats() {
   using Compiled = const CompiledCatalog&;
-  using Table = const TogetherTable&;
-  constexpr auto as_dot = [](Compiled catalog, Table table, const Style& /*style*/) {
+  using Pairs = const TogetherTable&;
+  constexpr auto as_dot = [](Compiled catalog, Pairs table, const Style& /*style*/) {
     return together_dot(catalog, table);
   };
   static constexpr TogetherFormat formats[] = {
       {"text", together_text},
-      {"json", [](Compiled catalog, Table table,
+      {"json", [](Compiled catalog, Pairs table,
                   const Style& /*style*/) { return together_json(catalog, table); }},
       {"dot", as_dot},
       {"svg", as_dot},

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/report/property_words.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 
@@ -53,7 +54,7 @@ void add_groups_of_variables(const CompiledCatalog& catalog, const StateConditio
 std::string title_of(const CompiledCatalog& catalog, const PropertyFile& file,
                      const Property& property) {
   const std::string place = fmt::format("{}:{}", printable(file.path), property.line);
-  const std::string words = describe(catalog, property);
+  const std::string words = describe_property(catalog, property);
   return property.name.empty()
              ? fmt::format("{}\n({})", words, place)
              : fmt::format("{}: {}\n({})", printable(property.name), words, place);

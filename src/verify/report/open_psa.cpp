@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/report/junit_parts.h"
+#include "core/report/xml_text.h"
 
 namespace cbc {
 namespace {

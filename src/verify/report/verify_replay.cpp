@@ -2,6 +2,7 @@
 
 #include "core/report/event_json.h"
 #include "core/report/failure_explanation.h"
+#include "core/report/reason_words.h"
 #include "core/report/run_text.h"
 #include "core/support/json.h"
 #include "core/support/memory_file.h"

@@ -140,14 +140,6 @@ struct VerifyResult {
 /// is null if it is not even known whether the task can run without faults.
 [[nodiscard]] std::string verify_to_json(const VerifyResult& result);
 
-/// The properties as JUnit XML: a file is a test suite, a property a test case. One that is
-/// violated is a failure, an undecided one an error.
-[[nodiscard]] std::string verify_to_junit(const VerifyResult& result);
-
-/// Violated and undecided properties as workflow commands of GitHub Actions: each becomes an
-/// annotation of its line.
-[[nodiscard]] std::string verify_to_github(const VerifyResult& result);
-
 /// A page of all properties, with a timeline of each counterexample and witness.
 [[nodiscard]] std::string verify_to_html(const VerifyResult& result);
 

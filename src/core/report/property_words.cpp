@@ -1,23 +1,24 @@
+#include "core/report/property_words.h"
+
 #include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "core/property/properties.h"
+#include "core/report/catalog_words.h"
+#include "core/report/layout.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
 namespace {
 
-std::string describe(const CompiledCatalog& catalog, const StateCondition& condition) {
+std::string describe_condition(const CompiledCatalog& catalog, const StateCondition& condition) {
   std::vector<std::string> parts;
   const auto task = [&](TaskId id) { return printable(catalog.name_of_task(id)); };
   const auto behavior = [&](BehaviorId id) { return printable(catalog.name_of_behavior(id)); };
   for (const auto& running : condition.running) {
-    parts.push_back(running.behavior == none ? fmt::format("{} runs", task(running.task))
-                                             : fmt::format("{} runs with {}", task(running.task),
-                                                           behavior(running.behavior)));
+    parts.push_back(describe_running(catalog, running.task, running.behavior));
   }
   for (const TaskId id : condition.stopped) {
     parts.push_back(fmt::format("{} does not run", task(id)));
@@ -30,8 +31,7 @@ std::string describe(const CompiledCatalog& catalog, const StateCondition& condi
                                 requested.priority));
   }
   for (const VariableValue& value : condition.situation.variables) {
-    parts.push_back(fmt::format("{} is {}", printable(catalog.name_of_variable(value.variable)),
-                                printable(catalog.name_of_value(value))));
+    parts.push_back(describe_value(catalog, value));
   }
   for (const auto& own : condition.situation.behaviors) {
     parts.push_back(fmt::format("the situation {} {}", own.available ? "allows" : "forbids",
@@ -43,13 +43,13 @@ std::string describe(const CompiledCatalog& catalog, const StateCondition& condi
   for (const BehaviorId id : condition.faulty) {
     parts.push_back(fmt::format("behavior {} is faulty", behavior(id)));
   }
-  return fmt::format("{}", fmt::join(parts, " and "));
+  return join(parts, " and ");
 }
 
 }  // namespace
 
-std::string describe(const CompiledCatalog& catalog, const Property& property) {
-  const std::string condition = describe(catalog, property.condition);
+std::string describe_property(const CompiledCatalog& catalog, const Property& property) {
+  const std::string condition = describe_condition(catalog, property.condition);
   std::string text;
   switch (property.kind) {
     case Property::Kind::can_start:
@@ -65,7 +65,7 @@ std::string describe(const CompiledCatalog& catalog, const Property& property) {
       text = fmt::format("some state in which {}", condition);
       break;
   }
-  if (property.when) text += fmt::format(", when {}", describe(catalog, *property.when));
+  if (property.when) text += fmt::format(", when {}", describe_condition(catalog, *property.when));
   if (property.settled) text += ", with nothing in the queue";
   return text;
 }
@@ -78,13 +78,9 @@ std::string describe_priorities(const Assumptions& assumptions) {
   for (const Assumptions::Start& start : assumptions.start) {
     priorities.insert(start.priorities.begin(), start.priorities.end());
   }
-  std::string text = priorities.size() == 1 ? "priority" : "priorities";
-  for (const std::int32_t priority : priorities) {
-    const bool is_last = priority == *priorities.rbegin() && priorities.size() > 1;
-    const bool is_first = priority == *priorities.begin();
-    text += fmt::format("{}{}", is_last ? " and " : is_first ? " " : ", ", priority);
-  }
-  return text;
+  std::vector<std::string> words;
+  for (const std::int32_t priority : priorities) words.push_back(std::to_string(priority));
+  return (words.size() == 1 ? "priority " : "priorities ") + list_with_and(words);
 }
 
 std::string describe_requests(const CompiledCatalog& catalog, const Assumptions& assumptions) {
@@ -133,6 +129,12 @@ std::string describe_assumptions(const CompiledCatalog& catalog, const StatedAss
   const std::size_t given = initially.variables.size() + initially.behaviors.size();
   if (given > 0) text += fmt::format("; {} given initially", quantity(given, "value"));
   return text;
+}
+
+std::string assumptions_to_text(const CompiledCatalog& catalog, const StatedAssumptions& stated,
+                                std::size_t columns) {
+  const std::size_t width = columns == 0 ? text_width : std::min(columns, text_width);
+  return wrap_line(describe_assumptions(catalog, stated), width, 2) + "\n";
 }
 
 }  // namespace cbc
