@@ -34,6 +34,13 @@ std::string describe_event(const CompiledCatalog& catalog, const EventRecord& re
   return text;
 }
 
+std::string event_and_outcome(const CompiledCatalog& catalog, const EventRecord& record,
+                              const Step* step) {
+  const std::string text = describe_event(catalog, record, step);
+  if (!form_of(record.verb).is_decided) return text;
+  return fmt::format("{}: {}", text, name_of(record.outcome));
+}
+
 std::string_view stop_word(const EventRecord& record, const StoppedTask& stopped) {
   if (stopped.has_finished) return name_of(stopped.cause);
   if (record.verb == Verb::stop && record.task == stopped.task) {

@@ -21,6 +21,10 @@ namespace cbc {
 [[nodiscard]] std::string describe_event(const CompiledCatalog& catalog, const EventRecord& record,
                                          const Step* step);
 
+/// The same with its outcome, if it has one: "start HOVER, priority 2: accepted".
+[[nodiscard]] std::string event_and_outcome(const CompiledCatalog& catalog,
+                                            const EventRecord& record, const Step* step);
+
 /// Why a task stopped, in the words for changes of behaviors where it was not by the finish of its
 /// own behavior: "requested" by this event, "displaced" or "released".
 [[nodiscard]] std::string_view stop_word(const EventRecord& record, const StoppedTask& stopped);

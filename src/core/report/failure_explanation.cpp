@@ -74,7 +74,7 @@ void FailureExplanation::add(const EventRecord& record, const Step* step, const 
   rejected_.clear();
   reasons_.clear();
   if (record.outcome != Outcome::rejected) return;
-  rejected_ = event_with_outcome(record, step);
+  rejected_ = time_and_event(record, step);
   rejected_index_ = record.index;
   rejected_task_ = record.task;
   is_start_rejected_ = record.verb == Verb::start;
@@ -86,7 +86,7 @@ void FailureExplanation::note_stops(const EventRecord& record, const Step* step,
   std::erase_if(stops_, [&state](const auto& stop) { return state.is_running(stop.first); });
   for (const StoppedTask& stopped : record.stopped_tasks) {
     Stop& stop = stops_[stopped.task];
-    stop = {record.index, {}, event_with_outcome(record, step)};
+    stop = {record.index, {}, time_and_event(record, step)};
   }
   for (const Displacement& displaced : record.explanation.displaced) {
     stops_[displaced.task].why = describe_displacement(*catalog_, record, displaced, state);
@@ -185,7 +185,7 @@ bool FailureExplanation::is_rejection_of_interest(const Failure& failure) const 
 
 std::vector<std::string> FailureExplanation::tell_events(bool tells_rejection) const {
   if (last_ == nullptr) return {"before the first event"};
-  const std::string last = event_with_outcome(*last_, last_step_);
+  const std::string last = time_and_event(*last_, last_step_);
   std::vector<std::string> lines{"after " + last};
   if (!tells_rejection || rejected_.empty()) return lines;
   if (rejected_ != last) lines.push_back("and after " + rejected_);
@@ -210,12 +210,9 @@ bool FailureExplanation::tell_stop(TaskId task, std::uint64_t told,
   return true;
 }
 
-std::string FailureExplanation::event_with_outcome(const EventRecord& record,
-                                                   const Step* step) const {
-  const std::string outcome = ": " + std::string(name_of(record.outcome));
-  return fmt::format("event {} at {} s: {}{}", record.index, format_time(record.time),
-                     describe_event(*catalog_, record, step),
-                     form_of(record.verb).is_decided ? outcome : "");
+std::string FailureExplanation::time_and_event(const EventRecord& record, const Step* step) const {
+  return fmt::format("event {} at {} s: {}", record.index, format_time(record.time),
+                     event_and_outcome(*catalog_, record, step));
 }
 
 }  // namespace cbc

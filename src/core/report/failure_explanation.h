@@ -51,7 +51,7 @@ class FailureExplanation {
   void tell_wait(TaskId task, std::vector<Sentences>& lines) const;
   /// `told`: the event whose reasons are told elsewhere, or 0. False if there is no stop to tell.
   bool tell_stop(TaskId task, std::uint64_t told, std::vector<Sentences>& lines) const;
-  [[nodiscard]] std::string event_with_outcome(const EventRecord& record, const Step* step) const;
+  [[nodiscard]] std::string time_and_event(const EventRecord& record, const Step* step) const;
 
   const CompiledCatalog* catalog_ = nullptr;
   const EventRecord* last_ = nullptr;  ///< null: none yet

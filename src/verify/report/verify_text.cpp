@@ -133,14 +133,14 @@ namespace {
 class GroupText {
  public:
   GroupText(const VerifyResult& result, const VerifyPart& part, const Assumptions& assumptions,
-            const Style& style)
-      : result_(result), catalog_(*result.catalog), part_(part), text_(style) {
+            Text& text)
+      : result_(result), catalog_(*result.catalog), part_(part), text_(text) {
     for (const Assumptions::Start& start : assumptions.start) {
       requested_.insert(catalog_.tasks[start.task].catalog_index);
     }
   }
 
-  std::string write() && {
+  void write() && {
     if (requested_.empty()) {
       text_.add(
           "\nno task starts on request, so only reactive starts were explored; a property file\n"
@@ -148,7 +148,6 @@ class GroupText {
     }
     for (const Exploration& exploration : part_.verification.explorations) add_group(exploration);
     if (!result_.single_faults.empty()) add_single_faults();
-    return text_.take();
   }
 
  private:
@@ -192,7 +191,6 @@ class GroupText {
     }
     std::sort(behaviors.begin(), behaviors.end());
     std::vector<std::string> inactive;
-    inactive.reserve(behaviors.size());
     for (const std::uint32_t index : behaviors) {
       inactive.push_back(printable(catalog_.behavior_names[index]));
     }
@@ -299,107 +297,84 @@ class GroupText {
   const CompiledCatalog& catalog_;
   const VerifyPart& part_;
   std::set<std::uint32_t> requested_;  ///< tasks, by their places in the catalog
-  Text text_;
+  Text& text_;
 };
+
+std::string_view color_of(Verdict::Result result, const Style& style) {
+  if (result == Verdict::Result::undecided) return style.warning;
+  return result == Verdict::Result::proved ? style.good : style.bad;
+}
+
+void add_table(const VerifyResult& result, const VerifyPart& part, Text& text) {
+  Table table(text.style(), {number_column("line"),
+                             {"result"},
+                             number_column("states"),
+                             number_column("transitions"),
+                             number_column("depth"),
+                             number_column("events"),
+                             {"property"}});
+  for (const ReportedAnswer& reported : part.answers) {
+    const Answer& answer = *reported.answer;
+    const Verdict::Result found = answer.verdict.result;
+    const Exploration& exploration = part.verification.explorations[answer.exploration];
+    table.add({answer.property->line,
+               {name_of(found), color_of(found, text.style())},
+               exploration.states,
+               exploration.transitions,
+               exploration.depth,
+               answer.witness ? std::to_string(answer.verdict.script.size()) : "",
+               title_of(*result.catalog, *answer.property)});
+  }
+  text.line("");
+  text.add(table.text());
+}
+
+void add_violation(const VerifyResult& result, const VerifyPart& part,
+                   const ReportedAnswer& reported, Text& text) {
+  const Answer& answer = *reported.answer;
+  const Property& property = *answer.property;
+  text.title(fmt::format("{}:{}: {}", printable(part.file->path), property.line,
+                         title_of(*result.catalog, property)));
+  if (!property.name.empty()) text.line(describe_property(*result.catalog, property));
+  const Exploration& exploration = part.verification.explorations[answer.exploration];
+  text.line(text.style().paint(text.style().bad, describe_violation(answer, exploration)) +
+            (reported.script_path ? "; see " + printable(*reported.script_path) : ""));
+  if (!answer.verdict.script.empty()) text.add("\n" + reported.replay->text);
+}
 
 /// The properties of a file: a table, then what is behind those that are not proved.
-class PropertyText {
- public:
-  PropertyText(const VerifyResult& result, const VerifyPart& part, const Style& style)
-      : result_(result), catalog_(*result.catalog), part_(part), style_(style) {}
-
-  std::string write() && {
-    add_table();
-    for (const ReportedAnswer& reported : part_.answers) {
-      if (reported.answer->verdict.result == Verdict::Result::violated) add_violation(reported);
+void add_properties(const VerifyResult& result, const VerifyPart& part, Text& text) {
+  add_table(result, part, text);
+  for (const ReportedAnswer& reported : part.answers) {
+    if (reported.answer->verdict.result == Verdict::Result::violated) {
+      add_violation(result, part, reported, text);
     }
-    for (const Exploration& exploration : part_.verification.explorations) {
-      if (!exploration.complete) add_limit(exploration);
-    }
-    return std::move(text_);
   }
-
- private:
-  void add_table() {
-    Table table(style_, {number_column("line"),
-                         {"result"},
-                         number_column("states"),
-                         number_column("transitions"),
-                         number_column("depth"),
-                         number_column("events"),
-                         {"property"}});
-    for (const ReportedAnswer& reported : part_.answers) {
-      const Answer& answer = *reported.answer;
-      const Exploration& exploration = part_.verification.explorations[answer.exploration];
-      table.add({answer.property->line,
-                 {name_of(answer.verdict.result), color_of(reported)},
-                 exploration.states,
-                 exploration.transitions,
-                 exploration.depth,
-                 answer.witness ? std::to_string(answer.verdict.script.size()) : "",
-                 title_of(catalog_, *answer.property)});
-    }
-    text_ += "\n" + table.text();
+  for (const Exploration& exploration : part.verification.explorations) {
+    if (exploration.complete) continue;
+    const std::string groups =
+        join(exploration.groups, ", ", [](std::uint32_t group) { return std::to_string(group); });
+    const std::string title =
+        (exploration.groups.size() == 1 ? "exploration of group " : "exploration of groups ") +
+        groups;
+    text.line("");
+    text.line(text.style().paint(text.style().warning, title) + ": " +
+              describe_limit(result, exploration));
   }
+}
 
-  [[nodiscard]] std::string_view color_of(const ReportedAnswer& reported) const {
-    switch (reported.answer->verdict.result) {
-      case Verdict::Result::proved:
-        return style_.good;
-      case Verdict::Result::violated:
-        return style_.bad;
-      case Verdict::Result::undecided:
-        break;
-    }
-    return style_.warning;
-  }
-
-  void add_violation(const ReportedAnswer& reported) {
-    const Property& property = *reported.answer->property;
-    text_ += fmt::format("\n{}{}:{}: {}{}\n", style_.strong, printable(part_.file->path),
-                         property.line, title_of(catalog_, property), style_.reset);
-    if (!property.name.empty()) text_ += describe_property(catalog_, property) + "\n";
-    const Answer& answer = *reported.answer;
-    const Exploration& exploration = part_.verification.explorations[answer.exploration];
-    text_ += style_.paint(style_.bad, describe_violation(answer, exploration));
-    if (reported.script_path) text_ += fmt::format("; see {}", printable(*reported.script_path));
-    text_ += "\n";
-    if (!answer.verdict.script.empty()) text_ += "\n" + reported.replay->text;
-  }
-
-  void add_limit(const Exploration& exploration) {
-    text_ += fmt::format("\n{}exploration of {}{}: {}\n", style_.warning,
-                         names_of_groups(exploration.groups), style_.reset,
-                         describe_limit(result_, exploration));
-  }
-
-  [[nodiscard]] static std::string names_of_groups(const std::vector<std::uint32_t>& groups) {
-    return (groups.size() == 1 ? "group " : "groups ") +
-           join(groups, ", ", [](std::uint32_t group) { return std::to_string(group); });
-  }
-
-  const VerifyResult& result_;
-  const CompiledCatalog& catalog_;
-  const VerifyPart& part_;
-  const Style& style_;
-  std::string text_;
-};
-
-std::string cut_sets_text(const CompiledCatalog& catalog, const TaskCutSets& of_task,
-                          const Style& style) {
-  const std::string task = printable(catalog.name_of_task(of_task.task));
+void add_cut_sets(const CompiledCatalog& catalog, const TaskCutSets& of_task, Text& text) {
   const CutSets& found = of_task.found;
-  std::string text =
-      fmt::format("\n{}minimal sets of at most {} whose faults together end {}{}\n", style.strong,
-                  quantity(of_task.order, "behavior"), task, style.reset);
+  text.title(fmt::format("minimal sets of at most {} whose faults together end {}",
+                         quantity(of_task.order, "behavior"),
+                         printable(catalog.name_of_task(of_task.task))));
+  Table table(text.style(), {{}}, {.columns = text_width, .breaks = Breaks::after_commas});
   for (const std::vector<BehaviorId>& set : found.sets) {
-    const std::vector<std::string> names = names_of_behaviors(catalog, set);
-    const std::string line =
-        "  " +
-        (names.empty() ? "none is needed: it cannot run even without a fault" : join(names, ", "));
-    text += wrap_line(line, text_width, 2, Breaks::after_commas) + "\n";
+    table.add({set.empty() ? "none is needed: it cannot run even without a fault"
+                           : join(names_of_behaviors(catalog, set), ", ")});
   }
-  if (found.sets.empty()) text += found.complete ? "  none\n" : "  none found so far\n";
+  text.add(table.text());
+  if (found.sets.empty()) text.line(found.complete ? "  none" : "  none found so far");
   const std::size_t count = found.sets.size();
   // A behavior that requires nothing is a part of the robot, as a sensor is.
   const auto requires_nothing = [&](const std::vector<BehaviorId>& set) {
@@ -407,109 +382,107 @@ std::string cut_sets_text(const CompiledCatalog& catalog, const TaskCutSets& of_
                        [&](BehaviorId behavior) { return catalog.behaviors[behavior].level == 0; });
   };
   if (count > 1) {
-    text +=
-        fmt::format("  {}, {} of them of behaviors that require nothing\n", quantity(count, "set"),
-                    std::count_if(found.sets.begin(), found.sets.end(), requires_nothing));
+    text.line("  {}, {} of them of behaviors that require nothing", quantity(count, "set"),
+              std::count_if(found.sets.begin(), found.sets.end(), requires_nothing));
   }
-  if (!found.complete) {
-    const std::uint32_t size = found.incomplete_size;
-    text += style.paint(
-        style.warning, size == 0 ? std::string("  a limit ended the search at its beginning\n")
-                                 : fmt::format("  a limit ended the search: all sets of fewer than "
-                                               "{} are there\n",
-                                               quantity(size, "behavior")));
-  }
-  return text;
+  if (found.complete) return;
+  const std::uint32_t size = found.incomplete_size;
+  text.painted(text.style().warning,
+               size == 0 ? "  a limit ended the search at its beginning"
+                         : fmt::format("  a limit ended the search: all sets of fewer than {} are "
+                                       "there",
+                                       quantity(size, "behavior")));
 }
 
 /// How the catalog compares with an older one.
-std::string comparison_text(const VerifyResult& result, const Style& style) {
+void add_comparison(const VerifyResult& result, Text& text) {
   const ReportedComparison& reported = *result.same_as;
   const CatalogComparison& comparison = reported.comparison;
+  const Style& style = text.style();
   const std::string old_name = printable(reported.old_catalog->file);
   const std::string new_name = printable(result.catalog->file);
-  std::string text =
-      fmt::format("\n{}{} against {}{}\n", style.strong, new_name, old_name, style.reset);
-  const auto add_names = [&](const std::string& file, const std::vector<std::string>& names) {
-    const Table table(style, {{}, {}}, {.columns = text_width, .breaks = Breaks::after_commas});
-    if (!names.empty()) text += table.line({fmt::format("only {} has", file), join(names, ", ")});
-  };
+  const std::string title = style.paint(style.strong, new_name + " against " + old_name);
+  text.add((text.is_empty() ? "" : "\n") + title + "\n");
   if (result.parts.empty()) {
     const CompiledCatalog& catalog = *result.catalog;
-    text += assumptions_to_text(catalog, {common_assumptions(*reported.old_catalog, catalog), {}});
+    text.add(
+        assumptions_to_text(catalog, {common_assumptions(*reported.old_catalog, catalog), {}}));
   }
+  const auto add_names = [&](const std::string& file, const std::vector<std::string>& names) {
+    const Table table(style, {{{}, {}, width_of(file) + 9}, {}},
+                      {.columns = text_width, .breaks = Breaks::after_commas});
+    if (!names.empty()) text.add(table.line({"only " + file + " has", join(names, ", ")}));
+  };
   add_names(old_name, comparison.names.only_old);
   add_names(new_name, comparison.names.only_new);
   const std::string counts =
       fmt::format("{} of states, {} transitions, depth {}", quantity(comparison.states, "pair"),
                   comparison.transitions, comparison.depth);
+  const auto add_result = [&](std::string_view words, const std::string& more) {
+    text.line("  " + style.paint(color_of(comparison.result, style), words) + more);
+  };
   switch (comparison.result) {
     case Verdict::Result::proved:
-      return text + fmt::format("  {}every reachable event is decided alike{}: {}\n", style.good,
-                                style.reset, counts);
+      return add_result("every reachable event is decided alike", ": " + counts);
     case Verdict::Result::undecided:
-      return text + fmt::format("  {}undecided{}: {}; no difference in {}\n", style.warning,
-                                style.reset,
-                                describe_exploration_end(*comparison.end, result.limits), counts);
+      return add_result(
+          "undecided",
+          fmt::format(": {}; no difference in {}",
+                      describe_exploration_end(*comparison.end, result.limits), counts));
     case Verdict::Result::violated:
-      break;
+      add_result("decided differently",
+                 ": the last of " + quantity(comparison.moves.size(), "event"));
   }
-  text += fmt::format("  {}decided differently{}: the last of {}\n", style.bad, style.reset,
-                      quantity(comparison.moves.size(), "event"));
-  text += fmt::format("\n{}with {}{}\n\n{}", style.strong, old_name, style.reset,
-                      reported.with_old->text);
-  text += fmt::format("\n{}with {}{}\n\n{}", style.strong, new_name, style.reset,
-                      reported.with_new->text);
-  return text;
+  text.title("with " + old_name);
+  text.add("\n" + reported.with_old->text);
+  text.title("with " + new_name);
+  text.add("\n" + reported.with_new->text);
 }
 
-std::string total_of(const VerifyResult& result, const Style& style) {
+void add_totals(const VerifyResult& result, Text& text) {
   std::array<std::size_t, 3> counts{};
   for (const VerifyPart& part : result.parts) {
     for (const ReportedAnswer& reported : part.answers) {
       ++counts[static_cast<std::size_t>(reported.answer->verdict.result)];
     }
   }
-  if (counts == std::array<std::size_t, 3>{}) return {};
-  return fmt::format("\n{}properties: {} proved, {} violated, {} undecided{}\n",
-                     counts[1] + counts[2] == 0 ? style.good : style.bad, counts[0], counts[1],
-                     counts[2], style.reset);
+  if (counts == std::array<std::size_t, 3>{}) return;
+  text.line("");
+  text.painted(counts[1] + counts[2] == 0 ? text.style().good : text.style().bad,
+               "properties: {} proved, {} violated, {} undecided", counts[0], counts[1], counts[2]);
 }
 
-StatedAssumptions assumptions_of(const CompiledCatalog& catalog, const VerifyPart& part) {
-  if (part.file == nullptr) return {default_assumptions(catalog), {}};
-  return {part.file->assumptions, part.file->path};
+void add_part(const VerifyResult& result, const VerifyPart& part, Text& text) {
+  const CompiledCatalog& catalog = *result.catalog;
+  const auto strong = [&](std::string_view file) {
+    return text.style().paint(text.style().strong, printable(file));
+  };
+  if (!text.is_empty()) text.line("");
+  text.line(part.file == nullptr ? strong(catalog.file)
+                                 : strong(part.file->path) + " with " + printable(catalog.file));
+  const StatedAssumptions stated = part.file == nullptr
+                                       ? StatedAssumptions{default_assumptions(catalog), {}}
+                                       : StatedAssumptions{part.file->assumptions, part.file->path};
+  text.add(assumptions_to_text(catalog, stated));
+  if (part.is_about_groups()) {
+    GroupText(result, part, stated.assumptions, text).write();
+  } else {
+    add_properties(result, part, text);
+  }
 }
 
 }  // namespace
 
 std::string verify_to_text(const VerifyResult& result, const Style& style) {
-  std::string text;
-  const CompiledCatalog& catalog = *result.catalog;
-  for (const VerifyPart& part : result.parts) {
-    if (!text.empty()) text += "\n";
-    text += style.strong;
-    text += part.file == nullptr ? printable(catalog.file) : printable(part.file->path);
-    text += style.reset;
-    if (part.file != nullptr) text += " with " + printable(catalog.file);
-    text += "\n";
-    const StatedAssumptions stated = assumptions_of(catalog, part);
-    text += assumptions_to_text(catalog, stated);
-    if (part.is_about_groups()) {
-      text += GroupText(result, part, stated.assumptions, style).write();
-    } else {
-      text += PropertyText(result, part, style).write();
-    }
+  Text text(style);
+  for (const VerifyPart& part : result.parts) add_part(result, part, text);
+  if (text.is_empty() && !result.same_as) {
+    text.painted(style.strong, printable(result.catalog->file));
   }
-  if (text.empty() && !result.same_as) {
-    text = style.paint(style.strong, printable(catalog.file)) + "\n";
-  }
-  if (result.same_as) {
-    const std::string comparison = comparison_text(result, style);
-    text += text.empty() ? comparison.substr(1) : comparison;
-  }
-  for (const TaskCutSets& of_task : result.cut_sets) text += cut_sets_text(catalog, of_task, style);
-  return text + total_of(result, style);
+  if (result.same_as) add_comparison(result, text);
+  for (const TaskCutSets& of_task : result.cut_sets) add_cut_sets(*result.catalog, of_task, text);
+  add_totals(result, text);
+  return text.take();
 }
 
 }  // namespace cbc
