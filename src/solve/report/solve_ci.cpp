@@ -27,7 +27,6 @@ class RunTests final : public SolveReport {
   }
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override {
-    catalog_ = &catalog;
     explanation_.begin_run(catalog);
     suite_ = {script.file, std::string(catalog.file), {}};
     places_.clear();
@@ -85,7 +84,6 @@ class RunTests final : public SolveReport {
  private:
   const TestFormat& format_;
   std::FILE* const out_;
-  const CompiledCatalog* catalog_ = nullptr;
   FailureExplanation explanation_;
   TestSuite suite_;
   std::map<const Step*, std::size_t> places_;  ///< of the cases
