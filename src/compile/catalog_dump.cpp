@@ -8,7 +8,7 @@
 #include "core/catalog/situation.h"
 #include "core/compile/compile.h"
 #include "core/report/catalog_json.h"
-#include "core/report/sentences.h"
+#include "core/report/catalog_words.h"
 #include "core/support/json.h"
 #include "runtime/base/text.h"
 

@@ -82,7 +82,7 @@ struct CoverageQuestion {
 };
 
 /// Of the walks of proofs and plans; what is not given is as they have it.
-[[nodiscard]] GroupWalkOptions walk_options(const StateLimits& limits);
+[[nodiscard]] GoalSearchOptions search_options(const StateLimits& limits);
 
 /// The path by which a script in the folder names the catalog. Empty if that is standard input.
 [[nodiscard]] std::string catalog_from(const std::string& folder, const CoverageOptions& options);

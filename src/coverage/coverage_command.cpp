@@ -10,7 +10,7 @@
 #include "core/command_line/command_line.h"
 #include "core/files/missions.h"
 #include "core/files/output.h"
-#include "core/report/github.h"
+#include "core/report/test_report.h"
 #include "coverage/coverage.h"
 #include "coverage/report/coverage_report.h"
 #include "coverage/report/mutants_report.h"
@@ -50,7 +50,7 @@ int run_coverage(const CoverageOptions& options) {
   std::optional<std::vector<Mission>> missions = loader.load(options.paths);
   if (!missions) {
     if (options.format == "github") {  // which could take no annotation for success
-      static_cast<void>(write_output(options.output, github_commands_of_errors(loader.findings())));
+      static_cast<void>(write_output(options.output, unreadable_to_text(github_format, "cbc coverage", loader.findings())));
     }
     return exit_unusable;
   }

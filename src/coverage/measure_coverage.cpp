@@ -57,8 +57,8 @@ std::string catalog_from(const std::string& folder, const CoverageOptions& optio
   return error ? std::string{} : path.generic_string();
 }
 
-GroupWalkOptions walk_options(const StateLimits& limits) {
-  GroupWalkOptions options;
+GoalSearchOptions search_options(const StateLimits& limits) {
+  GoalSearchOptions options;
   if (limits.max_states > 0) options.max_states = limits.max_states;
   if (!limits.max_memory.empty()) options.max_memory = limits.memory();
   return options;
@@ -165,7 +165,7 @@ bool prove(CatalogCoverage& coverage, const StatedAssumptions& stated,
   const CompiledCatalog& catalog = coverage.catalog();
   GroupProgress progress("proving", catalog.group_count());
   GoalProofOptions of_proof;
-  of_proof.walk = walk_options(options.limits);
+  of_proof.search = search_options(options.limits);
   of_proof.search.on_progress = [&](std::uint32_t group, std::uint64_t states) {
     progress.show(group, states);
     return !deadline.has_come();

@@ -57,7 +57,7 @@ MissingMissions find_missing(const CoverageOptions& options, const CoverageQuest
   GroupProgress progress("exploring", catalog.group_count());
   MissingMissionOptions of_search;
   of_search.catalog = catalog_from(*options.write_missing, options);
-  of_search.exploration = walk_options(options.limits);
+  of_search.exploration = search_options(options.limits);
   of_search.exploration.on_progress = [&](std::uint32_t group, std::uint64_t states) {
     progress.show(group, states);
     return true;

@@ -128,7 +128,7 @@ int run_missions(const std::vector<Mission>& missions, const SolveOptions& optio
                  SolveReport& report) {
   const auto run = [&](const Mission& mission, SolveReport& report_of_run) {
     CoordinatorOptions coordination = coordinator_options(options, *mission.catalog);
-    coordination.hindsight = true;  // to explain failed expectations
+    coordination.last_decisions = true;  // to explain failed expectations
     report_of_run.begin_run(*mission.catalog, mission.script);
     RunResult result = run_script(*mission.catalog, mission.script, coordination, report_of_run);
     report_of_run.end_run(result, describe_end(result, coordination));

@@ -296,7 +296,7 @@ int run_standard_input(const CompiledCatalog& catalog, const SolveOptions& optio
                        const std::optional<Snapshot>& state) {
   if (!knows_names(catalog, options.explain)) return exit_unusable;
   CoordinatorOptions coordinator = coordinator_options(options, catalog);
-  coordinator.hindsight =
+  coordinator.last_decisions =
       options.stream.serve.has_value();  // the page explains failed expectations
   if (state) {
     coordinator.reactive_delay = state->reactive_delay;

@@ -15,7 +15,6 @@
 #include "core/command_line/command_line.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
-#include "core/report/sentences.h"
 #include "core/support/system.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"

@@ -75,8 +75,10 @@ TEST(LintSummary, ListsAsManyTasksAsFit) {
 
 TEST(LintSummary, CutsLongNames) {
   EXPECT_EQ(group_line({std::string(40, 'a')}), std::string(40, 'a'));
-  EXPECT_EQ(group_line({std::string(41, 'a')}), std::string(40, 'a') + "...");
-  EXPECT_EQ(group_line({std::string(100'000, 'a'), "B", "C"}), std::string(40, 'a') + "..., B, C");
+  const std::string shortened = std::string(18, 'a') + "..." + std::string(19, 'b');
+  EXPECT_EQ(group_line({std::string(20, 'a') + std::string(21, 'b')}), shortened);
+  EXPECT_EQ(group_line({std::string(50'000, 'a') + std::string(50'000, 'b'), "B", "C"}),
+            shortened + ", B, C");
 }
 
 TEST(LintSummary, MakesHostileNamesHarmless) {

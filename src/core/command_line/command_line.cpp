@@ -43,20 +43,11 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   return parts;
 }
 
-std::string join(const std::vector<std::string>& words, std::string_view separator) {
-  std::string text;
-  for (const std::string& word : words) {
-    if (&word != &words.front()) text += separator;
-    text += word;
-  }
-  return text;
-}
-
 std::string join_with_or(const std::vector<std::string>& words) {
   std::vector<std::string> quoted;
   quoted.reserve(words.size());
   for (const std::string& word : words) quoted.push_back(quote_if_split(word));
-  return list_words(quoted, "or");
+  return list_with_or(quoted);
 }
 
 Values name_of(std::string placeholder, ValueKind kind) {

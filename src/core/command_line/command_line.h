@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cbc/units.h"
+#include "core/support/wording.h"
 
 /// Declares a command line: the commands of a program, their options and arguments, which values
 /// these accept, and what does not go together. Parsing, --help, the complaints about a wrong
@@ -82,8 +83,7 @@ struct Values {
 
 /// The parts between separators; at least one, which may be empty.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
-[[nodiscard]] std::string join(const std::vector<std::string>& words, std::string_view separator);
-/// "text, json or gcc"
+/// "text, json or gcc"; words with blanks are quoted.
 [[nodiscard]] std::string join_with_or(const std::vector<std::string>& words);
 
 /// The names in a table, such as that of the formats of a report.

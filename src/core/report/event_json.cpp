@@ -12,9 +12,12 @@
 
 #include "core/compile/compile.h"
 #include "core/report/answer_bound.h"
-#include "core/report/failure_story.h"
+#include "core/report/event_words.h"
+#include "core/report/explanation_words.h"
+#include "core/report/layout.h"
+#include "core/report/reason_words.h"
 #include "core/report/search_stats.h"
-#include "core/report/sentences.h"
+#include "core/report/suitability.h"
 #include "core/script/event_lines.h"
 #include "core/support/json.h"
 #include "runtime/compiled/compiled_file.h"
@@ -368,29 +371,29 @@ void append_event(std::string& text, const CompiledCatalog& catalog, const Event
   EventText(text, catalog, record, state).write(step, adds);
 }
 
-void write_surprise(JsonWriter& json, const CompiledCatalog& catalog, const Surprise& surprise,
-                    const State& state) {
-  const LookBack& look_back = surprise.look_back;
+void write_unexpected(JsonWriter& json, const CompiledCatalog& catalog,
+                      const UnexpectedTasks& unexpected, const State& state) {
+  const WhyUnmet& why_unmet = unexpected.why_unmet;
   json.open('{');
   json.write("event",
-             look_back.event == nullptr ? std::nullopt : std::optional(look_back.event->index));
-  json.write_list("tasks", surprise.tasks,
+             why_unmet.event == nullptr ? std::nullopt : std::optional(why_unmet.event->index));
+  json.write_list("tasks", unexpected.tasks,
                   [&](TaskId task) { json.write(catalog.name_of_task(task)); });
-  if (look_back.kind == LookBack::Kind::due) json.write_seconds("due", look_back.due);
-  if (look_back.kind == LookBack::Kind::decided) {
-    write_why_not(json, catalog, *look_back.event, look_back.why_not, *look_back.before);
-    write_conflict(json, catalog, *look_back.event, look_back.why_not.conflict, surprise.tasks);
+  if (why_unmet.kind == WhyUnmet::Kind::due) json.write_seconds("due", why_unmet.due);
+  if (why_unmet.kind == WhyUnmet::Kind::decided) {
+    write_why_not(json, catalog, *why_unmet.event, why_unmet.why_not, *why_unmet.before);
+    write_conflict(json, catalog, *why_unmet.event, why_unmet.why_not.conflict, unexpected.tasks);
   } else {
     json.write_members({{"limit_reached", false}, {"alternative", nullptr}, {"loses", nullptr}});
     json.write_list("differences", std::span<const TaskId>(), [](TaskId) {});
-    const bool is_rejected = look_back.kind == LookBack::Kind::rejected;
+    const bool is_rejected = why_unmet.kind == WhyUnmet::Kind::rejected;
     const EventRecord nothing{};
-    const EventRecord& event = is_rejected ? *look_back.event : nothing;
+    const EventRecord& event = is_rejected ? *why_unmet.event : nothing;
     write_conflict(json, catalog, event, event.conflict, {});
   }
-  const std::vector<std::string> notes = notes_of(catalog, surprise, state);
+  const std::vector<std::string> notes = notes_of(catalog, unexpected, state);
   if (!notes.empty()) json.write_list("notes", notes);
-  json.write("message", message_of(describe_surprise(catalog, surprise, state)));
+  json.write("message", message_of(describe_unexpected(catalog, unexpected, state)));
   json.close('}');
 }
 

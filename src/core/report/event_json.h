@@ -24,8 +24,8 @@ void write_reason(JsonWriter& json, const CompiledCatalog& catalog, const EventR
                   const Reason& reason);
 
 /// Writes why tasks are not as expected, as an object.
-void write_surprise(JsonWriter& json, const CompiledCatalog& catalog, const Surprise& surprise,
-                    const State& state);
+void write_unexpected(JsonWriter& json, const CompiledCatalog& catalog,
+                      const UnexpectedTasks& unexpected, const State& state);
 
 /// Writes the members "running", "requests" and "queue" of an event: the state after it.
 void write_running(JsonWriter& json, const CompiledCatalog& catalog, const State& state);

@@ -10,7 +10,6 @@
 #include "core/report/event_json.h"
 #include "core/report/run_report.h"
 #include "core/report/search_stats.h"
-#include "core/report/sentences.h"
 #include "core/support/json.h"
 
 namespace cbc {
@@ -20,8 +19,8 @@ void append_failure(std::string& text, const CompiledCatalog& catalog, const Fai
   json.open('{');
   json.write_members(
       {{"index", failure.index}, {"line", failure.range.begin.line}, {"message", failure.message}});
-  json.write_list("why", failure.surprises, [&](const Surprise& surprise) {
-    write_surprise(json, catalog, surprise, *failure.state);
+  json.write_list("why", failure.unexpected, [&](const UnexpectedTasks& unexpected) {
+    write_unexpected(json, catalog, unexpected, *failure.state);
   });
   json.close('}');
 }

@@ -84,11 +84,11 @@ constexpr Detail details[] = {{"priority", &VerbForm::has_priority},
 
 /// "'start' and 'stop'"
 std::string list_verbs(bool VerbForm::*belongs) {
-  std::string text;
+  std::vector<std::string> verbs;
   for (const VerbForm& form : verb_forms) {
-    if (form.*belongs) text += (text.empty() ? "" : " and ") + quote(form.name);
+    if (form.*belongs) verbs.push_back(quote(form.name));
   }
-  return text;
+  return join(verbs, " and ");
 }
 
 /// The keys of which an event needs one, for messages.

@@ -6,11 +6,15 @@
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
+#include "core/report/table.h"
 #include "coverage/engine/coverage.h"
 
 // The reports of `cbc coverage`.
 
 namespace cbc {
+
+/// The goals of each section, met and missed.
+[[nodiscard]] Table counts_table(const CatalogCoverage& coverage, const Style& style);
 
 /// A table of the goals of each section, and a list of those that are not met. `columns`: of the
 /// terminal, see wrap_line.

@@ -13,6 +13,7 @@
 
 #include "core/catalog/allowed_values.h"
 #include "core/catalog/situation.h"
+#include "core/support/wording.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
@@ -195,9 +196,9 @@ AttributeValue unless_zero(Number number) {
 }
 
 /// Puts a value in quotes that could be taken for several values, or for none.
-std::string spell(const std::string& value) {
+std::string spell(std::string_view value) {
   const bool is_clear = !value.empty() && value.find_first_of(",[]'") == std::string::npos;
-  if (is_clear) return value;
+  if (is_clear) return std::string(value);
   std::string text = "'";
   for (const char character : value) text += character == '\'' ? "''" : std::string(1, character);
   return text += '\'';
@@ -211,8 +212,7 @@ std::string describe(Parameter parameter) {
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());
   }
-  std::string text;
-  for (const std::string& value : values) text += (text.empty() ? "" : ", ") + spell(value);
+  const std::string text = join(values, ", ", spell);
   return parameter.allowed_is_list ? "[" + text + "]" : text;
 }
 
@@ -235,11 +235,7 @@ Attributes attributes_of_task(const CompiledCatalog& catalog, std::uint32_t inde
 
 /// "[far, near]"
 std::string list_values(const std::vector<std::string_view>& values) {
-  std::string text;
-  for (const std::string_view value : values) {
-    text += (text.empty() ? "" : ", ") + spell(std::string(value));
-  }
-  return "[" + text + "]";
+  return "[" + join(values, ", ", spell) + "]";
 }
 
 /// Values of a situation variable, whose order does not count; they are shown in catalog order.

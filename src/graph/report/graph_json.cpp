@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/report/catalog_json.h"
-#include "core/report/sentences.h"
+#include "core/report/catalog_words.h"
 #include "core/support/json.h"
 #include "graph/engine/catalog_diff.h"
 #include "graph/report/graph_report.h"

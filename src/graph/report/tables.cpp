@@ -13,9 +13,10 @@
 #include <fmt/format.h>
 
 #include "core/report/catalog_json.h"
+#include "core/report/catalog_words.h"
 #include "core/report/event_json.h"
-#include "core/report/sentences.h"
-#include "core/report/table_parts.h"
+#include "core/report/reason_words.h"
+#include "core/report/table.h"
 #include "core/support/json.h"
 #include "core/support/wording.h"
 #include "graph/engine/diagram.h"
@@ -99,12 +100,7 @@ void for_each_indirect(const TogetherTable& table, const Action& action) {
 }
 
 std::string list_names(const CompiledCatalog& catalog, const std::vector<TaskId>& tasks) {
-  std::string text;
-  for (const TaskId task : tasks) {
-    if (!text.empty()) text += ", ";
-    text += draw::label_of(catalog.name_of_task(task));
-  }
-  return text;
+  return join(tasks, ", ", [&](TaskId task) { return draw::label_of(catalog.name_of_task(task)); });
 }
 
 constexpr std::size_t columns_in_a_block = 5;
@@ -129,43 +125,50 @@ class TextMatrix {
     std::size_t most = (width + 1) / (columns_in_a_block + 1) * columns_in_a_block;
     if (columns + (columns - 1) / columns_in_a_block <= width) most = columns;
     for (std::size_t first = 0; first + 1 < matrix_.size(); first += most) {
-      add_part(first, std::min(first + most, matrix_.size() - 1), left);
+      add_part(first, std::min(first + most, matrix_.size() - 1));
     }
     return std::move(text_);
   }
 
  private:
-  void add_part(std::size_t first, std::size_t end, std::size_t left) {
+  void add_part(std::size_t first, std::size_t end) {
+    std::vector<Table::Column> columns = {number_column({}, digits_), {{}, {}, name_width_, 1}};
+    for (std::size_t column = first; column < end; ++column) {
+      const bool begins_block = (column - first) % columns_in_a_block == 0;
+      columns.push_back({{}, {}, 1, begins_block ? std::size_t{1} : 0});
+    }
+    const Table table(style_, std::move(columns));
     text_ += '\n';
     for (std::size_t digit = 0; digit < digits_; ++digit) {
-      std::string line(left, ' ');
+      Table::Row row = {"", ""};
       for (std::size_t column = first; column < end; ++column) {
-        add_gap(line, column, first);
-        line += fmt::format("{:>{}}", column + 1, digits_)[digit];
+        const std::string number = fmt::format("{:>{}}", column + 1, digits_);
+        row.emplace_back(number[digit] == ' ' ? "" : number.substr(digit, 1));
       }
-      text_ += style_.paint(style_.faint, without_end_blanks(line)) + "\n";
+      text_ += table.line(row, style_.faint);
     }
     for (std::size_t row = first; row < matrix_.size(); ++row) {
-      text_ += fmt::format("  {:>{}} {}", row + 1, digits_, names_[row]);
-      std::string cells(name_width_ - width_of(names_[row]) + 1, ' ');
+      Table::Row cells = {row + 1, names_[row]};
       for (std::size_t column = first; column < std::min(row, end); ++column) {
-        add_gap(cells, column, first);
-        cells += cell(matrix_.at(row, column));
+        cells.push_back(cell(matrix_.at(row, column)));
       }
-      text_ += row == first ? "\n" : cells + "\n";
+      text_ += table.line(cells);
     }
   }
 
-  static void add_gap(std::string& line, std::size_t column, std::size_t first) {
-    if (column > first && (column - first) % columns_in_a_block == 0) line += ' ';
-  }
-
-  [[nodiscard]] std::string cell(const TaskPair& pair) const {
+  [[nodiscard]] Table::Cell cell(const TaskPair& pair) const {
     const std::string sign(1, sign_of(pair));
-    if (pair.is_forbidden) return style_.paint(style_.error, sign);
-    if (pair.together == Together::possible) return style_.paint(style_.good, sign);
-    if (pair.together == Together::undecided) return style_.paint(style_.warning, sign);
-    return pair.together == Together::excluded ? style_.paint(style_.faint, sign) : sign;
+    if (pair.is_forbidden) return {sign, style_.error};
+    switch (pair.together) {
+      case Together::possible:
+        return {sign, style_.good};
+      case Together::undecided:
+        return {sign, style_.warning};
+      case Together::excluded:
+        return {sign, style_.faint};
+      default:
+        return sign;
+    }
   }
 
   const Matrix matrix_;
@@ -338,10 +341,9 @@ std::vector<std::string> describe_gaps(const CompiledCatalog& catalog,
                                        const SituationTable& table) {
   std::vector<std::string> lines;
   for (const VariableValue value : table.values()) {
-    std::string names;
-    for (const TaskId task : table.tasks_without_behavior(value)) {
-      names += (names.empty() ? "" : ", ") + draw::label_of(catalog.name_of_task(task));
-    }
+    const std::string names = join(table.tasks_without_behavior(value), ", ", [&](TaskId task) {
+      return draw::label_of(catalog.name_of_task(task));
+    });
     if (!names.empty()) lines.push_back(describe_value(catalog, value) + ": " + names);
   }
   return lines;
@@ -412,15 +414,6 @@ class TextTable {
     return titles_[value.variable][value.value];
   }
 
-  static void pad(std::string& line, std::size_t width) {
-    const std::size_t present = width_of(line);
-    if (present < width) line.append(width - present, ' ');
-  }
-
-  void add_line(const std::string& line, std::string_view color) {
-    text_ += style_.paint(color, without_end_blanks(line)) + "\n";
-  }
-
   /// Writes the columns that have been collected.
   void flush(std::size_t& width) {
     if (!values_.empty()) add_part();
@@ -430,43 +423,28 @@ class TextTable {
   }
 
   void add_part() {
-    text_ += '\n';
-    std::string variables;
-    std::string titles;
-    std::size_t end = left_;
+    std::vector<Table::Column> columns = {{{}, {}, left_ - column_gap.size()}};
+    Table::Row variables = {""};
+    Table::Row titles = {""};
     for (std::size_t column = 0; column < values_.size(); ++column) {
       const VariableValue value = values_[column];
-      end += column_gap.size();
-      pad(titles, end);
-      titles += title_of(value);
-      if (column == 0 || values_[column - 1].variable != value.variable) {
-        pad(variables, end);
-        variables += name_of(value.variable);
-      }
-      end += widths_[column];
+      const bool is_first = column == 0 || values_[column - 1].variable != value.variable;
+      columns.push_back({{}, {}, widths_[column]});
+      variables.emplace_back(is_first ? name_of(value.variable) : std::string());
+      titles.emplace_back(title_of(value));
     }
-    add_line(variables, style_.strong);
-    add_line(titles, style_.faint);
+    const Table table(style_, std::move(columns));
+    text_ += "\n" + table.line(variables, style_.strong) + table.line(titles, style_.faint);
     for (std::size_t row = 0; row < names_.size(); ++row) {
-      const BehaviorId behavior = table_.behaviors()[row];
-      const bool names_any = std::any_of(values_.begin(), values_.end(), [&](VariableValue value) {
-        return table_.fit(behavior, value) != Fit::in_any;
-      });
-      if (names_any) add_row(row);
+      Table::Row cells = {names_[row]};
+      bool names_any = false;
+      for (const VariableValue value : values_) {
+        const Fit fit = table_.fit(table_.behaviors()[row], value);
+        names_any = names_any || fit != Fit::in_any;
+        cells.emplace_back(std::string(1, sign_of(fit)), color_of(fit));
+      }
+      if (names_any) text_ += table.line(cells);
     }
-  }
-
-  void add_row(std::size_t row) {
-    std::string line = "  " + names_[row];
-    pad(line, left_);
-    std::size_t blanks = 0;
-    for (std::size_t column = 0; column < values_.size(); ++column) {
-      const Fit fit = table_.fit(table_.behaviors()[row], values_[column]);
-      line.append(blanks + column_gap.size(), ' ');
-      line += style_.paint(color_of(fit), std::string(1, sign_of(fit)));
-      blanks = widths_[column] - 1;
-    }
-    text_ += line + "\n";
   }
 
   [[nodiscard]] std::string_view color_of(Fit fit) const {

@@ -14,21 +14,12 @@
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
 #include "core/report/catalog_json.h"
-#include "core/report/github.h"
 #include "core/support/json.h"
 #include "core/support/wording.h"
 #include "lint/report/lint_report.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
-std::string lint_github(const std::vector<LintedFile>& files) {
-  std::string text;
-  for (const LintedFile& file : files) {
-    for (const Diagnostic& finding : file.findings) text += github_command_of(finding);
-  }
-  return text;
-}
-
 namespace {
 
 void write_finding(JsonWriter& json, const Diagnostic& finding) {

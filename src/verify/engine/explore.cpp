@@ -19,6 +19,7 @@
 
 #include <fmt/format.h>
 
+#include "core/report/property_words.h"
 #include "runtime/base/text.h"
 #include "verify/engine/stepper.h"
 
@@ -345,7 +346,7 @@ void add_groups_of_variables(const CompiledCatalog& catalog, const StateConditio
 std::string title_of(const CompiledCatalog& catalog, const PropertyFile& file,
                      const Property& property) {
   const std::string place = fmt::format("{}:{}", printable(file.path), property.line);
-  const std::string words = describe(catalog, property);
+  const std::string words = describe_property(catalog, property);
   return property.name.empty()
              ? fmt::format("{}\n({})", words, place)
              : fmt::format("{}: {}\n({})", printable(property.name), words, place);

@@ -28,7 +28,7 @@ struct Replay {
   std::string text;      ///< event by event, as in the text of `cbc solve`
   std::string conflict;  ///< why the last scripted start was rejected, as in cbc.solve/1
   /// What led to the end, in sentences.
-  std::vector<std::string> story;
+  std::vector<std::string> explanation;
 };
 
 /// Runs the script of an answer, which has one.
@@ -139,14 +139,6 @@ struct VerifyResult {
 /// for cut sets that a limit ended has "complete_order": all sets up to this size are there, which
 /// is null if it is not even known whether the task can run without faults.
 [[nodiscard]] std::string verify_to_json(const VerifyResult& result);
-
-/// The properties as JUnit XML: a file is a test suite, a property a test case. One that is
-/// violated is a failure, an undecided one an error.
-[[nodiscard]] std::string verify_to_junit(const VerifyResult& result);
-
-/// Violated and undecided properties as workflow commands of GitHub Actions: each becomes an
-/// annotation of its line.
-[[nodiscard]] std::string verify_to_github(const VerifyResult& result);
 
 /// A page of all properties, with a timeline of each counterexample and witness.
 [[nodiscard]] std::string verify_to_html(const VerifyResult& result);

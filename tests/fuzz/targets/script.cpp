@@ -40,7 +40,7 @@ void run(const std::string& input) {
   if (!script) return;
 
   CoordinatorOptions options = bounded_coordinator();
-  options.hindsight = true;
+  options.last_decisions = true;
   options.explain.displaced = true;
   options.explain.alternatives = 1;
   MemoryFile memory;

@@ -21,7 +21,7 @@
 namespace cbc {
 
 /// Why the tasks of a group do not meet some demands.
-struct LookBack {
+struct WhyUnmet {
   enum class Kind : std::uint8_t {
     undecided,  ///< no event has decided anything about the group
     due,        ///< a task that should run is in the queue of reactive tasks
@@ -42,11 +42,11 @@ struct LookBack {
 
 /// Remembers for each group the last event that was accepted, with the state before it, and a start
 /// or stop that was rejected since. That takes memory in proportion to the catalog.
-class Hindsight {
+class LastDecisions {
  public:
   /// `ranks`: those of the solver. Catalog, ranks and state must outlive this object.
-  Hindsight(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks,
-            const State& state);
+  LastDecisions(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks,
+                const State& state);
 
   /// To be called while the state is still the one before the answer.
   void note_answer(const EventRecord& record, const Circumstances& circumstances,
@@ -54,7 +54,7 @@ class Hindsight {
   void note_rejection(const EventRecord& record, const Trigger& trigger);
 
   /// Why the present values of a group meet the demands of none of the `ways`.
-  [[nodiscard]] LookBack look_back(std::uint32_t group, std::span<const Demands> ways);
+  [[nodiscard]] WhyUnmet why_unmet(std::uint32_t group, std::span<const Demands> ways);
 
  private:
   struct Decision {

@@ -22,7 +22,7 @@
 #include "support/rounds.h"
 #include "yaml_text.h"
 
-namespace cbc::oracle::hindsight_test {
+namespace cbc::oracle::last_decisions_test {
 namespace {
 
 /// Runs a script, and after each event asks about all behaviors that are not active.
@@ -82,19 +82,19 @@ class Questions final : private EventListener {
       ways.push_back({{Demand::Kind::has, task, value - catalog_.values.begin[task]}});
     }
     const std::uint32_t group = catalog_.group_of(behavior);
-    const LookBack answer = coordinator_.look_back(group, ways);
+    const WhyUnmet answer = coordinator_.why_unmet(group, ways);
     if (is_queued) {
-      EXPECT_EQ(answer.kind, LookBack::Kind::due);
+      EXPECT_EQ(answer.kind, WhyUnmet::Kind::due);
       return statistics_.count("due");
     }
-    if (answer.kind == LookBack::Kind::rejected) {
+    if (answer.kind == WhyUnmet::Kind::rejected) {
       const auto rejected = rejected_.find(group);
       ASSERT_NE(rejected, rejected_.end());
       EXPECT_EQ(answer.event->index, rejected->second.first);
       EXPECT_FALSE(coordinator_.state().is_running(rejected->second.second));
       return statistics_.count("rejected");
     }
-    ASSERT_EQ(answer.kind, LookBack::Kind::decided);
+    ASSERT_EQ(answer.kind, WhyUnmet::Kind::decided);
     EXPECT_EQ(answer.event->index, known.event);
     compare(answer.why_not, known.why.why_not);
   }
@@ -153,14 +153,14 @@ void run_case(std::uint64_t seed, Statistics& statistics) {
   CoordinatorOptions options;
   options.reactive_delay = script->reactive_delay;
   options.timeouts = script->timeouts;
-  options.hindsight = true;
+  options.last_decisions = true;
   for (std::uint32_t behavior = 0; behavior < catalog.behavior_names.size(); ++behavior) {
     options.explain.why.push_back({false, behavior});
   }
   Questions(catalog, options, statistics).run(*script);
 }
 
-TEST(Hindsight, KnowsWhatTheEventExplained) {
+TEST(LastDecisions, KnowsWhatTheEventExplained) {
   const std::uint64_t first = environment("CBC_SEED", 1);
   const std::uint64_t cases = environment("CBC_HINDSIGHT_CASES", test::rounds(60U));
   Statistics statistics;
@@ -174,4 +174,4 @@ TEST(Hindsight, KnowsWhatTheEventExplained) {
 }
 
 }  // namespace
-}  // namespace cbc::oracle::hindsight_test
+}  // namespace cbc::oracle::last_decisions_test

@@ -1,4 +1,4 @@
-#include "runtime/coordinator/hindsight.h"
+#include "runtime/coordinator/last_decisions.h"
 
 #include <algorithm>
 #include <string_view>
@@ -28,12 +28,12 @@ bool demands_stop(const Demand& demand, TaskId task) {
 
 }  // namespace
 
-Hindsight::Hindsight(const CompiledCatalog& catalog, const std::vector<std::uint32_t>& ranks,
-                     const State& state)
+LastDecisions::LastDecisions(const CompiledCatalog& catalog,
+                             const std::vector<std::uint32_t>& ranks, const State& state)
     : catalog_(catalog), state_(state), explainer_(catalog, ranks, {}) {}
 
-void Hindsight::note_answer(const EventRecord& record, const Circumstances& circumstances,
-                            const Assignment& solution) {
+void LastDecisions::note_answer(const EventRecord& record, const Circumstances& circumstances,
+                                const Assignment& solution) {
   const std::uint32_t group = circumstances.trigger.group;
   rejections_.erase(group);
   Decision& decision = decisions_[group];
@@ -47,7 +47,7 @@ void Hindsight::note_answer(const EventRecord& record, const Circumstances& circ
   save_state(circumstances, decision.before);
 }
 
-void Hindsight::note_rejection(const EventRecord& record, const Trigger& trigger) {
+void LastDecisions::note_rejection(const EventRecord& record, const Trigger& trigger) {
   Rejection& rejection = rejections_[trigger.group];
   copy_event(record, rejection.event, rejection.search);
   rejection.event.outcome = Outcome::rejected;
@@ -57,7 +57,7 @@ void Hindsight::note_rejection(const EventRecord& record, const Trigger& trigger
 
 /// Only the group counts for the answer, and for the reasons against another one; what runs
 /// elsewhere is a part of the suitability that is told.
-void Hindsight::save_state(const Circumstances& circumstances, Snapshot& before) const {
+void LastDecisions::save_state(const Circumstances& circumstances, Snapshot& before) const {
   const State& state = circumstances.state;
   const std::uint32_t group = circumstances.trigger.group;
   before.running.clear();
@@ -78,26 +78,26 @@ void Hindsight::save_state(const Circumstances& circumstances, Snapshot& before)
   before.variables = state.variables();
 }
 
-LookBack Hindsight::look_back(std::uint32_t group, std::span<const Demands> ways) {
-  LookBack answer;
+WhyUnmet LastDecisions::why_unmet(std::uint32_t group, std::span<const Demands> ways) {
+  WhyUnmet answer;
   for (const Demands& way : ways) {
     for (const Demand& demand : way) {
       const std::uint32_t index = catalog_.tasks[demand.task].catalog_index;
       if (!demands_run(demand, demand.task) || !state_.queue().has(index)) continue;
-      answer.kind = LookBack::Kind::due;
+      answer.kind = WhyUnmet::Kind::due;
       answer.queued_task = demand.task;
       answer.due = state_.queue().due(index);
       return answer;
     }
   }
   if (const Rejection* const rejection = find_rejection(group, ways)) {
-    answer.kind = LookBack::Kind::rejected;
+    answer.kind = WhyUnmet::Kind::rejected;
     answer.event = &rejection->event;
     return answer;
   }
   const auto found = decisions_.find(group);
   if (found == decisions_.end()) return answer;
-  answer.kind = LookBack::Kind::decided;
+  answer.kind = WhyUnmet::Kind::decided;
   answer.event = &found->second.event;
   const auto before = std::make_shared<State>(catalog_);
   before->restore(found->second.before);
@@ -108,8 +108,8 @@ LookBack Hindsight::look_back(std::uint32_t group, std::span<const Demands> ways
 
 /// A rejected start of a task that does not run but should, or a rejected stop of one that should
 /// not.
-const Hindsight::Rejection* Hindsight::find_rejection(std::uint32_t group,
-                                                      std::span<const Demands> ways) const {
+const LastDecisions::Rejection* LastDecisions::find_rejection(std::uint32_t group,
+                                                              std::span<const Demands> ways) const {
   const auto found = rejections_.find(group);
   if (found == rejections_.end()) return nullptr;
   const TaskId task = found->second.event.task;
@@ -123,7 +123,8 @@ const Hindsight::Rejection* Hindsight::find_rejection(std::uint32_t group,
   return is_demanded ? &found->second : nullptr;
 }
 
-WhyNot Hindsight::explain(Decision& decision, const State& before, std::span<const Demands> ways) {
+WhyNot LastDecisions::explain(Decision& decision, const State& before,
+                              std::span<const Demands> ways) {
   WhyNot answer;
   if (decision.search.result.status != SearchStatus::optimal) {
     answer.is_cut = true;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/report/sentences.h"
+#include "core/report/explanation_words.h"
 #include "core/script/runner.h"
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
@@ -18,26 +18,10 @@
 
 namespace cbc {
 
-/// The tasks of a group that have different values in two configurations, in catalog order.
-[[nodiscard]] std::vector<TaskId> differing_tasks(const CompiledCatalog& catalog,
-                                                  std::uint32_t group, const Assignment& one,
-                                                  const Assignment& other);
-
-/// What else one has to know of tasks that are not as expected: that what prevented it no longer
-/// does, and that faults of their behaviors have no effect yet. `state`: as below.
-[[nodiscard]] std::vector<std::string> notes_of(const CompiledCatalog& catalog,
-                                                const Surprise& surprise, const State& state);
-
-/// Why tasks are not as expected: the event that decided, the objective with both values, and what
-/// differs; or what prevents it; then the notes. `state`: the one in which the expectation does not
-/// hold.
-[[nodiscard]] Sentences describe_surprise(const CompiledCatalog& catalog, const Surprise& surprise,
-                                          const State& state);
-
 /// Tells what led to a failed expectation: the event before it; why the last scripted start, stop
 /// or finish was rejected, if it was; and when and why tasks stopped that are expected to run, or
 /// why they wait.
-class FailureStory {
+class FailureExplanation {
  public:
   /// Starts a run. The catalog must outlive it.
   void begin_run(const CompiledCatalog& catalog);
@@ -67,7 +51,7 @@ class FailureStory {
   void tell_wait(TaskId task, std::vector<Sentences>& lines) const;
   /// `told`: the event whose reasons are told elsewhere, or 0. False if there is no stop to tell.
   bool tell_stop(TaskId task, std::uint64_t told, std::vector<Sentences>& lines) const;
-  [[nodiscard]] std::string describe(const EventRecord& record, const Step* step) const;
+  [[nodiscard]] std::string time_and_event(const EventRecord& record, const Step* step) const;
 
   const CompiledCatalog* catalog_ = nullptr;
   const EventRecord* last_ = nullptr;  ///< null: none yet
