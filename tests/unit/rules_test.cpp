@@ -44,7 +44,7 @@ Names rules_found(const Rule& rule, std::string_view text, const LintOptions& op
           read_settings(rule.settings, ".cbc.yaml", diagnostics).value_or(SeveritySettings());
       LintOptions with_settings = options;
       with_settings.never_together = settings.never_together();
-      is_complete = lint_catalog(*document, with_settings, diagnostics).compiled.has_value();
+      is_complete = lint_catalog(*document, with_settings, diagnostics).compiled != nullptr;
     }
   }
   const CommentedFile file{"example.yaml", text, document.get(), is_complete};
