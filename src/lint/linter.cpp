@@ -216,12 +216,12 @@ void Linter::lint_script(const std::string& path, const std::string& catalog) {
 }
 
 void Linter::lint_script(const InputFile& file, const std::string& catalog) {
+  const std::optional<SeveritySettings> settings = files_.settings_of(file);
   if (file.is(FileKind::compiled) || file.is(FileKind::catalog)) {
     complain("{} is a catalog; expected an event script or a property file", quote(file.name));
     has_failed_ = true;
     return;
   }
-  const std::optional<SeveritySettings> settings = files_.settings_of(file);
   const bool is_of_properties = file.is(FileKind::properties);
   Diagnostics diagnostics = file.diagnostics;
   CommentedFile commented{file.name, *file.text, file.document.get(), false};
