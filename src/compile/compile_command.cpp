@@ -15,7 +15,7 @@
 #include "compile/catalog_dump.h"
 #include "core/command_line/command_line.h"
 #include "core/compile/compile.h"
-#include "core/files/input.h"
+#include "core/files/file_set.h"
 #include "core/files/output.h"
 #include "core/files/read_files.h"
 #include "runtime/base/mapped_file.h"
@@ -62,22 +62,26 @@ struct Source {
 };
 
 /// Also prints the findings. Empty if there are errors.
-std::optional<Source> understand(InputFiles& files, const InputFile& file) {
-  std::optional<Catalog> catalog = CatalogLoader(files).understand(file.path, *file.document);
+std::optional<Source> understand(FileSet& files, const InputFile& file) {
+  FileSet::Check checked = files.check(file, FileSet::Purpose::compilation);
   files.print_findings();
-  if (!catalog) return std::nullopt;
-  return Source{std::move(*catalog), digest_of(files.text_of(*file.document))};
+  if (!checked.is_usable) return std::nullopt;
+  return Source{std::move(checked.catalog.reading.catalog), digest_of(*file.text)};
+}
+
+/// Null if the file cannot be used; the findings are printed then.
+std::shared_ptr<const InputFile> read_catalog(FileSet& files, const std::string& path) {
+  auto file = files.read_catalog(path);
+  if (file == nullptr) files.print_findings();
+  return file;
 }
 
 std::optional<Source> read_source(const std::string& path) {
-  InputFiles files;
-  const std::optional<InputFile> file = files.read_catalog(path);
-  if (!file) {
-    files.print_findings();
-    return std::nullopt;
-  }
-  if (file->document == nullptr) {
-    complain("{} is a compiled catalog already; expected one in YAML", quote(display_name(path)));
+  FileSet files;
+  const auto file = read_catalog(files, path);
+  if (file == nullptr) return std::nullopt;
+  if (file->is(FileKind::compiled)) {
+    complain("{} is a compiled catalog already; expected one in YAML", quote(file->name));
     return std::nullopt;
   }
   return understand(files, *file);
@@ -161,13 +165,10 @@ int check(const CompileCommand& command) {
 
 /// The compiled form of a catalog, even if there is no file of it.
 std::optional<CompiledFile> read_for_dump(const std::string& path) {
-  InputFiles files;
-  const std::optional<InputFile> file = files.read_catalog(path);
-  if (!file) {
-    files.print_findings();
-    return std::nullopt;
-  }
-  if (file->document == nullptr) return load(file->compiled);
+  FileSet files;
+  const auto file = read_catalog(files, path);
+  if (file == nullptr) return std::nullopt;
+  if (file->is(FileKind::compiled)) return load_compiled(*file);
   const std::optional<Source> source = understand(files, *file);
   if (!source) return std::nullopt;
   std::optional<Compiled> compiled = compile_source(*source);

@@ -43,7 +43,6 @@ int run_coverage(const CoverageOptions& options) {
   }
   if (options.merge) return merge_coverage(options);
   MissionLoader loader;
-  loader.keep_sources();
   const bool is_measured = !options.write_missing && !options.mutants;
   if (!is_measured) loader.need_none();
   if (options.write_missing) loader.leave_out(*options.write_missing);

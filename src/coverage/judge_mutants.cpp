@@ -118,8 +118,8 @@ int judge_mutants(const CoverageOptions& options, const CoverageQuestion& questi
   if (question.missions.empty()) {
     return complain("--mutants: expected a script, found none in {}", quote(options.paths.back()));
   }
-  const CatalogSource* const source = question.missions.front().source.get();
-  if (source == nullptr) {
+  const CheckedCatalog& source = *question.missions.front().source;
+  if (source.text == nullptr) {
     return complain("--mutants: the catalog {} was compiled; expected the YAML, whose lines count",
                     quote(catalog.file));
   }
@@ -136,7 +136,7 @@ int judge_mutants(const CoverageOptions& options, const CoverageQuestion& questi
     result.missions.push_back(mission.script.file);
   }
   if (!all_pass(catalog, missions)) return exit_unusable;
-  result.catalog = &source->catalog;
+  result.catalog = &source.reading.catalog;
   result.compiled = &catalog;
   result.assumptions = question.assumptions;
   result.writes_scripts = options.scripts.has_value();

@@ -12,10 +12,9 @@
 #include <fmt/core.h>
 
 #include "core/command_line/command_line.h"
-#include "core/files/input.h"
+#include "core/files/file_set.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
-#include "core/property/property_reader.h"
 #include "coverage/coverage.h"
 #include "coverage/engine/coverage.h"
 #include "coverage/engine/goal_proof.h"
@@ -66,21 +65,20 @@ GoalSearchOptions search_options(const StateLimits& limits) {
 
 namespace {
 
-CatalogCoverage coverage_of(std::shared_ptr<const CompiledCatalog> catalog,
-                            const CatalogSource& source) {
-  std::vector<Goal> goals = find_goals(*catalog);
-  add_lines(source.catalog, *catalog, goals);
-  return {std::move(catalog), source.text, std::move(goals)};
+CatalogCoverage coverage_of(const CheckedCatalog& catalog) {
+  std::vector<Goal> goals = find_goals(*catalog.compiled);
+  add_lines(catalog.reading.catalog, *catalog.compiled, goals);
+  return {catalog.compiled, *catalog.text, std::move(goals)};
 }
 
-/// Says why there can be no coverage of a catalog, if so. `source`: null if it was compiled.
-bool can_be_covered(const CompiledCatalog& catalog, const CatalogSource* source) {
-  if (source == nullptr) {
+/// Says why there can be no coverage of a catalog, if so.
+bool can_be_covered(const CheckedCatalog& catalog) {
+  if (catalog.text == nullptr) {
     complain("the catalog {} was compiled; expected the YAML, whose lines count",
-             quote(catalog.file));
+             quote(catalog.compiled->file));
     return false;
   }
-  const std::optional<std::string> too_many = find_too_many_pairs(catalog);
+  const std::optional<std::string> too_many = find_too_many_pairs(*catalog.compiled);
   if (too_many) complain(*too_many);
   return !too_many;
 }
@@ -98,25 +96,21 @@ std::optional<Coverage> find_goals(const std::vector<Mission>& missions) {
   Coverage coverage;
   for (const Mission& mission : missions) {
     if (find(coverage, *mission.catalog) != nullptr) continue;
-    if (!can_be_covered(*mission.catalog, mission.source.get())) return std::nullopt;
-    coverage.catalogs.push_back(coverage_of(mission.catalog, *mission.source));
+    if (!can_be_covered(*mission.source)) return std::nullopt;
+    coverage.catalogs.push_back(coverage_of(*mission.source));
   }
   return coverage;
 }
 
 std::optional<Assumptions> read_assumptions(const std::string& path,
                                             const CompiledCatalog& catalog) {
-  InputFiles files;
-  const std::optional<InputFile> file = files.read(path);
+  FileSet files;
   std::optional<PropertyFile> properties;
-  if (file && (file->document == nullptr || !is_property_file(*file->document))) {
-    complain("--assume: {} is not a property file", quote(display_name(path)));
-  } else if (file) {
-    Diagnostics diagnostics;
-    properties = read_properties(*file->document, catalog, diagnostics);
-    const bool is_complete = properties.has_value();
-    if (!files.take_findings(path, *file->document, std::move(diagnostics), is_complete)) {
-      properties.reset();
+  if (const auto file = files.read(path)) {
+    if (file->is(FileKind::properties)) {
+      properties = files.read_properties(*file, catalog);
+    } else {
+      complain("--assume: {} is not a property file", quote(file->name));
     }
   }
   files.print_findings();
@@ -239,16 +233,12 @@ int measure_coverage(const CoverageOptions& options, const std::vector<Mission>&
 }
 
 int merge_coverage(const CoverageOptions& options) {
-  InputFiles files;
-  CatalogLoader catalogs(files);
-  catalogs.keep_sources();
-  const auto catalog = catalogs.load(options.paths.front());
+  FileSet files;
+  const auto catalog = files.load(options.paths.front());
   files.print_findings();
-  if (catalog == nullptr) return exit_unusable;
-  const std::shared_ptr<const CatalogSource> source = catalogs.source_of(*catalog);
-  if (!can_be_covered(*catalog, source.get())) return exit_unusable;
+  if (catalog == nullptr || !can_be_covered(*catalog)) return exit_unusable;
   Coverage coverage;
-  coverage.catalogs.push_back(coverage_of(catalog, *source));
+  coverage.catalogs.push_back(coverage_of(*catalog));
   const auto assumptions = find_assumptions(coverage, options);
   if (!assumptions) return exit_unusable;
   for (std::size_t place = 1; place < options.paths.size(); ++place) {

@@ -21,7 +21,7 @@
 #include "core/check/controls.h"
 #include "core/check/together.h"
 #include "core/command_line/command_line.h"
-#include "core/files/input.h"
+#include "core/files/file_set.h"
 #include "core/files/missions.h"
 #include "core/files/output.h"
 #include "core/script/runner.h"
@@ -288,7 +288,7 @@ std::unique_ptr<Drawable> read_state(const std::string& catalog, const StateOpti
   state->graph = draw::to_graph(*mission->catalog);
   draw::mark_state(state->graph, recorder.state());
   state->moment = recorder.moment();
-  state->compiled = std::move(mission->catalog);
+  state->catalog = std::move(mission->source);
   return state;
 }
 
@@ -305,12 +305,13 @@ struct ComparedCatalogs {
 std::unique_ptr<const ComparedCatalogs> read_and_compare(const std::string& before,
                                                          const std::string& after) {
   auto compared = std::make_unique<ComparedCatalogs>();
-  InputFiles files;
-  CatalogLoader loader(files);
-  compared->before = loader.load(before);
-  compared->after = loader.load(after);
+  FileSet files;
+  const auto old_catalog = files.load(before);
+  const auto new_catalog = files.load(after);
   files.print_findings();
-  if (compared->before == nullptr || compared->after == nullptr) return nullptr;
+  if (old_catalog == nullptr || new_catalog == nullptr) return nullptr;
+  compared->before = old_catalog->compiled;
+  compared->after = new_catalog->compiled;
   compared->diff = compare_catalogs(*compared->before, *compared->after);
   compared->graph = draw::to_graph(*compared->before, *compared->after, compared->diff);
   return compared;
@@ -496,17 +497,18 @@ int write_table(const TableView& table, const GraphCommand& command) {
   if (drawable == nullptr) return exit_unusable;
   const std::optional<SeveritySettings> settings = SettingsFinder().find(catalog);
   if (!settings) return exit_unusable;
-  if (drawable->compiled == nullptr) {
+  const CompiledCatalog* const compiled = drawable->catalog->compiled.get();
+  if (compiled == nullptr) {
     complain("catalog {} has errors, so it is not known {}", quote(drawable->graph.file),
              table.answer);
     return exit_unusable;
   }
   if (table.find_obstacle != nullptr) {
-    if (const auto obstacle = table.find_obstacle(*drawable->compiled)) return complain(*obstacle);
+    if (const auto obstacle = table.find_obstacle(*compiled)) return complain(*obstacle);
   }
   const Style style = output_of(command) == "-" ? style_for(stdout) : plain_style();
   return write_output(output_of(command),
-                      table.write(*drawable->compiled, *settings, format_of(command), style));
+                      table.write(*compiled, *settings, format_of(command), style));
 }
 
 int draw_catalog(const GraphCommand& command) {

@@ -13,7 +13,8 @@
 
 #include <fmt/core.h>
 
-#include "core/files/input.h"
+#include "core/files/file_set.h"
+#include "core/files/line_input.h"
 #include "core/files/output.h"
 #include "core/files/read_files.h"
 #include "core/report/event_json.h"

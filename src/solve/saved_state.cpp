@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
-#include "core/files/input.h"
 #include "core/files/output.h"
+#include "core/files/read.h"
 #include "core/script/event_lines.h"
 #include "runtime/base/text.h"
 

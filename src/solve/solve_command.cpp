@@ -10,7 +10,6 @@
 
 #include "commands.h"
 #include "core/command_line/command_line.h"
-#include "core/files/input.h"
 #include "core/files/output.h"
 #include "core/support/wording.h"
 #include "page/serve/server.h"

@@ -10,7 +10,7 @@
 #include "commands.h"
 #include "core/command_line/command_line.h"
 #include "core/command_line/limits.h"
-#include "core/files/input.h"
+#include "core/files/file_set.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
 #include "runtime/base/text.h"

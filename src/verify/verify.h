@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/command_line/limits.h"
-#include "core/files/input.h"
+#include "core/files/file_set.h"
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
 
@@ -50,12 +50,12 @@ class QuestionLoader {
  private:
   void add_first(const std::string& path);
   void add_path(const std::string& path);
-  void add_properties(const std::string& path, const yaml::Document& document);
-  [[nodiscard]] bool find_catalog(const std::string& path, const yaml::Document& document);
-  void refuse(const std::string& path, const char* what);
+  void add_properties(const InputFile& file);
+  void take_catalog(const std::shared_ptr<const CheckedCatalog>& catalog);
+  [[nodiscard]] bool find_catalog(const InputFile& file);
+  void refuse(const InputFile& file, const char* what);
 
-  InputFiles files_;
-  CatalogLoader catalogs_{files_};
+  FileSet files_;
   VerifyQuestions questions_;
   bool is_given_ = false;                     ///< the catalog, on the command line
   std::optional<std::string> named_catalog_;  ///< path of the one that the property files name

@@ -98,7 +98,7 @@ TEST(LintCascade, GoalsThatAreNotGiven) {
         tasks;
     Diagnostics diagnostics;
     const auto document = yaml::parse(text, "a.yaml", diagnostics);
-    static_cast<void>(lint_catalog(*document, {.searches = false}, diagnostics));
+    static_cast<void>(lint_catalog(*document, {.depth = CheckDepth::rules}, diagnostics));
     EXPECT_EQ(diagnostics.all().size(), 1U);
     EXPECT_EQ(diagnostics.all().front().rule, rule::required_goal.name);
     return diagnostics.all().front().is_off;

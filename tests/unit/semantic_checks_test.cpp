@@ -26,7 +26,7 @@ std::string lint(const std::string& yaml, std::uint64_t max_nodes = LintOptions(
   if (!document) return {};
   LintOptions options;
   options.max_nodes = max_nodes;
-  const LintResult result = lint_catalog(*document, options, diagnostics);
+  const CheckedCatalog result = lint_catalog(*document, options, diagnostics);
   EXPECT_TRUE(result.compiled) << show(diagnostics);
   Diagnostics shown;
   for (Diagnostic& finding : diagnostics.release()) {

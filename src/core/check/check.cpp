@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -504,13 +505,15 @@ std::vector<bool> check_conflicting_requirements(const Catalog& catalog, const P
 
 }  // namespace
 
-LintResult lint_catalog(const yaml::Document& document, const LintOptions& options,
-                        Diagnostics& diagnostics) {
-  LintResult result;
+CheckedCatalog lint_catalog(const yaml::Document& document, const LintOptions& options,
+                            Diagnostics& diagnostics) {
+  CheckedCatalog result;
   result.reading = understand_catalog(document, diagnostics);
-  const Catalog& catalog = result.reading.catalog;
-  Reporter reporter(document.file(), diagnostics);
+  if (options.depth == CheckDepth::reading) return result;
+  const bool searches = options.depth == CheckDepth::searches;
   const CatalogReading& reading = result.reading;
+  const Catalog& catalog = reading.catalog;
+  Reporter reporter(document.file(), diagnostics);
   check_tasks(reading, reporter);
   check_behaviors(catalog, reading.is_complete, reporter);
   check_exclusivity(catalog, reporter);
@@ -519,13 +522,13 @@ LintResult lint_catalog(const yaml::Document& document, const LintOptions& optio
   const std::vector<bool> conflicts = check_conflicting_requirements(catalog, exclusive, reporter);
   if (!reading.has_all_names || !reading.is_acyclic) {
     // Anything else that could be found may be due to what is missing.
-    if (options.searches) check_on_request_requirements(catalog, conflicts, reporter);
+    if (searches) check_on_request_requirements(catalog, conflicts, reporter);
     return result;
   }
-  if (!options.searches) return result;
-  CompiledCatalog compiled = compile(catalog);
-  check_by_proof(reading, compiled, conflicts, options, reporter);
-  if (reading.is_complete) result.compiled = std::move(compiled);
+  if (!searches) return result;
+  const auto compiled = std::make_shared<const CompiledCatalog>(compile(catalog));
+  check_by_proof(reading, *compiled, conflicts, options, reporter);
+  if (reading.is_complete) result.compiled = compiled;
   return result;
 }
 
@@ -538,14 +541,11 @@ CheckedCatalog check_catalog(const yaml::Document& document, std::string_view te
     return control_findings(std::move(findings), {document.file(), text, &document, false},
                             settings);
   };
-  LintResult result = lint_catalog(document, options, diagnostics);
-  CheckedCatalog checked;
+  CheckedCatalog checked = lint_catalog(document, options, diagnostics);
   checked.errors = diagnostics.count(Severity::error);
-  const CommentedFile file{document.file(), text, &document, result.compiled.has_value(),
+  const CommentedFile file{document.file(), text, &document, checked.compiled != nullptr,
                            options.checks_off_rules};
   checked.findings = control_findings(diagnostics.release(), file, settings);
-  checked.reading = std::move(result.reading);
-  checked.compiled = std::move(result.compiled);
   return checked;
 }
 

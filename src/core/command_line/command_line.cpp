@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-#include "core/files/input.h"
+#include "core/files/read.h"
 #include "core/files/output.h"
 #include "core/files/read_files.h"
 #include "core/support/system.h"

@@ -8,7 +8,6 @@
 
 #include "core/files/output.h"
 #include "core/files/read_files.h"
-#include "core/script/reader.h"
 #include "runtime/base/text.h"
 
 namespace cbc::cli {
@@ -16,13 +15,12 @@ namespace cbc::cli {
 std::optional<std::vector<Mission>> MissionLoader::load(const std::vector<std::string>& paths) {
   std::size_t first_script = 0;
   if (!is_folder(paths.front())) {
-    std::optional<InputFile> first = files_.read(paths.front());
-    if (first && first->document != nullptr &&
-        (is_script(*first->document) || is_property_file(*first->document))) {
-      add_script(paths.front(), *first->document);
+    const auto first = files_.read(paths.front());
+    if (first && (first->is(FileKind::script) || first->is(FileKind::properties))) {
+      add_script(*first);
     } else {
-      if (first) given_catalog_ = catalogs_.load(*first);
-      is_given_catalog_bad_ = given_catalog_ == nullptr;
+      if (first) given_catalog_ = files_.load(*first);
+      is_given_catalog_bad_ = given_catalog_ == nullptr || given_catalog_->compiled == nullptr;
       has_failed_ = is_given_catalog_bad_;
     }
     first_script = 1;
@@ -49,13 +47,10 @@ void MissionLoader::add_path(const std::string& path) {
     return;
   }
   if (is_left_out(path)) return;
-  std::optional<InputFile> file = files_.read(path);
-  if (!file) {
-    has_failed_ = true;
-  } else if (file->document == nullptr) {
-    complain_of_catalog(path);
+  if (const auto file = files_.read(path)) {
+    add_script(*file);
   } else {
-    add_script(path, *file->document);
+    has_failed_ = true;
   }
 }
 
@@ -65,11 +60,11 @@ void MissionLoader::add_folder(const std::string& path) {
   for (const std::string& name : list_folder(path, {".yaml", ".yml", ".json"}, has_failed_)) {
     if (is_left_out(name)) continue;
     const NamedBy named_by = leads_out_of(path, name) ? NamedBy::link : NamedBy::command_line;
-    std::optional<InputFile> file = files_.read(name, named_by);
+    const auto file = files_.read(name, named_by);
     if (!file) {
       has_failed_ = true;
-    } else if (file->document != nullptr && looks_like_script(*file->document)) {
-      add_script(name, *file->document);
+    } else if (file->what.kind == FileKind::script) {
+      add_script(*file);
     }
   }
 }
@@ -80,49 +75,33 @@ bool MissionLoader::is_left_out(const std::string& path) const {
   return is_same_file(folder.empty() ? "." : folder.string(), *left_out_);
 }
 
-void MissionLoader::complain_of_catalog(const std::string& path) {
-  complain("{} is a catalog; expected a script here (a catalog goes first)",
-           quote(display_name(path)));
+void MissionLoader::refuse(const InputFile& file, const char* what) {
+  complain("{} {}", quote(file.name), what);
   has_failed_ = true;
 }
 
-void MissionLoader::add_script(const std::string& path, const yaml::Document& document) {
-  if (is_catalog(document)) {
-    complain_of_catalog(path);
-    return;
+void MissionLoader::add_script(const InputFile& file) {
+  if (file.is(FileKind::catalog) || file.is(FileKind::compiled)) {
+    return refuse(file, "is a catalog; expected a script here (a catalog goes first)");
   }
-  if (is_property_file(document)) {
-    complain("{} is a property file; expected a script here", quote(display_name(path)));
-    has_failed_ = true;
-    return;
+  if (file.is(FileKind::properties)) {
+    return refuse(file, "is a property file; expected a script here");
   }
-  std::shared_ptr<const CompiledCatalog> catalog = catalog_of(path, document);
-  if (catalog == nullptr) {
-    has_failed_ = true;
-    return;
-  }
-  Diagnostics diagnostics;
-  std::optional<Script> script = read_script(document, *catalog, Severity::warning, diagnostics);
-  if (files_.take_findings(path, document, std::move(diagnostics), script.has_value()) && script) {
-    std::shared_ptr<const CatalogSource> source = catalogs_.source_of(*catalog);
-    missions_.push_back({std::move(catalog), std::move(*script), std::move(source)});
+  std::shared_ptr<const CheckedCatalog> catalog = catalog_of(file);
+  std::optional<Script> script;
+  if (catalog != nullptr) script = files_.read_script(file, *catalog->compiled);
+  if (script) {
+    missions_.push_back({catalog->compiled, std::move(*script), std::move(catalog)});
   } else {
     has_failed_ = true;
   }
 }
 
-std::shared_ptr<const CompiledCatalog> MissionLoader::catalog_of(const std::string& script_path,
-                                                                 const yaml::Document& script) {
-  if (given_catalog_ != nullptr || is_given_catalog_bad_) return given_catalog_;
-  const std::optional<NamedCatalog> named = catalog_named_by(script_path, script);
-  if (!named) {
-    complain(
-        "script {} names no catalog, and none is given; give one on the command line, or write "
-        "'catalog: FILE' into it",
-        quote(display_name(script_path)));
-    return nullptr;
-  }
-  return catalogs_.load(*named);
+std::shared_ptr<const CheckedCatalog> MissionLoader::catalog_of(const InputFile& script) {
+  if (is_given_catalog_bad_) return nullptr;
+  if (given_catalog_ != nullptr) return given_catalog_;
+  const std::optional<NamedCatalog> named = files_.expect_catalog(script);
+  return named ? files_.load(*named) : nullptr;
 }
 
 void complain_of_run(const Mission& mission, const RunResult& result, const std::string& reason) {

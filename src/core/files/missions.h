@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
-#include "core/files/input.h"
+#include "core/files/file_set.h"
 #include "core/script/runner.h"
 #include "core/script/script.h"
-#include "core/yaml/document.h"
 #include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc::cli {
@@ -18,15 +17,13 @@ namespace cbc::cli {
 struct Mission {
   std::shared_ptr<const CompiledCatalog> catalog;
   Script script;
-  std::shared_ptr<const CatalogSource> source{};  ///< if the loader was to keep it
+  std::shared_ptr<const CheckedCatalog> source;  ///< of `catalog`
 };
 
 /// Reads the files of a command line, and checks every script against its catalog before anything
 /// runs. Findings and other problems go to standard error.
 class MissionLoader {
  public:
-  /// From now on, also keeps what catalogs were compiled from.
-  void keep_sources() { catalogs_.keep_sources(); }
   /// From now on, folders and paths may be without a script.
   void need_none() { needs_none_ = true; }
   /// Scripts in this folder do not count.
@@ -37,24 +34,22 @@ class MissionLoader {
   [[nodiscard]] std::optional<std::vector<Mission>> load(const std::vector<std::string>& paths);
 
   /// The catalog among the paths, or null.
-  [[nodiscard]] const std::shared_ptr<const CompiledCatalog>& given_catalog() const {
-    return given_catalog_;
+  [[nodiscard]] std::shared_ptr<const CompiledCatalog> given_catalog() const {
+    return given_catalog_ == nullptr ? nullptr : given_catalog_->compiled;
   }
   /// The findings about the files.
   [[nodiscard]] const std::vector<Diagnostic>& findings() const { return files_.findings(); }
 
  private:
-  [[nodiscard]] std::shared_ptr<const CompiledCatalog> catalog_of(const std::string& script_path,
-                                                                  const yaml::Document& script);
-  void add_script(const std::string& path, const yaml::Document& document);
+  [[nodiscard]] std::shared_ptr<const CheckedCatalog> catalog_of(const InputFile& script);
+  void add_script(const InputFile& file);
   void add_folder(const std::string& path);
   void add_path(const std::string& path);
   [[nodiscard]] bool is_left_out(const std::string& path) const;
-  void complain_of_catalog(const std::string& path);
+  void refuse(const InputFile& file, const char* what);
 
-  InputFiles files_;
-  CatalogLoader catalogs_{files_};
-  std::shared_ptr<const CompiledCatalog> given_catalog_;
+  FileSet files_;
+  std::shared_ptr<const CheckedCatalog> given_catalog_;
   bool is_given_catalog_bad_ = false;
   std::vector<Mission> missions_;
   bool needs_none_ = false;
