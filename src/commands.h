@@ -12,6 +12,8 @@
   row(compile) \
   row(solve) \
   row(verify) \
+  row(coverage) \
+  row(sweep) \
   row(graph) \
   row(schema) \
   row(help) \

@@ -1,11 +1,8 @@
 #include <algorithm>
-#include <cinttypes>
 #include <csignal>
 #include <cstddef>
-#include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <new>
 #include <string>
 #include <string_view>
@@ -57,24 +54,6 @@ int run(int argc, char** argv) {
   return finish_output(program.run(arguments));
 }
 
-/// The name of the file that is mapped into memory at an address; empty if it is not known.
-std::string file_mapped_at(const void* address) {
-  const auto place = reinterpret_cast<std::uintptr_t>(address);
-  std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);) {
-    // "7f0a4c000000-7f0a4c021000 r--p 00000000 08:01 1234   /home/robot/robot.cbc"
-    std::uintptr_t begin = 0;
-    std::uintptr_t end = 0;
-    int name = 0;
-    if (std::sscanf(line.c_str(), "%" SCNxPTR "-%" SCNxPTR " %*s %*s %*s %*s %n", &begin, &end,
-                    &name) < 2) {
-      continue;
-    }
-    if (begin <= place && place < end) return line.substr(static_cast<std::size_t>(name));
-  }
-  return {};
-}
-
 /// Handles SIGBUS. Compiled catalogs are mapped into memory, and the system sends this signal to
 /// who reads one that is truncated meanwhile, or that the disk does not deliver. That never happens
 /// within the memory management or the output, so it may use both.
@@ -84,9 +63,7 @@ void end_without_file(int signal, siginfo_t* info, void* /*context*/) {
     std::raise(signal);
     return;
   }
-  const std::string file = file_mapped_at(info->si_addr);
-  cbc::cli::complain("cannot read {}: it was truncated or became unreadable while it was in use",
-                     file.empty() ? "a compiled catalog" : cbc::quote(file));
+  cbc::cli::complain("a compiled catalog was truncated or became unreadable while it was in use");
   _exit(cbc::cli::exit_unusable);
 }
 

@@ -1,156 +1,265 @@
-#include "compile/catalog_dump.h"
-
+#include <array>
 #include <cstddef>
-#include <iterator>
-#include <string_view>
-#include <utility>
+#include <cstdint>
+#include <functional>
+#include <string>
 
-#include <fmt/format.h>
-
-#include "cbc/units.h"
+#include "compile/catalog_dump.h"
 #include "core/catalog/allowed_values.h"
 #include "core/catalog/situation.h"
+#include "core/compile/catalog_json.h"
 #include "core/compile/compile.h"
-#include "core/report/sentences.h"
-#include "runtime/base/text.h"
+#include "core/report/catalog_words.h"
+#include "core/support/json_description.h"
 
 namespace cbc {
-namespace {
+namespace json::dump {
 
-std::string seconds(Microseconds time) { return format_decimal(time, 6) + " s"; }
-
-class Listing {
- public:
-  explicit Listing(const CompiledFile& file) : file_(file), catalog_(file.catalog) {}
-
-  [[nodiscard]] std::string run() {
-    add_file();
-    const CatalogSummary summary = summarize(catalog_);
-    line("");
-    add_numbers("", summary.total);
-    line("situation variables: {}", catalog_.variables.size());
-    for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
-      add_variable(variable);
-    }
-    line("groups: {}", summary.groups.size());
-    for (std::size_t group = 0; group < summary.groups.size(); ++group) {
-      line("");
-      line("group {}", group);
-      add_numbers("  ", summary.groups[group]);
-      add_group(group);
-    }
-    return std::move(text_);
-  }
-
- private:
-  template <typename... Facts>
-  void line(fmt::format_string<Facts...> form, Facts&&... facts) {
-    fmt::format_to(std::back_inserter(text_), form, std::forward<Facts>(facts)...);
-    text_ += '\n';
-  }
-
-  void add_file() {
-    line("source: {}", printable(catalog_.file));
-    line("source digest: {}", to_hex(file_.source));
-    line("written by: cbc {}", printable(file_.written_by));
-    line("format: {}", file_.format);
-    line("content digest: {}", to_hex(file_.content));
-    line("size: {} bytes", file_.size);
-  }
-
-  void add_numbers(std::string_view indent, const CatalogNumbers& numbers) {
-    line("{}tasks: {}", indent, numbers.tasks);
-    line("{}behaviors: {}", indent, numbers.behaviors);
-    line("{}levels: {}", indent, numbers.levels);
-    line("{}exclusive pairs: {}", indent, numbers.constraints.exclusive_pairs);
-    line("{}requirements: {}", indent, numbers.constraints.requirements);
-    line("{}task minimums: {}", indent, numbers.constraints.task_minimums);
-    line("{}constraints: {}", indent, numbers.constraints.total());
-    line("{}search space: {}", indent, numbers.search_space);
-  }
-
-  void add_variable(std::uint32_t index) {
-    const CompiledVariable& variable = catalog_.variables[index];
-    std::string values;
-    for (std::uint32_t value = 0; value < variable.value_count; ++value) {
-      values += (value == 0 ? "" : ", ") + printable(catalog_.name_of_value({index, value}));
-    }
-    line("  variable {}{}", printable(catalog_.name_of_variable(index)),
-         variable.is_boolean != 0 ? "" : ": " + values);
-  }
-
-  void add_group(std::size_t group) {
-    for (TaskId task = catalog_.group_tasks[group]; task < catalog_.group_tasks[group + 1];
-         ++task) {
-      add_task(task);
-    }
-    for (BehaviorId behavior = catalog_.group_behaviors[group];
-         behavior < catalog_.group_behaviors[group + 1]; ++behavior) {
-      add_behavior(behavior);
-    }
-    for (const std::uint32_t clique : cliques_of_group(catalog_, group)) {
-      std::string names;
-      for (const TaskId task : catalog_.cliques[clique]) {
-        names += (names.empty() ? "" : ", ") + printable(catalog_.name_of_task(task));
-      }
-      line("  mutually_exclusive: {}", names);
+/// A time in seconds: as a whole number where it is one.
+struct PutTime {
+  void operator()(JsonWriter& json, Microseconds time) const {
+    if (time % second == 0) {
+      json.put(time / second);
+    } else {
+      json.put(to_seconds(time));
     }
   }
-
-  void add_task(TaskId id) {
-    const CompiledTask& task = catalog_.tasks[id];
-    line("  task {}", printable(catalog_.name_of_task(id)));
-    line("    level: {}", task.level);
-    line("    execution_goal: {}", task.keep_running != 0 ? "keep_running" : "achieve_goal");
-    line("    start_on_request: {}", task.start_on_request != 0);
-    line("    reactive_start: {}", task.reactive_start != 0);
-    if (task.timeout > 0) line("    timeout: {}", seconds(task.timeout));
-    if (task.minimum_performance > 0) {
-      line("    minimum_performance: {}", format_percent(task.minimum_performance));
-    }
-    for (const Parameter& parameter : parameters_of(catalog_, task.catalog_index)) {
-      add_parameter(parameter);
-    }
-    for (const Value& value : catalog_.values[id]) {
-      line("    behavior: {}, {}", printable(catalog_.name_of_behavior(value.behavior)),
-           format_percent(value.suitability));
-    }
-  }
-
-  void add_parameter(const Parameter& parameter) {
-    std::string allowed;
-    for (const std::string& value : parameter.allowed_values) {
-      allowed += (allowed.empty() ? "" : ", ") + printable(value);
-    }
-    if (parameter.allowed_is_list) allowed = "[" + allowed + "]";
-    line("    parameter: {}{}{}", printable(parameter.name), allowed.empty() ? "" : ", ", allowed);
-  }
-
-  void add_behavior(BehaviorId id) {
-    const CompiledBehavior& behavior = catalog_.behaviors[id];
-    line("  behavior {}", printable(catalog_.name_of_behavior(id)));
-    line("    level: {}", behavior.level);
-    const std::string_view package =
-        catalog_.texts[catalog_.behavior_packages[behavior.catalog_index]];
-    if (!package.empty()) line("    package: {}", printable(package));
-    if (behavior.timeout > 0) line("    timeout: {}", seconds(behavior.timeout));
-    for (const NamedCondition& condition : conditions_of(catalog_, id)) {
-      line("    situation: {}", describe(condition));
-    }
-    for (const CompiledRequirement& requirement : catalog_.requirements[id]) {
-      const Millionths minimum = requirement.minimum_performance;
-      line("    requires: {}{}", printable(catalog_.name_of_task(requirement.task)),
-           minimum > 0 ? ", at least " + format_percent(minimum) : "");
-    }
-  }
-
-  const CompiledFile& file_;
-  const CompiledCatalog& catalog_;
-  std::string text_;
 };
 
-}  // namespace
+constexpr auto timeout_of = [](std::string_view meaning) {
+  return [meaning](auto projection) {
+    return member("timeout", nullable(Number<PutTime>{std::nullopt, true, {}}), meaning,
+                  [projection](std::uint32_t of, const CompiledCatalog& catalog) {
+                    const Microseconds& timeout = projection(of, catalog).timeout;
+                    return timeout > 0 ? &timeout : nullptr;
+                  });
+  };
+};
 
-std::string catalog_text(const CompiledFile& file) { return Listing(file).run(); }
+constexpr auto minimum = [](auto projection) {
+  return member("minimum_performance", nullable(positive_percent),
+                "Minimum performance in percent; null: none.",
+                [projection](const auto& of, const CompiledCatalog& catalog) {
+                  const Millionths& least = project(projection, of, catalog).minimum_performance;
+                  return least > 0 ? &least : nullptr;
+                });
+};
+
+/// A list of texts, or one text, or nothing.
+struct AllowedValues {
+  template <typename Context>
+  void write(JsonWriter& json, const Parameter& parameter, const Context& context) const {
+    if (parameter.allowed_is_list) {
+      values.write(json, parameter.allowed_values, context);
+    } else if (parameter.allowed_values.empty()) {
+      json.put(nullptr);
+    } else {
+      json.put(parameter.allowed_values.front());
+    }
+  }
+  void put_schema(JsonWriter& json, Definitions& definitions) const {
+    choice("", values, any_text, null).put_schema(json, definitions);
+  }
+
+  static constexpr auto values = list(any_text);
+};
+
+constexpr auto parameter =
+    object("parameter", "", member("parameter", text, "", &Parameter::name),
+           member("allowed_values", AllowedValues(),
+                  "A list of texts, the name of a type, or null if any value is allowed.",
+                  std::identity()));
+
+constexpr auto task_at = [](TaskId id, const CompiledCatalog& catalog) -> const CompiledTask& {
+  return catalog.tasks[id];
+};
+
+constexpr auto task =
+    object(
+        "task", "", member("task", json::task, "", std::identity()),
+        member("level", count, "The highest level of its behaviors.",
+               [](TaskId of, const CompiledCatalog& in) { return task_at(of, in).level; }),
+        member(
+            "execution_goal", WordList<2>{{"achieve_goal", "keep_running"}},
+            "Whether it ends by itself (achieve_goal) or runs until it is stopped (keep_running).",
+            [](TaskId of, const CompiledCatalog& in) { return task_at(of, in).keep_running != 0; }),
+        member("start_on_request", boolean,
+               "Whether it starts only when it is requested, not because something requires it.",
+               [](TaskId of, const CompiledCatalog& in) {
+                 return task_at(of, in).start_on_request != 0;
+               }),
+        member("reactive_start", boolean, "Whether it starts by itself as soon as it can.",
+               [](TaskId of, const CompiledCatalog& in) {
+                 return task_at(of, in).reactive_start != 0;
+               }),
+        timeout_of("Timeout in seconds; null: none.")(task_at), minimum(task_at),
+        member("line", nullable(line_number),
+               "The line of the minimum performance in the source; null without one.",
+               [](TaskId of, const CompiledCatalog& in) {
+                 const CompiledTask& compiled = task_at(of, in);
+                 return compiled.minimum_performance > 0 ? &compiled.minimum_line : nullptr;
+               }),
+        member("parameters", list(parameter), "",
+               [](TaskId of, const CompiledCatalog& in) {
+                 return parameters_of(in, task_at(of, in).catalog_index);
+               }),
+        member(
+            "behaviors",
+            list(object(
+                "", "", member("behavior", json::behavior, "", &Value::behavior),
+                member("suitability", percent, "Suitability in percent.", &Value::suitability))),
+            "The behaviors that perform it, in search order: best suitability first, equal ones in "
+            "catalog order.",
+            [](TaskId of, const CompiledCatalog& in) { return in.values[of]; }))
+        .related(R"([{"if": {"properties": {"minimum_performance": {"type": "null"}}},
+                  "then": {"properties": {"line": {"type": "null"}}},
+                  "else": {"properties": {"line": {"type": "integer"}}}}])");
+
+constexpr auto behavior_at = [](BehaviorId id, const CompiledCatalog& catalog) -> const auto& {
+  return catalog.behaviors[id];
+};
+
+constexpr auto line = named("line", "Line in the source, from 1.", line_number);
+
+constexpr auto behavior = object(
+    "behavior", "", member("behavior", json::behavior, "", std::identity()),
+    member("level", count,
+           "0 if it requires nothing, otherwise one more than the highest level that it requires.",
+           [](BehaviorId of, const CompiledCatalog& in) { return behavior_at(of, in).level; }),
+    member("package", any_text, "The package; empty if none is given.",
+           [](BehaviorId of, const CompiledCatalog& in) {
+             return in.texts[in.behavior_packages[behavior_at(of, in).catalog_index]];
+           }),
+    timeout_of("Timeout in seconds; null: the timeout of the task.")(behavior_at),
+    member("situation", conditions,
+           "For each situation variable that it names, the values in which it fits.",
+           [](BehaviorId of, const CompiledCatalog& in) {
+             return by_variable(conditions_of(in, of));
+           }),
+    member("requires",
+           list(object("", "", member("task", json::task, "", &CompiledRequirement::task),
+                       minimum(std::identity()),
+                       member("line", line, "",
+                              [](const CompiledRequirement& of, const CompiledCatalog& in) {
+                                return in.line_of(of);
+                              }))),
+           "", [](BehaviorId of, const CompiledCatalog& in) { return in.requirements[of]; }));
+
+constexpr auto exclusion =
+    object("exclusion", "At most one of the tasks may run.",
+           member("tasks", tasks.at_least(2), "",
+                  [](std::uint32_t of, const CompiledCatalog& in) { return in.cliques[of]; }),
+           member("line", line, "",
+                  [](std::uint32_t of, const CompiledCatalog& in) { return in.clique_lines[of]; }));
+
+constexpr auto numbers =
+    group(member("levels", count, "1 + the highest level of any task.", &CatalogNumbers::levels)
+              .on_line(),
+          member("constraints", constraints, "", &CatalogNumbers::constraints).on_line(),
+          search_space.on_line());
+
+/// Whole numbers from one of the numbers of a list to the one after it.
+constexpr auto range_of = [](std::size_t place, const auto& begins) {
+  return [first = begins[place], end = begins[place + 1]](const auto& put) {
+    for (auto id = first; id < end; ++id) put(id);
+  };
+};
+
+struct Group {
+  std::size_t place;
+  const CatalogNumbers& numbers;
+};
+
+constexpr auto group_of_tasks = object(
+    "group", "",
+    member("group", count, "The number of the group, from 0, as in `search` of cbc.solve/1.",
+           &Group::place),
+    part(
+        [](const Group& of) -> const auto& { return of.numbers; }, numbers),
+    member("tasks", list(task).at_least(1).on_lines(), "In catalog order.",
+           [](const Group& of, const CompiledCatalog& in) {
+             return range_of(of.place, in.group_tasks);
+           })
+        .on_line(),
+    member("behaviors", list(behavior).on_lines(), "In catalog order.",
+           [](const Group& of, const CompiledCatalog& in) {
+             return range_of(of.place, in.group_behaviors);
+           })
+        .on_line(),
+    member(
+        "exclusivity", list(exclusion).on_lines(),
+        "Lists of tasks that exclude one another, ordered by their first task.",
+        [](const Group& of, const CompiledCatalog& in) { return cliques_of_group(in, of.place); })
+        .on_line());
+
+struct Report {
+  const CompiledFile& file;
+  CatalogSummary summary;
+};
+
+constexpr auto report =
+    object("", "The output of `cbc compile --dump --format json` (schema cbc.catalog/1).",
+           schema_member("cbc.catalog/1"),
+           member("format", integer(1), "Format version of the compiled file.",
+                  [](const Report& of) { return of.file.format; })
+               .on_line(),
+           member(
+               "written_by", version_number, "Version of cbc that wrote it.",
+               [](const Report& of) -> const auto& { return of.file.written_by; })
+               .on_line(),
+           member(
+               "source",
+               object("", "",
+                      member("file", any_text, "The name, as given to `cbc compile`.",
+                             [](const CompiledFile& of) { return of.catalog.file; }),
+                      member("digest", digest, "XXH3-128 digest of its text.",
+                             [](const CompiledFile& of) { return to_hex(of.source); })),
+               "The YAML source.", [](const Report& of) -> const auto& { return of.file; })
+               .on_line(),
+           member("content_digest", digest, "XXH3-128 digest of the contents of the compiled file.",
+                  [](const Report& of) { return to_hex(of.file.content); })
+               .on_line(),
+           member("size", integer(1), "Size of the compiled file in bytes.",
+                  [](const Report& of) { return of.file.size; })
+               .on_line(),
+           member("tasks", count, "Number of tasks.",
+                  [](const Report& of) { return of.summary.total.tasks; })
+               .on_line(),
+           member("behaviors", count, "Number of behaviors.",
+                  [](const Report& of) { return of.summary.total.behaviors; })
+               .on_line(),
+           part(
+               [](const Report& of) -> const auto& { return of.summary.total; }, numbers),
+           member("variables", list(variable_with_values).on_lines(),
+                  "The situation variables, in catalog order.",
+                  [](const Report& of) {
+                    return [&of](const auto& put) {
+                      const std::size_t size = of.file.catalog.variables.size();
+                      for (std::uint32_t place = 0; place < size; ++place) put(place);
+                    };
+                  })
+               .on_line(),
+           member("groups", list(group_of_tasks).on_lines(),
+                  "Sets of tasks that constraints connect, ordered by their first task.",
+                  [](const Report& of) {
+                    return [&of](const auto& put) {
+                      std::size_t place = 0;
+                      for (const CatalogNumbers& in_group : of.summary.groups) {
+                        put(Group{place++, in_group});
+                      }
+                    };
+                  })
+               .on_line());
+
+}  // namespace json::dump
+
+std::string catalog_json(const CompiledFile& file) {
+  return json::document(json::dump::report, json::dump::Report{file, summarize(file.catalog)},
+                        file.catalog);
+}
+
+std::string catalog_schema() {
+  return json::schema("catalog-dump", "Contents of a compiled catalog", json::dump::report);
+}
 
 }  // namespace cbc

@@ -15,7 +15,7 @@
 #include "compile/catalog_dump.h"
 #include "core/command_line/command_line.h"
 #include "core/compile/compile.h"
-#include "core/files/input.h"
+#include "core/files/file_set.h"
 #include "core/files/output.h"
 #include "core/files/read_files.h"
 #include "runtime/base/mapped_file.h"
@@ -30,14 +30,10 @@ namespace fs = std::filesystem;
 constexpr const char* compile_examples =
     "  cbc compile robot.yaml                    writes robot.cbc\n"
     "  cbc compile --check robot.yaml            is robot.cbc up to date?\n"
-    "  cbc compile --dump robot.cbc              the contents of a compiled catalog\n";
+    "  cbc compile --dump robot.cbc              its contents, as JSON\n"
+    "  cbc solve robot.cbc mission.yaml          uses it in place of the YAML\n";
 
 constexpr const char* compile_footer =
-    "More examples:\n"
-    "  cbc compile robot.yaml -o robot/catalog.cbc\n"
-    "                                            writes another file\n"
-    "  cbc solve robot.cbc mission.yaml          uses it in place of the YAML\n"
-    "\n"
     "A catalog with errors is not compiled. The same catalog gives the same bytes on every "
     "machine, and the file is replaced as a whole or not at all. On success "
     "only warnings are printed.\n"
@@ -50,7 +46,6 @@ constexpr const char* compile_footer =
 struct CompileCommand {
   std::string catalog;
   std::optional<std::string> output;
-  std::string format;
   bool check = false;
   bool dump = false;
 };
@@ -67,22 +62,26 @@ struct Source {
 };
 
 /// Also prints the findings. Empty if there are errors.
-std::optional<Source> understand(InputFiles& files, const InputFile& file) {
-  std::optional<Catalog> catalog = CatalogLoader(files).understand(file.path, *file.document);
+std::optional<Source> understand(FileSet& files, const InputFile& file) {
+  FileSet::Check checked = files.check(file, FileSet::Purpose::compilation);
   files.print_findings();
-  if (!catalog) return std::nullopt;
-  return Source{std::move(*catalog), digest_of(files.text_of(*file.document))};
+  if (!checked.is_usable) return std::nullopt;
+  return Source{std::move(checked.catalog.reading.catalog), digest_of(*file.text)};
+}
+
+/// Null if the file cannot be used; the findings are printed then.
+std::shared_ptr<const InputFile> read_catalog(FileSet& files, const std::string& path) {
+  auto file = files.read_catalog(path);
+  if (file == nullptr) files.print_findings();
+  return file;
 }
 
 std::optional<Source> read_source(const std::string& path) {
-  InputFiles files;
-  const std::optional<InputFile> file = files.read_catalog(path);
-  if (!file) {
-    files.print_findings();
-    return std::nullopt;
-  }
-  if (file->document == nullptr) {
-    complain("{} is a compiled catalog already; expected one in YAML", quote(display_name(path)));
+  FileSet files;
+  const auto file = read_catalog(files, path);
+  if (file == nullptr) return std::nullopt;
+  if (file->is(FileKind::compiled)) {
+    complain("{} is a compiled catalog already; expected one in YAML", quote(file->name));
     return std::nullopt;
   }
   return understand(files, *file);
@@ -166,13 +165,10 @@ int check(const CompileCommand& command) {
 
 /// The compiled form of a catalog, even if there is no file of it.
 std::optional<CompiledFile> read_for_dump(const std::string& path) {
-  InputFiles files;
-  const std::optional<InputFile> file = files.read_catalog(path);
-  if (!file) {
-    files.print_findings();
-    return std::nullopt;
-  }
-  if (file->document == nullptr) return load(file->compiled);
+  FileSet files;
+  const auto file = read_catalog(files, path);
+  if (file == nullptr) return std::nullopt;
+  if (file->is(FileKind::compiled)) return load_compiled(*file);
   const std::optional<Source> source = understand(files, *file);
   if (!source) return std::nullopt;
   std::optional<Compiled> compiled = compile_source(*source);
@@ -183,7 +179,7 @@ std::optional<CompiledFile> read_for_dump(const std::string& path) {
 int dump(const CompileCommand& command) {
   const std::optional<CompiledFile> file = read_for_dump(command.catalog);
   if (!file) return exit_unusable;
-  fmt::print("{}", command.format == "json" ? catalog_json(*file) : catalog_text(*file));
+  fmt::print("{}", catalog_json(*file));
   return exit_ok;
 }
 
@@ -218,12 +214,9 @@ void add_compile_command(Program& program) {
       .not_with({"--output -"}, "it checks a file");
   command
       .flag("--dump", options->dump,
-            "Write nothing; list the contents of the catalog (YAML or compiled)")
+            "Write nothing; print the contents of the catalog (YAML or compiled) as JSON (schema "
+            "cbc.catalog/1)")
       .not_with({"--check"});
-  command
-      .option("--format", options->format, one_of("FORMAT", {"text", "json"}),
-              "With --dump: text (the default) or json")
-      .only_with({"--dump"});
   command.add_confinement();
   command.action([options] { return run_compile(*options); });
 }

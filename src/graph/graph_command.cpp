@@ -21,7 +21,8 @@
 #include "core/check/controls.h"
 #include "core/check/together.h"
 #include "core/command_line/command_line.h"
-#include "core/files/input.h"
+#include "core/files/file_set.h"
+#include "core/files/missions.h"
 #include "core/files/output.h"
 #include "core/script/runner.h"
 #include "core/support/system.h"
@@ -32,11 +33,9 @@
 #include "graph/engine/diagram.h"
 #include "graph/engine/state_recorder.h"
 #include "graph/report/graph_report.h"
-#include "graph/report/situation_report.h"
-#include "graph/report/together_report.h"
+#include "graph/report/tables.h"
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "solve/solve.h"
 
 namespace cbc::cli {
 namespace {
@@ -93,40 +92,33 @@ std::uint32_t group_count(const draw::CatalogGraph& graph) {
 }
 
 void add_drawing_options(Command& command, DrawingOptions& options) {
+  command.group("Drawing");
   constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
   command.option(
       "--view", options.view,
       one_of("VIEW", {"full", "tasks", "constraints", "behaviors", "together", "situation"}),
-      "What is drawn: full (default: tasks and behaviors), tasks (what each requires), "
-      "constraints (between tasks, one color per group), behaviors (what each "
-      "requires), together (a table of the tasks on request: which can run at the same "
-      "time), situation (a table: which behaviors fit in which values of the "
-      "situation variables)");
+      "full (default), tasks, behaviors, constraints; or a table: together, situation");
   command.option("--exclusivity", options.exclusivity, one_of("STYLE", {"pairs", "hubs", "none"}),
-                 "Draw lists of exclusive tasks as pairs, as hubs (a dot with a line to each "
-                 "task), or none (default: up to three tasks as pairs, more as hubs; in the views "
-                 "tasks and behaviors none)");
+                 "Draw exclusive tasks as pairs, hubs or none");
   command.option("--cluster", options.cluster, one_of("KIND", {"packages", "groups", "none"}),
-                 "Draw frames around packages (behaviors, and tasks that only they perform), "
-                 "groups (of tasks that constraints connect), or none (default: none; in the view "
-                 "of the constraints groups)");
-  command
-      .flag("--reduce", options.reduce,
-            "With --view tasks: leave out requirements that follow from others")
+                 "Draw frames around packages, groups or none");
+  command.flag("--reduce", options.reduce, "Leave out requirements that follow (--view tasks)")
       .only_with({"--view tasks"});
+  command.flag("--legend", options.legend, "Add a legend");
+
+  command.group("Part");
   command
       .option("--task", options.tasks, name_of("NAME", ValueKind::task),
-              "Draw only this task, with what it requires and what requires it. May be repeated")
+              "Draw only what is around this task; repeatable")
       .not_with({"--group"});
-  command.flag("--up", options.up, "With --task: only what requires it").only_with({"--task"});
-  command.flag("--down", options.down, "With --task: only what it requires").only_with({"--task"});
+  command.flag("--up", options.up, "Only what requires that task").only_with({"--task"});
+  command.flag("--down", options.down, "Only what that task requires").only_with({"--task"});
   command
       .option("--depth", options.depth, whole_number("N", 0, most),
-              "With --task: at most N tasks away")
+              "Only what is at most N tasks away from it")
       .only_with({"--task"});
   command.option("--group", options.group, whole_number("N", 0, most),
-                 "Draw only this group, as numbered by 'cbc compile --dump'");
-  command.flag("--legend", options.legend, "Add a legend of what the picture has");
+                 "Draw only this group (see 'cbc compile --dump')");
 }
 
 draw::ViewOptions view_options(const DrawingOptions& options) {
@@ -257,19 +249,17 @@ std::string find_miss(const Script& script, const WantedState& wanted, std::uint
 }
 
 void add_state_options(Command& command, StateOptions& options) {
+  command.group("State");
   command
       .option("--script", options.script, input("SCRIPT", ValueKind::script),
-              "Run this event script, and mark what runs at its end: running tasks and active "
-              "behaviors, and what the last event changed. It may name the catalog (catalog: "
-              "FILE)")
+              "Run this event script, and mark what runs at its end")
       .not_with({"--diff"});
   command
       .option("--after", options.after, whole_number("N", 0),
-              "With --script: mark what runs after the Nth event that 'cbc solve' lists (0: before "
-              "the first)")
+              "Mark what runs after the Nth event of it")
       .only_with({"--script"})
       .not_with({"--at"});
-  command.option("--at", options.at, seconds(0), "With --script: mark what runs after this time")
+  command.option("--at", options.at, seconds(0), "Mark what runs after this time of it")
       .only_with({"--script"});
 }
 
@@ -298,7 +288,7 @@ std::unique_ptr<Drawable> read_state(const std::string& catalog, const StateOpti
   state->graph = draw::to_graph(*mission->catalog);
   draw::mark_state(state->graph, recorder.state());
   state->moment = recorder.moment();
-  state->compiled = std::move(mission->catalog);
+  state->catalog = std::move(mission->source);
   return state;
 }
 
@@ -315,12 +305,13 @@ struct ComparedCatalogs {
 std::unique_ptr<const ComparedCatalogs> read_and_compare(const std::string& before,
                                                          const std::string& after) {
   auto compared = std::make_unique<ComparedCatalogs>();
-  InputFiles files;
-  CatalogLoader loader(files);
-  compared->before = loader.load(before);
-  compared->after = loader.load(after);
+  FileSet files;
+  const auto old_catalog = files.load(before);
+  const auto new_catalog = files.load(after);
   files.print_findings();
-  if (compared->before == nullptr || compared->after == nullptr) return nullptr;
+  if (old_catalog == nullptr || new_catalog == nullptr) return nullptr;
+  compared->before = old_catalog->compiled;
+  compared->after = new_catalog->compiled;
   compared->diff = compare_catalogs(*compared->before, *compared->after);
   compared->graph = draw::to_graph(*compared->before, *compared->after, compared->diff);
   return compared;
@@ -329,42 +320,13 @@ std::unique_ptr<const ComparedCatalogs> read_and_compare(const std::string& befo
 constexpr const char* graph_examples =
     "  cbc graph robot.yaml -o robot.svg         or .png, .pdf, .mmd, .json, .dot\n"
     "  cbc graph robot.yaml --task DRIVE --down  what DRIVE requires\n"
-    "  cbc graph --diff old.yaml new.yaml --format text\n"
-    "                                            what has changed\n";
+    "  cbc graph robot.yaml --view together      which tasks can run at the same time\n"
+    "  cbc graph --diff old.yaml new.yaml        what has changed\n";
 
 constexpr const char* graph_footer =
-    "More examples:\n"
-    "  cbc graph robot.yaml | dot -Tx11          in a window\n"
-    "  cbc graph robot.yaml --view tasks --reduce  which tasks require which\n"
-    "  cbc graph robot.cbc --view constraints    which tasks constraints connect\n"
-    "  cbc graph robot.yaml --view together      which tasks can run at the same time\n"
-    "  cbc graph robot.yaml --view situation     which behaviors fit when\n"
-    "  cbc graph robot.yaml --format mermaid     for a README file, a pull request\n"
-    "  cbc graph robot.yaml --script mission.yaml --after 5\n"
-    "                                            what runs after the 5th event\n"
-    "\n"
-    "Tasks are ellipses, behaviors are rectangles. A solid line says which behavior performs a "
-    "task, and how well; a dashed arrow what it requires, and the minimum performance; a dotted "
-    "line that tasks exclude one another. A catalog with errors is drawn as far as it can be "
-    "understood, with the errors in red. svg, png and pdf need Graphviz.\n"
-    "\n"
-    "With --diff, added is green (+), removed is red and dashed (-), changed is orange; the format "
-    "text has one line per difference; json is for programs (schema cbc.diff/1).\n"
-    "\n"
-    "--view together is a table, as text by default, of the pairs of tasks that start on "
-    "request: + they can run together, - a list excludes them, x what they require excludes them, "
-    "X so does what fits in each situation, s they fit in no common situation, with the reasons; "
-    "! they can, though never_together in .cbc.yaml forbids it. A search decides it. If no task "
-    "starts on request, all tasks are in the table. It is not drawn as mermaid; json is of the "
-    "schema cbc.together/1.\n"
-    "\n"
-    "--view situation is a table, as text by default: + a behavior fits in a value, - it does not, "
-    ". it does not name the variable; then the tasks without a behavior that fits. It "
-    "is not drawn as mermaid; json is of the schema cbc.situation/1.\n"
-    "\n"
-    "Exit status: 0 success, or the catalog has errors but was drawn, 1 the catalogs of "
-    "--diff differ, 2 nothing could be drawn, a file could not be read or written, or the usage "
-    "is wrong, 3 an internal error.\n"
+    "Exit status: 0 success, or the catalog has errors but was drawn, 1 the catalogs of --diff "
+    "differ, 2 nothing could be drawn, a file could not be read or written, or the usage is wrong, "
+    "3 an internal error.\n"
     "\n"
     "Read more: man cbc-graph";
 
@@ -386,10 +348,9 @@ constexpr std::string_view text_format = "text";
 struct TableView {
   std::string_view name;
   std::string_view answer;  ///< what it shows, after "it is not known"
-  /// Why there can be none, if so.
+  /// Why there can be none, if so; null: there always can.
   std::optional<std::string> (*find_obstacle)(const CompiledCatalog& catalog);
-  std::vector<std::string> (*formats)();
-  /// `format` is one of these; of one by Graphviz, the input of `dot`.
+  /// `format` is text or json.
   std::string (*write)(const CompiledCatalog& catalog, const SeveritySettings& settings,
                        std::string_view format, const Style& style);
 };
@@ -397,15 +358,15 @@ struct TableView {
 std::string write_situation_table(const CompiledCatalog& catalog,
                                   const SeveritySettings& /*settings*/, std::string_view format,
                                   const Style& style) {
-  return find_named(situation_formats(), format)->write(catalog, style);
+  return format == "json" ? situation_json(catalog) : situation_text(catalog, style);
 }
 
 std::string write_table_of_pairs(const CompiledCatalog& catalog, const SeveritySettings& settings,
                                  std::string_view format, const Style& style) {
   TogetherOptions options;
   options.never_together = settings.never_together();
-  return find_named(together_formats(), format)
-      ->write(catalog, make_together_table(catalog, options), style);
+  const TogetherTable table = make_together_table(catalog, options);
+  return format == "json" ? together_json(catalog, table) : together_text(catalog, table, style);
 }
 
 std::optional<std::string> find_too_many_tasks(const CompiledCatalog& catalog) {
@@ -417,10 +378,8 @@ std::optional<std::string> find_too_many_tasks(const CompiledCatalog& catalog) {
 }
 
 constexpr TableView table_views[] = {
-    {"together", "which tasks can run together", find_too_many_tasks,
-     [] { return names_in(together_formats()); }, write_table_of_pairs},
-    {"situation", "which behaviors fit", find_too_large_situation,
-     [] { return names_in(situation_formats()); }, write_situation_table},
+    {"together", "which tasks can run together", find_too_many_tasks, write_table_of_pairs},
+    {"situation", "which behaviors fit", nullptr, write_situation_table},
 };
 
 /// Null if it is a drawing.
@@ -464,10 +423,9 @@ std::string find_misuse_of_table(const TableView& table, const GraphCommand& com
     return fmt::format("other options of the drawing cannot be used with --view {}", table.name);
   }
   const std::string format = format_of(command);
-  const std::vector<std::string> formats = table.formats();
-  if (std::find(formats.begin(), formats.end(), format) != formats.end()) return {};
-  return fmt::format("--view {} cannot be written as {}; expected {}", table.name, format,
-                     join_with_or(formats));
+  if (format == text_format || format == "json") return {};
+  return fmt::format("--view {} cannot be written as {}; expected text or json", table.name,
+                     format);
 }
 
 /// Says what is wrong with the format or the number of catalogs; empty if nothing is.
@@ -539,18 +497,18 @@ int write_table(const TableView& table, const GraphCommand& command) {
   if (drawable == nullptr) return exit_unusable;
   const std::optional<SeveritySettings> settings = SettingsFinder().find(catalog);
   if (!settings) return exit_unusable;
-  if (drawable->compiled == nullptr) {
+  const CompiledCatalog* const compiled = drawable->catalog->compiled.get();
+  if (compiled == nullptr) {
     complain("catalog {} has errors, so it is not known {}", quote(drawable->graph.file),
              table.answer);
     return exit_unusable;
   }
-  if (const auto obstacle = table.find_obstacle(*drawable->compiled)) return complain(*obstacle);
-  const std::string format = format_of(command);
+  if (table.find_obstacle != nullptr) {
+    if (const auto obstacle = table.find_obstacle(*compiled)) return complain(*obstacle);
+  }
   const Style style = output_of(command) == "-" ? style_for(stdout) : plain_style();
-  std::optional<std::string> content = table.write(*drawable->compiled, *settings, format, style);
-  const GraphFormat* const drawn = find_named(graph_formats(), format);
-  if (drawn != nullptr && drawn->is_by_graphviz) content = run_graphviz(*content, format);
-  return content ? write_output(output_of(command), *content) : exit_unusable;
+  return write_output(output_of(command),
+                      table.write(*compiled, *settings, format_of(command), style));
 }
 
 int draw_catalog(const GraphCommand& command) {
@@ -566,7 +524,7 @@ int show_diff(const ComparedCatalogs& compared, const GraphCommand& command) {
   const CatalogDiff& diff = compared.diff;
   const std::string format = format_of(command);
   if (format == text_format) {
-    const Style style = output_of(command) == "-" ? style_for(stdout) : plain_style();
+    const Style style = style_for(output_of(command));
     return write_output(output_of(command), diff_text(diff, style));
   }
   if (format == "json") {
@@ -598,27 +556,22 @@ int run_graph(const GraphCommand& command) {
 
 void add_graph_command(Program& program) {
   std::vector<std::string> formats = names_in(graph_formats());
-  const std::string format_help = fmt::format(
-      "{}, with --diff and tables also {} (default: by the suffix of OUT; without "
-      "one {}, of a table {})",
-      join_with_or(formats), text_format, formats.front(), text_format);
+  const std::string format_help =
+      fmt::format("{} or {} (default: by the suffix of OUT)", join(formats, ", "), text_format);
   formats.emplace_back(text_format);
   const auto options = std::make_shared<GraphCommand>();
   Command& command = program.add_command(
       "graph", "Draws the tasks and behaviors of a catalog.",
       {{"[OPTION...] [CATALOG]", "--diff [OPTION...] OLD NEW"}, graph_examples, graph_footer});
   command.argument("CATALOG", options->catalogs, input("", ValueKind::catalog),
-                   "The catalog: YAML or compiled, or - for standard input; with --diff two "
-                   "catalogs, the older one first");
-  command.flag("--diff", options->is_diff,
-               "Show the differences between two catalogs, ignoring order and layout; exit status "
-               "1 if they differ");
+                   "The catalog: YAML or compiled, or - for standard input");
+  command.flag("--diff", options->is_diff, "Show the differences between two catalogs");
   command.option("-o,--output", options->output, output("OUT"),
                  "The file to write, or - for standard output (default)");
   command.option("--format", options->format, one_of("FORMAT", formats), format_help);
+  command.add_confinement();
   add_drawing_options(command, options->drawing);
   add_state_options(command, options->state);
-  command.add_confinement();
   command.action([options] { return run_graph(*options); });
 }
 

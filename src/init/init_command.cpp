@@ -13,7 +13,6 @@
 
 #include "commands.h"
 #include "core/command_line/command_line.h"
-#include "core/command_line/embedded_file.h"
 #include "core/files/output.h"
 #include "init_files.h"
 #include "runtime/base/mapped_file.h"

@@ -15,8 +15,8 @@
 #include "core/command_line/command_line.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
-#include "core/files/input.h"
 #include "core/files/output.h"
+#include "core/files/read.h"
 #include "core/support/wording.h"
 #include "lint/linter.h"
 #include "lint/report/lint_report.h"
@@ -26,26 +26,16 @@ namespace {
 
 constexpr const char* lint_examples =
     "  cbc lint robot.yaml                       every mistake, with place and reason\n"
+    "  cbc lint --strict .                       a folder; also fail on warnings\n"
     "  cbc lint --diff robot.yaml                what --fix would change\n"
     "  cbc lint --explain dead-behavior          what a rule means and how to fix it\n";
 
 constexpr const char* lint_footer =
-    "More examples:\n"
-    "  cbc lint --strict .                       a folder; also fail on warnings\n"
-    "  cbc lint --format sarif catalogs/ > lint.sarif\n"
-    "                                            for code scanning\n"
-    "  cbc lint --script mission.yaml robot.yaml  also check an event script\n"
+    "A comment '# cbc: allow RULE' allows a finding where it stands; a file .cbc.yaml has settings "
+    "for a folder.\n"
     "\n"
-    "A comment '# cbc: allow RULE' at the end of a line, or above an entry, allows a finding "
-    "there. A file .cbc.yaml in the folder of a catalog, or above it, has settings for all of "
-    "them:\n"
-    "  error: [RULE, ...]   warn: [RULE, ...]\n"
-    "  note: [RULE, ...]    allow: [RULE, ...]\n"
-    "  strict: true\n"
-    "  never_together: [[TASK, TASK, ...], ...]   no two of them can run together\n"
-    "\n"
-    "Exit status: 0 no errors, 1 errors (with --strict, also warnings), 2 a file could not be "
-    "read or written, or the usage is wrong, 3 an internal error.\n"
+    "Exit status: 0 no errors, 1 errors (with --strict, also warnings), 2 a file could not be read "
+    "or written, or the usage is wrong, 3 an internal error.\n"
     "\n"
     "Read more: man cbc-lint, man cbc-rules (every rule, with examples)";
 
@@ -200,26 +190,26 @@ void add_lint_command(Program& program) {
                             "--explain RULE", "--list-rules"},
                            lint_examples,
                            lint_footer});
-  command.argument(
-      "CATALOG", options->paths, input("...", ValueKind::catalog),
-      "Catalogs: files, folders (all *.yaml and *.yml in them that look like catalogs, "
-      "and their event scripts and property files), or - for standard input; also "
-      "event scripts and property files that name their catalogs");
+  command.argument("CATALOG", options->paths, input("...", ValueKind::catalog),
+                   "Catalogs, and scripts and property files that name theirs; folders of them; - "
+                   "for standard input");
   command.option("--script", options->scripts, input("FILE", ValueKind::script),
-                 "Also check this event script or property file against the catalog. May be "
-                 "repeated");
+                 "Also check this script or property file; repeatable");
   command.option("--format", options->format, one_of("FORMAT", formats),
                  fmt::format("{} (default: {})", join_with_or(formats), formats.front()));
-  command
-      .flag("--summary", options->summary,
-            "Show figures for each catalog: tasks, behaviors, constraints, groups, search space, "
-            "tasks that can run together; also for compiled catalogs")
+  command.flag("--summary", options->summary, "Show figures of each catalog, compiled ones too")
       .only_with_values("--format", {"text", "json"});
-  command.flag("--fix", options->fix,
-               "Fix in place what can be fixed without changing the meaning");
+  command.flag("--fix", options->fix, "Fix in place what can be without changing the meaning");
   command.flag("--diff", options->diff, "Show what --fix would change, as a diff")
       .not_with({"--summary"})
       .only_with_values("--format", {"text"});
+  command.option("--stdin-filename", options->stdin_filename, name_of("NAME", ValueKind::file),
+                 "Name of standard input in messages, for .cbc.yaml");
+  command.option("--max-nodes", options->max_nodes, whole_number("N", 1),
+                 "Decisions for the proof of a finding (default: 100000)");
+  command.add_confinement();
+
+  command.group("Rules");
   Values rule;
   rule.placeholder = "RULE";
   rule.expected = "a rule";
@@ -238,15 +228,11 @@ void add_lint_command(Program& program) {
       .separated_by(',');
   command
       .option("--note", options->severities.note, rules,
-              "Report findings of a rule as notes; also turns on rules that are off")
+              "Report findings of a rule as notes; turns it on")
       .separated_by(',');
   command.option("--allow", options->severities.allow, rules, "Do not report findings of a rule")
       .separated_by(',');
   command.flag("--strict", options->severities.strict, "Also fail on warnings");
-  command.option("--stdin-filename", options->stdin_filename, name_of("NAME", ValueKind::file),
-                 "Name of standard input in messages and for .cbc.yaml");
-  command.option("--max-nodes", options->max_nodes, whole_number("N", 1),
-                 "Decisions that the proof of one finding may take (default: 100000)");
   const std::string only_explains = "it describes rules and checks no files";
   command.option("--explain", options->explain, rule, "Explain a rule")
       .not_with({"CATALOG", "--script"}, only_explains)
@@ -254,7 +240,6 @@ void add_lint_command(Program& program) {
   command.flag("--list-rules", options->list_rules, "List all rules")
       .not_with({"CATALOG", "--script"}, only_explains)
       .only_with_values("--format", {"text"});
-  command.add_confinement();
   command.action([options] { return lint(*options); });
 }
 

@@ -12,10 +12,8 @@
 
 #include "core/catalog/catalog.h"
 #include "core/check/check.h"
-#include "core/files/input.h"
-#include "core/yaml/document.h"
+#include "core/files/file_set.h"
 #include "lint/report/lint_report.h"
-#include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc::cli {
 
@@ -41,8 +39,8 @@ class Linter {
   /// `settings` are those of the command line, which override those of files.
   Linter(const LintCommand& command, SeveritySettings settings)
       : command_(command),
-        unlinted_(InputFiles::Findings::dropped, settings),
-        settings_(std::move(settings)) {}
+        files_(FileSet::Findings::dropped, std::move(settings),
+               command.stdin_filename.empty() ? display_name("-") : command.stdin_filename) {}
 
   /// A catalog; or an event script or a property file that names its catalog; or a settings file.
   void lint_catalog(const std::string& path);
@@ -58,7 +56,7 @@ class Linter {
   /// Checks the settings by what the catalogs are that they apply to. Comes last.
   void check_settings();
 
-  [[nodiscard]] const std::vector<LintedFile>& files() const { return files_; }
+  [[nodiscard]] const std::vector<LintedFile>& files() const { return linted_; }
   /// Whether a file was linted that was found in a folder of the command line.
   [[nodiscard]] bool has_checked(const std::string& folder) const {
     return checked_folders_.contains(folder);
@@ -74,44 +72,30 @@ class Linter {
   [[nodiscard]] bool has_mended() const { return has_mended_; }
 
  private:
-  struct Linted {
-    LintedFile file;
-    Catalog catalog;
-    std::size_t errors = 0;  ///< whatever the settings say
-    bool is_script = false;  ///< or a property file
-    std::shared_ptr<const CompiledCatalog>
-        compiled;  ///< null if scripts cannot be checked against it
-  };
+  using File = std::shared_ptr<const InputFile>;
 
-  [[nodiscard]] Linted lint_text(const std::string& name, std::string text,
-                                 const SeveritySettings& settings) const;
-  void fix(const std::string& path, Linted& linted, const SeveritySettings& settings);
   /// A script or a property file of a folder.
   struct Found {
-    std::string path;
+    File file;
     std::string folder;  ///< of the command line
-    std::string text;
-    bool needs_catalog = false;  ///< it names none
   };
+  [[nodiscard]] CheckedCatalog check(const InputFile& file, const SeveritySettings& settings) const;
+  void fix(File& file, CheckedCatalog& catalog, const SeveritySettings& settings);
   [[nodiscard]] std::string catalog_beside(const Found& found) const;
-  [[nodiscard]] static bool write_fixed(const std::string& path, const std::string& before,
-                                        const std::string& after);
-  [[nodiscard]] std::shared_ptr<const CompiledCatalog> catalog_of(const yaml::Document& document,
-                                                                  const std::string& given);
-  void lint_script_text(const std::string& path, std::string text, const std::string& catalog);
-  void lint_catalog_text(const std::string& path, std::string text);
-  void lint_settings(const std::string& name, std::string text);
-  void take_compiled(const CatalogInput& input);
-  void note_tasks(const Catalog& catalog, bool is_known, const SeveritySettings& settings);
+  [[nodiscard]] static bool write_fixed(const InputFile& before, const std::string& after);
+  [[nodiscard]] std::shared_ptr<const CheckedCatalog> catalog_of(const InputFile& file,
+                                                                 const std::string& given);
+  void lint_script(const InputFile& file, const std::string& catalog);
+  void lint_catalog(File file);
+  void lint_settings(const InputFile& input);
+  void take_compiled(const InputFile& file);
+  void note_tasks(const Catalog& catalog, const SeveritySettings& settings);
   void add(LintedFile file, const SeveritySettings& settings);
-  [[nodiscard]] std::string name_of(const std::string& path) const;
   [[nodiscard]] bool is_to_fix() const { return command_.fix || command_.diff; }
 
   const LintCommand& command_;
-  std::vector<LintedFile> files_;
-  InputFiles unlinted_;
-  CatalogLoader catalogs_{unlinted_};  ///< those that were linted, and others that scripts use
-  SettingsFinder settings_;
+  FileSet files_;
+  std::vector<LintedFile> linted_;
   /// By settings file, what the names of tasks in it are checked against.
   struct NamedTasks {
     SeveritySettings settings;

@@ -14,7 +14,6 @@
 #include "core/report/event_description.h"
 #include "core/script/situation_json.h"
 #include "core/support/json.h"
-#include "page/stream_page.h"
 #include "page_files.h"
 
 namespace cbc {

@@ -11,9 +11,7 @@
 
 #include "commands.h"
 #include "core/command_line/command_line.h"
-#include "core/command_line/embedded_file.h"
 #include "core/diagnostic/diagnostic.h"
-#include "core/files/input.h"
 #include "core/files/output.h"
 #include "core/support/wording.h"
 #include "core/yaml/document.h"

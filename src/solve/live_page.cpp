@@ -8,8 +8,8 @@
 
 #include "core/files/output.h"
 #include "core/support/json.h"
-#include "page/serve/address.h"
-#include "page/stream_page.h"
+#include "page/html_report.h"
+#include "page/serve/server.h"
 #include "runtime/base/text.h"
 
 namespace cbc::cli {

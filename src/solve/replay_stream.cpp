@@ -13,7 +13,8 @@
 
 #include <fmt/core.h>
 
-#include "core/files/input.h"
+#include "core/files/file_set.h"
+#include "core/files/line_input.h"
 #include "core/files/output.h"
 #include "core/files/read_files.h"
 #include "core/report/event_json.h"
@@ -21,10 +22,10 @@
 #include "core/script/runner.h"
 #include "core/yaml/document.h"
 #include "page/html_report.h"
-#include "page/stream_page.h"
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/state.h"
+#include "solve/saved_state.h"
 #include "solve/solve.h"
 
 namespace cbc::cli {

@@ -1,16 +1,13 @@
-#include <optional>
+#include "solve/saved_state.h"
+
 #include <string>
 #include <utility>
 
-#include "core/files/input.h"
 #include "core/files/output.h"
 #include "core/script/state_json.h"
 #include "runtime/base/text.h"
-#include "runtime/coordinator/state.h"
-#include "solve/solve.h"
 
 namespace cbc::cli {
-
 namespace {
 
 /// Whether the new state replaces the one that was read.

@@ -11,7 +11,9 @@
 
 #include <fmt/core.h>
 
-#include "core/files/input.h"
+#include "core/files/file_set.h"
+#include "core/files/line_input.h"
+#include "core/files/missions.h"
 #include "core/files/output.h"
 #include "core/files/read_files.h"
 #include "core/report/event_json.h"
@@ -23,6 +25,7 @@
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/state.h"
 #include "solve/live_page.h"
+#include "solve/saved_state.h"
 #include "solve/solve.h"
 
 namespace cbc::cli {
@@ -240,20 +243,13 @@ class Stream {
 
 std::optional<Script> load_script(const std::string& path, const CompiledCatalog& catalog,
                                   const std::optional<Snapshot>& state) {
-  InputFiles files;
+  FileSet files;
   std::optional<Script> script;
-  const std::optional<InputFile> file = files.read(path);
-  if (file && file->document == nullptr) {
-    complain("{} is a catalog; expected a script here", quote(display_name(path)));
+  const auto file = files.read(path);
+  if (file && file->is(FileKind::compiled)) {
+    complain("{} is a catalog; expected a script here", quote(file->name));
   } else if (file) {
-    Diagnostics diagnostics;
-    script = read_script(*file->document, catalog, Severity::warning, diagnostics,
-                         state ? &*state : nullptr);
-    const bool is_complete =
-        script && !state;  // with another situation there may be other findings
-    if (!files.take_findings(path, *file->document, std::move(diagnostics), is_complete)) {
-      script.reset();
-    }
+    script = files.read_script(*file, catalog, state ? &*state : nullptr);
   }
   files.print_findings();
   return script;
@@ -294,7 +290,7 @@ int run_standard_input(const CompiledCatalog& catalog, const SolveOptions& optio
                        const std::optional<Snapshot>& state) {
   if (!knows_names(catalog, options.explain)) return exit_unusable;
   CoordinatorOptions coordinator = coordinator_options(options, catalog);
-  coordinator.hindsight =
+  coordinator.last_decisions =
       options.stream.serve.has_value();  // the page explains failed expectations
   if (state) {
     coordinator.reactive_delay = state->reactive_delay;

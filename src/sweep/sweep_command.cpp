@@ -7,20 +7,36 @@
 
 #include <fmt/core.h>
 
+#include "commands.h"
 #include "core/command_line/command_line.h"
-#include "core/files/input.h"
+#include "core/command_line/limits.h"
+#include "core/files/file_set.h"
 #include "core/files/ordered_work.h"
 #include "core/files/output.h"
 #include "runtime/base/text.h"
-#include "solve/solve.h"
 #include "sweep/engine/sweep.h"
 #include "sweep/report/sweep_report.h"
 
 namespace cbc::cli {
 namespace {
 
-constexpr std::int64_t most_sequences = 1'000'000'000;
-constexpr std::int64_t most_events = 1'000'000;
+struct SweepOptions {
+  std::vector<std::string> paths;
+  std::uint64_t sequences = 1000;
+  std::uint64_t seed = 1;
+  std::uint32_t events = SweepShape{}.events;
+  std::int32_t priorities = SweepShape{}.priorities;
+  std::string failures = "0.3";
+  std::string faults = "0.1";
+  std::string shard = "1/1";
+  bool merge = false;
+  std::optional<std::string> slowest;
+  std::optional<std::string> slowest_by_time;
+  std::string format = "text";
+  std::optional<std::uint64_t> jobs;
+  bool stats = false;
+  SearchLimits search;
+};
 
 Decimal parse_probability(const std::string& text) {
   return parse_decimal(text, 6, 0, one_million);
@@ -64,64 +80,19 @@ Values shard_of_sweep() {
   return values;
 }
 
-}  // namespace
-
-void add_sweep_options(Command& command, SweepOptions& options) {
-  const std::vector<std::string> formats = names_in(sweep_formats());
-  command
-      .option("--sweep", options.sequences, whole_number("N", 1, most_sequences),
-              "Run N random event sequences on the catalog instead of scripts, and report "
-              "what happened in them")
-      .not_with({"--merge"})
-      .only_with_values("--format", formats);
-  const auto add = [&](const char* name, auto& target, Values values, const char* help) {
-    command.option(name, target, std::move(values), help).only_with({"--sweep"});
-  };
-  add("--seed", options.seed, whole_number("S", 0), "Seed of the random sequences (default: 1)");
-  add("--events", options.events, whole_number("E", 1, most_events),
-      "Events in each sequence (default: 100)");
-  add("--priorities", options.priorities, whole_number("P", 1, 1'000'000),
-      "Requests have priorities from 1 to P (default: 3)");
-  add("--failures", options.failures, probability(),
-      "Share of finishes that are failures, from 0 to 1 (default: 0.3)");
-  add("--faults", options.faults, probability(),
-      "Share of events that are faults, repairs or changes of the situation, from 0 to 1 (default: "
-      "0.1)");
-  add("--shard", options.shard, shard_of_sweep(), "Run only shard I of N of the sweep");
-  command
-      .flag("--merge", options.merge,
-            "Merge the JSON results of all shards into the result of one run; with --coverage, "
-            "those of several runs on CATALOG, which comes first")
-      .makes_arguments(ValueKind::shard);
-  command
-      .option("--slowest", options.slowest, further_output("FILE"),
-              "Write the event with the most nodes to FILE, as a script that ends with it")
-      .only_with({"--sweep", "--merge"});
-  command
-      .option("--slowest-by-time", options.slowest_by_time, further_output("FILE"),
-              "The same for the slowest event by time")
-      .only_with({"--sweep", "--merge"});
-}
-
-namespace {
-
-SweepSettings settings_of(const SolveOptions& solve) {
-  const SweepOptions& options = solve.sweep;
+SweepSettings settings_of(const SweepOptions& options) {
   SweepSettings settings;
-  settings.sequences = options.sequences.value_or(1);
+  settings.sequences = options.sequences;
   settings.seed = options.seed;
   settings.shape.events = options.events;
   settings.shape.priorities = options.priorities;
   settings.shape.failures = static_cast<Millionths>(parse_probability(options.failures).value);
   settings.shape.faults = static_cast<Millionths>(parse_probability(options.faults).value);
   settings.shard = parse_shard(options.shard).value_or(SweepShard{});
-  settings.search = {solve.max_solutions, solve.max_nodes, solve.tie_seed, solve.max_clock_events};
+  settings.search = {options.search.max_solutions, options.search.max_nodes,
+                     options.search.tie_seed, options.search.max_clock_events};
   return settings;
 }
-
-/// Enough for a catalog of 300,000 behaviors. Larger results are refused, because parsed JSON takes
-/// many times the memory of its text.
-constexpr std::size_t largest_shard = std::size_t{64} << 20U;
 
 std::shared_ptr<const CompiledCatalog> load_swept(const std::vector<std::string>& paths) {
   if (paths.size() != 1) {
@@ -168,22 +139,21 @@ bool can_write_slowest(const SweepOptions& options) {
          (!options.slowest_by_time || can_write_output(*options.slowest_by_time));
 }
 
-int report(SweepResult result, const SolveOptions& options) {
-  const SweepOptions& of_sweep = options.sweep;
-  int status = write_slowest(of_sweep.slowest, result.slowest);
-  if (of_sweep.slowest_by_time && !result.times) {
+int report(SweepResult result, const SweepOptions& options) {
+  int status = write_slowest(options.slowest, result.slowest);
+  if (options.slowest_by_time && !result.times) {
     complain("--slowest-by-time: the shards were run without '--stats'");
     status = exit_unusable;
   } else if (result.times) {
-    status = std::max(status, write_slowest(of_sweep.slowest_by_time, result.times->slowest));
+    status = std::max(status, write_slowest(options.slowest_by_time, result.times->slowest));
   }
-  if (!options.stats && !of_sweep.merge) result.times.reset();
+  if (!options.stats && !options.merge) result.times.reset();
   const SweepFormat& format = *find_named(sweep_formats(), options.format);
   fmt::print("{}", format.write(result, style_for(stdout)));
   return status;
 }
 
-int merge(const SolveOptions& options) {
+int merge(const SweepOptions& options) {
   SweepMerger merger;
   for (const std::string& path : options.paths) {
     const std::optional<std::string> text = read_result(path);
@@ -203,23 +173,14 @@ int merge(const SolveOptions& options) {
   return report(merger.take(), options);
 }
 
-}  // namespace
-
-std::optional<std::string> read_result(const std::string& path) {
-  std::optional<std::string> text = read_input(path);
-  if (text && text->size() > largest_shard) {
-    complain("cannot merge {}: it is larger than {} MiB", quote(display_name(path)),
-             largest_shard >> 20U);
-    return std::nullopt;
+int run_sweep(const SweepOptions& options) {
+  if (options.paths.empty()) {
+    return usage_error("sweep", options.merge ? "expected the JSON results of the shards to merge"
+                                              : "expected the catalog of the sweep");
   }
-  return text;
-}
-
-int run_sweep(const SolveOptions& options) {
-  if (options.sweep.merge) return merge(options);
+  if (options.merge) return merge(options);
   const std::shared_ptr<const CompiledCatalog> catalog = load_swept(options.paths);
-  if (catalog == nullptr) return exit_unusable;
-  if (!can_write_slowest(options.sweep)) return exit_unusable;
+  if (catalog == nullptr || !can_write_slowest(options)) return exit_unusable;
   const SweepSettings settings = settings_of(options);
   const SequenceRange range = sequences_of(settings);
   Progress progress("sweeping", 1);
@@ -231,6 +192,65 @@ int run_sweep(const SolveOptions& options) {
   progress.clear();
   if (outcome.failure) return report_failure(*outcome.failure, settings);
   return report(std::move(outcome.result), options);
+}
+
+constexpr const char* sweep_examples =
+    "  cbc sweep robot.yaml                      random events and faults\n"
+    "  cbc sweep robot.yaml --shard 1/8 --format json > 1.json   one of eight parts\n"
+    "  cbc sweep --merge *.json                  the result of all parts\n";
+
+constexpr const char* sweep_footer =
+    "Exit status: 0 success, 2 the input or the usage is wrong, 3 an internal error (please report "
+    "it).\n"
+    "\n"
+    "Read more: man cbc-sweep";
+
+}  // namespace
+
+void add_sweep_command(Program& program) {
+  constexpr std::int64_t most_sequences = 1'000'000'000;
+  constexpr std::int64_t most_events = 1'000'000;
+  const auto options = std::make_shared<SweepOptions>();
+  const std::vector<std::string> formats = names_in(sweep_formats());
+  Command& command = program.add_command(
+      "sweep", "Runs random events and faults on a catalog, and reports what happened in them.",
+      {{"[OPTION...] CATALOG", "--merge [OPTION...] SHARD..."}, sweep_examples, sweep_footer});
+  command.argument("CATALOG", options->paths, input("", ValueKind::catalog),
+                   "The catalog: YAML or compiled, or - for standard input");
+  command.option("--format", options->format, one_of("FORMAT", formats),
+                 fmt::format("{} (default: {})", join_with_or(formats), formats.front()));
+  command.option("-j,--jobs", options->jobs, whole_number("N", 1),
+                 "Run N sequences at once (default: all processors)");
+  command.flag("--stats", options->stats, "Also report times");
+  command.option("--slowest", options->slowest, further_output("FILE"),
+                 "Write the event with the most nodes as a script");
+  command.option("--slowest-by-time", options->slowest_by_time, further_output("FILE"),
+                 "Write the slowest event as a script");
+  command.flag("--merge", options->merge, "Merge the JSON results of all shards")
+      .makes_arguments(ValueKind::shard);
+  command.add_confinement();
+
+  command.group("Sequences");
+  const auto add = [&](const char* name, auto& target, Values values, const char* help) {
+    command.option(name, target, std::move(values), help).not_with({"--merge"});
+  };
+  add("--sequences", options->sequences, whole_number("N", 1, most_sequences),
+      "Run N sequences (default: 1000)");
+  add("--seed", options->seed, whole_number("S", 0), "Seed of the sequences (default: 1)");
+  add("--events", options->events, whole_number("E", 1, most_events),
+      "Events in each sequence (default: 100)");
+  add("--priorities", options->priorities, whole_number("P", 1, 1'000'000),
+      "Priorities of requests, from 1 to P (default: 3)");
+  add("--failures", options->failures, probability(),
+      "Share of finishes that are failures (default: 0.3)");
+  add("--faults", options->faults, probability(), "Share of faults and situations (default: 0.1)");
+  add("--shard", options->shard, shard_of_sweep(), "Run only shard I of N");
+
+  command.group("Search");
+  for (Option* const option : add_search_limits(command, options->search)) {
+    option->not_with({"--merge"}, "the shards were solved already");
+  }
+  command.action([options] { return run_sweep(*options); });
 }
 
 }  // namespace cbc::cli

@@ -6,7 +6,6 @@
 #include <set>
 #include <string>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -19,8 +18,6 @@
 #include "core/support/system.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
-#include "verify/engine/fault_tree.h"
-#include "verify/report/open_psa.h"
 #include "verify/report/verify_report.h"
 #include "verify/verify.h"
 
@@ -30,14 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using Clock = std::chrono::steady_clock;
-
-/// Three quarters of the memory of the machine; 0 if it is unknown.
-std::uint64_t default_memory() {
-  const long pages = ::sysconf(_SC_PHYS_PAGES);
-  const long size = ::sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || size <= 0) return 0;
-  return static_cast<std::uint64_t>(pages) / 4 * 3 * static_cast<std::uint64_t>(size);
-}
 
 /// The tasks that are named in --cut-sets. Empty if the catalog lacks one, which is reported.
 std::optional<std::vector<TaskId>> find_tasks(const CompiledCatalog& catalog,
@@ -104,13 +93,33 @@ std::string script_name(const Property& property, const PropertyFile& file,
   return name + ".mission.yaml";
 }
 
+ExplorationLimits limits_of(const StateLimits& limits) {
+  return {limits.max_states, limits.memory(), limits.seconds()};
+}
+
+/// Makes the folder of --scripts, and looks whether the other outputs can be written. All has been
+/// read. Returns the exit status, and prints what is wrong.
+int prepare_outputs(const VerifyOptions& options) {
+  std::vector<std::string> outputs;
+  if (options.output != "-") outputs.push_back(options.output);
+  if (options.html) outputs.push_back(*options.html);
+  for (const std::string& output : outputs) {
+    if (!can_write_output(output)) return exit_unusable;
+  }
+  if (!options.scripts) return exit_ok;
+  if (const std::error_code error = make_folder(*options.scripts)) {
+    return complain("cannot make the folder {}: {}", quote(*options.scripts), error.message());
+  }
+  return exit_ok;
+}
+
 /// One call of the command, after its input was read.
 class Call {
  public:
   Call(const VerifyOptions& options, VerifyQuestions questions)
       : options_(options), questions_(std::move(questions)), catalog_(*questions_.catalog) {
     result_.catalog = questions_.catalog;
-    result_.limits = limits_of(options);
+    result_.limits = limits_of(options.limits);
     result_.wants_cut_sets = !options.cut_sets.empty();
   }
 
@@ -118,7 +127,7 @@ class Call {
     if (const int status = check(); status != exit_ok) return status;
     explore();
     if (const std::string error = first_error(); !error.empty()) return complain(error);
-    if (const int status = find_cut_sets(); status != exit_ok) return status;
+    find_cut_sets();
     if (const int status = replay_scripts(); status != exit_ok) return status;
     if (const int status = compare(); status != exit_ok) return status;
     return report();
@@ -185,7 +194,7 @@ class Call {
     const bool asks_otherwise = result_.wants_cut_sets || options_.same_as;
     if (questions_.files.empty() && asks_otherwise) return;
     Progress progress("exploring", count_explorations());
-    VerificationOptions of_verification;
+    ExplorationOptions of_verification;
     of_verification.limits = result_.limits;
     of_verification.jobs = thread_count(options_.jobs);
     of_verification.reduce = options_.reduce;
@@ -219,7 +228,7 @@ class Call {
     const CompiledCatalog& old_catalog = *questions_.old_catalog;
     Progress progress("comparing", 1);
     progress.begin(std::string(old_catalog.file));
-    VerificationOptions of_comparison;
+    ExplorationOptions of_comparison;
     of_comparison.limits = result_.limits;
     of_comparison.jobs = thread_count(options_.jobs);
     const auto begin = Clock::now();
@@ -290,7 +299,7 @@ class Call {
     return {};
   }
 
-  int find_cut_sets() {
+  void find_cut_sets() {
     const std::vector<bool> ruled_out = ruled_out_by(catalog_, situation_);
     for (const TaskId task : cut_tasks_) {
       result_.cut_sets.push_back(cut_sets_of(task, options_.order, ruled_out, Clock::now()));
@@ -305,12 +314,6 @@ class Call {
         result_.single_faults.push_back(cut_sets_of(task, 1, ruled_out, begin));
       }
     }
-    if (!options_.open_psa) return exit_ok;
-    const auto tree = make_fault_tree(catalog_, cut_tasks_.front(), ruled_out);
-    if (const auto* const reason = std::get_if<std::string>(&tree)) {
-      return complain("cannot write {}: {}", quote(*options_.open_psa), *reason);
-    }
-    return write_output(*options_.open_psa, open_psa_text(catalog_, std::get<FaultTree>(tree)));
   }
 
   /// `begin`: since when the time limit counts.
@@ -376,7 +379,7 @@ class Call {
 
   int report() {
     const VerifyFormat& format = *find_named(verify_formats(), options_.format);
-    const Style style = options_.output == "-" ? style_for(stdout) : plain_style();
+    const Style style = style_for(options_.output);
     const int status = write_output(options_.output, format.write(result_, style));
     if (status != exit_ok) return status;
     return result_.is_answered() ? exit_ok : exit_no;
@@ -393,37 +396,9 @@ class Call {
 
 }  // namespace
 
-ExplorationLimits limits_of(const VerifyOptions& options) {
-  ExplorationLimits limits;
-  limits.max_states = options.max_states;
-  limits.max_memory =
-      options.max_memory.empty() ? default_memory() : parse_memory(options.max_memory).value_or(0);
-  if (!options.time_limit.empty()) {
-    limits.seconds = to_seconds(parse_seconds(options.time_limit).value);
-  }
-  return limits;
-}
-
-int prepare_outputs(const VerifyOptions& options) {
-  std::vector<std::string> outputs;
-  if (options.output != "-") outputs.push_back(options.output);
-  for (const auto& output : {options.html, options.open_psa}) {
-    if (output) outputs.push_back(*output);
-  }
-  for (const std::string& output : outputs) {
-    if (!can_write_output(output)) return exit_unusable;
-  }
-  if (!options.scripts) return exit_ok;
-  if (const std::error_code error = make_folder(*options.scripts)) {
-    return complain("cannot make the folder {}: {}", quote(*options.scripts), error.message());
-  }
-  return exit_ok;
-}
-
 int verify(const VerifyOptions& options) {
   QuestionLoader loader;
-  std::optional<VerifyQuestions> questions =
-      loader.load(options.paths, options.same_as, options.beside, options.write_tests);
+  std::optional<VerifyQuestions> questions = loader.load(options.paths, options.same_as);
   if (!questions) {
     // CI systems could take a missing report for one without failures.
     const VerifyFormat& format = *find_named(verify_formats(), options.format);
@@ -432,8 +407,6 @@ int verify(const VerifyOptions& options) {
     }
     return exit_unusable;
   }
-  if (options.write_tests) return write_tests(options, *questions);
-  if (options.mutants) return verify_mutants(options, *questions);
   return Call(options, std::move(*questions)).run();
 }
 

@@ -74,14 +74,14 @@ class Policy(unittest.TestCase):
 
     def test_coverage(self):
         page = OUT / "policy-coverage.html"
-        run("solve", QUADROTOR, "catalogs/quadrotor.mission.yaml", f"--coverage={page}")
+        run("coverage", QUADROTOR, "catalogs/quadrotor.mission.yaml", "--format", "html", "-o", str(page))
         self.check(page.as_uri())
         self.assertEqual(self.browser.ask("getComputedStyle(document.querySelector('.missed')).backgroundColor"
                                           " !== getComputedStyle(document.body).backgroundColor"), True)
 
     def test_coverage_of_hostile_names(self):
         page = OUT / "policy-hostile-coverage.html"
-        run("solve", *hostile_files(), f"--coverage={page}")
+        run("coverage", *hostile_files(), "--format", "html", "-o", str(page))
         self.check(page.as_uri())
         self.assertIn(HOSTILE_BEHAVIORS[0], self.browser.ask("document.body.textContent"))
 

@@ -68,7 +68,7 @@ LINES = [
     (r"cbc solve robot.yaml missions/se", ["solve", "robot.yaml", "missions/second.json"]),
     (r"cbc graph robot.yaml --script missions/se",
      ["graph", "robot.yaml", "--script", "missions/second.json"]),
-    (r"cbc solve --merge par", ["solve", "--merge", "part.json"]),
+    (r"cbc sweep --merge par", ["sweep", "--merge", "part.json"]),
 ]
 
 # The catalog is behind the cursor; fish does not tell its scripts what is there.

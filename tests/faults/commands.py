@@ -50,10 +50,10 @@ class Command:
 COMMANDS = [
     Command("compile", "compile robot.yaml -o robot.cbc", ("robot.cbc",)),
     Command("solve_html", "solve robot.yaml missions -j 1 --html page.html", ("page.html",)),
-    Command("solve_coverage", "solve robot.yaml missions -j 1 --brief --coverage=coverage.html", ("coverage.html",)),
+    Command("coverage", "coverage robot.yaml missions -j 1 --format html -o coverage.html", ("coverage.html",)),
     Command("solve_state", "solve robot.yaml - --format jsonl --state-out state.json", ("state.json",),
             stdin="stream.jsonl", ends_early=True),
-    Command("sweep", "solve robot.yaml --sweep 5 -j 1 --slowest slow.yaml", ("slow.yaml",)),
+    Command("sweep", "sweep robot.yaml --sequences 5 -j 1 --slowest slow.yaml", ("slow.yaml",)),
     Command("graph_dot", "graph robot.yaml -o robot.dot", ("robot.dot",)),
     Command("graph_svg", "graph robot.yaml -o robot.svg", ("robot.svg",)),
     Command("lint_fix", "lint --fix older", ("older/old.yaml",)),
@@ -62,7 +62,7 @@ COMMANDS = [
         ".cbc/settings.json")), replaces=False),
     Command("verify", "verify robot.properties.yaml -j 1 --format json -o result.json --html page.html --scripts scripts",
             ("result.json", "page.html", "scripts/robot.2.mission.yaml"), status=1),
-    Command("cut_sets", "verify robot.yaml -j 1 --cut-sets DRIVE --open-psa tree.xml", ("tree.xml",)),
+    Command("cut_sets", "verify robot.yaml -j 1 --cut-sets DRIVE -o sets.txt", ("sets.txt",)),
 ]
 
 

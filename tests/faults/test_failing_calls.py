@@ -84,7 +84,7 @@ class FailingThreads(FaultCase):
 
     COMMANDS = [
         Command("solve", "solve robot.yaml missions -j 4", ()),
-        Command("sweep", "solve robot.yaml --sweep 50 -j 4 --slowest slow.yaml", ("slow.yaml",)),
+        Command("sweep", "sweep robot.yaml --sequences 50 -j 4 --slowest slow.yaml", ("slow.yaml",)),
         # With enough states for several threads, which it starts several times.
         Command("verify", f"verify {ROOT}/catalogs/px4.yaml -j 4 --format json -o result.json", ("result.json",)),
     ]

@@ -14,7 +14,7 @@ from fault_case import FaultCase
 # With "robot.cbc", which is mapped, and "robot.yaml", of which it was made.
 COMMANDS = [
     "solve robot.cbc mission.yaml --html page.html",
-    "solve robot.cbc --sweep 3 -j 1 --slowest slow.yaml",
+    "sweep robot.cbc --sequences 3 -j 1 --slowest slow.yaml",
     "graph robot.cbc -o robot.dot",
     "graph --diff robot.cbc robot.yaml --format text -o diff.txt",
     "verify robot.cbc -j 1 --max-states 100 -o result.txt",
@@ -50,7 +50,7 @@ class ShrinkingFiles(FaultCase):
         # What is left of its last page is zero: for --check, that is another catalog.
         if "--check" not in arguments or process.returncode != 1:
             self.assertEqual(process.returncode, 2, errors)
-            self.assertIn("robot.cbc", errors.decode())
+            self.assertIn("compiled catalog", errors.decode())
         self.assertEqual({path.name for path in folder.iterdir()}, before)
 
     def wait_until_mapped(self, tracer):

@@ -1,7 +1,7 @@
 // Lints texts as `cbc lint --fix` does.
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
 
 #include "core/catalog/catalog.h"
@@ -14,7 +14,7 @@ namespace cbc::fuzz {
 struct LintedCatalog {
   LintedFile file;
   Catalog catalog;
-  std::optional<CompiledCatalog> compiled;
+  std::shared_ptr<const CompiledCatalog> compiled;
   std::size_t errors = 0;
 };
 [[nodiscard]] LintedCatalog lint(std::string text, const SeveritySettings& settings);

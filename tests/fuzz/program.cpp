@@ -144,8 +144,8 @@ ProgramRun run_program(std::string_view standard_input, const std::function<int(
 
 cli::SolveOptions bounded_options() {
   cli::SolveOptions options;
-  options.max_nodes = most_nodes_of_program;
-  options.max_clock_events = most_clock_events;
+  options.search.max_nodes = most_nodes_of_program;
+  options.search.max_clock_events = most_clock_events;
   return options;
 }
 

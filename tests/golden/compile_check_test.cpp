@@ -112,18 +112,11 @@ class CompileDump : public CompiledFiles {};
 
 TEST_F(CompileDump, ListsACompiledCatalogAsItsSource) {
   compile_robot();
-  for (const std::vector<std::string>& options :
-       {std::vector<std::string>{}, {"--format", "text"}, {"--format", "json"}}) {
-    std::vector<std::string> arguments{"compile", "--dump", "robot.cbc"};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    const Result compiled = cbc(arguments);
-    EXPECT_EQ(compiled.status, 0);
-    EXPECT_GT(compiled.out.size(), 100U);
-    arguments[2] = "robot.yaml";
-    expect_result(cbc(arguments), 0, compiled.out, "");
-    arguments[2] = "-";
-    expect_result(cbc_reading("robot.cbc", arguments), 0, compiled.out, "");
-  }
+  const Result compiled = cbc({"compile", "--dump", "robot.cbc"});
+  EXPECT_EQ(compiled.status, 0);
+  EXPECT_GT(compiled.out.size(), 100U);
+  expect_result(cbc({"compile", "--dump", "robot.yaml"}), 0, compiled.out, "");
+  expect_result(cbc_reading("robot.cbc", {"compile", "--dump", "-"}), 0, compiled.out, "");
   EXPECT_EQ(folder.names(), (std::set<std::string>{"robot.yaml", "robot.cbc"}));
 }
 
@@ -131,8 +124,8 @@ TEST_F(CompileDump, ListsWhatTheFileIs) {
   compile_robot();
   const CompiledFileResult file = load_compiled(folder / "robot.cbc");
   ASSERT_TRUE(file.file);
-  const nlohmann::ordered_json json = nlohmann::ordered_json::parse(
-      cbc({"compile", "--dump", "--format", "json", "robot.cbc"}).out);
+  const nlohmann::ordered_json json =
+      nlohmann::ordered_json::parse(cbc({"compile", "--dump", "robot.cbc"}).out);
   EXPECT_EQ(json["schema"], "cbc.catalog/1");
   EXPECT_EQ(json["format"], file.file->format);
   EXPECT_EQ(json["written_by"], version);
@@ -141,10 +134,6 @@ TEST_F(CompileDump, ListsWhatTheFileIs) {
   EXPECT_EQ(json["content_digest"], to_hex(file.file->content));
   EXPECT_EQ(json["size"], fs::file_size(folder / "robot.cbc"));
   EXPECT_EQ(json["groups"][0]["tasks"][0]["task"], "HOVER");
-  const std::string text = cbc({"compile", "--dump", "robot.cbc"}).out;
-  EXPECT_NE(text.find("\nsource digest: " + to_hex(digest_of(robot)) + "\n"), std::string::npos);
-  EXPECT_NE(text.find("\ncontent digest: " + to_hex(file.file->content) + "\n"), std::string::npos);
-  EXPECT_NE(text.find("\n  task HOVER\n"), std::string::npos);
 }
 
 TEST_F(CompileDump, ListsNoDamagedFile) {

@@ -1,5 +1,4 @@
 // `cbc compile`: what it writes, and what it leaves behind if it cannot.
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -186,17 +185,6 @@ TEST_F(Compile, LeavesNothingBehindWhereItCannotWrite) {
   fs::permissions(folder / "closed", fs::perms::owner_all);
   EXPECT_TRUE(fs::is_empty(folder / "closed"));
   EXPECT_EQ(folder.names(), (std::set<std::string>{"robot.yaml", "closed"}));
-}
-
-TEST_F(Compile, RemovesLeftoversOfRunsThatWereKilled) {
-  folder.write("robot.yaml", robot);
-  folder.write(".cbc-0123456789abcdef.tmp", "of an old run");
-  folder.write(".cbc-0123456789abcdee.tmp", "of a run that may go on");
-  fs::last_write_time(folder / ".cbc-0123456789abcdef.tmp",
-                      fs::file_time_type::clock::now() - std::chrono::hours(2));
-  expect_silence(cbc({"compile", "robot.yaml"}));
-  EXPECT_EQ(folder.names(),
-            (std::set<std::string>{".cbc-0123456789abcdee.tmp", "robot.cbc", "robot.yaml"}));
 }
 
 }  // namespace

@@ -151,9 +151,7 @@ TEST_F(CompiledCatalog, ThatIsCutOffMeanwhileEndsTheProgramWithAMessage) {
     close(pipe);
   });
   expect_result(result, 2, "",
-                fmt::format("cbc: cannot read '{}': it was truncated or became unreadable while it "
-                            "was in use\n",
-                            fs::canonical(folder / "robot.cbc").string()));
+                "cbc: a compiled catalog was truncated or became unreadable while it was in use\n");
 }
 
 /// In folders, lint looks for catalogs to mend.

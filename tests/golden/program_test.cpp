@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -15,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cbc/version.h"
+#include "commands.h"
 #include "golden/process.h"
 #include "support/catalog_files.h"
 #include "support/read_file.h"
@@ -126,9 +128,9 @@ tasks:
 )");
   scratch.write("mission.yaml", "- start: CARRY_PARCEL_TO_THE_OFFICE\n");
   const std::vector<std::vector<std::string>> calls{
-      {"solve", "robot.yaml", "mission.yaml", "--coverage", "--prove"},
-      {"verify", "robot.yaml", "--mutants", "--beside", "mission.yaml"},
-      {"verify", "robot.yaml", "--write-tests", "tests"}};
+      {"coverage", "robot.yaml", "mission.yaml", "--prove"},
+      {"coverage", "robot.yaml", "mission.yaml", "--mutants"},
+      {"coverage", "robot.yaml", "--write-missing", "tests"}};
   for (const std::vector<std::string>& arguments : calls) {
     const Call call{arguments, scratch.path()};
     const Result written = run(call);
@@ -191,8 +193,9 @@ TEST_F(Terminal, ShowsNoColorIfItIsDumb) {
 
 TEST_F(Terminal, TellsHowFarALongSweepIs) {
   const std::string catalog = CBC_SOURCE_DIR "/catalogs/quadrotor.yaml";
-  const Result result = run_on_terminal_until({{"solve", catalog, "--sweep", "1000000000"}, "/"},
-                                              "\rsweeping 1 of 1: " + catalog + " (0 %)");
+  const Result result =
+      run_on_terminal_until({{"sweep", catalog, "--sequences", "1000000000"}, "/"},
+                            "\rsweeping 1 of 1: " + catalog + " (0 %)");
   EXPECT_EQ(result.status, 128 + SIGINT);
   EXPECT_EQ(result.out.find("sweep of"), std::string::npos);
 }
@@ -372,6 +375,54 @@ INSTANTIATE_TEST_SUITE_P(Pages, ExcerptsOf,
                                          std::pair("docs/coverage.md", 2U),
                                          std::pair("docs/sweeps.md", 1U),
                                          std::pair("docs/verify.md", 1U)));
+
+/// One screen: `man` has the rest.
+TEST(Help, FitsOnAScreen) {
+  const auto expect_fit = [](const std::vector<std::string>& arguments) {
+    const Result result = run({arguments, "/"});
+    EXPECT_EQ(result.status, 0);
+    EXPECT_LE(std::count(result.out.begin(), result.out.end(), '\n'), 50) << result.out;
+    EXPECT_LE(longest_line(result.out), 80U) << result.out;
+  };
+  expect_fit({"--help"});
+#define CBC_EXPECT_FIT(name) expect_fit({#name, "--help"});
+  CBC_COMMANDS(CBC_EXPECT_FIT)
+#undef CBC_EXPECT_FIT
+}
+
+TEST(Help, TellsWhereOptionsHaveMoved) {
+  const std::map<std::string, std::vector<std::pair<std::string, std::string>>> moved{
+      {"solve",
+       {{"sweep", "cbc sweep"},
+        {"seed", "cbc sweep"},
+        {"events", "cbc sweep"},
+        {"priorities", "cbc sweep"},
+        {"failures", "cbc sweep"},
+        {"faults", "cbc sweep"},
+        {"shard", "cbc sweep"},
+        {"slowest", "cbc sweep"},
+        {"slowest-by-time", "cbc sweep"},
+        {"merge", "cbc sweep' or 'cbc coverage"},
+        {"coverage", "cbc coverage"},
+        {"fail-under", "cbc coverage"},
+        {"prove", "cbc coverage"},
+        {"assume", "cbc coverage"}}},
+      {"verify",
+       {{"write-tests", "cbc coverage --write-missing"},
+        {"mutants", "cbc coverage --mutants"},
+        {"beside", "cbc coverage"},
+        {"fail-under", "cbc coverage"}}}};
+  for (const auto& [command, options] : moved) {
+    const std::string help = run({{command, "--help"}, "/"}).out;
+    for (const auto& [option, place] : options) {
+      const Result result = run({{command, "robot.yaml", "--" + option, "1"}, "/"});
+      EXPECT_EQ(result.status, 2);
+      EXPECT_EQ(result.err, "cbc: --" + option + " has moved: use '" + place + "'\nSee 'cbc " +
+                                command + " --help'.\n");
+      EXPECT_EQ(help.find("--" + option + " "), std::string::npos) << help;
+    }
+  }
+}
 
 /// Of a mission in which more expectations fail than anybody reads.
 TEST(FailedExpectations, AreExplainedUpToABound) {

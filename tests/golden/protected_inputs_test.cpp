@@ -26,7 +26,8 @@ class ProtectedInputs : public CompiledFiles {
     folder.write("properties.yaml", "catalog: robot.yaml\nproperties: [{can_start: LAND}]\n");
     folder.write("log.jsonl",
                  cbc({"solve", "robot.cbc", "missions/mission.yaml", "--format", "jsonl"}).out);
-    folder.write("shard.json", cbc({"solve", "robot.cbc", "--sweep", "2", "--format", "json"}).out);
+    folder.write("shard.json",
+                 cbc({"sweep", "robot.cbc", "--sequences", "2", "--format", "json"}).out);
   }
 
   /// Tries to replace an input by its name, by a symbolic and by a hard link.
@@ -61,7 +62,8 @@ TEST_F(ProtectedInputs, AreTheSettings) {
       {"graph", "--diff", "robot.yaml", "robot.cbc", "--format", "text", "-o"},
       {"solve", "robot.yaml", "missions", "--html"},
       {"solve", "robot.yaml", "missions/mission.yaml", "--format", "jsonl", "--state-out"},
-      {"solve", "robot.yaml", "--sweep", "2", "--slowest"},
+      {"sweep", "robot.yaml", "--sequences", "2", "--slowest"},
+      {"coverage", "robot.yaml", "missions", "--output"},
       {"solve", "--replay", "log.jsonl", "robot.yaml", "--state-out"},
       {"verify", "robot.yaml", "--output"},
       {"verify", "robot.yaml", "properties.yaml", "--output"}};
@@ -79,7 +81,7 @@ TEST_F(ProtectedInputs, AreFilesThatOtherFilesName) {
 TEST_F(ProtectedInputs, AreFilesOfTheCommandLine) {
   expect_protected({"solve", "--replay", "log.jsonl", "robot.cbc", "--state-out"}, "log.jsonl");
   expect_protected({"solve", "--replay", "log.jsonl", "robot.cbc", "--state-out"}, "robot.cbc");
-  expect_protected({"solve", "--merge", "shard.json", "--slowest"}, "shard.json");
+  expect_protected({"sweep", "--merge", "shard.json", "--slowest"}, "shard.json");
   expect_protected({"verify", "properties.yaml", "--html"}, "properties.yaml");
 }
 
@@ -113,13 +115,12 @@ TEST_F(ProtectedInputs, AreStatesThatAStreamContinues) {
 }
 
 TEST_F(ProtectedInputs, AreScriptsThatWouldBeReplaced) {
-  EXPECT_EQ(cbc({"verify", "robot.yaml", "--write-tests", "tests"}).status, 0);
+  EXPECT_EQ(cbc({"coverage", "robot.yaml", "--write-missing", "tests"}).status, 0);
   const fs::path script = fs::directory_iterator(folder / "tests")->path().filename();
   fs::create_directory(folder / "links");
   fs::create_symlink(fs::path("../tests") / script, folder / "links" / script);
   const std::string before = folder.read("tests/" + script.string());
-  const Result result =
-      cbc({"verify", "robot.yaml", "--write-tests", "tests", "--beside", "links"});
+  const Result result = cbc({"coverage", "robot.yaml", "links", "--write-missing", "tests"});
   EXPECT_EQ(result.status, 2);
   EXPECT_NE(result.err.find("is also an input"), std::string::npos) << result.err;
   EXPECT_EQ(folder.read("tests/" + script.string()), before);
@@ -129,9 +130,8 @@ TEST_F(ProtectedInputs, AreScriptsThatWouldBeReplaced) {
 TEST_F(ProtectedInputs, AreNotTheOnlyFilesThatAreWrittenOnce) {
   fs::create_symlink("page.html", folder / "link.html");
   for (const std::string other : {"./page.html", "missions/../page.html", "link.html"}) {
-    expect_result(
-        cbc({"solve", "robot.yaml", "missions", "--html", "page.html", "--coverage", other}), 2, "",
-        "cbc: '" + other + "' would be written twice\nSee 'cbc solve --help'.\n");
+    expect_result(cbc({"verify", "properties.yaml", "-o", "page.html", "--html", other}), 2, "",
+                  "cbc: '" + other + "' would be written twice\nSee 'cbc verify --help'.\n");
   }
 }
 

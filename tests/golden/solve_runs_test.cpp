@@ -53,10 +53,16 @@ class SolveRuns : public testing::Test {
     }
   }
 
-  [[nodiscard]] Result solve(std::vector<std::string> more) const {
-    Call call{{"solve", "catalog.yaml", "missions", "--max-clock-events", "20"}, folder.path()};
+  [[nodiscard]] Result cbc(const std::string& command, const std::vector<std::string>& more) const {
+    Call call{{command, "catalog.yaml", "missions", "--max-clock-events", "20"}, folder.path()};
     call.arguments.insert(call.arguments.end(), more.begin(), more.end());
     return run(call);
+  }
+  [[nodiscard]] Result solve(const std::vector<std::string>& more) const {
+    return cbc("solve", more);
+  }
+  [[nodiscard]] Result coverage(const std::vector<std::string>& more) const {
+    return cbc("coverage", more);
   }
 
   static constexpr std::size_t scripts = 40;
@@ -122,36 +128,36 @@ TEST_F(SolveRuns, AreTheSameWithStatisticsBesideThem) {
 }
 
 TEST_F(SolveRuns, HaveTheSameCoverageWhateverTheNumberOfJobs) {
-  const Result alone = solve({"--coverage", "--format", "json", "-j", "1"});
+  const Result alone = coverage({"--format", "json", "-j", "1"});
   EXPECT_EQ(alone.status, 2) << "the highest of all";
   EXPECT_EQ(json::parse(alone.out)["catalogs"][0]["missions"].size(), scripts);
   for (const char* const jobs : {"2", "7"}) {
-    EXPECT_EQ(solve({"--coverage", "--format", "json", "-j", jobs}).out, alone.out);
+    const Result several = coverage({"--format", "json", "-j", jobs});
+    EXPECT_EQ(several.out, alone.out);
+    EXPECT_EQ(several.err, alone.err);
   }
 }
 
-TEST_F(SolveRuns, HaveTheirCoverageBesideThem) {
-  const Result alone = solve({"--format", "junit"});
-  for (const char* const name : {"c.json", "c.html", "c.info", "c.txt"}) {
-    const Result beside = solve({"--format", "junit", "--coverage=" + std::string(name)});
-    EXPECT_EQ(beside.status, alone.status);
-    EXPECT_EQ(beside.out, alone.out);
-    EXPECT_EQ(beside.err, alone.err);
+TEST_F(SolveRuns, HaveTheirCoverageInAFile) {
+  for (const char* const format : {"text", "json", "html", "lcov", "github"}) {
+    const Result written = coverage({"--format", format, "-o", "file"});
+    EXPECT_EQ(written.out, "");
+    EXPECT_EQ(folder.read("file"), coverage({"--format", format}).out);
   }
-  EXPECT_EQ(folder.read("c.json"), solve({"--coverage", "--format", "json"}).out);
-  EXPECT_EQ(folder.read("c.html"), solve({"--coverage", "--format", "html"}).out);
-  EXPECT_EQ(folder.read("c.info"), solve({"--coverage", "--format", "lcov"}).out);
-  EXPECT_EQ(folder.read("c.txt"), solve({"--coverage"}).out);
 }
 
 TEST_F(SolveRuns, AreCoveredInPartsAsInOne) {
   fs::create_directory(folder / "others");
   fs::rename(folder / "missions/m103.yaml", folder / "others/m103.yaml");
-  static_cast<void>(solve({"others", "--coverage=all.json"}));
-  static_cast<void>(solve({"--coverage=some.json"}));
-  static_cast<void>(
-      run({{"solve", "catalog.yaml", "others", "--coverage=rest.json"}, folder.path()}));
-  const Result merged = run({{"solve", "--coverage", "--merge", "--format", "json", "catalog.yaml",
+  const auto write = [this](const std::vector<std::string>& folders, const std::string& file) {
+    std::vector<std::string> arguments{"coverage", "catalog.yaml", "--format", "json", "-o", file};
+    arguments.insert(arguments.end(), folders.begin(), folders.end());
+    static_cast<void>(run({arguments, folder.path()}));
+  };
+  write({"missions", "others"}, "all.json");
+  write({"missions"}, "some.json");
+  write({"others"}, "rest.json");
+  const Result merged = run({{"coverage", "--merge", "--format", "json", "catalog.yaml",
                               "some.json", "rest.json", "some.json"},
                              folder.path()});
   EXPECT_EQ(merged.status, 0);

@@ -1,4 +1,4 @@
-// `cbc solve --sweep` from outside: what it writes can be used as the manual says.
+// `cbc sweep` from outside: what it writes can be used as the manual says.
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -24,7 +24,6 @@ class Sweep : public testing::Test {
   /// The standard output of a call that has to succeed.
   [[nodiscard]] std::string call(const std::vector<std::string>& arguments) const {
     Call call{arguments, scratch.path()};
-    call.arguments.insert(call.arguments.begin(), "solve");
     const Result result = run(call);
     EXPECT_EQ(result.status, 0);
     EXPECT_EQ(result.err, "");
@@ -44,17 +43,18 @@ Json nodes_of(const std::string& report, const Json& index) {
 }
 
 TEST_F(Sweep, WritesTheSlowestEventAsAScript) {
-  const Json sweep = Json::parse(call({catalog, "--sweep", "50", "--tie-seed", "4", "--slowest",
-                                       "slowest.yaml", "--format", "json"}));
-  const std::string report = call({catalog, "slowest.yaml", "--tie-seed", "4", "--format", "json"});
+  const Json sweep = Json::parse(call({"sweep", catalog, "--sequences", "50", "--tie-seed", "4",
+                                       "--slowest", "slowest.yaml", "--format", "json"}));
+  const std::string report =
+      call({"solve", catalog, "slowest.yaml", "--tie-seed", "4", "--format", "json"});
   EXPECT_EQ(nodes_of(report, sweep["slowest"]["event"]), sweep["slowest"]["nodes"]);
   EXPECT_EQ(scratch.read("slowest.yaml"), sweep["slowest"]["script"]);
 }
 
 TEST_F(Sweep, WritesTheEventThatTookLongestAsAScript) {
-  const Json sweep = Json::parse(call({catalog, "--sweep", "50", "--stats", "--slowest-by-time",
-                                       "longest.yaml", "--format", "json"}));
-  EXPECT_TRUE(nodes_of(call({catalog, "longest.yaml", "--format", "json"}),
+  const Json sweep = Json::parse(call({"sweep", catalog, "--sequences", "50", "--stats",
+                                       "--slowest-by-time", "longest.yaml", "--format", "json"}));
+  EXPECT_TRUE(nodes_of(call({"solve", catalog, "longest.yaml", "--format", "json"}),
                        sweep["stats"]["slowest"]["event"])
                   .is_number());
 }
@@ -63,9 +63,10 @@ TEST_F(Sweep, IsTheSameForACompiledCatalogElsewhere) {
   const Result compiled = run({{"compile", catalog, "-o", "q.cbc"}, scratch.path()});
   ASSERT_EQ(compiled.status, 0);
   fs::copy(catalog, scratch / "moved.yaml");
-  const std::string text = call({catalog, "--sweep", "20", "--format", "json", "-j", "1"});
-  EXPECT_EQ(call({"q.cbc", "--sweep", "20", "--format", "json", "-j", "3"}), text);
-  Json moved = Json::parse(call({"moved.yaml", "--sweep", "20", "--format", "json"}));
+  const std::string text =
+      call({"sweep", catalog, "--sequences", "20", "--format", "json", "-j", "1"});
+  EXPECT_EQ(call({"sweep", "q.cbc", "--sequences", "20", "--format", "json", "-j", "3"}), text);
+  Json moved = Json::parse(call({"sweep", "moved.yaml", "--sequences", "20", "--format", "json"}));
   EXPECT_EQ(moved["catalog"], "moved.yaml");
   moved["catalog"] = catalog;
   EXPECT_EQ(moved, Json::parse(text));
@@ -73,27 +74,28 @@ TEST_F(Sweep, IsTheSameForACompiledCatalogElsewhere) {
 
 TEST_F(Sweep, MergesShardsWithStatistics) {
   for (const std::string shard : {"1", "2"}) {
-    scratch.write(shard, call({catalog, "--sweep", "20", "--shard", shard + "/2", "--stats",
-                               "--format", "json"}));
+    scratch.write(shard, call({"sweep", catalog, "--sequences", "20", "--shard", shard + "/2",
+                               "--stats", "--format", "json"}));
   }
-  const std::string merged = call({"--merge", "2", "1", "--format", "json"});
+  const std::string merged = call({"sweep", "--merge", "2", "1", "--format", "json"});
   EXPECT_EQ(find_contradictions(merged), std::vector<std::string>());
   Json sweep = Json::parse(merged);
   EXPECT_EQ(sweep["stats"]["elapsed_us"],
             Json::parse(scratch.read("1"))["stats"]["elapsed_us"].get<int>() +
                 Json::parse(scratch.read("2"))["stats"]["elapsed_us"].get<int>());
   sweep.erase("stats");
-  EXPECT_EQ(sweep, Json::parse(call({catalog, "--sweep", "20", "--format", "json"})));
+  EXPECT_EQ(sweep, Json::parse(call({"sweep", catalog, "--sequences", "20", "--format", "json"})));
 }
 
 TEST_F(Sweep, RunsAsTheRecipeForParallelSays) {
   if (std::system("parallel --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no GNU parallel";
   const std::string command =
-      "cd '" + scratch.path() + "' && parallel --will-cite '" CBC_PROGRAM_PATH " solve " + catalog +
-      " --sweep 100 --shard {}/8 -j 1 --format json > shard-{}.json' ::: $(seq 8) && " +
-      CBC_PROGRAM_PATH " solve --merge shard-*.json --format json > merged.json";
+      "cd '" + scratch.path() + "' && parallel --will-cite '" CBC_PROGRAM_PATH " sweep " + catalog +
+      " --sequences 100 --shard {}/8 -j 1 --format json > shard-{}.json' ::: $(seq 8) && " +
+      CBC_PROGRAM_PATH " sweep --merge shard-*.json --format json > merged.json";
   ASSERT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(scratch.read("merged.json"), call({catalog, "--sweep", "100", "--format", "json"}));
+  EXPECT_EQ(scratch.read("merged.json"),
+            call({"sweep", catalog, "--sequences", "100", "--format", "json"}));
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 
 #include "golden/process.h"
 #include "support/catalog_files.h"
-#include "support/exclusive_tasks.h"
 #include "support/scratch_folder.h"
 
 namespace cbc::golden::verify_test {
@@ -74,41 +73,6 @@ TEST_F(Verify, GivesEachScriptANameOfItsOwn) {
   EXPECT_EQ(names, (Names{"x.1.mission.yaml", "x.1-2.mission.yaml", "x.1-3.mission.yaml"}));
 }
 
-/// A folder with the missions that would notice survivors, beside those that exist: then nothing
-/// survives.
-TEST_F(Verify, WritesTheMissionsThatNoticeSurvivors) {
-  const std::string cases = "tests/golden/cases/verify_mutants/";
-  const std::string folder = scratch / "missions";
-  const auto judge = [&](const std::string& beside) {
-    const Result result =
-        verify({cases + "robot.yaml", "--mutants", "--beside", cases + "delivery.mission.yaml",
-                "--beside", beside, "--scripts", folder, "--format", "json"});
-    EXPECT_EQ(result.status, 0) << result.err;
-    return nlohmann::json::parse(result.out);
-  };
-  const nlohmann::json before = judge(cases + "delivery.mission.yaml");
-  EXPECT_GT(before["survived"], 5);
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const Result solved =
-        run({{"solve", cases + "robot.yaml", entry.path().string()}, CBC_SOURCE_DIR});
-    EXPECT_EQ(solved.status, 0) << solved.out << solved.err;
-  }
-  const nlohmann::json after = judge(folder);
-  EXPECT_EQ(after["survived"], 0);
-  EXPECT_EQ(after["equivalent"], before["equivalent"]);
-  EXPECT_EQ(after["percent"], 100);
-}
-
-/// The output does not depend on the number of threads.
-TEST_F(Verify, JudgesMutantsAlikeWithAnyNumberOfJobs) {
-  std::vector<std::string> arguments = {"catalogs/quadrotor.yaml",         "--mutants", "--beside",
-                                        "catalogs/quadrotor.mission.yaml", "-j",        "1"};
-  const Result one = verify(arguments);
-  EXPECT_EQ(one.status, 0) << one.err;
-  arguments.back() = "3";
-  EXPECT_EQ(verify(arguments).out, one.out);
-}
-
 TEST_F(Verify, ListsAllPropertiesAndDrawsCounterexamplesAndWitnesses) {
   const Result alone = verify({properties});
   const Result result = verify({properties, "--html", scratch / "page.html"});
@@ -131,20 +95,6 @@ TEST_F(Verify, DrawsAPageWithoutCounterexamples) {
   EXPECT_NE(page.find(R"("statement":"PING can always start with priority 1","result":"proved",)"),
             std::string::npos);
   EXPECT_NE(page.find(R"(,"run":null}])"), std::string::npos);
-}
-
-TEST_F(Verify, WritesAFaultTree) {
-  const Result alone = verify({catalog, "--cut-sets", "FOLLOW_PATH"});
-  const Result result =
-      verify({catalog, "--cut-sets", "FOLLOW_PATH", "--open-psa", scratch / "tree.xml"});
-  EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.out, alone.out);
-  const std::string tree = scratch.read("tree.xml");
-  EXPECT_NE(tree.find("<opsa-mef>"), std::string::npos);
-  EXPECT_NE(tree.find("CAMERA is faulty"), std::string::npos);
-  static_cast<void>(verify({catalog, "--cut-sets", "FOLLOW_PATH", "--situation", "LIGHT=dark",
-                            "--open-psa", scratch / "tree.xml"}));
-  EXPECT_EQ(scratch.read("tree.xml").find("CAMERA is faulty"), std::string::npos);
 }
 
 TEST_F(Verify, WritesItsReportToAFile) {
@@ -229,25 +179,6 @@ TEST_F(Verify, RefusesGroupsThatAreTooLarge) {
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(result.err.find("cbc: '" + file + "': too large to explore: "), 0U) << result.err;
   }
-}
-
-/// Each of these pairs would be a goal, and a mutant.
-TEST_F(Verify, RefusesToListMillionsOfPairs) {
-  scratch.write("many.yaml", test::exclusive_tasks(1001));
-  scratch.write("mission.yaml", "[{start: T0}]\n");
-  const std::string message = ": the exclusivity lists of '" + (scratch / "many.yaml") +
-                              "' have 500500 pairs of tasks; expected at most 500000\n";
-  const auto expect_refusal = [&](const Result& result, const std::string& option) {
-    EXPECT_EQ(result.status, 2);
-    EXPECT_EQ(result.out, "");
-    EXPECT_EQ(result.err, "cbc: " + option + message);
-  };
-  const std::string many = scratch / "many.yaml";
-  const std::string mission = scratch / "mission.yaml";
-  expect_refusal(verify({many, "--mutants", "--beside", mission}), "--mutants");
-  expect_refusal(verify({many, "--write-tests", scratch / "tests"}), "--write-tests");
-  EXPECT_FALSE(fs::exists(scratch / "tests"));
-  expect_refusal(run({{"solve", many, mission, "--coverage"}, CBC_SOURCE_DIR}), "--coverage");
 }
 
 /// Whoever changes a published catalog finds out here whether its properties still hold.

@@ -11,18 +11,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/catalog/reader.h"
-#include "core/check/together.h"
-#include "core/compile/compile.h"
-#include "core/diagnostic/diagnostic.h"
 #include "core/support/system.h"
-#include "core/yaml/document.h"
 #include "graph/engine/diagram.h"
-#include "graph/hostile_catalog.h"
-#include "graph/report/situation_report.h"
-#include "graph/report/together_report.h"
 #include "graph/samples.h"
-#include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc::graph_test::dot_test {
 namespace {
@@ -118,71 +109,11 @@ TEST(Dot, ReadsPicturesOfDifferencesWithHostileNames) {
   EXPECT_GT(samples, 80U);
 }
 
-TEST(Dot, ReadsTablesOfHostileNames) {
-  if (!has_graphviz()) GTEST_SKIP() << "there is no Graphviz (Debian: apt install graphviz)";
-  std::size_t names = 0;
-  for (std::uint64_t seed = 1; seed <= 80; ++seed) {
-    SCOPED_TRACE(seed);
-    Diagnostics diagnostics;
-    const auto document = yaml::parse(hostile_catalog(seed).text, "a<b>&.yaml", diagnostics);
-    ASSERT_NE(document, nullptr);
-    const CatalogReading reading = understand_catalog(*document, diagnostics);
-    if (diagnostics.has_errors()) continue;
-    const CompiledCatalog catalog = compile(reading.catalog);
-    const TogetherTable table = make_together_table(catalog, {});
-    if (table.tasks.size() < 2) continue;
-    const Filtered picture = run_filter({"dot", "-Tjson"}, together_dot(catalog, table));
-    ASSERT_TRUE(picture.is_done) << picture.error_output;
-    EXPECT_EQ(picture.error_output, "");
-    const std::string text = text_of(json::parse(picture.output).at("objects").at(0));
-    for (const TaskId task : table.tasks) {
-      const std::string label = draw::label_of(catalog.name_of_task(task));
-      EXPECT_NE(text.find(label), std::string::npos) << label << " in " << text;
-      ++names;
-    }
-  }
-  EXPECT_GT(names, 20U);
-}
-
 TEST(Dot, OutputIsAPicture) {
   if (!has_graphviz()) GTEST_SKIP() << "there is no Graphviz (Debian: apt install graphviz)";
   const Filtered picture = run_filter({"dot", "-Tsvg"}, random_samples(1).front().dot);
   ASSERT_TRUE(picture.is_done) << picture.error_output;
   EXPECT_NE(picture.output.find("<svg"), std::string::npos);
-}
-
-TEST(Dot, ReadsTablesOfSituationsWithHostileNames) {
-  if (!has_graphviz()) GTEST_SKIP() << "there is no Graphviz (Debian: apt install graphviz)";
-  std::size_t names = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    SCOPED_TRACE(seed);
-    Diagnostics diagnostics;
-    const auto document = yaml::parse(hostile_catalog(seed).text, "a<b>&.yaml", diagnostics);
-    ASSERT_NE(document, nullptr);
-    const CatalogReading reading = understand_catalog(*document, diagnostics);
-    if (diagnostics.has_errors()) continue;
-    const CompiledCatalog catalog = compile(reading.catalog);
-    const Filtered picture = run_filter({"dot", "-Tjson"}, situation_dot(catalog));
-    ASSERT_TRUE(picture.is_done) << picture.error_output;
-    EXPECT_EQ(picture.error_output, "");
-    const std::string text = text_of(json::parse(picture.output).at("objects").at(0));
-    const auto expect = [&](std::string_view name) {
-      const std::string label = draw::label_of(name);
-      EXPECT_NE(text.find(label), std::string::npos) << label << " in " << text;
-      ++names;
-    };
-    const bool has_table = !catalog.fitting_values.empty();
-    for (std::uint32_t variable = 0; has_table && variable < catalog.variables.size(); ++variable) {
-      expect(catalog.name_of_variable(variable));
-      for (std::uint32_t value = 0; value < catalog.variables[variable].value_count; ++value) {
-        expect(catalog.name_of_value({variable, value}));
-      }
-    }
-    for (const FittingValue& fitting : catalog.fitting_values) {
-      expect(catalog.name_of_behavior(fitting.behavior));
-    }
-  }
-  EXPECT_GT(names, 50U);
 }
 
 }  // namespace

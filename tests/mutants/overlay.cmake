@@ -31,7 +31,7 @@ endfunction()
 
 # Writes which mutants each test reaches.
 function(cbc_record_tests)
-  foreach(target cbc_unit_tests cbc_property_tests cbc_golden_tests)
+  foreach(target cbc_unit_tests cbc_command_tests cbc_property_tests cbc_golden_tests)
     target_sources(${target} PRIVATE "${CMAKE_SOURCE_DIR}/tests/mutants/recorder.cpp")
   endforeach()
 endfunction()

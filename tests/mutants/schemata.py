@@ -12,7 +12,8 @@ import points
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "mutants"
-PROGRAMS = {"unit": "cbc_unit_tests", "property": "cbc_property_tests", "golden": "cbc_golden_tests"}
+PROGRAMS = {"unit": "cbc_unit_tests", "commands": "cbc_command_tests", "property": "cbc_property_tests",
+            "golden": "cbc_golden_tests"}
 FLAGS = ["-std=c++20", *(f"-I{folder}" for folder in (ROOT / "include", ROOT / "src", BUILD / "include", BUILD / "generated"))]
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 

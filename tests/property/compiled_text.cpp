@@ -10,7 +10,9 @@ std::optional<CompiledCatalog> compile_yaml(const std::string& yaml) {
   Diagnostics diagnostics;
   const auto document = yaml::parse(yaml, "catalog.yaml", diagnostics);
   if (!document) return std::nullopt;
-  return lint_catalog(*document, {}, diagnostics).compiled;
+  const auto compiled = lint_catalog(*document, {}, diagnostics).compiled;
+  if (compiled == nullptr) return std::nullopt;
+  return *compiled;
 }
 
 }  // namespace cbc::oracle

@@ -21,7 +21,7 @@
 #include "core/script/reader.h"
 #include "core/script/runner.h"
 #include "core/yaml/document.h"
-#include "coverage/engine/goal_watch.h"
+#include "coverage/engine/goal_monitor.h"
 #include "coverage/engine/goals.h"
 #include "demand.h"
 #include "generator.h"
@@ -390,7 +390,7 @@ class PlainWatch {
 
 class Watched final : public RunListener {
  public:
-  explicit Watched(GoalWatch& watch) : watch_(watch) {}
+  explicit Watched(GoalMonitor& watch) : watch_(watch) {}
   void on_decision(const EventRecord& record, const Circumstances& circumstances,
                    const cbc::Assignment* solution) override {
     watch_.on_decision(record, circumstances, solution);
@@ -400,7 +400,7 @@ class Watched final : public RunListener {
   }
 
  private:
-  GoalWatch& watch_;
+  GoalMonitor& watch_;
 };
 
 std::string key_of(const CompiledCatalog& catalog, const Goal& goal) {
@@ -459,7 +459,7 @@ void compare(const Case& inputs, std::uint64_t seed, Statistics& statistics) {
   }
   demand_same(all, plain.all(), "other goals");
 
-  GoalWatch watch(catalog, goals, {});
+  GoalMonitor watch(catalog, goals, {});
   cbc::State first(catalog);
   first.change_situation(script->situation.availability, script->situation.variables);
   watch.begin(first);

@@ -1,23 +1,16 @@
 // Random catalogs: the minimal cut sets of every task must be those that a look at every set of
-// behaviors and every assignment finds, and the fault tree, as it is written, must be true for
-// exactly the faults that leave no assignment. CBC_SEED and CBC_PROPERTY_CASES are as in
+// behaviors and every assignment finds. CBC_SEED and CBC_PROPERTY_CASES are as in
 // lint_property_test.cpp.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <map>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include <boost/property_tree/ptree.hpp>
-#include <boost/property_tree/xml_parser.hpp>
 #include <gtest/gtest.h>
 
 #include "compiled_text.h"
@@ -30,8 +23,6 @@
 #include "runtime/compiled/compiled_catalog.h"
 #include "statistics.h"
 #include "verify/engine/cut_sets.h"
-#include "verify/engine/fault_tree.h"
-#include "verify/report/open_psa.h"
 #include "yaml_text.h"
 
 namespace cbc::oracle::cut_sets_property_test {
@@ -43,80 +34,6 @@ constexpr std::uint64_t default_cases = 1000;
 using Set = std::uint64_t;
 
 constexpr Set bit(std::size_t behavior) { return Set{1} << behavior; }
-
-/// A fault tree, read from its XML.
-class WrittenTree {
- public:
-  explicit WrittenTree(const std::string& xml) {
-    std::istringstream stream(xml);
-    boost::property_tree::ptree document;
-    boost::property_tree::read_xml(stream, document);
-    for (const auto& [element, content] : document.get_child("opsa-mef.define-fault-tree")) {
-      if (element != "define-gate") continue;
-      const std::string name = name_of(content);
-      if (top_.empty()) top_ = name;
-      for (const auto& [formula, inputs] : content) {
-        if (formula == "<xmlattr>" || formula == "label") continue;
-        demand(formulas_.emplace(name, std::pair(formula, inputs)).second,
-               "a gate has two formulas: " + name);
-      }
-    }
-    for (const auto& [element, content] : document.get_child("opsa-mef.model-data")) {
-      demand(element == "define-basic-event", "what is " + element);
-      demand(events_.insert(name_of(content)).second, "an event is defined twice");
-    }
-  }
-
-  /// Whether the first gate is true; `is_faulty`: of the name of a behavior.
-  template <typename IsFaulty>
-  bool is_lost(const IsFaulty& is_faulty) const {
-    std::map<std::string, bool> known;
-    return value_of_gate(top_, is_faulty, known);
-  }
-
- private:
-  using Tree = boost::property_tree::ptree;
-
-  static std::string name_of(const Tree& element) {
-    return element.get<std::string>("<xmlattr>.name");
-  }
-
-  template <typename IsFaulty>
-  bool value_of_gate(const std::string& name, const IsFaulty& is_faulty,
-                     std::map<std::string, bool>& known) const {
-    const auto found = known.find(name);
-    if (found != known.end()) return found->second;
-    const auto& [formula, inputs] = formulas_.at(name);
-    bool value = formula == "and";
-    if (formula == "and" || formula == "or") {
-      std::size_t count = 0;
-      for (const auto& [kind, input] : inputs) {
-        const bool one = value_of(kind, input, is_faulty, known);
-        value = formula == "and" ? value && one : value || one;
-        ++count;
-      }
-      demand(count > 1, "too few inputs of " + name);
-    } else {
-      value = value_of(formula, inputs, is_faulty, known);
-    }
-    return known[name] = value;
-  }
-
-  template <typename IsFaulty>
-  bool value_of(const std::string& kind, const Tree& element, const IsFaulty& is_faulty,
-                std::map<std::string, bool>& known) const {
-    const std::string name = name_of(element);
-    if (kind == "gate") return value_of_gate(name, is_faulty, known);
-    if (kind == "house-event") return true;
-    demand(kind == "basic-event" && events_.contains(name), "an event without a definition");
-    constexpr std::string_view prefix = "fault-";
-    return is_faulty(name.substr(prefix.size()));
-  }
-
-  std::string top_;
-  std::map<std::string, std::pair<std::string, Tree>> formulas_;
-  std::set<std::string> events_;
-};
 
 class Check {
  public:
@@ -135,7 +52,6 @@ class Check {
     for (std::size_t task = 0; task < catalog_.tasks.size(); ++task) {
       find_supports(task);
       check_cut_sets(task);
-      check_fault_tree(task);
     }
   }
 
@@ -246,40 +162,12 @@ class Check {
     demand(found.sets == expected, "other cut sets of '" + catalog_.tasks[task].name + "'");
   }
 
-  void check_fault_tree(std::size_t task) {
-    const auto made = make_fault_tree(compiled_, id_of_task(task), ruled_out_);
-    demand(std::holds_alternative<FaultTree>(made), "no fault tree");
-    const auto& tree = std::get<FaultTree>(made);
-    const WrittenTree written(open_psa_text(compiled_, tree));
-    if (!tree.gates.empty()) statistics_.count(tree.ways > 0 ? "with ways" : "without ways");
-    const std::size_t behaviors = catalog_.behaviors.size();
-    const bool is_small = behaviors <= 7;
-    const std::size_t sets = is_small ? std::size_t{1} << behaviors : 128;
-    for (std::size_t i = 0; i < sets; ++i) {
-      Set faulty = is_small ? i : random_.next();
-      if (!is_small && random_.percent(50)) faulty &= random_.next();
-      const bool lost = written.is_lost([&](const std::string& name) {
-        return (faulty & bit(behaviors_by_name_.at(name))) != 0;
-      });
-      demand(lost == is_impossible_without(faulty),
-             "the fault tree of '" + catalog_.tasks[task].name + "' is wrong");
-    }
-  }
-
-  static std::map<std::string, std::size_t> by_name(const Catalog& catalog) {
-    std::map<std::string, std::size_t> places;
-    for (std::size_t i = 0; i < catalog.behaviors.size(); ++i)
-      places[catalog.behaviors[i].name] = i;
-    return places;
-  }
-
   const LintOracle& oracle_;
   const CatalogFacts& facts_;
   const Catalog& catalog_;
   const CompiledCatalog& compiled_;
   Random& random_;
   Statistics& statistics_;
-  const std::map<std::string, std::size_t> behaviors_by_name_ = by_name(catalog_);
   Set out_ = 0;
   std::vector<bool> ruled_out_;  ///< by BehaviorId
   std::vector<Set> supports_;
@@ -323,8 +211,8 @@ void run_case(std::uint64_t seed, Results& results) {
 }
 
 const LowerBound lower_bounds[] = {
-    {"situation", 300},    {"cut set of 0", 300}, {"cut set of 1", 1000}, {"cut set of 2", 300},
-    {"cut set of 3", 100}, {"with ways", 300},    {"without ways", 1000}, {"cut set of 4", 20},
+    {"situation", 300},    {"cut set of 0", 300}, {"cut set of 1", 1000},
+    {"cut set of 2", 300}, {"cut set of 3", 100}, {"cut set of 4", 20},
 };
 
 TEST(CutSets, AreThoseOfEnumeration) { run_random_cases(default_cases, run_case, lower_bounds); }

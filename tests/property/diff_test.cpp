@@ -18,6 +18,7 @@
 #include "graph/engine/catalog_diff.h"
 #include "graph/engine/catalog_graph.h"
 #include "random.h"
+#include "support/rounds.h"
 #include "yaml_text.h"
 
 namespace cbc::oracle::diff_test {
@@ -198,7 +199,7 @@ Catalog changed(Catalog catalog, Random& random) {
 
 TEST(Diff, IsThatOfPlainSets) {
   const std::uint64_t first = environment("CBC_SEED", 1);
-  const std::uint64_t cases = environment("CBC_PROPERTY_CASES", default_diffs);
+  const std::uint64_t cases = environment("CBC_PROPERTY_CASES", test::rounds(default_diffs));
   std::size_t changes = 0;
   for (std::uint64_t seed = first; seed < first + cases; ++seed) {
     Random random(seed);

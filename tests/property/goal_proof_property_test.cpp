@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "compiled_text.h"
+#include "coverage/engine/goal_monitor.h"
 #include "coverage/engine/goal_proof.h"
-#include "coverage/engine/goal_watch.h"
 #include "coverage/engine/goals.h"
 #include "demand.h"
 #include "plain_model.h"
@@ -82,7 +82,7 @@ std::vector<Microseconds> times_of(const PlainModel& model, const std::vector<Mo
 
 class Watched final : public EventListener {
  public:
-  explicit Watched(GoalWatch& watch) : watch_(watch) {}
+  explicit Watched(GoalMonitor& watch) : watch_(watch) {}
   void on_decision(const EventRecord& record, const Circumstances& circumstances,
                    const Assignment* solution) override {
     watch_.on_decision(record, circumstances, solution);
@@ -94,10 +94,10 @@ class Watched final : public EventListener {
   const Coordinator* coordinator = nullptr;
 
  private:
-  GoalWatch& watch_;
+  GoalMonitor& watch_;
 };
 
-void run_path(const PlainModel& model, const std::vector<Move>& path, GoalWatch& watch) {
+void run_path(const PlainModel& model, const std::vector<Move>& path, GoalMonitor& watch) {
   const CompiledCatalog& catalog = model.catalog();
   const std::vector<Microseconds> times = times_of(model, path);
   std::vector<Availability> own;
@@ -118,7 +118,7 @@ void run_path(const PlainModel& model, const std::vector<Move>& path, GoalWatch&
 }
 
 /// Runs the path of each move from each state of a group. False: these are too many.
-bool run_group(const PlainModel& model, GoalWatch& watch) {
+bool run_group(const PlainModel& model, GoalMonitor& watch) {
   std::map<std::string, std::vector<Move>> paths;
   std::vector<std::pair<Snapshot, std::vector<Move>>> states;
   const auto add = [&](const Snapshot& state, const std::vector<Move>& path) {
@@ -149,7 +149,7 @@ void compare(const VerifyCase& sample, oracle::Statistics& statistics) {
   const CompiledCatalog& catalog = sample.catalog;
   const Assumptions& assumptions = sample.question.assumptions;
   const std::vector<Goal> goals = find_goals(catalog);
-  GoalWatch watch(catalog, goals, {});
+  GoalMonitor watch(catalog, goals, {});
   for (std::uint32_t group = 0; group < catalog.group_count(); ++group) {
     const PlainModel model(catalog, {group}, assumptions);
     if (model.is_excluded(model.first_state())) return statistics.count("excluded");

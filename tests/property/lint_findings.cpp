@@ -296,8 +296,8 @@ Findings lint_findings(const LintOracle& oracle, const std::string& yaml) {
   Diagnostics diagnostics;
   const auto document = yaml::parse(yaml, "catalog.yaml", diagnostics);
   demand(document != nullptr, "not YAML");
-  const LintResult result = lint_catalog(*document, {.checks_off_rules = true}, diagnostics);
-  demand(result.compiled.has_value(), "not understood");
+  const CheckedCatalog result = lint_catalog(*document, {.checks_off_rules = true}, diagnostics);
+  demand(result.compiled != nullptr, "not understood");
   FindingReader reader(oracle, document->root());
   for (const Diagnostic& finding : diagnostics.all()) {
     try {

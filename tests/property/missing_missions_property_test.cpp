@@ -17,10 +17,10 @@
 #include "core/diagnostic/diagnostic.h"
 #include "core/script/reader.h"
 #include "core/yaml/document.h"
+#include "coverage/engine/goal_monitor.h"
 #include "coverage/engine/goal_proof.h"
 #include "coverage/engine/goals.h"
 #include "coverage/engine/missing_missions.h"
-#include "coverage/engine/watched_run.h"
 #include "demand.h"
 #include "random_cases.h"
 #include "verify_case.h"
@@ -42,7 +42,7 @@ std::vector<std::uint8_t> run_text(const CompiledCatalog& catalog, const std::ve
   const auto script = read_script(*document, catalog, Severity::warning, diagnostics);
   demand(script.has_value(), "the script is refused: " + text);
   SilentRun silent;
-  WatchedResult watched = run_watched(catalog, goals, *script, {}, silent);
+  MonitoredResult watched = run_monitored(catalog, goals, *script, {}, silent);
   demand(watched.result.status == Coordinator::Status::ok, "it ends: " + text);
   demand(watched.result.failed == 0, "an expectation fails: " + text);
   return std::move(watched.met);
@@ -69,7 +69,7 @@ void check_stop(const VerifyCase& sample, const std::vector<Goal>& goals,
     constexpr std::uint64_t soon = 200;
     demand(asked <= most + soon, "it goes on for long");
     static constexpr std::array<const char*, 3> phases = {
-        "stopped in the exploration", "stopped in the planning", "stopped in the rehearsal"};
+        "stopped in the exploration", "stopped in the planning", "stopped in the simulation"};
     statistics.count(phases.at(static_cast<std::size_t>(found.reached)));
   }
 }
@@ -79,10 +79,10 @@ void check(const VerifyCase& sample, oracle::Statistics& statistics) {
   const Assumptions& assumptions = sample.question.assumptions;
   const std::vector<Goal> goals = find_goals(catalog);
   GoalProofOptions of_proof;
-  of_proof.walk.max_states = most_states;
+  of_proof.search.max_states = most_states;
   const GoalProof proof = prove_unreachable(catalog, goals, assumptions, of_proof);
   if (proof.error) return statistics.count("excluded");
-  for (const GroupWalkResult& group : proof.groups) {
+  for (const GoalSearchResult& group : proof.groups) {
     if (!group.is_complete) return statistics.count("too many states");
   }
   std::vector<std::uint8_t> met(goals.size(), 0);

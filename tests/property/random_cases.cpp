@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "environment.h"
+#include "support/rounds.h"
 
 namespace cbc::oracle {
 namespace {
@@ -48,7 +49,7 @@ Results run_all(std::uint64_t first_seed, std::uint64_t cases, RunCase run_case)
 void run_random_cases(std::uint64_t default_cases, RunCase run_case,
                       std::span<const LowerBound> lower_bounds) {
   const std::uint64_t seed = environment("CBC_SEED", default_seed);
-  const std::uint64_t cases = environment("CBC_PROPERTY_CASES", default_cases);
+  const std::uint64_t cases = environment("CBC_PROPERTY_CASES", test::rounds(default_cases));
   std::cout << "CBC_SEED=" << seed << " CBC_PROPERTY_CASES=" << cases << std::endl;
 
   const Results results = run_all(seed, cases, run_case);

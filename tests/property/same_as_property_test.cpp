@@ -76,7 +76,7 @@ PairCase generate_pair(std::uint64_t seed) {
 }
 
 CatalogComparison compare_with(const PairCase& pair, unsigned jobs) {
-  VerificationOptions options;
+  ExplorationOptions options;
   options.jobs = jobs;
   return compare_catalogs(pair.old_catalog, pair.sample.catalog, pair.assumptions, options);
 }
@@ -188,7 +188,7 @@ TEST(SameAs, ACatalogDecidesAsItself) {
     if (path.extension() != ".yaml" || path.stem().has_extension()) continue;
     SCOPED_TRACE(path.filename().string());
     const CompiledCatalog catalog = oracle::compile_yaml(test::read_file(path)).value();
-    VerificationOptions options;
+    ExplorationOptions options;
     options.limits.max_states = 4'000;
     const CatalogComparison result =
         compare_catalogs(catalog, catalog, common_assumptions(catalog, catalog), options);

@@ -301,8 +301,8 @@ void run_case(std::uint64_t seed, Results& results) {
     Diagnostics diagnostics;
     const auto document = yaml::parse(yaml, "catalog.yaml", diagnostics);
     demand(document != nullptr, "no YAML");
-    const LintResult linted = lint_catalog(*document, {}, diagnostics);
-    demand(linted.compiled.has_value(), "not understood");
+    const CheckedCatalog linted = lint_catalog(*document, {}, diagnostics);
+    demand(linted.compiled != nullptr, "not understood");
     const Check check(model, *linted.compiled, results.statistics);
     check.check_table(make_together_table(*linted.compiled, {}));
     check.check_findings(diagnostics.all());

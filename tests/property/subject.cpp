@@ -8,7 +8,7 @@
 #include "core/compile/compile.h"
 #include "core/report/answer_bound.h"
 #include "core/report/event_json.h"
-#include "core/report/sentences.h"
+#include "core/report/suitability.h"
 #include "core/script/reader.h"
 #include "core/script/runner.h"
 #include "core/yaml/document.h"

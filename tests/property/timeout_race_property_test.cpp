@@ -13,9 +13,9 @@
 #include "core/diagnostic/diagnostic.h"
 #include "core/script/reader.h"
 #include "core/yaml/document.h"
+#include "coverage/engine/goal_monitor.h"
 #include "coverage/engine/goal_proof.h"
 #include "coverage/engine/goals.h"
-#include "coverage/engine/watched_run.h"
 #include "demand.h"
 #include "random.h"
 #include "random_cases.h"
@@ -101,7 +101,7 @@ void check(Random& random, std::string& shown, oracle::Statistics& statistics) {
     const auto script = read_script(*document, catalog, Severity::note, diagnostics);
     demand(script.has_value(), "the script is refused");
     SilentRun silent;
-    const WatchedResult watched = run_watched(catalog, goals, *script, {}, silent);
+    const MonitoredResult watched = run_monitored(catalog, goals, *script, {}, silent);
     for (std::size_t goal = 0; goal < goals.size(); ++goal) {
       if (watched.met[goal] == 0) continue;
       met[goal] = 1;

@@ -19,7 +19,7 @@
 #include "random.h"
 #include "random_cases.h"
 #include "script_run.h"
-#include "verify/engine/verification.h"
+#include "verify/engine/explore.h"
 #include "verify/engine/witness.h"
 #include "verify_case.h"
 #include "yaml_text.h"
@@ -123,7 +123,7 @@ void run_property_case(std::uint64_t seed, oracle::Results& results) {
     file.path = "landing \"x\".yaml";
     file.assumptions = sample.question.assumptions;
     file.properties = sample.question.properties;
-    VerificationOptions options;
+    ExplorationOptions options;
     options.limits.max_states = most_states;
     const Verification verification = verify_properties(sample.catalog, file, options);
     for (const Answer& answer : verification.answers) {

@@ -98,7 +98,7 @@ class Runs {
   }
 
   *sweep(catalog) {
-    const sweep = ['solve', catalog, '--sweep', '5', '--events', '20', '--format', 'json'];
+    const sweep = ['sweep', catalog, '--sequences', '5', '--events', '20', '--format', 'json'];
     yield* this.labelled(...sweep);
     yield* this.labelled(...sweep, '--stats', '--tie-seed', '3', '--max-nodes', '1');
     const shards = [];
@@ -109,7 +109,7 @@ class Runs {
       shards.push(file);
       yield text;
     }
-    yield* this.labelled('solve', '--merge', ...shards, '--format', 'json');
+    yield* this.labelled('sweep', '--merge', ...shards, '--format', 'json');
     // A share without any sequence has nothing that could be slowest.
     yield* this.labelled(...sweep, '--shard', '7/7');
   }
@@ -133,7 +133,7 @@ const swept = new Set([
 
 /** What the program makes of a catalog, and of the scripts that belong to it. */
 function* textsOfCatalog(runs, file) {
-  const [dump] = runs.labelled('compile', '--dump', '--format', 'json', file);
+  const [dump] = runs.labelled('compile', '--dump', file);
   if (dump === undefined) return; // it has errors
   yield dump;
   const folder = path.dirname(file);

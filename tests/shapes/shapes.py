@@ -168,12 +168,13 @@ def commands(catalog, missions, folder):
     return [["lint", catalog], ["lint", catalog, "--summary", "--format", "json"],
             ["compile", catalog, "-o", f"{folder}/out.cbc"],
             solve, [*solve, "--why", "T0"], [*solve, "--alternatives", "5"], [*solve, "--html", f"{folder}/out.html"],
-            [*solve, "--coverage"], ["solve", "--sweep", "1", catalog],
+            ["coverage", catalog, missions], ["sweep", "--sequences", "1", catalog],
             graph, [*graph, "--view", "tasks", "--reduce"], [*graph, "--view", "constraints", "--exclusivity", "pairs"],
             [*graph, "--view", "behaviors"], ["graph", catalog, "--view", "situation"],
             ["graph", catalog, "--view", "together"], ["graph", "--diff", catalog, catalog, "--format", "text"],
             [*verify, "--max-states", "200"], [*verify, "--cut-sets", "T0", "--order", "2"],
-            [*verify, "--mutants", "--beside", missions], [*verify, "--write-tests", f"{folder}/tests"]]
+            ["coverage", catalog, missions, "--mutants", *limit],
+            ["coverage", catalog, "--write-missing", f"{folder}/tests", *limit]]
 
 
 @dataclasses.dataclass

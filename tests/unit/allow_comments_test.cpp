@@ -68,94 +68,15 @@ std::string allowed_lines(std::string_view text, std::uint32_t last) {
 
 constexpr std::string_view unneeded = "no finding of rule 'dead-task' needs this comment\n";
 
-TEST(AllowComments, WithoutCommentsAllFindingsStayInOrder) {
-  EXPECT_EQ(control("a: 1\nb: 2\n", {{2}, {1, rule::unknown_key}, {1}}),
-            "1:1-2 warning dead-task: found\n"
-            "1:1-2 warning unknown-key: found\n"
-            "2:1-2 warning dead-task: found\n");
-  EXPECT_EQ(control(""), "");
-}
-
-TEST(AllowComments, AtTheEndOfALineItIsAboutThisLine) {
-  EXPECT_EQ(allowed_lines("a: 1\nb: 2  # cbc: allow dead-task\nc:\n  d: 3\n", 4), "2 ");
-  // Not about the rest of the entry.
-  EXPECT_EQ(allowed_lines("a:  # cbc: allow dead-task\n  b: 1\n", 2), "1 ");
-  EXPECT_EQ(allowed_lines("- a: 1  # cbc: allow dead-task\n  b: 1\n", 2), "1 ");
-  EXPECT_EQ(allowed_lines("a: 1\t# cbc: allow dead-task\n", 1), "1 ");
-}
-
 TEST(AllowComments, OnlyTheNamedRulesAreAllowed) {
   EXPECT_EQ(control("a: 1  # cbc: allow dead-task, dead-behavior\n",
                     {{1}, {1, rule::dead_behavior}, {1, rule::unknown_key}}),
             "1:1-2 warning unknown-key: found\n");
 }
 
-TEST(AllowComments, AloneItIsAboutTheEntryThatFollows) {
-  const std::string_view text =
-      "behaviors:\n"                // 1
-      "# cbc: allow dead-task\n"    // 2
-      "- behavior: A\n"             // 3
-      "  requires:\n"               // 4
-      "  - task: B\n"               // 5
-      "    minimum: 3\n"            // 6
-      "- behavior: B\n"             // 7
-      "  # cbc: allow dead-task\n"  // 8
-      "  requires:\n"               // 9
-      "  - task: C\n"               // 10
-      "    minimum: 3\n"            // 11
-      "  task: D\n"                 // 12
-      "tasks:\n";                   // 13
-  EXPECT_EQ(allowed_lines(text, 13), "2 3 4 5 6 8 9 10 11 ");
-}
-
-TEST(AllowComments, AKeyHasTheItemsAtItsOwnIndentation) {
-  EXPECT_EQ(allowed_lines("a: 1\n# cbc: allow dead-task\ntasks:\n- task: A\n  b: 1\n- task: B\n"
-                          "c: 2\n",
-                          7),
-            "2 3 4 5 6 ");
-  EXPECT_EQ(allowed_lines("a: 1\n# cbc: allow dead-task\ntasks:\n  - task: A\n    b: 1\n"
-                          "  - task: B\nc: 2\n",
-                          7),
-            "2 3 4 5 6 ");
-  // A dash without a blank begins a value.
+TEST(AllowComments, ADashBeginsAnItemIfABlankOrTheEndOfTheLineFollows) {
   EXPECT_EQ(allowed_lines("# cbc: allow dead-task\na: 1\n-b: 1\n", 3), "1 2 ");
-  // A dash at the end of a line begins an item.
   EXPECT_EQ(allowed_lines("# cbc: allow dead-task\na:\n-\n  b\n-\nc:\n", 6), "1 2 3 4 5 ");
-}
-
-TEST(AllowComments, InAnIndentedListItIsAboutOneItem) {
-  const std::string_view text =
-      "tasks:\n"                      // 1
-      "  - task: A\n"                 // 2
-      "    # cbc: allow dead-task\n"  // 3
-      "    timeout: 1\n"              // 4
-      "    minimum: 2\n"              // 5
-      "  # cbc: allow dead-task\n"    // 6
-      "  - task: B\n"                 // 7
-      "    timeout: 1\n"              // 8
-      "  - task: C\n";                // 9
-  EXPECT_EQ(allowed_lines(text, 9), "3 4 6 7 8 ");
-}
-
-TEST(AllowComments, BlankLinesAndCommentsDoNotEndAnEntry) {
-  EXPECT_EQ(allowed_lines("# cbc: allow dead-task\n\n# other\n\na:\n\n# at the left\n  b: 1\n"
-                          "   \n  c: 2\nd: 3\n",
-                          11),
-            "1 2 3 4 5 6 7 8 9 10 ");
-}
-
-TEST(AllowComments, SeveralCommentsAreAboutOneEntry) {
-  EXPECT_EQ(
-      control("# cbc: allow dead-task\n# a word\n\n  # cbc: allow dead-behavior\na: 1\nb: 2\n",
-              {{5}, {5, rule::dead_behavior}, {6}, {6, rule::dead_behavior}}),
-      "6:1-2 warning dead-behavior: found\n"
-      "6:1-2 warning dead-task: found\n");
-}
-
-TEST(AllowComments, IndentationOfTheCommentDoesNotMatter) {
-  // It stands after the last key of A, but is about what follows.
-  EXPECT_EQ(allowed_lines("- task: A\n  # cbc: allow dead-task\n- task: B\n  b: 1\n- task: C\n", 5),
-            "2 3 4 ");
 }
 
 TEST(AllowComments, AtTheEndOfTheFileNothingFollows) {
@@ -166,12 +87,6 @@ TEST(AllowComments, AtTheEndOfTheFileNothingFollows) {
   EXPECT_EQ(control("# cbc: allow dead-task\n\n# end\n"),
             "1:14-23 warning unused-allow: " + std::string(unneeded));
   EXPECT_EQ(control("a: 1 # cbc: allow dead-task", {{1}}), "");
-}
-
-TEST(AllowComments, TheBeginningOfADocumentIsNoEntry) {
-  EXPECT_EQ(allowed_lines("# cbc: allow dead-task\n--- # begins\na:\n  b: 1\nc: 1\n", 5),
-            "1 2 3 4 ");
-  EXPECT_EQ(allowed_lines("# cbc: allow dead-task\n---\na: 1\n", 3), "1 2 3 ");
 }
 
 TEST(AllowComments, UnderstandsOtherSpellings) {
@@ -227,13 +142,6 @@ TEST(AllowComments, ReportsUnknownRulesWithTheNearest) {
   EXPECT_EQ(control("a: 1 # cbc: allow dead-task because, as I said\n", {{1}}),
             "1:29-36 warning unknown-rule: expected ',' and another rule, or '-- ' and a reason, "
             "found 'because'\n");
-}
-
-TEST(AllowComments, ReportsAllowsThatNothingNeeds) {
-  EXPECT_EQ(control("a: 1 # cbc: allow dead-task, dead-behavior\nb: 2\n",
-                    {{1, rule::dead_behavior}, {2}}),
-            "1:19-28 warning unused-allow: " + std::string(unneeded) +
-                "2:1-2 warning dead-task: found\n");
 }
 
 TEST(AllowComments, OfSeveralTheInnermostIsUsed) {

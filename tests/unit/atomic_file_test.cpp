@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <csignal>
-#include <ctime>
 #include <fcntl.h>
 #include <filesystem>
 #include <set>
@@ -105,38 +103,6 @@ TEST(AtomicFile, InTheWorkingFolder) {
   EXPECT_EQ(write_atomically("a", "new"), std::nullopt);
   std::filesystem::current_path(before);
   EXPECT_EQ(folder.read("a"), "new");
-}
-
-TEST(AtomicFile, RemovesOldLeftoversAndNothingElse) {
-  const test::ScratchFolder folder;
-  const std::string leftover = ".cbc-0123456789abcdef.tmp";
-  const Names others{".cbc-0123456789abcde.tmp",
-                     ".cbc-0123456789abcdef.tm",
-                     ".cbc-0123456789abcdefa.tmp",
-                     ".cbc-0123456789ABCDEF.tmp",
-                     ".cbc-12-0",
-                     "cbc-0123456789abcdef.tmp",
-                     ".cbc.yaml",
-                     "a"};
-  for (const std::string& name : others) folder.write(name, "kept");
-  folder.write(leftover, "unfinished");
-  folder.write(".cbc-00000000000000aa.tmp", "still being written");
-  std::filesystem::create_directory(folder / ".cbc-00000000000000bb.tmp");
-  std::filesystem::create_symlink("a", folder / ".cbc-00000000000000cc.tmp");
-  const auto make_old = [&](const std::string& name) {
-    const timespec old{std::time(nullptr) - std::time_t{2} * 60 * 60, 0};
-    const std::array<timespec, 2> times{old, old};
-    ASSERT_EQ(utimensat(AT_FDCWD, (folder / name).c_str(), times.data(), AT_SYMLINK_NOFOLLOW), 0);
-  };
-  for (const std::string& name : others) make_old(name);
-  for (const char* const name :
-       {leftover.c_str(), ".cbc-00000000000000bb.tmp", ".cbc-00000000000000cc.tmp"}) {
-    make_old(name);
-  }
-  Names expected = folder.names();
-  expected.erase(leftover);
-  remove_leftovers(folder / "output");
-  EXPECT_EQ(folder.names(), expected);
 }
 
 TEST(AtomicFile, SaysWhyItCannot) {

@@ -7,7 +7,7 @@
 
 #include "core/report/run_text.h"
 #include "core/script/runner.h"
-#include "core/support/memory_file.h"
+#include "core/support/system.h"
 #include "runtime/coordinator/explainer.h"
 #include "unit/compiled_fixture.h"
 

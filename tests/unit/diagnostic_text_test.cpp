@@ -16,34 +16,6 @@ std::string render_at(std::string_view text, const Range& range,
   return render({rule::wrong_type, Severity::error, "a.yaml", range, "bad", {}}, sources, style);
 }
 
-TEST(DiagnosticText, ShowsTheLineAndACaret) {
-  EXPECT_EQ(render_at("first\n  key: value\nlast\n", {{2, 8}, {2, 13}}),
-            "a.yaml:2:8: error: bad [wrong-type]\n"
-            "    key: value\n"
-            "         ^~~~~\n");
-}
-
-TEST(DiagnosticText, ShowsNotesAfterTheFinding) {
-  SourceTexts sources;
-  sources.add("a.yaml", "one\ntwo\n");
-  sources.add("b.yaml", "three");
-  const Diagnostic diagnostic{
-      rule::duplicate_task,
-      Severity::warning,
-      "a.yaml",
-      {{2, 1}, {2, 4}},
-      "again",
-      {{"b.yaml", {{1, 2}, {1, 4}}, "first here"}, {"c.yaml", {{7, 8}, {7, 9}}, "and there"}}};
-  EXPECT_EQ(render(diagnostic, sources, plain_style()),
-            "a.yaml:2:1: warning: again [duplicate-task]\n"
-            "  two\n"
-            "  ^~~\n"
-            "b.yaml:1:2: note: first here\n"
-            "  three\n"
-            "   ^~\n"
-            "c.yaml:7:8: note: and there\n");
-}
-
 TEST(DiagnosticText, KeepsTabsSoThatTheCaretLinesUp) {
   EXPECT_EQ(render_at("\ta:\tb", {{1, 5}, {1, 6}}),
             "a.yaml:1:5: error: bad [wrong-type]\n"

@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/compile/compile.h"
-#include "core/report/sentences.h"
+#include "core/report/catalog_words.h"
+#include "core/report/suitability.h"
 #include "unit/compiled_fixture.h"
 
 namespace cbc::exact_values_test {

@@ -35,16 +35,6 @@ TEST(Graph, LongPathsInAnyOrderAreOneComponent) {
   }
 }
 
-TEST(Graph, EdgesAreTransitiveIfAnotherPathLeadsToTheirTarget) {
-  using Answer = std::vector<bool>;
-  EXPECT_EQ(transitive_edges(3, {{0, 1}, {0, 2}, {1, 2}}), (Answer{false, true, false}));
-  EXPECT_EQ(transitive_edges(4, {{0, 3}, {0, 1}, {1, 2}, {2, 3}}),
-            (Answer{true, false, false, false}));
-  EXPECT_EQ(transitive_edges(4, {{0, 1}, {0, 2}, {1, 3}, {2, 3}}),
-            (Answer{false, false, false, false}));
-  EXPECT_EQ(transitive_edges(2, {}), Answer{});
-}
-
 TEST(Graph, EdgesWithinCyclesAreNotTransitive) {
   using Answer = std::vector<bool>;
   // 0, 1 and 2 require one another; that 0 leads to 3 follows from the path by 4.

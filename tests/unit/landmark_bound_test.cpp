@@ -13,8 +13,7 @@
 #include "core/compile/compile.h"
 #include "runtime/solver/cost_bound.h"
 #include "runtime/solver/domains.h"
-#include "runtime/solver/reason_trail.h"
-#include "runtime/solver/search_budget.h"
+#include "runtime/solver/propagation.h"
 #include "support/rounds.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
@@ -39,7 +38,7 @@ class Branch {
 
   [[nodiscard]] bool is_consistent() const { return is_consistent_; }
   [[nodiscard]] const Domains& domains() const { return domains_; }
-  [[nodiscard]] const ReasonTrail& trail() const { return trail_; }
+  [[nodiscard]] const CatalogTrail& trail() const { return trail_; }
 
   /// Decides for a value of a needed task, or for a request. False if nothing is left to decide, or
   /// what is left has no solution.
@@ -52,7 +51,7 @@ class Branch {
       }
     }
     for (const std::uint32_t task : trail_.requests()) {
-      const Literal runs = ReasonTrail::runs(task);
+      const Literal runs = Trail::runs(task);
       if (!trail_.is_true(runs) && !trail_.is_false(runs)) choices.push_back(runs);
     }
     if (choices.empty()) return false;
@@ -85,7 +84,7 @@ class Branch {
   }
   [[nodiscard]] bool holds(const Assignment& assignment, Literal literal) const {
     for (std::uint32_t task = 0; task < assignment.size(); ++task) {
-      if (literal == ReasonTrail::runs(task)) return assignment[task] != none;
+      if (literal == Trail::runs(task)) return assignment[task] != none;
       for (std::uint32_t index = 0; index < domains_.values(task).size(); ++index) {
         if (literal == trail_.has_value(task, index)) return assignment[task] == index;
         if (literal == negate(trail_.has_value(task, index))) return assignment[task] != index;
@@ -178,7 +177,7 @@ class Branch {
 
   const CompiledCatalog& catalog_;
   Domains domains_;
-  ReasonTrail trail_;
+  CatalogTrail trail_;
   bool is_consistent_ = false;
   std::vector<std::vector<std::uint32_t>> root_;  ///< by task: its domain at level 0
 };

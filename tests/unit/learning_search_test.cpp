@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "runtime/solver/checker.h"
-#include "runtime/solver/nogoods.h"
 #include "runtime/solver/solver.h"
+#include "runtime/solver/trail.h"
 #include "support/rounds.h"
 #include "unit/compiled_fixture.h"
 #include "unit/random_problems.h"
@@ -209,32 +209,13 @@ TEST(Nogoods, ForgetThoseUsedLeast) {
   EXPECT_EQ(nogoods.literals(2)[0], 1U) << "few levels";
   const auto count_implied_by = [&nogoods](Literal literal) {
     std::size_t count = 0;
-    static_cast<void>(nogoods.follow(
-        literal, [](Literal) { return -1; }, [&](Literal, std::uint32_t) { return ++count > 0; }));
+    const std::vector<std::int8_t> all_false(16, -1);
+    static_cast<void>(
+        nogoods.follow(literal, all_false, [&](Literal, std::uint32_t) { return ++count > 0; }));
     return count;
   };
   EXPECT_EQ(count_implied_by(negate(0)), 0U);
   EXPECT_EQ(count_implied_by(negate(6)), 2U);
-}
-
-/// Also where the numbers would become too large: 1.001 to the power of 400,000 is about 10 to that
-/// of 174.
-TEST(Nogoods, CountLaterUsesMore) {
-  Nogoods nogoods;
-  nogoods.clear(8);
-  for (Literal literal = 0; literal < 8; literal += 2) {
-    const std::array<Literal, 3> clause{literal, literal + 2, literal + 4};
-    static_cast<void>(nogoods.add(clause, 3));
-  }
-  for (int conflict = 0; conflict < 400'000; ++conflict) {
-    nogoods.note_use(conflict % 3 == 0 ? 1 : 2);
-    nogoods.age();
-  }
-  nogoods.note_use(0);
-  nogoods.forget_half();
-  ASSERT_EQ(nogoods.size(), 2U);
-  EXPECT_EQ(nogoods.literals(0)[0], 2U) << "one late use is less than many";
-  EXPECT_EQ(nogoods.literals(1)[0], 4U);
 }
 
 }  // namespace

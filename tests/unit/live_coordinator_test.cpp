@@ -1,6 +1,5 @@
 #include "cbc/live_coordinator.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -129,54 +128,6 @@ TEST_F(LiveCoordinatorTest, TellsWhatChangesInOrder) {
   EXPECT_EQ(coordinator.behavior_of(UINT32_MAX), std::nullopt);
 }
 
-TEST_F(LiveCoordinatorTest, OneCallMayBringAboutSeveralEvents) {
-  EXPECT_EQ(coordinator.handle(0, start(moving)), LiveStatus::ok);
-  Event fault;
-  fault.verb = Verb::fault;
-  fault.subject = gps;
-  EXPECT_EQ(coordinator.handle(6 * second, fault), LiveStatus::ok);
-  EXPECT_EQ(happened(),
-            "5000000 timeout finish move time_out accepted -gps(LOCALIZE ) released,"
-            "; MOVE time_out; LOCALIZE interrupted\n"
-            "5080000 reactive start HOVER 0 accepted +gps(LOCALIZE ) required, "
-            "+hover(HOVER ) reactive 0,\n"
-            "6000000 script fault gps unchanged\n");
-  EXPECT_EQ(coordinator.handle(6 * second, start(blinking)), LiveStatus::ok);
-  EXPECT_EQ(happened(), "6000000 script start BLINK 1 accepted +lamp(BLINK ) requested 1,\n");
-}
-
-TEST_F(LiveCoordinatorTest, AFailedActivationIsTold) {
-  Event fault;
-  fault.verb = Verb::fault;
-  fault.subject = gps;
-  EXPECT_EQ(coordinator.handle(0, fault), LiveStatus::ok);
-  EXPECT_EQ(coordinator.handle(0, start(moving)), LiveStatus::ok);
-  EXPECT_EQ(happened(),
-            "0 script start MOVE 1 accepted +gps(LOCALIZE ) required failed, "
-            "+camera(LOCALIZE ) required, +move(MOVE ) requested 1,\n");
-}
-
-TEST_F(LiveCoordinatorTest, AnEventComesBeforeWhatIsDueAtItsInstant) {
-  EXPECT_EQ(coordinator.handle(80'000, start(moving)), LiveStatus::ok);
-  EXPECT_EQ(coordinator.events().size(), 1U);
-  EXPECT_EQ(running(catalog, coordinator), "MOVE=move LOCALIZE=gps ");
-}
-
-TEST_F(LiveCoordinatorTest, TheClockGoesThroughWhatIsDueAtTheInstantItIsMovedTo) {
-  EXPECT_EQ(coordinator.advance_to(79'999), LiveStatus::ok);
-  EXPECT_TRUE(coordinator.events().empty());
-  EXPECT_EQ(coordinator.advance_to(80'000), LiveStatus::ok);
-  EXPECT_EQ(running(catalog, coordinator), "HOVER=hover LOCALIZE=gps ");
-  EXPECT_EQ(coordinator.next_due(), std::nullopt);
-}
-
-TEST_F(LiveCoordinatorTest, RejectedEventsChangeNothing) {
-  ASSERT_EQ(coordinator.handle(0, start(moving, 3)), LiveStatus::ok);
-  EXPECT_EQ(coordinator.handle(1, start(hovering, 2)), LiveStatus::ok);
-  EXPECT_EQ(happened(), "1 script start HOVER 2 rejected\n");
-  EXPECT_EQ(running(catalog, coordinator), "MOVE=move LOCALIZE=gps ");
-}
-
 TEST_F(LiveCoordinatorTest, ParametersAreNotReferredToAfterTheCall) {
   std::string parameters(100, 'p');
   Event event = start(moving);
@@ -213,13 +164,6 @@ TEST_F(LiveCoordinatorTest, TimeIsRefusedThatGoesBackOrTooFar) {
   EXPECT_EQ(coordinator.advance_to(longest_time), LiveStatus::ok);
   EXPECT_EQ(coordinator.handle(longest_time, start(moving)), LiveStatus::ok);
   EXPECT_EQ(coordinator.next_due(), longest_time + 5 * second) << "it never comes";
-}
-
-TEST_F(LiveCoordinatorTest, ARefusedEventDoesNotMoveTheClock) {
-  EXPECT_EQ(coordinator.handle(second, start(4)), LiveStatus::unknown_task);
-  EXPECT_EQ(coordinator.now(), 0);
-  EXPECT_TRUE(coordinator.events().empty());
-  EXPECT_EQ(running(catalog, coordinator), "");
 }
 
 TEST_F(LiveCoordinatorTest, SubjectsAreRefusedThatTheCatalogDoesNotHave) {

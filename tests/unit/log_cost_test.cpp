@@ -42,10 +42,6 @@ TEST(LogCost, IsTheLogarithmOfEveryDegreeUpToItsErrorAndFalls) {
   EXPECT_LE(largest_error, log_cost_error);
 }
 
-TEST(LogCost, NinetyTimesEightyPercentCostsWhatSeventyTwoDoes) {
-  EXPECT_EQ(log_cost(900'000) + log_cost(800'000), log_cost(720'000));
-}
-
 /// Splits the prime factors of the numerators (and as many tens as the denominators hold) anew.
 std::vector<Millionths> factor_anew(const std::vector<Millionths>& degrees,
                                     oracle::Random& random) {

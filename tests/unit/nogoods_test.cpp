@@ -1,5 +1,3 @@
-#include "runtime/solver/nogoods.h"
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -7,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "runtime/solver/literal.h"
+#include "runtime/solver/trail.h"
 
 namespace cbc::nogoods_test {
 namespace {

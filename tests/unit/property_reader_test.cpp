@@ -327,26 +327,6 @@ TEST(Properties, HaveOneKind) {
             "'LAND'\n");
 }
 
-TEST(Properties, HaveDetailsOfTheirKind) {
-  EXPECT_EQ(
-      findings_of_property("{can_start: LAND, when: {running: [TALK]}, settled: true}"),
-      "3:21-25 error unknown-key: 'when' does not belong to 'can_start', only to 'always'\n"
-      "3:46-53 error unknown-key: 'settled' does not belong to 'can_start', only to 'always', "
-      "'never' and 'reachable'\n");
-  EXPECT_EQ(
-      findings_of_property("{never: {running: [LAND]}, priority: 2, when: {running: [LAND]}}"),
-      "3:30-38 error unknown-key: 'priority' does not belong to 'never', only to "
-      "'can_start'\n"
-      "3:43-47 error unknown-key: 'when' does not belong to 'never', only to 'always'\n");
-  EXPECT_EQ(
-      findings_of_property("{can_start: LND, priority: 0}"),
-      "3:15-18 error undefined-task: there is no task 'LND'; did you mean 'LAND'?\n"
-      "3:30-31 error invalid-value: 'priority' must be an integer from 1 to 2147483647, found "
-      "'0'\n");
-  EXPECT_EQ(findings_of_property("{always: {running: [LAND]}, settled: 1}"),
-            "3:40-41 error wrong-type: 'settled' must be true or false, found '1'\n");
-}
-
 TEST(Properties, HaveConditionsThatSaySomething) {
   constexpr const char* message =
       "error missing-key: 'never' needs a condition: one of 'running', 'stopped', 'active', "

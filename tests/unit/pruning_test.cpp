@@ -11,7 +11,7 @@
 #include "runtime/solver/components.h"
 #include "runtime/solver/cost_bound.h"
 #include "runtime/solver/objective.h"
-#include "runtime/solver/propagator.h"
+#include "runtime/solver/propagation.h"
 #include "support/rounds.h"
 #include "unit/brute_force.h"
 #include "unit/compiled_fixture.h"
@@ -66,22 +66,11 @@ class Subtree {
     EXPECT_TRUE(propagator.propagate());
   }
 
-  /// Enters the component of the task: its tasks, or "no split".
-  std::string enter(std::string_view task) {
-    return components.enter_component_of(local(task)) ? component() : "no split";
-  }
-  [[nodiscard]] std::string component() const {
-    std::string text;
-    for (std::uint32_t task = 0; task < domains.task_count(); ++task) {
-      if (!components.contains(task, components.depth())) continue;
-      text += std::string(catalog.name_of_task(task));
-    }
-    return text;
-  }
+  /// Enters the component of the task, if it is not all of the present one.
+  bool enter(std::string_view task) { return components.enter_component_of(local(task)); }
 
-  Cost bound(const Cost& threshold = unbounded,
-             CostBound::Roots roots = CostBound::Roots::in_component) {
-    return cost_bound.bound(threshold, roots);
+  Cost bound(const Cost& threshold = unbounded) {
+    return cost_bound.bound(threshold, CostBound::Roots::in_component);
   }
 
   CompiledCatalog catalog;
@@ -114,32 +103,6 @@ class Subtree {
 
 // Propagation ----------------------------------------------------------------------------------
 
-TEST(Propagation, NeedsWhatAllBehaviorsLeftRequire) {
-  Subtree subtree(R"(
-behaviors:
-- {behavior: a1, task: A, requires: [{task: B}, {task: C}]}
-- {behavior: a2, task: A, requires: [{task: C}]}
-- {behavior: b, task: B}
-- {behavior: c, task: C}
-)");
-  EXPECT_EQ(subtree.need({"A"}), "A:a1,a2 B?:b C:c");
-  subtree.leave_out("A", "a2");
-  EXPECT_EQ(subtree.need({"A"}), "A:a1 B:b C:c");
-}
-
-TEST(Propagation, RemovesABehaviorWhoseRequirementCannotRun) {
-  Subtree subtree(R"(
-behaviors:
-- {behavior: a1, task: A, requires: [{task: B}]}
-- {behavior: a2, task: A}
-- {behavior: b, task: B, requires: [{task: C}]}
-- {behavior: c, task: C}
-)");
-  subtree.leave_out("C", "c");
-  EXPECT_EQ(subtree.need({}), "A?:a2 B?: C?:");
-  EXPECT_EQ(subtree.need({"B"}), "inconsistent");
-}
-
 TEST(Propagation, ReachesEveryWordOfALargeDomain) {
   std::string text = "behaviors:\n- {behavior: a0, task: A}\n- {behavior: b, task: B}\n";
   for (int i = 1; i < 150; ++i) {
@@ -152,25 +115,6 @@ TEST(Propagation, ReachesEveryWordOfALargeDomain) {
   Subtree closed(text);
   closed.leave_out("B", "b");
   EXPECT_EQ(closed.need({}), "A?:a0 B?:");
-}
-
-TEST(Propagation, HoldsAMinimumAgainstTheBestThatIsLeft) {
-  Subtree subtree(R"(
-behaviors:
-- {behavior: a1, task: A, requires: [{task: B, minimum_performance: 81}]}
-- {behavior: a2, task: A, suitability: 10}
-- {behavior: b, task: B, suitability: 90, requires: [{task: C}]}
-- {behavior: c1, task: C, suitability: 95}
-- {behavior: c2, task: C, suitability: 90}
-- {behavior: c3, task: C, suitability: 89}
-)");
-  EXPECT_EQ(subtree.need({"A"}), "A:a1,a2 B?:b C?:c1,c2,c3");
-  subtree.leave_out("A", "a2");
-  EXPECT_EQ(subtree.need({"A"}), "A:a1 B:b C:c1,c2") << "81 % exactly is enough";
-  subtree.leave_out("C", "c1");
-  EXPECT_EQ(subtree.need({"A"}), "A:a1 B:b C:c2");
-  subtree.leave_out("C", "c2");
-  EXPECT_EQ(subtree.need({"A"}), "inconsistent");
 }
 
 TEST(Propagation, IsExactWhereLogarithmsAreTooClose) {
@@ -202,52 +146,6 @@ behaviors:
 }
 
 // The comparison with the incumbent --------------------------------------------------------------
-
-/// Compares a subtree in which these tasks have to run with its solution in which each of them has
-/// the first of its behaviors.
-Objective::Comparison compare_with_first(Subtree& subtree, const std::vector<std::string>& tasks) {
-  EXPECT_NE(subtree.need(tasks), "inconsistent");
-  const Domains::Mark root = subtree.domains.mark();
-  for (const std::string& task : tasks) subtree.decide(task);
-  Incumbent incumbent;
-  subtree.objective.record(incumbent);
-  subtree.domains.undo_to(root);
-  return subtree.objective.compare(incumbent, 0);
-}
-
-TEST(Comparison, SharesAnActivationAmongTheTasksThatMayHaveTheBehavior) {
-  Subtree subtree(R"(
-default_values: {tasks: {start_on_request: false}}
-behaviors:
-- {behavior: a, task: A}
-- {behavior: b, task: B}
-- {behavior: c1, task: C}
-- {behavior: c2, task: C}
-- {behavior: ab, tasks: [{task: A}, {task: B}]}
-)");
-  const Objective::Comparison open = compare_with_first(subtree, {"A", "B", "C"});
-  EXPECT_TRUE(open.order < 0);
-  EXPECT_EQ(open.decider, Objective::Decider::changes) << "A and B need one activation";
-  subtree.leave_out("B", "ab");
-  const Objective::Comparison apart = compare_with_first(subtree, {"A", "B", "C"});
-  EXPECT_TRUE(apart.order == 0);
-  EXPECT_EQ(apart.decider, Objective::Decider::order) << "each task needs one of its own";
-}
-
-TEST(Comparison, CountsHalfAnActivationAsOne) {
-  Subtree subtree(R"(
-default_values: {tasks: {start_on_request: false}}
-behaviors:
-- {behavior: ab, tasks: [{task: A}, {task: B}]}
-- {behavior: a, task: A}
-- {behavior: b, task: B}
-- {behavior: c, task: C}
-- {behavior: bc, tasks: [{task: B}, {task: C}]}
-)");
-  const Objective::Comparison comparison = compare_with_first(subtree, {"A", "B", "C"});
-  EXPECT_TRUE(comparison.order == 0);
-  EXPECT_EQ(comparison.decider, Objective::Decider::order) << "three tasks need two behaviors";
-}
 
 /// Of subtrees that have the best solution.
 TEST(Comparison, NeverRulesOutTheBestSolution) {
@@ -282,57 +180,6 @@ TEST(Comparison, NeverRulesOutTheBestSolution) {
 
 // Components -----------------------------------------------------------------------------------
 
-// R requires B and C, which have a choice each; D and E stand below them.
-std::string two_branches(const std::string& more) {
-  return R"(
-default_values: {tasks: {start_on_request: false}}
-tasks: [{task: R}, {task: B}, {task: C}, {task: D}, {task: E}]
-behaviors:
-- {behavior: r, task: R, requires: [{task: B}, {task: C}]}
-- {behavior: b1, task: B, requires: [{task: D}]}
-- {behavior: b2, task: B, suitability: 80}
-- {behavior: c1, task: C, requires: [{task: E}]}
-- {behavior: c2, task: C, suitability: 80}
-- {behavior: d, task: D, suitability: 90}
-- {behavior: e, task: E, suitability: 90}
-)" + more;
-}
-
-TEST(Components, OpenBranchesUnderWhatIsFixedAreIndependent) {
-  Subtree subtree(two_branches(""), {"R"});
-  EXPECT_EQ(subtree.components.depth(), 0U);
-  EXPECT_EQ(subtree.component(), "RBCDE") << "at first there is one component";
-  EXPECT_EQ(subtree.enter("B"), "BD");
-  EXPECT_EQ(subtree.components.depth(), 1U);
-  EXPECT_EQ(subtree.enter("B"), "no split") << "it is one component";
-  subtree.components.leave();
-  EXPECT_EQ(subtree.component(), "RBCDE");
-  EXPECT_EQ(subtree.enter("C"), "CE");
-}
-
-TEST(Components, StayApartUnderFixedTasksAndTheirOwnMinimums) {
-  EXPECT_EQ(Subtree(two_branches("- {behavior: c3, task: C, requires: [{task: D}]}\n"), {"R", "D"})
-                .enter("B"),
-            "B");
-  EXPECT_EQ(Subtree(two_branches("- {behavior: b3, task: B, suitability: 85, requires: "
-                                 "[{task: D, minimum_performance: 50}]}\n"),
-                    {"R"})
-                .enter("B"),
-            "BD");
-}
-
-TEST(Components, AreJoinedByAPerformanceThatDependsOnBothThroughFixedTasks) {
-  const std::string minimum =
-      "- {behavior: q, task: Q, requires: [{task: R, minimum_performance: 60}]}\n";
-  EXPECT_EQ(Subtree(two_branches(minimum), {"Q"}).enter("B"), "no split");
-  EXPECT_EQ(Subtree(two_branches(minimum), {"R"}).enter("B"), "BD") << "Q need not run";
-}
-
-TEST(Components, AreNotIndependentWhereTheProductMayBeZero) {
-  const std::string zero = "- {behavior: z, task: Z, suitability: 0, requires: [{task: R}]}\n";
-  EXPECT_EQ(Subtree(two_branches(zero), {"R"}).enter("B"), "no split");
-}
-
 TEST(Components, NestNoDeeperThanTheirLimit) {
   std::string text = "default_values: {tasks: {start_on_request: false}}\nbehaviors:\n";
   // A chain in which every task Ti has a choice, next to a task Si with a choice.
@@ -350,7 +197,7 @@ TEST(Components, NestNoDeeperThanTheirLimit) {
   std::uint32_t entered = 0;
   for (int i = 0; i + 1 < length; ++i) {
     subtree.decide(fmt::format("T{}", i));
-    if (subtree.enter(fmt::format("T{}", i + 1)) != "no split") ++entered;
+    if (subtree.enter(fmt::format("T{}", i + 1))) ++entered;
   }
   EXPECT_EQ(entered, Components::deepest);
   EXPECT_EQ(subtree.components.depth(), Components::deepest);
@@ -405,31 +252,6 @@ behaviors:
   expect_equal(subtree.bound(), cost(log_cost(1), 0));
   EXPECT_TRUE(subtree.domains.remove(0, 0));
   EXPECT_GT(subtree.bound(), cost(std::int64_t{1} << 60, 0));
-}
-
-TEST(CostBound, AroundANestedComponentIsTheRestOfTheOneAroundIt) {
-  Subtree subtree(R"(
-default_values: {tasks: {start_on_request: false}}
-behaviors:
-- {behavior: r, task: R, suitability: 70, requires: [{task: A}, {task: B}]}
-- {behavior: a1, task: A, suitability: 95}
-- {behavior: a2, task: A, suitability: 94}
-- {behavior: b1, task: B, suitability: 90, requires: [{task: C}, {task: D}]}
-- {behavior: b2, task: B, suitability: 10}
-- {behavior: c1, task: C, suitability: 85}
-- {behavior: c2, task: C, suitability: 84}
-- {behavior: d1, task: D, suitability: 80}
-- {behavior: d2, task: D, suitability: 79}
-)",
-                  {"R"});
-  EXPECT_EQ(subtree.enter("B"), "BCD");
-  expect_equal(subtree.bound(unbounded, CostBound::Roots::around_component),
-               cost(log_cost(700'000) + log_cost(950'000), 2));
-  subtree.decide("B");
-  EXPECT_EQ(subtree.enter("D"), "D");
-  expect_equal(subtree.bound(), cost(log_cost(800'000), 1));
-  expect_equal(subtree.bound(unbounded, CostBound::Roots::around_component),
-               cost(log_cost(900'000) + log_cost(850'000), 2));
 }
 
 // Random problems ------------------------------------------------------------------------------

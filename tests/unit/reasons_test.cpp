@@ -14,12 +14,10 @@
 #include "runtime/solver/components.h"
 #include "runtime/solver/conflict_analysis.h"
 #include "runtime/solver/domains.h"
-#include "runtime/solver/landmark_bound.h"
+#include "runtime/solver/learning_search.h"
 #include "runtime/solver/objective.h"
-#include "runtime/solver/objective_reasons.h"
-#include "runtime/solver/performance_reasons.h"
-#include "runtime/solver/propagator.h"
-#include "runtime/solver/reason_trail.h"
+#include "runtime/solver/propagation.h"
+#include "runtime/solver/trail.h"
 #include "support/rounds.h"
 #include "unit/brute_force.h"
 #include "unit/compiled_fixture.h"
@@ -31,23 +29,22 @@ namespace {
 using test::Random;
 
 /// Whether a literal holds in a solution.
-bool holds(const ReasonTrail& trail, const Assignment& solution, Literal literal) {
+bool holds(const CatalogTrail& trail, const Assignment& solution, Literal literal) {
   const std::uint32_t task = trail.task_of(variable_of(literal));
   const std::uint32_t index = solution[task];
-  bool is_true = index != none;
-  if (!trail.is_about_running(literal)) {
-    is_true = is_true && trail.has_value(task, index) == (literal & ~Literal{1});
-  }
+  const Literal variable = literal & ~Literal{1};
+  const bool is_true =
+      index != none && (variable == Trail::runs(task) || variable == trail.has_value(task, index));
   return is_true != is_negated(literal);
 }
 
-bool hold_all(const ReasonTrail& trail, const Assignment& solution,
+bool hold_all(const CatalogTrail& trail, const Assignment& solution,
               std::span<const Literal> literals) {
   return std::all_of(literals.begin(), literals.end(),
                      [&](Literal literal) { return holds(trail, solution, literal); });
 }
 
-bool holds_any(const ReasonTrail& trail, const Assignment& solution,
+bool holds_any(const CatalogTrail& trail, const Assignment& solution,
                std::span<const Literal> literals) {
   return std::any_of(literals.begin(), literals.end(),
                      [&](Literal literal) { return holds(trail, solution, literal); });
@@ -69,7 +66,7 @@ class Branch {
 
   [[nodiscard]] bool is_consistent() const { return is_consistent_; }
   [[nodiscard]] const Domains& domains() const { return domains_; }
-  [[nodiscard]] const ReasonTrail& trail() const { return trail_; }
+  [[nodiscard]] const CatalogTrail& trail() const { return trail_; }
   [[nodiscard]] const std::vector<Assignment>& solutions() const {
     return brute_force_.solutions();
   }
@@ -78,7 +75,7 @@ class Branch {
   [[nodiscard]] Literal choose(Random& random) const {
     std::vector<Literal> choices;
     for (std::uint32_t task = 0; task < domains_.task_count(); ++task) {
-      const Literal runs = ReasonTrail::runs(task);
+      const Literal runs = Trail::runs(task);
       if (!trail_.is_true(runs) && !trail_.is_false(runs)) choices.push_back(runs);
       if (!domains_.needed(task) || domains_.count(task) < 2) continue;
       for (std::uint32_t index = 0; index < domains_.values(task).size(); ++index) {
@@ -183,7 +180,7 @@ class Branch {
   }
 
   Domains domains_;
-  ReasonTrail trail_;
+  CatalogTrail trail_;
   PerformanceReasons performance_;
   ConflictAnalysis analysis_;
   const test::BruteForce brute_force_;
@@ -267,7 +264,7 @@ TEST(Reasons, NameEachRemovalOfMoreThanSixtyFourValues) {
   const std::uint32_t task = test::local_task(catalog, "A");
   Branch branch(catalog, problem);
   const std::uint32_t required = test::local_task(catalog, "B");
-  branch.decide(ReasonTrail::runs(task));
+  branch.decide(Trail::runs(task));
   for (std::uint32_t index = 0; index < many; ++index) {
     EXPECT_FALSE(branch.domains().needed(required));
     if (!requires_b(index)) branch.decide(negate(branch.trail().has_value(task, index)));
@@ -275,7 +272,7 @@ TEST(Reasons, NameEachRemovalOfMoreThanSixtyFourValues) {
   EXPECT_TRUE(branch.domains().needed(required));
   branch.expect_reasons_suffice();
   Branch other(catalog, problem);
-  other.decide(negate(ReasonTrail::runs(required)));
+  other.decide(negate(Trail::runs(required)));
   for (std::uint32_t index = 0; index < many; ++index) {
     EXPECT_EQ(other.trail().is_true(negate(other.trail().has_value(task, index))),
               requires_b(index));
@@ -292,7 +289,7 @@ TEST(Reasons, OfPerformancesNameEachRemovalOfMoreThanSixtyFourValues) {
   const Problem problem = test::open_problem(catalog);
   const std::uint32_t task = test::local_task(catalog, "A");
   Branch branch(catalog, problem);
-  branch.decide(ReasonTrail::runs(test::local_task(catalog, "M")));
+  branch.decide(Trail::runs(test::local_task(catalog, "M")));
   for (std::uint32_t index = 0; index < many; ++index) {
     if (requires_b(index)) continue;
     ASSERT_TRUE(branch.is_consistent());
@@ -367,7 +364,7 @@ class RandomSearch {
         trail_(catalog, domains_),
         bound_(catalog, domains_, trail_),
         performance_(catalog, domains_, trail_),
-        objectives_(catalog, domains_, objective_, bound_, trail_) {
+        objectives_(domains_, objective_, bound_, trail_) {
     trail_.set_lazy_reasons(objectives_);
     domains_.load(problem);
     components_.load(problem);
@@ -438,7 +435,7 @@ class RandomSearch {
   [[nodiscard]] Literal choose(Random& random) const {
     std::vector<Literal> choices;
     for (const std::uint32_t task : trail_.requests()) {
-      const Literal runs = ReasonTrail::runs(task);
+      const Literal runs = Trail::runs(task);
       if (!trail_.is_true(runs) && !trail_.is_false(runs)) choices.push_back(runs);
     }
     if (choices.empty()) {
@@ -470,7 +467,7 @@ class RandomSearch {
   Domains domains_;
   Components components_;
   Objective objective_;
-  ReasonTrail trail_;
+  CatalogTrail trail_;
   LandmarkBound bound_;
   PerformanceReasons performance_;
   ObjectiveReasons objectives_;

@@ -1,9 +1,9 @@
 // When a search that learns restarts, and what it looks at first.
-#include "runtime/solver/restarts.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "runtime/solver/conflict_analysis.h"
 
 namespace cbc::restarts_test {
 namespace {

@@ -44,7 +44,7 @@ Names rules_found(const Rule& rule, std::string_view text, const LintOptions& op
           read_settings(rule.settings, ".cbc.yaml", diagnostics).value_or(SeveritySettings());
       LintOptions with_settings = options;
       with_settings.never_together = settings.never_together();
-      is_complete = lint_catalog(*document, with_settings, diagnostics).compiled.has_value();
+      is_complete = lint_catalog(*document, with_settings, diagnostics).compiled != nullptr;
     }
   }
   const CommentedFile file{"example.yaml", text, document.get(), is_complete};
@@ -181,7 +181,7 @@ TEST_P(EveryRule, HasAnExampleThatIsMended) {
 TEST_P(EveryRule, IsCheckedWithoutSearchIfItNeedsNone) {
   if (rule().is_of_scripts || rule().name == rule::undecided) return;
   const bool is_found =
-      !rules_found(rule(), rule().example, {.searches = false, .checks_off_rules = true}).empty();
+      !rules_found(rule(), rule().example, {.depth = CheckDepth::rules, .checks_off_rules = true}).empty();
   // Of unused-allow the search decides whether a comment is used.
   EXPECT_EQ(is_found, !rule().needs_search);
 }

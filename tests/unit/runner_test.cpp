@@ -25,88 +25,26 @@ exclusivity_constraints:
 - mutually_exclusive: [A, H]
 )";
 
-/// A run as text, one line for each event and each failure, and what it comes to.
-class Protocol final : public RunListener {
- public:
-  explicit Protocol(std::string_view script, const CoordinatorOptions& options = {})
-      : catalog_(test::compile_text(catalog_text)) {
-    Diagnostics diagnostics;
-    const auto document = yaml::parse(script, "s.yaml", diagnostics);
-    const auto read = document != nullptr
-                          ? read_script(*document, catalog_, Severity::warning, diagnostics)
-                          : std::optional<Script>{};
-    EXPECT_TRUE(read.has_value()) << show(diagnostics);
-    result = run_script(catalog_, read.value_or(Script{}), options, *this);
-    text += "end " + std::to_string(result.passed) + " " + std::to_string(result.failed);
-  }
+Script read(const CompiledCatalog& catalog, std::string_view text) {
+  Diagnostics diagnostics;
+  const auto document = yaml::parse(text, "s.yaml", diagnostics);
+  const auto script = read_script(*document, catalog, Severity::warning, diagnostics);
+  EXPECT_TRUE(script.has_value()) << show(diagnostics);
+  return script.value_or(Script{});
+}
 
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
-    text += std::to_string(record.index) + " " + std::to_string(record.time / 1'000) + " " +
-            std::string(name_of(record.origin)) + " " + std::string(name_of(record.verb)) + " " +
-            (record.verb == Verb::finish ? std::string(name_of(record.cause)) + " " : "") +
-            std::string(name_of(record.outcome)) +
-            (step != nullptr ? " line " + std::to_string(step->range.begin.line) : "") +
-            " running " + std::to_string(state.running().size()) + "\n";
-  }
-  void on_failure(const Failure& failure) override {
-    text += "failure after " + std::to_string(failure.index) + " line " +
-            std::to_string(failure.range.begin.line) + ": " + failure.message + "\n";
-  }
-  void on_end(const State& state) override {
-    text += "last running " + std::to_string(state.running().size()) + "\n";
-  }
-
-  std::string text;
-  RunResult result;
-
- private:
-  CompiledCatalog catalog_;
+/// Keeps the failures only.
+struct Silent final : RunListener {
+  void on_event(const EventRecord& /*record*/, const Step* /*step*/,
+                const State& /*state*/) override {}
+  void on_failure(const Failure& failure) override { failed_after.push_back(failure.index); }
+  void on_end(const State& /*state*/) override {}
+  std::vector<std::uint64_t> failed_after;
 };
 
-TEST(Runner, AnEmptyScriptEndsAtZero) { EXPECT_EQ(Protocol("[]").text, "last running 0\nend 0 0"); }
-
-TEST(Runner, WhatIsDueAtTheLastInstantIsProcessedAtTheEnd) {
-  EXPECT_EQ(Protocol("[{at: 0.08}]").text,
-            "1 80 script wait unchanged line 1 running 0\n"
-            "2 80 reactive start accepted running 1\n"
-            "last running 1\nend 0 0")
-      << "scripted events come first";
-}
-
-TEST(Runner, WhatIsDueBetweenTwoInstantsComesBetween) {
-  EXPECT_EQ(Protocol("[{start: A}, {wait: 6}]").text,
-            "1 0 script start accepted line 1 running 1\n"
-            "2 5000 timeout finish time_out accepted running 0\n"
-            "3 5080 reactive start accepted running 1\n"
-            "4 6000 script wait unchanged line 1 running 1\n"
-            "last running 1\nend 0 0");
-}
-
-TEST(Runner, WhatIsDueLaterNeverHappens) {
-  EXPECT_EQ(Protocol("[{start: A}, {at: 4.999999}]").text,
-            "1 0 script start accepted line 1 running 1\n"
-            "2 4999 script wait unchanged line 1 running 1\n"
-            "last running 1\nend 0 0");
-}
-
-TEST(Runner, ExpectationsSeeTheStateBeforeWhatIsDueAtTheirInstant) {
-  EXPECT_EQ(Protocol(R"(- start: A
-- at: 5
-  expect: {running: {A: a}}
-- at: 5
-  expect: {stopped: [A]}
-- at: 5.000001
-  expect: {stopped: [A]}
-)")
-                .text,
-            "1 0 script start accepted line 1 running 1\n"
-            "failure after 1 line 4: expected task 'A' not to run, but it runs with 'a'\n"
-            "2 5000 timeout finish time_out accepted running 0\n"
-            "last running 0\nend 2 1");
-}
-
 TEST(Runner, OutcomesAreThoseOfTheLastScriptedStartStopOrFinish) {
-  const Protocol protocol(R"(
+  const CompiledCatalog catalog = test::compile_text(catalog_text);
+  const Script script = read(catalog, R"(
 - expect: {outcome: accepted}
 - start: A
   priority: 2
@@ -123,21 +61,10 @@ TEST(Runner, OutcomesAreThoseOfTheLastScriptedStartStopOrFinish) {
 - repair: a
 - expect: {outcome: unchanged}
 )");
-  EXPECT_EQ(protocol.result.passed, 4U);
-  EXPECT_EQ(protocol.result.failed, 1U);
-  EXPECT_EQ(protocol.text.substr(0, protocol.text.find('\n')),
-            "failure after 0 line 2: expected outcome 'accepted', but there was no start, stop or "
-            "finish yet");
+  Silent listener;
+  EXPECT_EQ(run_script(catalog, script, {}, listener).passed, 4U);
+  EXPECT_EQ(listener.failed_after, std::vector<std::uint64_t>{0});
 }
-
-/// Keeps the failures only.
-struct Silent final : RunListener {
-  void on_event(const EventRecord& /*record*/, const Step* /*step*/,
-                const State& /*state*/) override {}
-  void on_failure(const Failure& failure) override { failed_after.push_back(failure.index); }
-  void on_end(const State& /*state*/) override {}
-  std::vector<std::uint64_t> failed_after;
-};
 
 TEST(Runner, GoesOnWithTheOutcomeOfTheLastEvent) {
   const CompiledCatalog catalog = test::compile_text(catalog_text);
@@ -178,8 +105,7 @@ exclusivity_constraints:
 - mutually_exclusive: [A, H]
 - mutually_exclusive: [B, I]
 )");
-  Diagnostics diagnostics;
-  const auto document = yaml::parse(R"(
+  const Script script = read(catalog, R"(
 - start: A
   priority: 3
 - fault: b
@@ -191,16 +117,12 @@ exclusivity_constraints:
 - repair: b
 - start: B
 - start: A
-)",
-                                    "s.yaml", diagnostics);
-  const auto script = read_script(*document, catalog, Severity::warning, diagnostics);
-  ASSERT_TRUE(script) << show(diagnostics);
-
+)");
   Silent listener;
   Runner runner(catalog, {}, listener);
   runner.begin({});
   std::vector<Snapshot> snapshots{runner.snapshot()};
-  for (const Step& step : script->steps) {
+  for (const Step& step : script.steps) {
     EXPECT_TRUE(runner.take(step));
     snapshots.push_back(runner.snapshot());
   }
@@ -221,42 +143,16 @@ behaviors: [{behavior: x, task: X}, {behavior: y, task: Y}, {behavior: a, task: 
             {behavior: b, task: B}]
 exclusivity_constraints: [mutually_exclusive: [X, A], mutually_exclusive: [Y, B]]
 )");
-  Diagnostics diagnostics;
   // B joins the queue first.
-  const auto document =
-      yaml::parse("[start: X, start: Y, stop: Y, {stop: X, at: 0.05}]", "s.yaml", diagnostics);
-  const auto script = read_script(*document, catalog, Severity::warning, diagnostics);
-  ASSERT_TRUE(script) << show(diagnostics);
+  const Script script = read(catalog, "[start: X, start: Y, stop: Y, {stop: X, at: 0.05}]");
   Silent listener;
   Runner runner(catalog, {}, listener);
   runner.begin({});
-  for (const Step& step : script->steps) EXPECT_TRUE(runner.take(step));
+  for (const Step& step : script.steps) EXPECT_TRUE(runner.take(step));
   using Entry = std::pair<TaskId, Microseconds>;
   EXPECT_EQ(runner.snapshot().queue,
             (std::vector<Entry>{{catalog.task_ids[*catalog.find_task("A")], 130'000},
                                 {catalog.task_ids[*catalog.find_task("B")], 80'000}}));
-}
-
-TEST(Runner, TakesSituationAndDelayFromTheScript) {
-  EXPECT_EQ(Protocol(R"(
-reactive_delay: 2
-situation: {a: false}
-events:
-- start: A
-- at: 2
-)")
-                .text,
-            "1 0 script start rejected line 5 running 0\n"
-            "2 2000 script wait unchanged line 6 running 0\n"
-            "3 2000 reactive start accepted running 1\n"
-            "last running 1\nend 0 0");
-}
-
-TEST(Runner, NothingTimesOutInAScriptWithoutTimeouts) {
-  EXPECT_EQ(Protocol("{timeouts: false, events: [{start: A}, {at: 100}]}").text,
-            "1 0 script start accepted line 1 running 1\n"
-            "2 100000 script wait unchanged line 1 running 1\n"
-            "last running 1\nend 0 0");
 }
 
 TEST(Runner, NothingTimesOutAfterAStateWithoutTimeouts) {
@@ -319,36 +215,6 @@ situation:
   EXPECT_EQ(error_with(R"("faulty": [)", R"("a", "a")"), "behavior 'a' is faulty twice");
   EXPECT_EQ(error_with(R"("variables": {)", R"("DARK": true,)"),
             "situation variable 'DARK' has two values");
-}
-
-TEST(Runner, PassesPrioritiesParametersAndCausesOn) {
-  const Protocol protocol(R"(
-- {start: A, priority: 4, parameters: {x: 1}}
-- {at: 1, start: A, priority: 4, parameters: {x: 1}}
-- {at: 2, start: A, priority: 4, parameters: {x: 2}}
-- {start: A, priority: 3}
-- expect: {outcome: rejected}
-- at: 6.9
-- expect: {running: {A: any}}
-- at: 7.01
-- expect: {stopped: [A]}
-- {start: A}
-- {finish: a, cause: process_failure}
-- expect: {outcome: accepted, stopped: [A], active: []}
-)");
-  EXPECT_EQ(protocol.result.passed, 4U) << protocol.text;
-  EXPECT_EQ(protocol.result.failed, 0U);
-  EXPECT_NE(protocol.text.find("script finish process_failure accepted"), std::string::npos);
-}
-
-TEST(Runner, EndsEarlyAfterTooManyEventsOfTheClock) {
-  CoordinatorOptions options;
-  options.max_clock_events = 1;
-  const Protocol protocol("[{start: A}, {at: 100}]", options);
-  EXPECT_EQ(protocol.result.status, Coordinator::Status::too_many_clock_events);
-  EXPECT_EQ(protocol.text.substr(0, protocol.text.find("last")),
-            "1 0 script start accepted line 1 running 1\n"
-            "2 5000 timeout finish time_out accepted running 0\n");
 }
 
 }  // namespace

@@ -74,32 +74,6 @@ std::string text_of(const CompiledCatalog& catalog, const Problem& problem,
   return "";
 }
 
-TEST(Solver, StopsWhatNothingNeeds) {
-  const CompiledCatalog catalog = compile_text(R"(
-default_values: {tasks: {start_on_request: false}}
-behaviors:
-- {behavior: a, task: A, requires: [{task: B}]}
-- {behavior: b, task: B}
-)");
-  Problem problem = open_problem(catalog);
-  test::set_present(problem, catalog, "B", "b");
-  EXPECT_EQ(text_of(catalog, problem), "");
-}
-
-TEST(Solver, TakesTheBestProductOfTheWholeClosure) {
-  const CompiledCatalog catalog = compile_text(R"(
-default_values: {tasks: {start_on_request: false}}
-behaviors:
-- {behavior: a1, task: A, requires: [{task: B}]}
-- {behavior: a2, task: A, suitability: 75}
-- {behavior: b, task: B, suitability: 70}
-)");
-  Problem problem = open_problem(catalog);
-  test::demand(problem, catalog, "A");
-  test::request(problem, catalog, "A");
-  EXPECT_EQ(text_of(catalog, problem), "A=a2");
-}
-
 TEST(Solver, ComparesProductsExactlyWhereLogarithmsAreTooClose) {
   // 0.999999 * 0.999999 = 0.999998000001, and 0.900001 * 0.899999 = 0.809999999999.
   const CompiledCatalog catalog = compile_text(R"(
@@ -141,37 +115,6 @@ behaviors:
        {restarting_after(never), restarting_after(0), learning_after(0, 0)}) {
     EXPECT_EQ(text_of(catalog, problem, options), "A=a2 C=c");
   }
-}
-
-TEST(Solver, KeepsMoreRequestsBeforeBetterBehaviors) {
-  const CompiledCatalog catalog = compile_text(R"(
-behaviors:
-- {behavior: a1, task: A, requires: [{task: C}]}
-- {behavior: a2, task: A, suitability: 1}
-- {behavior: b, task: B}
-- {behavior: c, task: C}
-exclusivity_constraints:
-- mutually_exclusive: [B, C]
-)");
-  Problem problem = open_problem(catalog);
-  test::demand(problem, catalog, "A");
-  test::request(problem, catalog, "A");
-  test::request(problem, catalog, "B");
-  EXPECT_EQ(text_of(catalog, problem), "A=a2 B=b");
-}
-
-TEST(Solver, SaysThatThereIsNoSolution) {
-  const CompiledCatalog catalog = compile_text(R"(
-behaviors:
-- {behavior: a, task: A}
-- {behavior: b, task: B}
-exclusivity_constraints:
-- mutually_exclusive: [A, B]
-)");
-  Problem problem = open_problem(catalog);
-  test::demand(problem, catalog, "A");
-  test::demand(problem, catalog, "B");
-  EXPECT_EQ(text_of(catalog, problem), "infeasible");
 }
 
 TEST(Solver, AProductOfZeroTiesAllComponents) {
@@ -240,29 +183,6 @@ exclusivity_constraints:
   test::demand(problem, catalog, "ALL");
   EXPECT_EQ(text_of(catalog, problem, restarting_after(0)),
             "ALL=all P=p1 A=a B=b C=c D=d Q=q2 R=r1 S=s");
-}
-
-TEST(Solver, CanBeUsedAgainForOtherGroups) {
-  const CompiledCatalog catalog = compile_text(R"(
-behaviors:
-- {behavior: a, task: A}
-- {behavior: b1, task: B, suitability: 50}
-- {behavior: b2, task: B, suitability: 60, requires: [{task: C}]}
-- {behavior: c, task: C}
-)");
-  const std::vector<std::uint32_t> ranks;
-  Solver solver(catalog, {}, ranks);
-  Assignment assignment;
-  for (int round = 0; round < 3; ++round) {
-    Problem one = open_problem(catalog, 0);
-    test::demand(one, catalog, "A");
-    EXPECT_EQ(solver.solve(one, assignment).status, SearchStatus::optimal);
-    EXPECT_EQ(test::show(catalog, assignment, 0), "A=a");
-    Problem other = open_problem(catalog, 1);
-    test::demand(other, catalog, "B");
-    EXPECT_EQ(solver.solve(other, assignment).status, SearchStatus::optimal);
-    EXPECT_EQ(test::show(catalog, assignment, 1), "B=b2 C=c");
-  }
 }
 
 // Compared with brute force --------------------------------------------------------------------
@@ -786,26 +706,6 @@ TEST(Solver, ABoundWithoutASearchLeavesOpenWhichRequestsAreServed) {
   EXPECT_EQ(bound.more_requests, 0U);
   EXPECT_FALSE(bound.same_requests);
   EXPECT_NEAR(bound.suitability, 0.9, 1e-6);
-}
-
-TEST(Solver, TheFirstSolutionsCountImprovingOrNot) {
-  const CompiledCatalog catalog = compile_text(R"(
-behaviors:
-- {behavior: a1, task: A}
-- {behavior: a2, task: A, suitability: 50}
-- {behavior: b1, task: B, suitability: 90, requires: [{task: A}]}
-- {behavior: b2, task: B, suitability: 60}
-)");
-  Problem problem = open_problem(catalog);
-  test::demand(problem, catalog, "B");
-  // In order: "B=b2" (A does not run), then A=a1 with b1, b2, then A=a2 with b1, b2.
-  EXPECT_EQ(text_of(catalog, problem, first_solutions(1)), "feasible B=b2");
-  EXPECT_EQ(text_of(catalog, problem, first_solutions(2)), "feasible A=a1 B=b1");
-  EXPECT_EQ(text_of(catalog, problem, first_solutions(4)), "feasible A=a1 B=b1");
-  EXPECT_EQ(text_of(catalog, problem, first_solutions(5)), "A=a1 B=b1")
-      << "there are no more than five";
-  EXPECT_EQ(solve(catalog, problem, first_solutions(3)).result.solutions, 3U);
-  EXPECT_EQ(solve(catalog, problem, first_solutions(9)).result.solutions, 5U);
 }
 
 }  // namespace

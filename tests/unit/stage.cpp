@@ -1,8 +1,6 @@
 #include "unit/stage.h"
 
-#include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "unit/compiled_fixture.h"
 
@@ -10,14 +8,6 @@ namespace cbc::test {
 namespace {
 
 Microseconds microseconds(double seconds) { return std::llround(seconds * second); }
-
-std::string seconds_text(Microseconds time) {
-  std::string text = std::to_string(time / second);
-  if (time % second == 0) return text;
-  const std::string fraction = std::to_string(second + time % second);
-  text += "." + fraction.substr(1, fraction.find_last_not_of('0'));
-  return text;
-}
 
 void append(std::string& text, const std::string& item, std::string_view separator) {
   if (!text.empty()) text += separator;
@@ -32,21 +22,18 @@ Stage::Stage(std::string_view catalog, const CoordinatorOptions& options,
   coordinator_.begin(availabilities_of(situation));
 }
 
-std::string Stage::start(std::string_view task, std::optional<std::int32_t> priority,
-                         std::optional<std::string_view> parameters) {
+std::string Stage::start(std::string_view task, std::optional<std::int32_t> priority) {
   Event event;
   event.verb = Verb::start;
   event.subject = task_index(task);
   event.priority = priority;
-  event.parameters = parameters;
   return handle(event);
 }
 
-std::string Stage::stop(std::string_view task, std::optional<std::int32_t> priority) {
+std::string Stage::stop(std::string_view task) {
   Event event;
   event.verb = Verb::stop;
   event.subject = task_index(task);
-  event.priority = priority;
   return handle(event);
 }
 
@@ -58,39 +45,12 @@ std::string Stage::finish(std::string_view behavior, FinishCause cause) {
   return handle(event);
 }
 
-std::string Stage::finish_task(std::string_view task, FinishCause cause) {
-  Event event;
-  event.verb = Verb::finish;
-  event.subject = task_index(task);
-  event.is_by_task = true;
-  event.cause = cause;
-  return handle(event);
-}
-
-std::string Stage::set(const Situation& situation) { return set_variables({}, situation); }
-
-std::string Stage::set_variables(
-    const std::vector<std::pair<std::string_view, std::string_view>>& variables,
-    const Situation& situation) {
+std::string Stage::set(const Situation& situation) {
   const std::vector<Availability> entries = availabilities_of(situation);
-  std::vector<VariableValue> values;
-  for (const auto& [name, value] : variables) {
-    const std::uint32_t variable = catalog_.find_variable(name).value();
-    values.push_back({variable, catalog_.find_value(variable, value).value()});
-  }
   Event event;
   event.verb = Verb::situation;
   event.situation = entries;
-  event.variables = values;
   return handle(event);
-}
-
-std::string Stage::waiting() const {
-  std::string text;
-  for (const TaskId task : catalog_.task_ids) {
-    if (state().is_waiting(task)) append(text, std::string(catalog_.name_of_task(task)), " ");
-  }
-  return text;
 }
 
 std::string Stage::fault(std::string_view behavior) {
@@ -99,15 +59,6 @@ std::string Stage::fault(std::string_view behavior) {
   event.subject = behavior_index(behavior);
   return handle(event);
 }
-
-std::string Stage::repair(std::string_view behavior) {
-  Event event;
-  event.verb = Verb::repair;
-  event.subject = behavior_index(behavior);
-  return handle(event);
-}
-
-std::string Stage::wait() { return handle({}); }
 
 std::string Stage::advance_to(double seconds) {
   forget();
@@ -133,7 +84,7 @@ std::string Stage::conclude(Coordinator::Status status) {
 }
 
 void Stage::forget() {
-  for (std::string* text : {&outcomes_, &events_, &changes_, &stopped_, &searches_, &objectives_}) {
+  for (std::string* text : {&outcomes_, &changes_, &stopped_, &searches_}) {
     text->clear();
   }
 }
@@ -142,26 +93,8 @@ void Stage::on_event(const EventRecord& record) {
   const bool is_first = outcomes_.empty();
   append(outcomes_, std::string(name_of(record.outcome)), "; ");
 
-  std::string text = record.time > 0 ? seconds_text(record.time) + " " : "";
-  if (record.origin != Origin::script) text += std::string(name_of(record.origin)) + " ";
-  text += name_of(record.verb);
-  if (record.task != none && record.verb == Verb::finish) {
-    text += " task " + std::string(catalog_.name_of_task(record.task));
-  } else if (record.task != none) {
-    text += " " + std::string(catalog_.name_of_task(record.task)) + " " +
-            std::to_string(record.priority);
-  }
-  if (record.behavior != none)
-    text += " " + std::string(catalog_.name_of_behavior(record.behavior));
-  if (record.verb == Verb::finish) text += " " + std::string(name_of(record.cause));
-  if (!record.conflict.empty() && record.conflict.front().kind == Reason::Kind::priority) {
-    text += " conflict " + std::string(catalog_.name_of_task(record.conflict.front().task)) + " " +
-            std::to_string(record.conflict.front().priority);
-  }
-  append(events_, text + " " + std::string(name_of(record.outcome)), "; ");
-
   std::string changes;
-  for (const Change& change : record.changes) append(changes, show(record, change), ", ");
+  for (const Change& change : record.changes) append(changes, show(change), ", ");
   std::string stopped;
   for (const StoppedTask& entry : record.stopped_tasks) {
     append(stopped,
@@ -186,28 +119,11 @@ void Stage::on_event(const EventRecord& record) {
     }
   }
   append(searches_, search, "; ");
-  std::string objective = "none";
-  if (record.objective) {
-    objective = std::to_string(record.objective->satisfied) + "/" +
-                std::to_string(record.objective->requests) + " idle " +
-                std::to_string(record.objective->idle_running) + "/" +
-                std::to_string(record.objective->idle_total) + " changes " +
-                std::to_string(record.objective->changes);
-  }
-  append(objectives_, objective, "; ");
 }
 
-std::string Stage::show(const EventRecord& record, const Change& change) const {
+std::string Stage::show(const Change& change) const {
   std::string text =
       (change.is_activation ? "+" : "-") + std::string(catalog_.name_of_behavior(change.behavior));
-  const std::span<const TaskId> tasks = record.tasks_of(change);
-  if (tasks.size() != 1 || catalog_.performs[change.behavior].size() != 1) {
-    text += "(";
-    for (const TaskId task : tasks) {
-      text += (text.back() == '(' ? "" : ",") + std::string(catalog_.name_of_task(task));
-    }
-    text += ")";
-  }
   text += " " + std::string(name_of(change.cause));
   if (change.priority) text += " " + std::to_string(*change.priority);
   return text + (change.success ? "" : " failed");
@@ -221,47 +137,6 @@ std::string Stage::running() const {
            std::string(catalog_.task_names[index]) + "=" +
                std::string(catalog_.name_of_behavior(behavior)),
            " ");
-  }
-  return text;
-}
-
-std::string Stage::requests() const {
-  std::string text;
-  std::uint32_t count = 0;
-  for (std::uint32_t index = 0; index < catalog_.task_names.size(); ++index) {
-    const TaskId task = catalog_.task_ids[index];
-    if (!state().has_request(task)) continue;
-    ++count;
-    append(text,
-           std::string(catalog_.task_names[index]) + ":" +
-               std::to_string(state().request(task).priority),
-           " ");
-  }
-  if (count != state().request_count()) text += " and another count";
-  return text;
-}
-
-std::string Stage::show(const Timers& timers) const {
-  std::vector<std::pair<std::uint32_t, Microseconds>> entries;
-  for (const auto& [due, index] : timers.entries()) entries.emplace_back(index, due);
-  std::sort(entries.begin(), entries.end());
-  std::string text;
-  for (const auto& [index, due] : entries) {
-    append(text, std::string(catalog_.task_names[index]) + "@" + seconds_text(due), " ");
-  }
-  return text;
-}
-
-std::string Stage::queue() const { return show(state().queue()); }
-
-std::string Stage::timeouts() const { return show(state().timeouts()); }
-
-std::string Stage::active() const {
-  std::string text;
-  for (std::uint32_t index = 0; index < catalog_.behavior_names.size(); ++index) {
-    if (state().is_active(catalog_.behavior_ids[index])) {
-      append(text, std::string(catalog_.behavior_names[index]), " ");
-    }
   }
   return text;
 }

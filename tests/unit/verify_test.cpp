@@ -324,8 +324,6 @@ TEST(Verify, RefusesGroups) {
        [](auto& c) { c.arrays.tasks[4].catalog_index = 10; }},
       {"entry 1 of 'task_ids' does not follow from the other arrays",
        [](auto& c) { c.arrays.tasks[1].catalog_index = 0; }},
-      {"entry 0 of 'task_ids' does not follow from the other arrays",
-       [](auto& c) { c.arrays.task_ids[0] = none; }},
       {"entry 2 of 'task_ids' does not follow from the other arrays",
        [](auto& c) {
          std::swap(c.arrays.tasks[1].catalog_index, c.arrays.tasks[2].catalog_index);
@@ -347,12 +345,8 @@ TEST(Verify, RefusesGroups) {
          std::swap(c.arrays.behaviors[1].catalog_index, c.arrays.behaviors[2].catalog_index);
          std::swap(c.arrays.behavior_ids[2], c.arrays.behavior_ids[3]);
        }},
-      {"entry 2 of 'group_tasks' does not follow from the other arrays",
-       [](auto& c) { c.arrays.group_tasks[2] = 4; }},
       {"entry 8 of 'tasks' does not follow from the other arrays",
        [](auto& c) { c.arrays.tasks[8].group = 7; }},
-      {"entry 2 of 'group_tasks' does not follow from the other arrays",
-       [](auto& c) { c.arrays.group_tasks[2] = 7; }},
   });
 }
 
@@ -363,8 +357,6 @@ TEST(Verify, RefusesAttributes) {
       {"task 3: a flag is neither 0 nor 1",
        [](auto& c) { c.arrays.tasks[3].reactive_start = 255; }},
       {"task 3: a flag is neither 0 nor 1", [](auto& c) { c.arrays.tasks[3].keep_running = 2; }},
-      {"entry 3 of 'tasks' does not follow from the other arrays",
-       [](auto& c) { c.arrays.tasks[3].has_performance_rules = 3; }},
       {"task 4 has both reactive_start and start_on_request",
        [](auto& c) { c.arrays.tasks[4].start_on_request = 1; }},
       {"task 0: its timeout of -1 us is out of range",
@@ -379,13 +371,7 @@ TEST(Verify, RefusesAttributes) {
        [](auto& c) { ++c.arrays.tasks[0].minimum_cost; }},
       {"task 0: the cost of its minimum performance is wrong",
        [](auto& c) { ++c.arrays.tasks[0].minimum_performance; }},
-      {"entry 0 of 'tasks' does not follow from the other arrays",
-       [](auto& c) { c.arrays.tasks[0].has_performance_rules = 0; }},
-      {"entry 2 of 'tasks' does not follow from the other arrays",
-       [](auto& c) { c.arrays.tasks[2].has_performance_rules = 1; }},
       // C has a minimum through the behavior that it shares with A only.
-      {"entry 1 of 'tasks' does not follow from the other arrays",
-       [](auto& c) { c.arrays.tasks[1].has_performance_rules = 0; }},
   });
 }
 
@@ -409,10 +395,6 @@ TEST(Verify, RefusesValues) {
        [](auto& c) { c.arrays.values.items[2].behavior = 1; }},
       {"entry 7 of 'words' does not follow from the other arrays",
        [](auto& c) { ++c.arrays.words[7]; }},
-      {"entry 8 of 'words' does not follow from the other arrays",
-       [](auto& c) { --c.arrays.words[8]; }},
-      {"entry 10 of 'words' does not follow from the other arrays",
-       [](auto& c) { ++c.arrays.words[10]; }},
       {"entry 2 of 'performs' does not follow from the other arrays",
        [](auto& c) { std::swap(c.arrays.performs.items[2], c.arrays.performs.items[3]); }},
       {"entry 5 of 'performs' does not follow from the other arrays",
@@ -424,8 +406,6 @@ TEST(Verify, RefusesValues) {
        }},
       {"entry 0 of 'performs' does not follow from the other arrays",
        [](auto& c) { std::swap(c.arrays.performs.items[0], c.arrays.performs.items[1]); }},
-      {"entry 1 of 'performs' does not follow from the other arrays",
-       [](auto& c) { c.arrays.performs.items[1] = c.arrays.performs.items[0]; }},
       {"behavior 0 performs task 0 twice",
        [](auto& c) {  // a1 performs A twice, and a2 what a1 did: C
          c.arrays.values.items[1].behavior = 0;
@@ -438,10 +418,6 @@ TEST(Verify, RefusesValues) {
 
 TEST(Verify, RefusesRequirements) {
   expect_faults({
-      {"entry 1 of 'task_ids' does not follow from the other arrays",
-       [](auto& c) { c.arrays.requirements.items[0].task = 4; }},
-      {"entry 1 of 'task_ids' does not follow from the other arrays",
-       [](auto& c) { c.arrays.requirements.items[2].task = 3; }},
       {"behavior 0 requires task 4294967295 of 10",
        [](auto& c) { c.arrays.requirements.items[0].task = none; }},
       {"behavior 0 requires 1000001 millionths of task 2, which is over 1",
@@ -452,12 +428,6 @@ TEST(Verify, RefusesRequirements) {
        [](auto& c) { c.arrays.requirements.begin[1] = 2; }},
       {"entry 0 of 'behaviors' does not follow from the other arrays",
        [](auto& c) { c.arrays.behaviors[0].level = 0; }},
-      {"entry 4 of 'behaviors' does not follow from the other arrays",
-       [](auto& c) { c.arrays.behaviors[4].level = 1; }},
-      {"entry 2 of 'tasks' does not follow from the other arrays",
-       [](auto& c) { c.arrays.tasks[2].level = 5; }},
-      {"entry 2 of 'tasks' does not follow from the other arrays",
-       [](auto& c) { c.arrays.tasks[2].level = none; }},
       // a2 requires the task that it performs.
       {"the requirements are cyclic",
        [](auto& c) {
@@ -471,45 +441,25 @@ TEST(Verify, RefusesArcs) {
   expect_faults({
       {"entry 0 of 'arcs' does not follow from the other arrays",
        [](auto& c) { c.arrays.arcs.items[0].source = 1; }},
-      {"entry 2 of 'arcs' does not follow from the other arrays",
-       [](auto& c) { c.arrays.arcs.items[2].target = none; }},
-      {"entry 4 of 'arcs' does not follow from the other arrays",
-       [](auto& c) { c.arrays.arcs.items[4].mask = 4; }},
       {"entry 3 of 'arcs' does not follow from the other arrays",
        [](auto& c) {  // in another order
          std::swap(c.arrays.arcs.items[3].target, c.arrays.arcs.items[4].target);
        }},
-      {"entry 1 of 'arcs_begin' does not follow from the other arrays",
-       [](auto& c) { c.arrays.arcs.begin[1] = 0; }},
-      {"entry 1 of 'arcs_begin' does not follow from the other arrays",
-       [](auto& c) { c.arrays.arcs.begin[1] = 2; }},
       {"entry 0 of 'masks' does not follow from the other arrays",
        [](auto& c) { c.arrays.masks[0] = 1; }},
-      {"entry 0 of 'masks' does not follow from the other arrays",
-       [](auto& c) { c.arrays.masks[0] = 7; }},
       {"entry 6 of 'masks' does not follow from the other arrays",
        [](auto& c) { c.arrays.masks[6] |= std::uint64_t{1} << 63; }},
       {"more than 6 masks are needed", [](auto& c) { c.arrays.masks.pop_back(); }},
       {"'masks' has 8 entries, expected 7", [](auto& c) { c.arrays.masks.push_back(0); }},
       {"entry 0 of 'incoming' does not follow from the other arrays",
        [](auto& c) { c.arrays.incoming.items[0] = 2; }},
-      {"entry 4 of 'incoming' does not follow from the other arrays",
-       [](auto& c) { c.arrays.incoming.items[4] = 5; }},
       {"entry 0 of 'incoming' does not follow from the other arrays",
        [](auto& c) { std::swap(c.arrays.incoming.items[0], c.arrays.incoming.items[1]); }},
-      {"entry 1 of 'incoming' does not follow from the other arrays",
-       [](auto& c) { c.arrays.incoming.items[1] = 0; }},
-      {"entry 3 of 'incoming_begin' does not follow from the other arrays",
-       [](auto& c) { --c.arrays.incoming.begin[3]; }},
   });
 }
 
 TEST(Verify, RefusesLevelsAndOrder) {
   expect_faults({
-      {"entry 0 of 'tasks' does not follow from the other arrays",
-       [](auto& c) { c.arrays.tasks[0].level = 2; }},
-      {"entry 6 of 'tasks' does not follow from the other arrays",
-       [](auto& c) { c.arrays.tasks[6].level = 1; }},
       {"entry 0 of 'topological_order' does not follow from the other arrays",
        [](auto& c) { c.arrays.topological_order[0] = 10; }},
       {"entry 3 of 'topological_order' does not follow from the other arrays",
@@ -518,8 +468,6 @@ TEST(Verify, RefusesLevelsAndOrder) {
        [](auto& c) { std::swap(c.arrays.topological_order[0], c.arrays.topological_order[1]); }},
       {"entry 1 of 'topological_order' does not follow from the other arrays",
        [](auto& c) { std::swap(c.arrays.topological_order[1], c.arrays.topological_order[2]); }},
-      {"entry 1 of 'topological_order' does not follow from the other arrays",
-       [](auto& c) { c.arrays.topological_order[1] = 2; }},
   });
 }
 
@@ -532,8 +480,6 @@ TEST(Verify, RefusesCliques) {
       {"the tasks of clique 0 do not ascend",
        [](auto& c) { std::swap(c.arrays.cliques.items[0], c.arrays.cliques.items[1]); }},
       {"the tasks of clique 0 do not ascend", [](auto& c) { c.arrays.cliques.items[1] = 0; }},
-      {"entry 1 of 'task_ids' does not follow from the other arrays",
-       [](auto& c) { c.arrays.cliques.items[3] = 4; }},
       {"clique 2 has task 4294967295 of 10", [](auto& c) { c.arrays.cliques.items[5] = none; }},
       {"cliques 0 and 1 are not in order",
        [](auto& c) {  // the same twice
@@ -551,8 +497,6 @@ TEST(Verify, RefusesCliques) {
        [](auto& c) { c.arrays.task_cliques.items[5] = 3; }},
       {"entry 1 of 'task_cliques_begin' does not follow from the other arrays",
        [](auto& c) { c.arrays.task_cliques.begin[1] = 0; }},
-      {"entry 2 of 'task_cliques_begin' does not follow from the other arrays",
-       [](auto& c) { c.arrays.cliques.items[1] = 3; }},
   });
 }
 

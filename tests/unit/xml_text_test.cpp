@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/report/junit_parts.h"
+#include "core/report/xml_text.h"
 
 namespace cbc::xml_text_test {
 namespace {

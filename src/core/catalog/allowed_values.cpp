@@ -189,14 +189,11 @@ std::string shorten_value(std::string_view text) {
   return quoted.substr(1, quoted.size() - 2);
 }
 
-std::string describe_choice(const std::vector<std::string>& values) {
+std::string text_of_choice(const std::vector<std::string>& values) {
   constexpr std::size_t most = 12;
   if (values.size() == 1) return shorten_value(values[0]);
-  std::string text = "one of ";
-  for (std::size_t place = 0; place < std::min(values.size(), most); ++place) {
-    if (place > 0) text += ", ";
-    text += shorten_value(values[place]);
-  }
+  const std::span<const std::string> first(values.data(), std::min(values.size(), most));
+  std::string text = "one of " + join(first, ", ", shorten_value);
   if (values.size() > most) text += " and " + std::to_string(values.size() - most) + " more";
   return text;
 }
@@ -237,7 +234,7 @@ AllowedValues::AllowedValues(const Parameter& parameter)
     if (type_of(values[0])) form_ = Form::type;
   } else if (!values.empty()) {
     form_ = Form::choice;
-    expected_ = describe_choice(values);
+    expected_ = text_of_choice(values);
     for (const std::string& value : values) {
       texts_.insert(value);
       if (const auto number = parse_number(value)) numbers_.insert(value_text(*number));

@@ -53,7 +53,7 @@ void report_unknown_value(const Node& node, std::string_view variable,
   reporter.report(rule::situation_value, node.range,
                   concat("situation variable ", quote(variable), " has no value ", quote(node.text),
                          suggestion ? did_you_mean(suggestion)
-                                    : "; its values are " + list_words(known, "and")),
+                                    : "; its values are " + list_with_and(known)),
                   std::move(notes));
 }
 

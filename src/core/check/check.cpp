@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -20,7 +21,6 @@
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
 #include "core/support/json.h"
-#include "core/support/look_alikes.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 
@@ -78,72 +78,6 @@ void check_timeout(const Catalog& catalog, const Behavior& behavior, Reporter& r
   reporter.report(rule::no_timeout_effect, behavior.timeout_range,
                   "the timeout of behavior " + quote(behavior.name) +
                       " has no effect: the execution_goal of what it performs is keep_running");
-}
-
-/// Reports names of one kind that people take for one another.
-class NameCheck {
- public:
-  explicit NameCheck(Reporter& reporter) : reporter_(reporter) {}
-
-  /// `kind`: what the name is of, as in messages. An empty name is not known.
-  void add(const std::string& kind, const std::string& name, const Range& range) {
-    if (name.empty()) return;
-    const auto found = look_alikes_.add(name);
-    names_.push_back({kind + " " + quote(name), name, range});
-    if (!found) {
-      if (const auto part = invisible_part_of(name)) {
-        reporter_.report(rule::confusable_name, range,
-                         names_.back().shown + " has a character that cannot be seen: " + *part);
-      }
-      return;
-    }
-    const Name& first = names_[*found];
-    std::vector<Note> notes;
-    if (first.range != range)
-      notes.push_back(reporter_.note(first.range, first.shown + " is here"));
-    reporter_.report(rule::confusable_name, range,
-                     names_.back().shown + " is easily taken for " + first.shown + ": " +
-                         difference_of(name, first.name),
-                     std::move(notes));
-  }
-
- private:
-  struct Name {
-    std::string shown;
-    std::string name;
-    Range range;
-  };
-
-  Reporter& reporter_;
-  LookAlikes look_alikes_;
-  std::vector<Name> names_;  ///< in the order of look_alikes_
-};
-
-/// A task may have the name of a behavior, so the two are not compared. Events of the situation
-/// name behaviors and variables alike.
-void check_names(const Catalog& catalog, Reporter& reporter) {
-  NameCheck tasks(reporter);
-  for (const Task& task : catalog.tasks) {
-    tasks.add("task", task.name, task.range);
-    NameCheck parameters(reporter);
-    for (const Parameter& parameter : task.parameters) {
-      parameters.add("parameter", parameter.name, parameter.range);
-      if (!parameter.allowed_is_list) continue;
-      NameCheck values(reporter);
-      for (const std::string& value : parameter.allowed_values) {
-        values.add("value", value, parameter.allowed_range);
-      }
-    }
-  }
-  NameCheck in_situations(reporter);
-  for (const Behavior& behavior : catalog.behaviors) {
-    in_situations.add("behavior", behavior.name, behavior.range);
-  }
-  for (const Variable& variable : catalog.variables) {
-    in_situations.add("situation variable", variable.name, variable.range);
-    NameCheck values(reporter);
-    for (const std::string& value : variable.values) values.add("value", value, variable.range);
-  }
 }
 
 /// Reports what is odd about behaviors, each by itself.
@@ -571,13 +505,15 @@ std::vector<bool> check_conflicting_requirements(const Catalog& catalog, const P
 
 }  // namespace
 
-LintResult lint_catalog(const yaml::Document& document, const LintOptions& options,
-                        Diagnostics& diagnostics) {
-  LintResult result;
+CheckedCatalog lint_catalog(const yaml::Document& document, const LintOptions& options,
+                            Diagnostics& diagnostics) {
+  CheckedCatalog result;
   result.reading = understand_catalog(document, diagnostics);
-  const Catalog& catalog = result.reading.catalog;
-  Reporter reporter(document.file(), diagnostics);
+  if (options.depth == CheckDepth::reading) return result;
+  const bool searches = options.depth == CheckDepth::searches;
   const CatalogReading& reading = result.reading;
+  const Catalog& catalog = reading.catalog;
+  Reporter reporter(document.file(), diagnostics);
   check_tasks(reading, reporter);
   check_behaviors(catalog, reading.is_complete, reporter);
   check_exclusivity(catalog, reporter);
@@ -586,13 +522,13 @@ LintResult lint_catalog(const yaml::Document& document, const LintOptions& optio
   const std::vector<bool> conflicts = check_conflicting_requirements(catalog, exclusive, reporter);
   if (!reading.has_all_names || !reading.is_acyclic) {
     // Anything else that could be found may be due to what is missing.
-    if (options.searches) check_on_request_requirements(catalog, conflicts, reporter);
+    if (searches) check_on_request_requirements(catalog, conflicts, reporter);
     return result;
   }
-  if (!options.searches) return result;
-  CompiledCatalog compiled = compile(catalog);
-  check_by_proof(reading, compiled, conflicts, options, reporter);
-  if (reading.is_complete) result.compiled = std::move(compiled);
+  if (!searches) return result;
+  const auto compiled = std::make_shared<const CompiledCatalog>(compile(catalog));
+  check_by_proof(reading, *compiled, conflicts, options, reporter);
+  if (reading.is_complete) result.compiled = compiled;
   return result;
 }
 
@@ -605,14 +541,11 @@ CheckedCatalog check_catalog(const yaml::Document& document, std::string_view te
     return control_findings(std::move(findings), {document.file(), text, &document, false},
                             settings);
   };
-  LintResult result = lint_catalog(document, options, diagnostics);
-  CheckedCatalog checked;
+  CheckedCatalog checked = lint_catalog(document, options, diagnostics);
   checked.errors = diagnostics.count(Severity::error);
-  const CommentedFile file{document.file(), text, &document, result.compiled.has_value(),
+  const CommentedFile file{document.file(), text, &document, checked.compiled != nullptr,
                            options.checks_off_rules};
   checked.findings = control_findings(diagnostics.release(), file, settings);
-  checked.reading = std::move(result.reading);
-  checked.compiled = std::move(result.compiled);
   return checked;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,7 +12,6 @@
 
 #include "core/catalog/reader.h"
 #include "core/check/controls.h"
-#include "core/check/together.h"
 #include "core/compile/compile.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/yaml/document.h"
@@ -20,13 +20,16 @@
 /// Checks catalogs by all rules, mends texts by the edits of findings, and shows what that changes.
 namespace cbc {
 
+/// How deep a catalog is checked: only as reading it does, by the rules that need no search, or by
+/// all rules.
+enum class CheckDepth : std::uint8_t { reading, rules, searches };
+
 struct LintOptions {
   /// Decisions that the search for one answer may take; past them there is a finding `undecided`.
   std::uint64_t max_nodes = 100'000;
   /// What the rule `can-run-together` checks; must outlive the check.
   std::span<const NeverTogether> never_together = {};
-  /// Whether rules that need a search are checked.
-  bool searches = true;
+  CheckDepth depth = CheckDepth::searches;
   /// Whether rules that are off unless settings ask for them are checked, too.
   bool checks_off_rules = false;
   /// Returns those of some findings that are reported; empty: all of them are. What is wrong behind
@@ -34,26 +37,25 @@ struct LintOptions {
   std::function<std::vector<Diagnostic>(std::vector<Diagnostic>)> control = {};
 };
 
-/// What lint knows about a catalog, besides its findings.
-struct LintResult {
-  CatalogReading reading;
-  std::optional<CompiledCatalog> compiled;  ///< if all of it was understood, and searched
-};
-
-/// Reports everything that is wrong with a catalog, by all rules, into `diagnostics`.
-[[nodiscard]] LintResult lint_catalog(const yaml::Document& document, const LintOptions& options,
-                                      Diagnostics& diagnostics);
-
-/// A catalog, checked under the control of its comments and of settings.
+/// What is known of a catalog. If it was read in compiled form, there is only that.
 struct CheckedCatalog {
+  std::shared_ptr<const std::string> text;  ///< that was read
   CatalogReading reading;
-  std::optional<CompiledCatalog> compiled;  ///< as in LintResult
-  std::vector<Diagnostic> findings;         ///< what is to be reported, as by control_findings
-  std::size_t errors = 0;                   ///< whatever comments and settings say
+  std::shared_ptr<const CompiledCatalog> compiled;  ///< null if it was not fully understood
+  std::vector<Diagnostic> findings;                 ///< what is to be reported
+  std::size_t errors = 0;                           ///< whatever comments and settings say
 };
 
-/// Checks a catalog by all rules. `text` is that of the document; `diagnostics` has what was found
-/// before. What `options` says about settings is replaced by `settings`.
+/// Reports what is wrong with a catalog into `diagnostics`. It is compiled if it was searched.
+[[nodiscard]] CheckedCatalog lint_catalog(const yaml::Document& document,
+                                          const LintOptions& options, Diagnostics& diagnostics);
+
+/// Reports names that are easily taken for one another. A task may have the name of a behavior, so
+/// the two are not compared. Events of the situation name behaviors and variables alike.
+void check_names(const Catalog& catalog, Reporter& reporter);
+
+/// Checks a catalog under the control of its comments and of settings, which replace what `options`
+/// says about settings. `text` is that of the document; `diagnostics` has what was found before.
 [[nodiscard]] CheckedCatalog check_catalog(const yaml::Document& document, std::string_view text,
                                            const SeveritySettings& settings, LintOptions options,
                                            Diagnostics diagnostics);
@@ -62,12 +64,11 @@ struct CheckedCatalog {
 struct LintedFile {
   /// What the file is. `unknown`: it is not valid YAML.
   enum class Kind : std::uint8_t { catalog, script, properties, settings, unknown };
-  std::string file;                              ///< name in messages
-  std::string text;                              ///< as it was read
-  std::vector<Diagnostic> findings;              ///< in the order of Diagnostics::sort
-  std::optional<CatalogSummary> summary;         ///< of a catalog that was understood
-  std::optional<TogetherSummary> together = {};  ///< the same, if it was asked for
-  Kind kind = Kind::catalog;                     ///< only a catalog has a summary
+  std::string file;                       ///< name in messages
+  std::string text;                       ///< as it was read
+  std::vector<Diagnostic> findings;       ///< in the order of Diagnostics::sort
+  std::optional<CatalogSummary> summary;  ///< of a catalog that was understood
+  Kind kind = Kind::catalog;              ///< only a catalog has a summary
 };
 
 /// Number of findings of a severity in a file, in all files.

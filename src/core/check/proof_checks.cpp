@@ -338,7 +338,8 @@ class OnRequestCheck {
       const Task& task = proof_.catalog().tasks[requirement.task];
       if (!is_on_request(task)) continue;
       report(behavior, requirement, task,
-             join(tasks_to_request(id, catalog_.task_ids[requirement.task])), proof_.reporter());
+             list_in_order(tasks_to_request(id, catalog_.task_ids[requirement.task])),
+             proof_.reporter());
     }
   }
 
@@ -376,7 +377,7 @@ class OnRequestCheck {
     });
   }
 
-  [[nodiscard]] std::string join(const std::vector<TaskId>& tasks) const {
+  [[nodiscard]] std::string list_in_order(const std::vector<TaskId>& tasks) const {
     constexpr std::size_t most_names = 10;
     std::string text;
     for (std::size_t place = 0; place < tasks.size(); ++place) {

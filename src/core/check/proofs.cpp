@@ -462,7 +462,7 @@ Note ProofContext::note_of_condition(const Reason& reason) const {
   }
   return reporter_.note(condition->range, "behavior " + quote(fitting.name) + " fits only where " +
                                               quote(variable.name) + " is " +
-                                              list_words(values, "or"));
+                                              list_with_or(values));
 }
 
 Note ProofContext::note_of(const Reason& reason) const {

@@ -1,11 +1,10 @@
-#include "core/check/situations.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <utility>
 
 #include "core/check/proofs.h"
+#include "core/check/together_search.h"
 
 namespace cbc {
 namespace {

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "core/check/situations.h"
 #include "core/check/together_search.h"
 
 namespace cbc {
@@ -305,34 +304,11 @@ TogetherTable make_together_table(const CompiledCatalog& catalog, const Together
       pair.together = together.decide(pair.first, pair.second);
       pair.is_forbidden = pair.together == Together::possible &&
                           is_forbidden(catalog, pair, options.never_together);
-      if (options.with_reasons) pair.reasons = reasons_of(pair, catalog, together);
+      pair.reasons = reasons_of(pair, catalog, together);
       table.pairs.push_back(std::move(pair));
     }
   }
   return table;
-}
-
-std::optional<TogetherSummary> summarize_together(const CompiledCatalog& catalog,
-                                                  std::uint64_t max_nodes) {
-  if (count_tasks_in_pairs(catalog) > most_tasks_in_pairs) return std::nullopt;
-  const TogetherTable table = make_together_table(catalog, {max_nodes, false, {}});
-  TogetherSummary summary;
-  summary.is_of_all_tasks = table.is_of_all_tasks;
-  for (const TaskId task : table.tasks) summary.tasks.emplace_back(catalog.name_of_task(task));
-  for (const TaskId task : table.never_run) {
-    summary.never_run.emplace_back(catalog.name_of_task(task));
-  }
-  for (const TaskPair& pair : table.pairs) {
-    if (pair.together != Together::possible) continue;
-    summary.possible.emplace_back(catalog.name_of_task(pair.first),
-                                  catalog.name_of_task(pair.second));
-  }
-  summary.excluded = table.count(Together::excluded);
-  summary.excluded_indirectly = table.count(Together::excluded_indirectly);
-  summary.excluded_in_each_situation = table.count(Together::excluded_in_each_situation);
-  summary.excluded_by_situation = table.count(Together::excluded_by_situation);
-  summary.undecided = table.count(Together::undecided);
-  return summary;
 }
 
 }  // namespace cbc

@@ -59,7 +59,6 @@ struct TogetherTable {
 /// How the pairs are decided.
 struct TogetherOptions {
   std::uint64_t max_nodes = 100'000;  ///< decisions that the search for one answer may take
-  bool with_reasons = true;           ///< also find the reasons of exclusions
   /// What the settings forbid.
   std::span<const NeverTogether> never_together = {};
 };
@@ -73,22 +72,5 @@ inline constexpr std::size_t most_tasks_in_pairs = 2'000;
 /// Of a catalog with at most `most_tasks_in_pairs` of these tasks.
 [[nodiscard]] TogetherTable make_together_table(const CompiledCatalog& catalog,
                                                 const TogetherOptions& options);
-
-/// The same in short, by names.
-struct TogetherSummary {
-  bool is_of_all_tasks = false;
-  std::vector<std::string> tasks;
-  std::vector<std::string> never_run;
-  std::vector<std::pair<std::string, std::string>> possible;  ///< the pairs that can run together
-  std::size_t excluded = 0;                                   ///< numbers of the other pairs
-  std::size_t excluded_indirectly = 0;
-  std::size_t excluded_in_each_situation = 0;
-  std::size_t excluded_by_situation = 0;
-  std::size_t undecided = 0;
-};
-
-/// Nothing if there are too many tasks.
-[[nodiscard]] std::optional<TogetherSummary> summarize_together(const CompiledCatalog& catalog,
-                                                                std::uint64_t max_nodes);
 
 }  // namespace cbc

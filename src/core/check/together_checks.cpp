@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/check/proofs.h"
-#include "core/check/situations.h"
 #include "core/check/together_search.h"
 #include "core/diagnostic/rules.h"
 #include "core/support/wording.h"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <unordered_set>
@@ -15,6 +16,26 @@
 
 /// The search behind the table of pairs, and behind the rules about tasks that run together.
 namespace cbc {
+
+/// The situation variables, ascending, that behaviors name with which some tasks, and what these
+/// require, run. No others matter to the tasks.
+[[nodiscard]] std::vector<std::uint32_t> variables_of(const CompiledCatalog& catalog,
+                                                      std::span<const TaskId> tasks);
+
+/// Asks a question in the situations that differ in some variables, until the answer is not no. The
+/// question gets the values of all variables. Past a limit of situations the answer is unknown.
+using InSituation = std::function<Feasibility(std::span<const std::uint32_t>)>;
+[[nodiscard]] Feasibility ask_in_situations(const CompiledCatalog& catalog,
+                                            const std::vector<std::uint32_t>& variables,
+                                            const InSituation& question);
+
+/// Why there is no situation in which the demands hold together, with behaviors that fit: a minimal
+/// set of requirements, minimum performances, exclusions, and conditions of behaviors. These are of
+/// the kind `situation`, without a value. Empty if it takes too long to find. `effort_left` is
+/// reduced by the work done.
+[[nodiscard]] std::vector<Reason> conflict_in_all_situations(const CompiledCatalog& catalog,
+                                                             const Demands& demands,
+                                                             std::uint64_t& effort_left);
 
 /// Answers questions about pairs of tasks, with every behavior available that fits in the
 /// situation, which may be any.

@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-#include "core/files/input.h"
+#include "core/files/read.h"
 #include "core/files/output.h"
 #include "core/files/read_files.h"
 #include "core/support/system.h"
@@ -43,20 +43,11 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   return parts;
 }
 
-std::string join(const std::vector<std::string>& words, std::string_view separator) {
-  std::string text;
-  for (const std::string& word : words) {
-    if (&word != &words.front()) text += separator;
-    text += word;
-  }
-  return text;
-}
-
 std::string join_with_or(const std::vector<std::string>& words) {
   std::vector<std::string> quoted;
   quoted.reserve(words.size());
   for (const std::string& word : words) quoted.push_back(quote_if_split(word));
-  return list_words(quoted, "or");
+  return list_with_or(quoted);
 }
 
 Values name_of(std::string placeholder, ValueKind kind) {
@@ -95,6 +86,15 @@ Values further_output(std::string placeholder) {
   Values values = output(std::move(placeholder));
   values.check = [is_name = values.check](const std::string& text) {
     return text == "-" ? "expected a file, as standard output has the report" : is_name(text);
+  };
+  return values;
+}
+
+Values folder() {
+  Values values = name_of("DIR", ValueKind::file);
+  values.expected = "a folder";
+  values.check = [](const std::string& text) {
+    return std::string(text.empty() || text == "-" ? "expected the name of a folder" : "");
   };
   return values;
 }
@@ -233,9 +233,8 @@ void Command::add_confinement() {
   folder.check = [](const std::string& value) -> std::string {
     return is_folder(value) ? "" : fmt::format("there is no folder {}", quote(value));
   };
-  Option& added = add("--confine", std::move(folder),
-                      "Read no file outside the folder DIR, whatever files and links name; for "
-                      "files from people you do not trust");
+  Option& added =
+      add("--confine", std::move(folder), "Read no file outside DIR, whatever files name");
   added.store = [](const std::string& value) { confine_reading(value); };
 }
 
@@ -391,6 +390,9 @@ std::string find_bad_equals(const Command& command, const std::vector<std::strin
 }
 
 std::string describe_unknown_option(const Command& command, const std::string& name) {
+  if (const auto moved = command.moved().find(name); moved != command.moved().end()) {
+    return fmt::format("{} has moved: use {}", name, moved->second);
+  }
   std::vector<std::string> names;
   for (const Option& option : command.options()) {
     if (option.name().starts_with("--")) names.push_back(option.name());

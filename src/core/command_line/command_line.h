@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,11 +14,18 @@
 #include <vector>
 
 #include "cbc/units.h"
+#include "core/support/wording.h"
 
 /// Declares a command line: the commands of a program, their options and arguments, which values
 /// these accept, and what does not go together. Parsing, --help, the complaints about a wrong
 /// command line, and completion all follow from the declarations.
 namespace cbc::cli {
+
+/// A file of the source tree that is part of the program; embed_files.cmake makes tables of them.
+struct EmbeddedFile {
+  std::string_view name;  ///< its path in its folder
+  std::string_view text;
+};
 
 /// What completion offers for a value.
 enum class ValueKind : std::uint8_t {
@@ -57,6 +65,8 @@ struct Values {
 [[nodiscard]] Values output(std::string placeholder);
 /// Of a file to write beside the report, which has standard output.
 [[nodiscard]] Values further_output(std::string placeholder);
+/// Of a folder, which need not exist.
+[[nodiscard]] Values folder();
 /// Of a task or behavior, or of a file that need not exist.
 [[nodiscard]] Values name_of(std::string placeholder, ValueKind kind);
 [[nodiscard]] Values one_of(std::string placeholder, std::vector<std::string> choices);
@@ -73,8 +83,7 @@ struct Values {
 
 /// The parts between separators; at least one, which may be empty.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
-[[nodiscard]] std::string join(const std::vector<std::string>& words, std::string_view separator);
-/// "text, json or gcc"
+/// "text, json or gcc"; words with blanks are quoted.
 [[nodiscard]] std::string join_with_or(const std::vector<std::string>& words);
 
 /// The names in a table, such as that of the formats of a report.
@@ -185,6 +194,10 @@ class Command {
   }
   /// --confine, for commands that read files.
   void add_confinement();
+  /// Options that another command has now: "'cbc sweep'". Only a complaint about them tells of it.
+  void moved(const std::vector<std::string>& names, const std::string& place) {
+    for (const std::string& name : names) moved_.emplace(name, place);
+  }
   /// The heading in --help of the options declared next.
   void group(std::string title) { group_ = std::move(title); }
   /// What the command does. Returns the exit status.
@@ -196,6 +209,8 @@ class Command {
   [[nodiscard]] const std::deque<Option>& options() const { return options_; }
   /// Null if it has none of this name.
   [[nodiscard]] const Option* find(std::string_view name) const;
+  /// By name of an option that moved: where it is now.
+  [[nodiscard]] const std::map<std::string, std::string>& moved() const { return moved_; }
   [[nodiscard]] int run() const { return run_(); }
 
  private:
@@ -206,6 +221,7 @@ class Command {
   HelpText text_;
   std::string group_ = "Options";
   std::deque<Option> options_;  ///< a deque, as references to them are handed out
+  std::map<std::string, std::string> moved_;
   std::function<int()> run_;
 };
 

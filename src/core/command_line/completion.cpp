@@ -17,7 +17,7 @@
 #include <fmt/core.h>
 
 #include "core/command_line/command_line.h"
-#include "core/files/input.h"
+#include "core/files/file_set.h"
 #include "runtime/base/text.h"
 
 namespace cbc::cli {
@@ -116,43 +116,39 @@ bool is_readable_file(const std::string& path) {
          size <= (path.ends_with(".cbc") ? largest_compiled : largest_completed);
 }
 
-std::optional<InputFile> read_if_readable(InputFiles& files, const std::string& path) {
-  return is_readable_file(path) ? files.read(path) : std::nullopt;
+std::shared_ptr<const InputFile> read_if_readable(FileSet& files, const std::string& path) {
+  return is_readable_file(path) ? files.read(path) : nullptr;
 }
 
 /// The catalog at the path, or the one that the script or property file there names.
-std::optional<InputFile> read_catalog_of(InputFiles& files, const std::string& path) {
-  std::optional<InputFile> file = read_if_readable(files, path);
-  if (!file || file->document == nullptr ||
-      (!is_script(*file->document) && !is_property_file(*file->document))) {
-    return file;
-  }
-  const std::optional<NamedCatalog> named = catalog_named_by(path, *file->document);
-  return named ? read_if_readable(files, named->path) : std::nullopt;
+std::shared_ptr<const InputFile> read_catalog_of(FileSet& files, const std::string& path) {
+  auto file = read_if_readable(files, path);
+  if (!file || (!file->is(FileKind::script) && !file->is(FileKind::properties))) return file;
+  const std::optional<NamedCatalog> named = catalog_named_by(*file);
+  return named ? read_if_readable(files, named->path) : nullptr;
 }
 
 /// The tasks, and on request the behaviors, of the catalog in a file, or of the catalog that the
 /// script in it names. A catalog with errors is used as far as it is understood. Messages go to
 /// standard error.
 std::vector<NameWithHelp> names_of_file(const std::string& path, bool with_behaviors) {
-  InputFiles files;
-  const std::optional<InputFile> catalog = read_catalog_of(files, expand_home(path));
+  FileSet files;
+  const auto catalog = read_catalog_of(files, expand_home(path));
   if (!catalog) return {};
   std::vector<NameWithHelp> names;
   std::set<std::string> known;
   const auto add = [&](std::string_view name, const char* what) {
     if (known.emplace(name).second) names.push_back({std::string(name), what});
   };
-  if (catalog->document == nullptr) {
-    const std::optional<CompiledFile> compiled = load(catalog->compiled);
+  if (catalog->is(FileKind::compiled)) {
+    const std::optional<CompiledFile> compiled = load_compiled(*catalog);
     if (!compiled) return {};
     for (const std::string_view name : compiled->catalog.task_names) add(name, "task");
     if (!with_behaviors) return names;
     for (const std::string_view name : compiled->catalog.behavior_names) add(name, "behavior");
     return names;
   }
-  const CatalogReading reading =
-      files.check_catalog(catalog->path, *catalog->document, InputFiles::Purpose::drawing).reading;
+  const CatalogReading reading = files.check(*catalog, FileSet::Purpose::drawing).catalog.reading;
   for (const Task& task : reading.catalog.tasks) add(task.name, "task");
   for (const UndefinedTask& task : reading.undefined_tasks) add(task.name, "task");
   if (!with_behaviors) return names;

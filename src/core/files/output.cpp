@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <initializer_list>
 #include <poll.h>
-#include <set>
 #include <string_view>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
@@ -58,6 +57,14 @@ bool wants_color(std::FILE* stream) {
 }
 
 Style style_for(std::FILE* stream) { return wants_color(stream) ? color_style() : plain_style(); }
+
+std::size_t columns_for(const std::string& output) {
+  return output == "-" ? columns_for(stdout) : 0;
+}
+
+Style style_for(const std::string& output) {
+  return output == "-" ? style_for(stdout) : plain_style();
+}
 
 namespace {
 
@@ -237,18 +244,7 @@ int write_output(const std::string& path, std::string_view content) {
   return replace_input(path, content);
 }
 
-namespace {
-
-/// Once for each folder, as folders may be large, and runs may write many files.
-void tidy_folder_of(const std::string& path) {
-  static std::set<std::filesystem::path> tidy;
-  if (tidy.insert(std::filesystem::path(path).parent_path()).second) remove_leftovers(path);
-}
-
-}  // namespace
-
 int replace_input(const std::string& path, std::string_view content) {
-  tidy_folder_of(path);
   if (const auto error = write_atomically(path, content)) {
     return complain("cannot write {}: {}", quote(path), *error);
   }
@@ -256,7 +252,6 @@ int replace_input(const std::string& path, std::string_view content) {
 }
 
 int create_output(const std::string& path, std::string_view content) {
-  tidy_folder_of(path);
   if (const auto error = create_atomically(path, content)) {
     return complain("cannot write {}: {}", quote(path), *error);
   }

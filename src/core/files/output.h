@@ -68,6 +68,10 @@ int usage_error(std::string_view command, fmt::format_string<Arguments...> forma
 
 [[nodiscard]] Style style_for(std::FILE* stream);
 
+/// The same two for what write_output() writes there.
+[[nodiscard]] std::size_t columns_for(const std::string& output);
+[[nodiscard]] Style style_for(const std::string& output);
+
 /// A line on the terminal that shows the progress of a long command. Nothing is shown in the first
 /// second, or if standard error is not a terminal.
 class Progress {

@@ -12,7 +12,6 @@
 
 #include <fmt/core.h>
 
-#include "core/files/input.h"
 #include "runtime/base/text.h"
 
 namespace cbc::cli {

@@ -1,4 +1,3 @@
-#include "core/property/condition_reader.h"
 
 #include <algorithm>
 #include <optional>
@@ -8,7 +7,6 @@
 
 #include "core/diagnostic/rules.h"
 #include "core/property/property_reader.h"
-#include "core/script/contradictions.h"
 #include "core/script/expectation.h"
 #include "core/yaml/values.h"
 #include "runtime/base/text.h"

@@ -1,6 +1,12 @@
 #include "core/property/properties.h"
 
 #include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/support/wording.h"
+#include "runtime/base/text.h"
 
 namespace cbc {
 

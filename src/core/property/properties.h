@@ -114,12 +114,4 @@ struct PropertyFile {
   std::vector<Property> properties;
 };
 
-/// What may happen, and who says so, on one line: "assumed (default): 2 of 3 tasks are requested
-/// (priority 1) and stopped; behaviors succeed and fail; none is faulty; all variables change".
-[[nodiscard]] std::string describe_assumptions(const CompiledCatalog& catalog,
-                                               const StatedAssumptions& stated);
-
-/// A property in words: "LAND can always start with priority 3".
-[[nodiscard]] std::string describe(const CompiledCatalog& catalog, const Property& property);
-
 }  // namespace cbc

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/diagnostic/rules.h"
-#include "core/property/condition_reader.h"
 #include "core/script/names.h"
 #include "runtime/base/text.h"
 

@@ -1,9 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string_view>
+#include <unordered_map>
 
 #include "core/diagnostic/diagnostic.h"
 #include "core/property/properties.h"
+#include "core/script/names.h"
+#include "core/script/script.h"
 #include "core/yaml/document.h"
 #include "core/yaml/values.h"
 #include "runtime/compiled/compiled_catalog.h"
@@ -26,5 +31,34 @@ namespace cbc {
 [[nodiscard]] std::optional<PropertyFile> read_properties(const yaml::Document& document,
                                                           const CompiledCatalog& catalog,
                                                           Diagnostics& diagnostics);
+
+// Parts of the reader of property files: conditions, and what assumptions share with them.
+
+/// Finds names that are listed twice.
+class ListedNames {
+ public:
+  /// Returns whether `place`, which `node` names, is new in the list; reports it if it is not.
+  bool add(std::uint32_t place, const yaml::Node& node, Reporter& reporter);
+
+ private:
+  std::unordered_map<std::uint32_t, Range> first_;
+};
+
+/// With the numbers of the compiled catalog in place of those of the file.
+[[nodiscard]] SituationPart part_of(const Situation& situation, const CompiledCatalog& catalog);
+
+/// How conditions are checked.
+struct ConditionChecks {
+  /// What the states are like; null if that could not be read.
+  const Assumptions* assumptions = nullptr;
+  /// The condition is never to hold, so it is no mistake if the catalog rules it out.
+  bool is_denied = false;
+};
+
+/// Reads the condition that is the value of the key `what`. Mistakes are reported; the result may
+/// be used only if there was no error.
+[[nodiscard]] StateCondition read_condition(const yaml::Node& node, std::string_view what,
+                                            const ConditionChecks& checks, NameIndex& names,
+                                            Reporter& reporter);
 
 }  // namespace cbc

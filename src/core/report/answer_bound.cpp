@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/report/sentences.h"
+#include "core/report/suitability.h"
 
 namespace cbc {
 

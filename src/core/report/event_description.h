@@ -9,6 +9,7 @@
 #include "core/compile/compile.h"
 #include "core/report/answer_bound.h"
 #include "core/report/event_json.h"
+#include "core/report/event_words.h"
 #include "core/report/explanation_json.h"
 #include "core/report/search_stats.h"
 #include "core/script/situation_json.h"

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "core/report/failure_story.h"
+#include "core/report/failure_explanation.h"
+#include "core/report/layout.h"
 #include "core/report/reason_json.h"
-#include "core/report/sentences.h"
+#include "core/report/suitability.h"
+#include "core/report/explanation_words.h"
 #include "core/support/json_description.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"

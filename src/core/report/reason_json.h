@@ -3,7 +3,7 @@
 #include <array>
 
 #include "core/compile/catalog_json.h"
-#include "core/report/sentences.h"
+#include "core/report/reason_words.h"
 #include "core/support/json_description.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/explain/reasons.h"

@@ -15,7 +15,7 @@
 #include "core/report/event_json.h"
 #include "core/report/run_report.h"
 #include "core/report/search_stats.h"
-#include "core/report/sentences.h"
+#include "core/report/explanation_words.h"
 #include "core/report/totals_json.h"
 #include "core/support/json.h"
 #include "core/support/json_description.h"
@@ -25,37 +25,37 @@ namespace json::solve {
 
 /// Why tasks are not as expected; `event`: what decided, `state`: before it.
 struct Unexpected {
-  const Surprise& surprise;
+  const UnexpectedTasks& unexpected;
   const WhyNot& why_not;
   std::span<const Reason> conflict;
   std::span<const TaskId> tasks_in_question;
   const State& present;
 };
 
-constexpr auto looked_back = [](const Unexpected& of) -> const LookBack& {
-  return of.surprise.look_back;
+constexpr auto why_of = [](const Unexpected& of) -> const WhyUnmet& {
+  return of.unexpected.why_unmet;
 };
 
 constexpr auto unexpected =
     object(
-        "surprise",
+        "unexpected",
         "Why tasks of one group are not as expected: the best answer that would have met the "
         "expectation is worse than the chosen one, or there is none.",
         member("event", nullable(integer(1)),
                "Index of the event that decided: the last accepted one of the group, or a rejected "
                "start or stop since. Null if there was none, or if one is still to come.",
                [](const Unexpected& of) {
-                 const EventRecord* const event = looked_back(of).event;
+                 const EventRecord* const event = why_of(of).event;
                  return event != nullptr ? &event->index : nullptr;
                }),
         member(
             "tasks", list(task).at_least(1),
             "The tasks that are not as expected, in catalog order.",
-            [](const Unexpected& of) -> const auto& { return of.surprise.tasks; }),
+            [](const Unexpected& of) -> const auto& { return of.unexpected.tasks; }),
         optional("due", positive_seconds,
                  "When a reactive task that should run starts by itself, in seconds on the clock.",
                  [](const Unexpected& of) {
-                   return looked_back(of).kind == LookBack::Kind::due ? &looked_back(of).due
+                   return why_of(of).kind == WhyUnmet::Kind::due ? &why_of(of).due
                                                                       : nullptr;
                  }),
         part(
@@ -74,12 +74,12 @@ constexpr auto unexpected =
                  "that a fault of an active behavior has no effect yet. Also at the end of the "
                  "message.",
                  [](const Unexpected& of, const Decision& in) {
-                   std::vector<std::string> notes = notes_of(in.catalog, of.surprise, of.present);
+                   std::vector<std::string> notes = notes_of(in.catalog, of.unexpected, of.present);
                    return notes.empty() ? std::nullopt : std::optional(std::move(notes));
                  }),
         member("message", text, sentence,
                [](const Unexpected& of, const Decision& in) {
-                 return message_of(describe_surprise(in.catalog, of.surprise, of.present));
+                 return message_of(describe_unexpected(in.catalog, of.unexpected, of.present));
                }))
         .related(R"([
       {"if": {"properties": {"alternative": {"type": "null"}}},
@@ -91,28 +91,28 @@ constexpr auto unexpected =
          "differences": {"type": "array", "minItems": 1},
          "conflict": {"type": "array", "maxItems": 0}}}}])");
 
-/// A surprise in a failed expectation, which is the context.
+/// Why tasks are not as a failed expectation, which is the context, wants them.
 struct OfFailure {
   struct Context {
     const CompiledCatalog& catalog;
     const Failure& failure;
   };
 
-  void write(JsonWriter& json, const Surprise& surprise, const Context& context) const {
+  void write(JsonWriter& json, const UnexpectedTasks& tasks, const Context& context) const {
     static const EventRecord nothing{};
     static const WhyNot no_answer{};
     const State& present = *context.failure.state;
-    const LookBack& look_back = surprise.look_back;
-    if (look_back.kind == LookBack::Kind::decided) {
+    const WhyUnmet& why_unmet = tasks.why_unmet;
+    if (why_unmet.kind == WhyUnmet::Kind::decided) {
       unexpected.write(json,
-                       Unexpected{surprise, look_back.why_not, look_back.why_not.conflict,
-                                  surprise.tasks, present},
-                       Decision{context.catalog, *look_back.event, *look_back.before});
+                       Unexpected{tasks, why_unmet.why_not, why_unmet.why_not.conflict,
+                                  tasks.tasks, present},
+                       Decision{context.catalog, *why_unmet.event, *why_unmet.before});
       return;
     }
-    const bool is_rejected = look_back.kind == LookBack::Kind::rejected;
-    const EventRecord& event = is_rejected ? *look_back.event : nothing;
-    unexpected.write(json, Unexpected{surprise, no_answer, event.conflict, {}, present},
+    const bool is_rejected = why_unmet.kind == WhyUnmet::Kind::rejected;
+    const EventRecord& event = is_rejected ? *why_unmet.event : nothing;
+    unexpected.write(json, Unexpected{tasks, no_answer, event.conflict, {}, present},
                      Decision{context.catalog, event, present});
   }
   void put_schema(JsonWriter& json, Definitions& definitions) const {
@@ -132,7 +132,7 @@ constexpr auto failure = object(
            "Why tasks are not as expected, one entry for each group of tasks. Empty if the outcome "
            "alone is wrong, if the expectation can never hold, and after the first 100 failed "
            "expectations of a script.",
-           &Failure::surprises));
+           &Failure::unexpected));
 
 constexpr auto run_begin =
     group(member("catalog", any_text,

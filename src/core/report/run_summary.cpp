@@ -1,15 +1,16 @@
 #include "core/report/run_summary.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/diagnostic/diagnostic.h"
-#include "core/report/sentences.h"
-#include "core/report/table_parts.h"
+#include "core/report/event_words.h"
+#include "core/report/table.h"
+#include "core/support/wording.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
@@ -17,25 +18,27 @@ namespace {
 
 /// Longer lists would hide what comes before them.
 constexpr std::size_t most_places = 20;
-constexpr std::size_t place_indent = 8;
 
-std::string row(std::string_view what, std::uint64_t count) {
-  return fmt::format("  {:<19} {:>7}", what, count);
-}
-
-void add_rest(std::size_t total, std::vector<SummaryLine>& lines) {
-  if (total <= most_places) return;
-  lines.push_back({fmt::format("    and {} more", total - most_places), place_indent});
-}
-
-void add_failures(const std::string& file, std::span<const FailedExpectation> failures,
-                  std::vector<SummaryLine>& lines) {
-  for (const FailedExpectation& failed : failures.first(std::min(failures.size(), most_places))) {
-    lines.push_back(
-        {fmt::format("    {}: {}", format_place(file, failed.range.begin), failed.message),
-         place_indent, true});
+/// Writes the first ones.
+void write_list(const std::vector<std::string>& lines, std::size_t total, std::string_view color,
+                Text& text) {
+  for (std::size_t place = 0; place < std::min(lines.size(), most_places); ++place) {
+    text.painted(color, "    " + lines[place]);
   }
-  add_rest(failures.size(), lines);
+  if (total > most_places) text.line("    and {} more", total - most_places);
+}
+
+void write_failures(const std::string& file, const std::vector<FailedExpectation>& failures,
+                    Text& text) {
+  std::vector<std::string> lines;
+  for (const FailedExpectation& failed : failures) {
+    lines.push_back(fmt::format("{}: {}", format_place(file, failed.range.begin), failed.message));
+  }
+  write_list(lines, lines.size(), text.style().bad, text);
+}
+
+std::string file_of(const RunResult& result) {
+  return result.script == nullptr ? "" : printable(result.script->file);
 }
 
 }  // namespace
@@ -53,7 +56,7 @@ void RunSummary::add(const EventRecord& record, const Step* step) {
   if (record.origin == Origin::script && record.verb != Verb::wait) end_timeouts();
   if (record.outcome != Outcome::rejected || rejected_.size() == most_places) return;
   const std::string place = step == nullptr ? file_ : format_place(file_, step->range.begin);
-  rejected_.push_back(fmt::format("    {}: at {} s, {}", place, format_time(record.time),
+  rejected_.push_back(fmt::format("{}: at {} s, {}", place, format_time(record.time),
                                   describe_event(*catalog_, record, nullptr)));
 }
 
@@ -66,63 +69,49 @@ void RunSummary::note_timeout(const EventRecord& record) {
 /// A behavior that times out twice has been activated again, though the script did nothing: that
 /// goes on for ever.
 void RunSummary::end_timeouts() {
-  std::string behaviors;
+  std::vector<std::string> behaviors;
   for (const auto& [behavior, count] : timeouts_.counts) {
     if (count < 2) continue;
-    behaviors += fmt::format("{}{} ({} times)", behaviors.empty() ? "" : ", ",
-                             behavior_name(*catalog_, behavior), count);
+    behaviors.push_back(fmt::format("{} ({} times)", behavior_name(*catalog_, behavior), count));
   }
   if (!behaviors.empty()) {
-    cycles_.push_back(fmt::format("    from {} s to {} s, while the script does nothing: {}",
+    cycles_.push_back(fmt::format("from {} s to {} s, while the script does nothing: {}",
                                   format_time(timeouts_.first), format_time(timeouts_.last),
-                                  behaviors));
+                                  join(behaviors, ", ")));
   }
   timeouts_ = {};
 }
 
-std::vector<SummaryLine> RunSummary::lines(const RunResult& result) {
+void RunSummary::write(const RunResult& result, Text& text) {
   end_timeouts();
-  std::vector<SummaryLine> lines;
-  lines.push_back({row("events", result.events)});
-  lines.push_back({row("accepted", result.accepted)});
-  lines.push_back({row("rejected", result.rejected)});
-  for (const std::string& rejected : rejected_) lines.push_back({rejected, place_indent});
-  add_rest(result.rejected, lines);
+  const Table table(text.style(), {{{}, {}, 19}, number_column({}, 7, 1)});
+  text.add(table.line({"events", result.events}));
+  text.add(table.line({"accepted", result.accepted}));
+  text.add(table.line({"rejected", result.rejected}));
+  write_list(rejected_, result.rejected, {}, text);
   if (!cycles_.empty()) {
-    lines.push_back({"  timeouts again and again"});
-    for (std::size_t place = 0; place < std::min(cycles_.size(), most_places); ++place) {
-      lines.push_back({cycles_[place], place_indent});
-    }
-    add_rest(cycles_.size(), lines);
+    text.line("  timeouts again and again");
+    write_list(cycles_, cycles_.size(), {}, text);
   }
-  if (result.failed == 0) return lines;
-  lines.push_back({row("failed expectations", result.failed), 0, true});
-  add_failures(file_, result.failures, lines);
-  return lines;
+  if (result.failed == 0) return;
+  text.add(table.line({"failed expectations", result.failed}, text.style().bad));
+  write_failures(file_, result.failures, text);
 }
 
-void ScriptTable::add(const RunResult& result) {
-  rows_.push_back({result.script == nullptr ? "" : printable(result.script->file), result});
-}
-
-std::vector<SummaryLine> ScriptTable::lines() const {
-  std::size_t width = 6;
-  for (const Row& row : rows_) width = std::max(width, width_of(row.file));
-  const auto line = [width](const std::string& file, const auto& events, const auto& accepted,
-                            const auto& rejected, const auto& failed) {
-    return fmt::format("  {}{}  {:>8}  {:>8}  {:>8}  {:>8}", file,
-                       std::string(width - width_of(file), ' '), events, accepted, rejected,
-                       failed);
-  };
-  std::vector<SummaryLine> lines;
-  lines.push_back({line("script", "events", "accepted", "rejected", "failed")});
-  for (const Row& row : rows_) {
-    lines.push_back({line(row.file, row.result.events, row.result.accepted, row.result.rejected,
-                          row.result.failed),
-                     place_indent, row.result.failed > 0});
+void write_scripts(const std::vector<RunResult>& results, Text& text) {
+  Table table(text.style(),
+              {{"script"},
+               number_column("events", 8),
+               number_column("accepted", 8),
+               number_column("rejected", 8),
+               number_column("failed", 8)},
+              {.columns = text.columns(), .column = 0});
+  for (const RunResult& result : results) {
+    table.add({file_of(result), result.events, result.accepted, result.rejected, result.failed},
+              result.failed > 0 ? text.style().bad : std::string_view());
   }
-  for (const Row& row : rows_) add_failures(row.file, row.result.failures, lines);
-  return lines;
+  text.add(table.text());
+  for (const RunResult& result : results) write_failures(file_of(result), result.failures, text);
 }
 
 }  // namespace cbc

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "cbc/units.h"
+#include "core/report/layout.h"
 #include "core/script/runner.h"
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
@@ -15,13 +15,6 @@
 // What stands at the end of the text about runs, where people look first.
 
 namespace cbc {
-
-/// A line, and how far its continuation is indented where it has to be wrapped.
-struct SummaryLine {
-  std::string text;
-  std::size_t indent = 0;
-  bool is_bad = false;  ///< of a failure
-};
 
 /// The summary of one run: how many events were accepted and rejected, which were rejected, which
 /// behaviors time out again and again while the script does nothing, and which expectations failed,
@@ -32,7 +25,7 @@ class RunSummary {
   void begin_run(const CompiledCatalog& catalog, const Script& script);
   void add(const EventRecord& record, const Step* step);
 
-  [[nodiscard]] std::vector<SummaryLine> lines(const RunResult& result);
+  void write(const RunResult& result, Text& text);
 
  private:
   /// Timeouts since the last event of the script.
@@ -53,18 +46,6 @@ class RunSummary {
 };
 
 /// The summary of several runs: a row for each script, and the places of all failures.
-class ScriptTable {
- public:
-  void add(const RunResult& result);
-
-  [[nodiscard]] std::vector<SummaryLine> lines() const;
-
- private:
-  struct Row {
-    std::string file;
-    RunResult result;
-  };
-  std::vector<Row> rows_;
-};
+void write_scripts(const std::vector<RunResult>& results, Text& text);
 
 }  // namespace cbc

@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
-#include "core/report/failure_story.h"
+#include "core/report/explanation_words.h"
+#include "core/report/failure_explanation.h"
+#include "core/report/layout.h"
 #include "core/report/run_report.h"
 #include "core/report/run_summary.h"
-#include "core/report/sentences.h"
+#include "core/report/table.h"
 #include "core/script/runner.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/record.h"
@@ -31,7 +33,7 @@ struct TextLayout {
 class TextReport final : public SolveReport {
  public:
   TextReport(const Style& style, std::FILE* out, const TextLayout& layout = {})
-      : style_(style), layout_(layout), out_(out) {}
+      : style_(style), layout_(layout), out_(out), text_(style, layout.columns) {}
 
   void begin_run(const CompiledCatalog& catalog, const Script& script) override;
   void on_event(const EventRecord& record, const Step* step, const State& state) override;
@@ -46,8 +48,9 @@ class TextReport final : public SolveReport {
   void add_part(std::string_view text, const RunResult& result) override;
 
  private:
-  [[nodiscard]] std::string describe_outcome(const EventRecord& record, const State& state) const;
-  [[nodiscard]] std::string describe_briefly(const EventRecord& record) const;
+  [[nodiscard]] std::string outcome_of(const EventRecord& record, const State& state) const;
+  [[nodiscard]] std::string brief_details(const EventRecord& record) const;
+  void write_event(const std::string& time, const std::string& event, const std::string& outcome);
   void write_details(const EventRecord& record, const State& state);
   void write_change(const EventRecord& record, const Change& change);
   void write_failed(const EventRecord& record);
@@ -55,21 +58,19 @@ class TextReport final : public SolveReport {
   void write_explanation(const EventRecord& record, const State& state);
   void write_alternatives(const EventRecord& record, const State& state);
   void write(const Sentences& sentences);
-  void write(const std::vector<SummaryLine>& lines);
-  /// Wraps the line; what follows the first break is indented by `indent` columns.
-  void write_line(const std::string& line, std::size_t indent);
+  void flush();
   void count(const RunResult& result);
 
   const Style style_;
   const TextLayout layout_;
   std::FILE* const out_;
+  Text text_;  ///< what is not yet written
   const CompiledCatalog* catalog_ = nullptr;
-  FailureStory story_;
+  FailureExplanation explanation_;
   RunSummary summary_;
-  ScriptTable scripts_;
+  std::vector<RunResult> results_;
   std::string script_file_;
-  std::size_t behavior_width_ = 0;
-  std::size_t task_width_ = 0;
+  std::optional<Table> changes_;
   std::size_t runs_ = 0;
   std::size_t failed_runs_ = 0;
   std::optional<SearchTotals> totals_;

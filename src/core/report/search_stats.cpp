@@ -1,20 +1,15 @@
 #include "core/report/search_stats.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <span>
 #include <sys/resource.h>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/diagnostic/diagnostic.h"
-#include "core/report/answer_bound.h"
-#include "core/report/sentences.h"
-#include "core/report/table_parts.h"
-#include "core/report/wrap.h"
+#include "core/report/catalog_words.h"
+#include "core/report/table.h"
+#include "core/support/json.h"
 #include "core/support/wording.h"
-#include "runtime/base/text.h"
 
 namespace cbc {
 namespace {
@@ -43,26 +38,20 @@ std::string name_of_kind(const SearchTotals::Kind& kind) {
   return name;
 }
 
-/// One measure of a kind of events: its name, mean, minimum and maximum.
-std::string columns(const char* measure, const Spread& spread, std::uint64_t events) {
-  return fmt::format("{:<12}  {:>11.2f} {:>11} {:>11}\n", measure, mean(spread, events),
-                     spread.least, spread.greatest);
-}
-
-std::string columns_of_time(const Spread& spread, std::uint64_t events) {
-  return fmt::format("{:<12}  {:>11.2f} {:>11.2f} {:>11.2f}\n", "time [us]",
-                     mean(spread, events) / 1000, to_microseconds(spread.least),
-                     to_microseconds(spread.greatest));
-}
-
-std::string rows(const std::string& name, const SearchEffort& effort) {
-  if (effort.events == 0) return {};
-  const std::string indent(31, ' ');
-  return fmt::format("  {:<18} {:>8}  ", name, effort.events) +
-         columns("solutions", effort.solutions, effort.events) + indent +
-         columns("nodes", effort.nodes, effort.events) + indent +
-         columns("propagations", effort.propagations, effort.events) + indent +
-         columns_of_time(effort.nanoseconds, effort.events);
+void add_rows(const std::string& name, const SearchEffort& effort, Table& table) {
+  const auto number = [](double value) { return fmt::format("{:.2f}", value); };
+  bool is_first = true;
+  const auto add = [&](const char* measure, const Spread& spread) {
+    table.add({is_first ? name : "", is_first ? std::to_string(effort.events) : "", measure,
+               number(mean(spread, effort.events)), spread.least, spread.greatest});
+    is_first = false;
+  };
+  add("solutions", effort.solutions);
+  add("nodes", effort.nodes);
+  add("propagations", effort.propagations);
+  const Spread& time = effort.nanoseconds;
+  table.add({"", "", "time [us]", number(mean(time, effort.events) / 1000),
+             number(to_microseconds(time.least)), number(to_microseconds(time.greatest))});
 }
 
 }  // namespace
@@ -72,17 +61,22 @@ double to_microseconds(std::uint64_t nanoseconds) {
 }
 
 std::string stats_table(const SearchTotals& totals, const ProcessUsage& usage, const Style& style) {
-  std::string text =
-      fmt::format("{}searches{}\n{}  {:<18} {:>8}  {:<12}  {:>11} {:>11} {:>11}{}\n", style.strong,
-                  style.reset, style.faint, "event", "n", "", "mean", "min", "max", style.reset);
+  Table table(style, {{"event", {}, 18},
+                      number_column("n", 8, 1),
+                      {{}, {}, 12},
+                      number_column("mean", 11),
+                      number_column("min", 11, 1),
+                      number_column("max", 11, 1)});
   for (std::size_t kind = 0; kind < SearchTotals::kinds.size(); ++kind) {
-    text += rows(name_of_kind(SearchTotals::kinds[kind]), totals.of_kind(kind));
+    const SearchEffort& effort = totals.of_kind(kind);
+    if (effort.events > 0) add_rows(name_of_kind(SearchTotals::kinds[kind]), effort, table);
   }
-  text += totals.all().events > 0 ? rows("all", totals.all()) : "  none\n";
-  text +=
-      fmt::format("  process: {:.1f} MiB of memory at most, {:.3f} s of CPU time\n",
-                  static_cast<double>(usage.peak_memory) / (1 << 20), to_seconds(usage.cpu_time));
-  return text;
+  if (totals.all().events > 0) add_rows("all", totals.all(), table);
+  return style.paint(style.strong, "searches") + "\n" + table.text() +
+         (totals.all().events > 0 ? "" : "  none\n") +
+         fmt::format("  process: {:.1f} MiB of memory at most, {:.3f} s of CPU time\n",
+                     static_cast<double>(usage.peak_memory) / (1 << 20),
+                     to_seconds(usage.cpu_time));
 }
 
 std::string stats_line(const SearchRecord& search) {

@@ -1,5 +1,3 @@
-#include "core/script/contradictions.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <map>
@@ -9,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "core/script/expectation.h"
 #include "runtime/base/text.h"
 
 namespace cbc {

@@ -9,7 +9,6 @@
 #include "cbc/event.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
-#include "core/script/names.h"
 #include "core/script/reader.h"
 #include "core/yaml/document.h"
 #include "core/yaml/values.h"

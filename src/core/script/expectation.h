@@ -1,16 +1,61 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
-#include "core/script/contradictions.h"
 #include "core/script/names.h"
 #include "core/script/script.h"
 #include "core/yaml/document.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/state.h"
+#include "runtime/explain/reasons.h"
 
 namespace cbc {
+
+// What is said of one state, by an expectation of a script or a condition of a property file, and
+// which parts of it cannot hold together.
+
+/// What is said of the values of tasks. Numbers are those of the compiled catalog.
+struct StateClaims {
+  /// A task or a behavior, and where it is named.
+  struct Named {
+    std::uint32_t id = 0;
+    Range range;
+  };
+  struct Running {
+    Named task;
+    std::optional<Named> behavior;  ///< empty: any
+  };
+
+  std::vector<Running> running;
+  std::vector<Named> stopped;  ///< tasks
+  std::vector<Named> active;   ///< behaviors
+  /// Where it is said that no other behavior is active, if it is.
+  std::optional<Range> only_active;
+};
+
+/// Takes why something can never hold, the place that says it, and places that say otherwise.
+using OnContradiction =
+    std::function<void(const Range& range, const std::string& why, std::vector<Note> notes)>;
+
+/// Finds claims that contradict each other in any catalog with these behaviors: an active behavior
+/// performs a task, and a task has one behavior at most. Tasks that are to run and to be stopped
+/// are not reported, nor are behaviors that do not perform their task.
+void find_contradictions(const StateClaims& claims, const CompiledCatalog& catalog,
+                         const Reporter& reporter, const OnContradiction& on_contradiction);
+
+/// Finds claims that exclusions of the catalog do not allow together. It knows nothing of
+/// performances.
+void find_excluded(const StateClaims& claims, const CompiledCatalog& catalog,
+                   const Reporter& reporter, const OnContradiction& on_contradiction);
+
+/// The same with all that requirements make run, too.
+void find_ruled_out(const StateClaims& claims, const CompiledCatalog& catalog,
+                    const Reporter& reporter, const OnContradiction& on_contradiction);
 
 // What is expected of a state: the reader of an `expect`, and the parts that conditions of property
 // files share with it.
@@ -40,5 +85,20 @@ struct RunningEntry {
 /// Reports a task that is expected to be stopped, and is one of those that are expected to run.
 void check_stopped(std::uint32_t task, const Range& range, const std::vector<RunningEntry>& running,
                    const CompiledCatalog& catalog, const Standing& standing, Reporter& reporter);
+
+/// What an expectation that does not hold demands of one group of tasks.
+struct ExpectedValues {
+  std::uint32_t group = 0;
+  std::vector<TaskId> tasks;  ///< those that are not as expected, in catalog order
+  /// The expectation holds in the group if all demands of one of these hold. More than one where
+  /// an active behavior may perform several tasks.
+  std::vector<Demands> ways;
+};
+
+/// The groups in which the expectation does not hold, in catalog order. Left out are those in which
+/// it can never hold, and those with more ways than anybody would list.
+[[nodiscard]] std::vector<ExpectedValues> find_expected_values(const Expectation& expectation,
+                                                               const CompiledCatalog& catalog,
+                                                               const State& state);
 
 }  // namespace cbc

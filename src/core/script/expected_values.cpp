@@ -1,9 +1,9 @@
-#include "core/script/expected_values.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <map>
 #include <utility>
+
+#include "core/script/expectation.h"
 
 namespace cbc {
 namespace {

@@ -38,31 +38,6 @@ std::string describe_unknown(std::string_view name, std::string_view kind, bool 
 
 }  // namespace
 
-std::optional<std::uint32_t> SituationNames::find_variable(std::string_view name) {
-  if (variables_.empty()) {
-    for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
-      variables_.emplace(catalog_.name_of_variable(variable), variable);
-    }
-  }
-  return find(variables_, name);
-}
-
-std::optional<std::uint32_t> SituationNames::find_value(std::uint32_t variable,
-                                                        std::string_view text) {
-  Places& values = values_[variable];
-  if (values.empty()) {
-    for (std::uint32_t value = 0; value < catalog_.variables[variable].value_count; ++value) {
-      values.emplace(catalog_.name_of_value({variable, value}), value);
-    }
-  }
-  return find(values, text);
-}
-
-std::optional<std::uint32_t> SituationNames::find(const Places& places, std::string_view name) {
-  const auto found = places.find(name);
-  return found == places.end() ? std::nullopt : std::optional(found->second);
-}
-
 std::optional<std::uint32_t> NameIndex::find_task(const yaml::Node& node, std::string_view what,
                                                   Reporter& reporter, const yaml::Node* beside) {
   const auto name = yaml::read_name(node, what, "the name of a task", reporter);
@@ -101,7 +76,7 @@ std::optional<NameIndex::Part> NameIndex::find_part(const yaml::Node& node, Repo
   const auto name =
       yaml::read_name(node, "situation", "the name of a behavior or a variable", reporter);
   if (!name) return std::nullopt;
-  if (const auto variable = situation_.find_variable(*name)) return Part{true, *variable};
+  if (const auto variable = catalog_.find_variable(*name)) return Part{true, *variable};
   if (const auto behavior = catalog_.find_behavior(*name)) return Part{false, *behavior};
   if (!parts_) {
     std::vector<std::string_view> names;
@@ -125,7 +100,7 @@ std::optional<VariableValue> read_value(std::uint32_t variable, const yaml::Node
                                         NameIndex& names, Reporter& reporter) {
   const CompiledCatalog& catalog = names.catalog();
   const auto text = value_text(node, catalog.variables[variable].is_boolean != 0);
-  const auto value = text ? names.situation().find_value(variable, *text) : std::nullopt;
+  const auto value = text ? catalog.find_value(variable, *text) : std::nullopt;
   if (value) return VariableValue{variable, *value};
   std::vector<std::string_view> values;
   for (std::uint32_t place = 0; place < catalog.variables[variable].value_count; ++place) {

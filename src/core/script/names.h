@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
@@ -18,35 +17,12 @@ namespace cbc {
 
 // What scripts and property files share: names of a catalog, and what is said of them.
 
-/// Finds situation variables and their values by name, in time that does not depend on how many
-/// there are, as it does in CompiledCatalog.
-class SituationNames {
- public:
-  /// The catalog must outlive this object.
-  explicit SituationNames(const CompiledCatalog& catalog) : catalog_(catalog) {}
-
-  // What is asked for is indexed when it is asked for the first time.
-  [[nodiscard]] std::optional<std::uint32_t> find_variable(std::string_view name);
-  [[nodiscard]] std::optional<std::uint32_t> find_value(std::uint32_t variable,
-                                                        std::string_view text);
-
- private:
-  using Places = std::unordered_map<std::string_view, std::uint32_t>;
-
-  [[nodiscard]] static std::optional<std::uint32_t> find(const Places& places,
-                                                         std::string_view name);
-
-  const CompiledCatalog& catalog_;
-  Places variables_;
-  std::unordered_map<std::uint32_t, Places> values_;  ///< by variable
-};
-
 /// Finds the tasks and behaviors that a script names, by their places in the catalog, and reports
 /// unknown names.
 class NameIndex {
  public:
   /// The catalog must outlive this object.
-  explicit NameIndex(const CompiledCatalog& catalog) : catalog_(catalog), situation_(catalog) {}
+  explicit NameIndex(const CompiledCatalog& catalog) : catalog_(catalog) {}
 
   /// `what` is the key that the name is the value of. `beside`: the list or mapping that the name
   /// stands in, whose other names are not suggested.
@@ -67,11 +43,9 @@ class NameIndex {
                                               const yaml::Node* beside);
 
   [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
-  [[nodiscard]] SituationNames& situation() { return situation_; }
 
  private:
   const CompiledCatalog& catalog_;
-  SituationNames situation_;
   // Made when the first unknown name is met.
   std::optional<Suggestions> tasks_;
   std::optional<Suggestions> behaviors_;

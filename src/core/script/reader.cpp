@@ -84,11 +84,11 @@ constexpr Detail details[] = {{"priority", &VerbForm::has_priority},
 
 /// "'start' and 'stop'"
 std::string list_verbs(bool VerbForm::*belongs) {
-  std::string text;
+  std::vector<std::string> verbs;
   for (const VerbForm& form : verb_forms) {
-    if (form.*belongs) text += (text.empty() ? "" : " and ") + quote(form.name);
+    if (form.*belongs) verbs.push_back(quote(form.name));
   }
-  return text;
+  return join(verbs, " and ");
 }
 
 /// The keys of which an event needs one, for messages.
@@ -381,83 +381,6 @@ void read_mapping(const Node& root, StepReader& reader, Script& script, Reporter
 
 }  // namespace
 
-namespace {
-
-/// Notes faults of behaviors that the script itself expects to be active.
-class FaultChecks {
- public:
-  FaultChecks(const CompiledCatalog& catalog, const std::vector<Step>& steps, Reporter& reporter)
-      : catalog_(catalog), steps_(steps), reporter_(reporter) {}
-
-  void check() {
-    for (std::size_t place = 0; place < steps_.size(); ++place) {
-      const Step& step = steps_[place];
-      if (step.expect || step.verb != Verb::fault || fails_next(place)) continue;
-      const Step* const expectation = find_expectation(place);
-      if (expectation == nullptr) continue;
-      const std::string name(catalog_.behavior_names[step.subject]);
-      reporter_.report(
-          rule::fault_of_active, step.range,
-          concat("behavior ", quote(name),
-                 " is expected to be active here, and goes on; the fault takes effect at its next "
-                 "activation; ",
-                 quote(concat("finish: ", name, ", cause: process_failure")), " stops it"),
-          {reporter_.note(expectation->range, "expected to be active here")});
-    }
-  }
-
- private:
-  /// The expectation right before a fault, at the same instant, that has its behavior active.
-  [[nodiscard]] const Step* find_expectation(std::size_t fault) const {
-    const std::uint32_t behavior = steps_[fault].subject;
-    for (std::size_t place = fault; place > 0 && steps_[place - 1].expect; --place) {
-      if (has_passed_time(place)) break;
-      if (expects_active(*steps_[place - 1].expect, behavior)) return &steps_[place - 1];
-    }
-    return nullptr;
-  }
-
-  /// Whether time may pass right before a step.
-  [[nodiscard]] bool has_passed_time(std::size_t place) const {
-    const std::optional<Microseconds>& time = steps_[place].time;
-    if (!time) return false;
-    for (std::size_t before = place; before > 0; --before) {
-      if (steps_[before - 1].time) return *time != *steps_[before - 1].time;
-    }
-    return *time != 0;
-  }
-
-  [[nodiscard]] static bool expects_active(const Expectation& expectation, std::uint32_t behavior) {
-    const auto runs = [behavior](const Expectation::Running& running) {
-      return running.behavior == behavior;
-    };
-    if (std::any_of(expectation.running.begin(), expectation.running.end(), runs)) return true;
-    return expectation.active && std::find(expectation.active->begin(), expectation.active->end(),
-                                           behavior) != expectation.active->end();
-  }
-
-  /// Whether the next event is a failure of the behavior, or of a task that it may perform.
-  [[nodiscard]] bool fails_next(std::size_t fault) const {
-    std::size_t next = fault + 1;
-    while (next < steps_.size() && steps_[next].expect) ++next;
-    if (next == steps_.size() || steps_[next].verb != Verb::finish ||
-        steps_[next].cause == FinishCause::goal_achieved) {
-      return false;
-    }
-    if (!steps_[next].is_by_task) return steps_[next].subject == steps_[fault].subject;
-    const auto performed = catalog_.performs[catalog_.behavior_ids[steps_[fault].subject]];
-    return std::any_of(performed.begin(), performed.end(), [&](ValueId value) {
-      return catalog_.tasks[catalog_.task_of(value)].catalog_index == steps_[next].subject;
-    });
-  }
-
-  const CompiledCatalog& catalog_;
-  const std::vector<Step>& steps_;
-  Reporter& reporter_;
-};
-
-}  // namespace
-
 const Node* catalog_of_script(const yaml::Document& document) {
   const Node& root = document.root();
   if (root.kind != Kind::mapping) return nullptr;
@@ -504,7 +427,6 @@ std::optional<Script> read_script(const yaml::Document& document, const Compiled
       break;
   }
   if (reporter.errors() > 0) return std::nullopt;
-  FaultChecks(catalog, script.steps, reporter).check();
   return script;
 }
 

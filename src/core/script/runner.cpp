@@ -7,7 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "core/script/expected_values.h"
+#include "core/script/expectation.h"
+#include "core/support/wording.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
@@ -44,36 +45,20 @@ void SearchTotals::merge(const SearchTotals& other) {
 
 namespace {
 
-class Mismatches {
- public:
-  void add(std::string_view text) {
-    if (!text_.empty()) text_ += "; ";
-    text_ += text;
-  }
-  [[nodiscard]] std::string take() { return std::move(text_); }
-
- private:
-  std::string text_;
-};
-
-std::string describe_task(const CompiledCatalog& catalog, const State& state, TaskId task) {
+std::string how_it_runs(const CompiledCatalog& catalog, const State& state, TaskId task) {
   if (!state.is_running(task)) return "it does not run";
   return fmt::format("it runs with {}", quote(catalog.name_of_behavior(state.behavior(task))));
 }
 
-std::string join_names(const CompiledCatalog& catalog,
-                       const std::vector<std::uint32_t>& behaviors) {
+std::string names_or_none(const CompiledCatalog& catalog,
+                          const std::vector<std::uint32_t>& behaviors) {
   if (behaviors.empty()) return "none";
-  std::string text;
-  for (const std::uint32_t behavior : behaviors) {
-    if (!text.empty()) text += ", ";
-    text += quote(catalog.behavior_names[behavior]);
-  }
-  return text;
+  return join(behaviors, ", ",
+              [&](std::uint32_t behavior) { return quote(catalog.behavior_names[behavior]); });
 }
 
 void check_running(const Expectation::Running& expected, const CompiledCatalog& catalog,
-                   const State& state, Mismatches& mismatches) {
+                   const State& state, std::vector<std::string>& mismatches) {
   const TaskId task = catalog.task_ids[expected.task];
   const bool holds = expected.behavior
                          ? state.behavior(task) == catalog.behavior_ids[*expected.behavior]
@@ -82,13 +67,13 @@ void check_running(const Expectation::Running& expected, const CompiledCatalog& 
   const std::string wanted =
       expected.behavior ? fmt::format(" with {}", quote(catalog.behavior_names[*expected.behavior]))
                         : "";
-  mismatches.add(fmt::format("expected task {} to run{}, but {}",
-                             quote(catalog.task_names[expected.task]), wanted,
-                             describe_task(catalog, state, task)));
+  mismatches.push_back(fmt::format("expected task {} to run{}, but {}",
+                                   quote(catalog.task_names[expected.task]), wanted,
+                                   how_it_runs(catalog, state, task)));
 }
 
 void check_active(std::vector<std::uint32_t> expected, const CompiledCatalog& catalog,
-                  const State& state, Mismatches& mismatches) {
+                  const State& state, std::vector<std::string>& mismatches) {
   std::vector<std::uint32_t> active;
   for (std::uint32_t behavior = 0; behavior < catalog.behavior_names.size(); ++behavior) {
     if (state.is_active(catalog.behavior_ids[behavior])) active.push_back(behavior);
@@ -96,19 +81,20 @@ void check_active(std::vector<std::uint32_t> expected, const CompiledCatalog& ca
   std::sort(expected.begin(), expected.end());
   expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
   if (active == expected) return;
-  mismatches.add(fmt::format("expected the active behaviors to be {}, but found {}",
-                             join_names(catalog, expected), join_names(catalog, active)));
+  mismatches.push_back(fmt::format("expected the active behaviors to be {}, but found {}",
+                                   names_or_none(catalog, expected),
+                                   names_or_none(catalog, active)));
 }
 
 }  // namespace
 
 std::string find_mismatch(const Expectation& expectation, const CompiledCatalog& catalog,
                           const State& state, std::optional<Outcome> outcome) {
-  Mismatches mismatches;
+  std::vector<std::string> mismatches;
   if (expectation.outcome && outcome != expectation.outcome) {
-    mismatches.add(fmt::format("expected outcome '{}', but {}", name_of(*expectation.outcome),
-                               outcome ? fmt::format("it is '{}'", name_of(*outcome))
-                                       : "there was no start, stop or finish yet"));
+    mismatches.push_back(fmt::format("expected outcome '{}', but {}", name_of(*expectation.outcome),
+                                     outcome ? fmt::format("it is '{}'", name_of(*outcome))
+                                             : "there was no start, stop or finish yet"));
   }
   for (const Expectation::Running& expected : expectation.running) {
     check_running(expected, catalog, state, mismatches);
@@ -116,12 +102,12 @@ std::string find_mismatch(const Expectation& expectation, const CompiledCatalog&
   for (const std::uint32_t index : expectation.stopped) {
     const TaskId task = catalog.task_ids[index];
     if (!state.is_running(task)) continue;
-    mismatches.add(fmt::format("expected task {} not to run, but {}",
-                               quote(catalog.task_names[index]),
-                               describe_task(catalog, state, task)));
+    mismatches.push_back(fmt::format("expected task {} not to run, but {}",
+                                     quote(catalog.task_names[index]),
+                                     how_it_runs(catalog, state, task)));
   }
   if (expectation.active) check_active(*expectation.active, catalog, state, mismatches);
-  return mismatches.take();
+  return join(mismatches, "; ");
 }
 
 void Runner::resume(const Snapshot& snapshot) {
@@ -173,21 +159,21 @@ void Runner::check(const Step& step) {
     ++result_.failed;
     result_.failures.push_back({step.range, mismatch});
     Failure failure{result_.failed, index_, step.range, std::move(mismatch), &step, &state, {}};
-    if (has_hindsight_ && failure.number <= most_explained) {
-      failure.surprises = find_surprises(*step.expect);
+    if (keeps_decisions_ && failure.number <= most_explained) {
+      failure.unexpected = find_unexpected(*step.expect);
     }
     listener_.on_failure(failure);
   }
 }
 
-std::vector<Surprise> Runner::find_surprises(const Expectation& expectation) {
-  std::vector<Surprise> surprises;
+std::vector<UnexpectedTasks> Runner::find_unexpected(const Expectation& expectation) {
+  std::vector<UnexpectedTasks> unexpected;
   for (ExpectedValues& expected :
        find_expected_values(expectation, catalog_, coordinator_.state())) {
-    surprises.push_back({expected.group, std::move(expected.tasks),
-                         coordinator_.look_back(expected.group, expected.ways)});
+    unexpected.push_back({expected.group, std::move(expected.tasks),
+                          coordinator_.why_unmet(expected.group, expected.ways)});
   }
-  return surprises;
+  return unexpected;
 }
 
 Event event_of(const Step& step) {
@@ -213,9 +199,9 @@ RunResult run_script(const CompiledCatalog& catalog, const Script& script,
                      const CoordinatorOptions& options, RunListener& listener) {
   CoordinatorOptions of_script = options_of(script, options);
   // Without expectations nobody asks.
-  of_script.hindsight =
-      options.hindsight && std::any_of(script.steps.begin(), script.steps.end(),
-                                       [](const Step& step) { return step.expect.has_value(); });
+  of_script.last_decisions = options.last_decisions &&
+                             std::any_of(script.steps.begin(), script.steps.end(),
+                                         [](const Step& step) { return step.expect.has_value(); });
   Runner runner(catalog, of_script, listener);
   runner.begin(script.situation);
   bool goes_on = true;

@@ -12,7 +12,7 @@
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/coordinator.h"
-#include "runtime/coordinator/hindsight.h"
+#include "runtime/coordinator/last_decisions.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
 
@@ -80,10 +80,10 @@ class SearchTotals {
                                         std::optional<Outcome> outcome);
 
 /// Why tasks of one group are not as expected.
-struct Surprise {
+struct UnexpectedTasks {
   std::uint32_t group = 0;
   std::vector<TaskId> tasks;  ///< those that are not as expected, in catalog order
-  LookBack look_back;
+  WhyUnmet why_unmet;
 };
 
 /// Of how many failed expectations of a run the reasons are searched: where more fail, they are
@@ -98,9 +98,9 @@ struct Failure {
   std::string message;
   const Step* step = nullptr;    ///< the entry of the script
   const State* state = nullptr;  ///< in which it does not hold
-  /// By group, in catalog order; only with CoordinatorOptions::hindsight. Empty where the outcome
-  /// alone is wrong, and after the first `most_explained` failures.
-  std::vector<Surprise> surprises;
+  /// By group, in catalog order; only with CoordinatorOptions::last_decisions. Empty where the
+  /// outcome alone is wrong, and after the first `most_explained` failures.
+  std::vector<UnexpectedTasks> unexpected;
 };
 
 /// Receives what happens in a run, in order.
@@ -155,7 +155,7 @@ class Runner final : private EventListener {
   /// `catalog` and `listener` must outlive this object.
   Runner(const CompiledCatalog& catalog, const CoordinatorOptions& options, RunListener& listener)
       : catalog_(catalog),
-        has_hindsight_(options.hindsight),
+        keeps_decisions_(options.last_decisions),
         listener_(listener),
         coordinator_(catalog, options, *this) {
     if (options.measure_time) result_.totals.emplace();
@@ -187,10 +187,10 @@ class Runner final : private EventListener {
   }
   [[nodiscard]] bool note(Coordinator::Status status);
   void check(const Step& step);
-  [[nodiscard]] std::vector<Surprise> find_surprises(const Expectation& expectation);
+  [[nodiscard]] std::vector<UnexpectedTasks> find_unexpected(const Expectation& expectation);
 
   const CompiledCatalog& catalog_;
-  const bool has_hindsight_;
+  const bool keeps_decisions_;
   RunListener& listener_;
   Coordinator coordinator_;
   RunResult result_;

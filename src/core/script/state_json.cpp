@@ -55,14 +55,13 @@ struct Variables {
     situation.put_schema(json, definitions);
   }
   void read(const auto& json, Values& values, const CompiledCatalog& catalog) const {
-    SituationNames known(catalog);
     values.assign(catalog.variables.size(), none);
     for (const yaml::JsonValue& value : json.members()) {
-      const auto found = known.find_variable(value.name());
+      const auto found = catalog.find_variable(value.name());
       if (!found) json.refuse_word("situation variable", value.name());
       const bool is_boolean = catalog.variables[*found].is_boolean != 0;
       const std::string word = !is_boolean ? value.text() : value.truth() ? "true" : "false";
-      const auto place = known.find_value(*found, word);
+      const auto place = catalog.find_value(*found, word);
       if (!place) fail(value.name(), " has no value " + quote(word));
       if (values[*found] != none) fail(value.name(), " has two values");
       values[*found] = *place;

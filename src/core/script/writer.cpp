@@ -1,12 +1,12 @@
-#include "core/script/writer.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <sstream>
 
 #include <fmt/format.h>
 
+#include "core/script/script.h"
 #include "core/support/json.h"
+#include "core/support/wording.h"
 #include "runtime/base/text.h"
 #include "runtime/coordinator/record.h"
 
@@ -37,61 +37,51 @@ std::string in_quotes(std::string_view text) {
 
 namespace {
 
-std::string describe(const CompiledCatalog& catalog, const Situation& situation) {
-  std::string text;
+std::string situation_map(const CompiledCatalog& catalog, const Situation& situation) {
+  std::vector<std::string> entries;
   for (const Availability& entry : situation.availability) {
-    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ",
-                        in_quotes(catalog.behavior_names[entry.behavior]), entry.available);
+    entries.push_back(
+        fmt::format("{}: {}", in_quotes(catalog.behavior_names[entry.behavior]), entry.available));
   }
   for (const VariableValue value : situation.variables) {
-    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ",
-                        in_quotes(catalog.name_of_variable(value.variable)),
-                        in_quotes(catalog.name_of_value(value)));
+    entries.push_back(fmt::format("{}: {}", in_quotes(catalog.name_of_variable(value.variable)),
+                                  in_quotes(catalog.name_of_value(value))));
   }
-  return fmt::format("{{{}}}", text);
+  return "{" + join(entries, ", ") + "}";
 }
 
-std::string describe(const CompiledCatalog& catalog, const Expectation& expectation) {
-  std::string text;
-  const auto add = [&](const std::string& part) {
-    text += fmt::format("{}{}", text.empty() ? "" : ", ", part);
+std::string expectation_entry(const CompiledCatalog& catalog, const Expectation& expectation) {
+  const auto task = [&](std::uint32_t index) { return in_quotes(catalog.task_names[index]); };
+  const auto behavior = [&](std::uint32_t index) {
+    return in_quotes(catalog.behavior_names[index]);
   };
-  const auto join = [](const auto& items, const auto& name) {
-    std::string all;
-    for (const auto& item : items) all += fmt::format("{}{}", all.empty() ? "" : ", ", name(item));
-    return all;
-  };
-  if (expectation.outcome) add(fmt::format("outcome: {}", name_of(*expectation.outcome)));
+  std::vector<std::string> parts;
+  if (expectation.outcome)
+    parts.push_back(fmt::format("outcome: {}", name_of(*expectation.outcome)));
   if (!expectation.running.empty()) {
-    add(fmt::format("running: {{{}}}", join(expectation.running, [&](const auto& running) {
-                      return fmt::format("{}: {}", in_quotes(catalog.task_names[running.task]),
-                                         running.behavior
-                                             ? in_quotes(catalog.behavior_names[*running.behavior])
-                                             : "any");
-                    })));
+    const auto entry = [&](const Expectation::Running& running) {
+      return task(running.task) + ": " + (running.behavior ? behavior(*running.behavior) : "any");
+    };
+    parts.push_back("running: {" + join(expectation.running, ", ", entry) + "}");
   }
   if (!expectation.stopped.empty()) {
-    add(fmt::format("stopped: [{}]", join(expectation.stopped, [&](std::uint32_t task) {
-                      return in_quotes(catalog.task_names[task]);
-                    })));
+    parts.push_back("stopped: [" + join(expectation.stopped, ", ", task) + "]");
   }
   if (expectation.active) {
-    add(fmt::format("active: [{}]", join(*expectation.active, [&](std::uint32_t behavior) {
-                      return in_quotes(catalog.behavior_names[behavior]);
-                    })));
+    parts.push_back("active: [" + join(*expectation.active, ", ", behavior) + "]");
   }
-  return fmt::format("expect: {{{}}}", text);
+  return "expect: {" + join(parts, ", ") + "}";
 }
 
-std::string describe(const CompiledCatalog& catalog, const Step& step) {
-  if (step.expect) return describe(catalog, *step.expect);
+std::string step_entry(const CompiledCatalog& catalog, const Step& step) {
+  if (step.expect) return expectation_entry(catalog, *step.expect);
   const VerbForm& form = form_of(step.verb);
   std::string text;
   switch (form.subject) {
     case VerbForm::SubjectKind::nothing:
       return {};
     case VerbForm::SubjectKind::situation:
-      return fmt::format("{}: {}", form.name, describe(catalog, step.situation));
+      return fmt::format("{}: {}", form.name, situation_map(catalog, step.situation));
     case VerbForm::SubjectKind::task:
       text = in_quotes(catalog.task_names[step.subject]);
       break;
@@ -126,13 +116,13 @@ std::string write_script(const CompiledCatalog& catalog, const Script& script,
   }
   if (!script.timeouts) text += "timeouts: false\n";
   if (!script.situation.is_empty()) {
-    text += fmt::format("situation: {}\n", describe(catalog, script.situation));
+    text += fmt::format("situation: {}\n", situation_map(catalog, script.situation));
   }
   text += "events:\n";
   for (std::size_t place = 0; place < script.steps.size(); ++place) {
     const Step& step = script.steps[place];
     if (place < comments.size()) text += as_comment(comments[place]);
-    const std::string event = describe(catalog, step);
+    const std::string event = step_entry(catalog, step);
     text += fmt::format("- {{at: {}{}{}}}\n", format_decimal(step.time.value_or(0), 6),
                         event.empty() ? "" : ", ", event);
   }

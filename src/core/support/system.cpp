@@ -6,14 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
-#include <ctime>
 #include <fcntl.h>
 #include <filesystem>
 #include <iterator>
-#include <poll.h>
 #include <random>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -52,23 +50,21 @@ class SignalsHeld {
   sigset_t before_{};
 };
 
-/// Names of temporary files: a random number, as the numbers of processes repeat in containers.
-/// mkostemp would ignore the umask.
-constexpr std::string_view temporary_prefix = ".cbc-";
-constexpr std::string_view temporary_suffix = ".tmp";
-constexpr std::size_t random_digits = 16;
-
+/// A random number, as the numbers of processes repeat in containers. mkostemp would ignore the
+/// umask.
 std::string draw_temporary_name() {
   std::uint64_t number = 0;
   if (getrandom(&number, sizeof number, 0) != sizeof number) number = std::random_device()();
-  return fmt::format("{}{:0{}x}{}", temporary_prefix, number, random_digits, temporary_suffix);
+  return fmt::format(".cbc-{:016x}.tmp", number);
 }
 
-bool is_temporary_name(std::string_view name) {
-  if (!name.starts_with(temporary_prefix) || !name.ends_with(temporary_suffix)) return false;
-  name.remove_prefix(temporary_prefix.size());
-  return name.size() == random_digits + temporary_suffix.size() &&
-         name.find_first_not_of("0123456789abcdef") == random_digits;
+[[nodiscard]] bool write_all(int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(descriptor, content.data(), content.size());
+    if (written < 0 && errno != EINTR) return false;
+    if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
 }
 
 /// A new file in a folder, removed again unless it was given its name.
@@ -101,12 +97,7 @@ class TemporaryFile {
   }
 
   [[nodiscard]] bool write(std::string_view content) const {
-    while (!content.empty()) {
-      const ssize_t written = ::write(descriptor_, content.data(), content.size());
-      if (written < 0 && errno != EINTR) return false;
-      if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return fsync(descriptor_) == 0;
+    return write_all(descriptor_, content) && fsync(descriptor_) == 0;
   }
 
   [[nodiscard]] bool rename_to(const fs::path& path) {
@@ -224,23 +215,6 @@ std::optional<std::string> create_atomically(const std::string& path, std::strin
   return std::nullopt;
 }
 
-void remove_leftovers(const std::string& path) {
-  constexpr std::time_t oldest = 3600;  // in seconds; a younger one may still be written to
-  Target target;
-  if (find_target(path, target)) return;
-  const std::time_t now = std::time(nullptr);
-  std::error_code error;
-  fs::directory_iterator entry(target.folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    if (!is_temporary_name(entry->path().filename().native())) continue;
-    struct stat status {};
-    if (lstat(entry->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
-    if (status.st_uid == geteuid() && now - status.st_mtime > oldest) {
-      unlink(entry->path().c_str());
-    }
-  }
-}
-
 std::optional<std::string> find_obstacle(const std::string& path) {
   Target target;
   if (auto obstacle = find_target(path, target)) return obstacle;
@@ -252,153 +226,80 @@ std::optional<std::string> find_obstacle(const std::string& path) {
 
 namespace {
 
-struct Pipe {
-  Descriptor read_end;
-  Descriptor write_end;
-
-  [[nodiscard]] bool open() {
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) return false;
-    read_end.set(ends[0]);
-    write_end.set(ends[1]);
-    return true;
+/// Starts a program with these files for its standard streams. Returns a value of errno.
+int start(const std::vector<std::string>& command, const std::array<Descriptor, 3>& streams,
+          pid_t& process) {
+  std::vector<std::string> words = command;
+  std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+    posix_spawn_file_actions_adddup2(&actions,
+                                     streams.at(static_cast<std::size_t>(stream)).number(), stream);
   }
-};
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t defaults;
+  sigemptyset(&defaults);
+  sigaddset(&defaults, SIGPIPE);
+  sigaddset(&defaults, SIGXFSZ);
+  posix_spawnattr_setsigdefault(&attributes, &defaults);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  const int error =
+      posix_spawnp(&process, arguments.front(), &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  return error;
+}
 
-/// Holds off the signal that writing to a program that has ended brings.
-class PipeSignalIgnored {
- public:
-  PipeSignalIgnored() : before_(std::signal(SIGPIPE, SIG_IGN)) {}
-  PipeSignalIgnored(const PipeSignalIgnored&) = delete;
-  PipeSignalIgnored& operator=(const PipeSignalIgnored&) = delete;
-  ~PipeSignalIgnored() { std::signal(SIGPIPE, before_); }
+std::string end_of(int status) {
+  if (WIFEXITED(status)) return fmt::format("exit status {}", WEXITSTATUS(status));
+  return fmt::format("ended by signal {}", WTERMSIG(status));
+}
 
- private:
-  void (*before_)(int);
-};
-
-class Filter {
- public:
-  explicit Filter(std::string_view input) : left_(input) {}
-
-  Filtered run(const std::vector<std::string>& command) {
-    const PipeSignalIgnored ignored;
-    if (!input_.open() || !output_.open() || !errors_.open()) return fail(errno);
-    pid_t process = 0;
-    if (const int error = start(command, process); error != 0) return fail(error);
-    result_.is_found = true;
-    input_.read_end.close();
-    output_.write_end.close();
-    errors_.write_end.close();
-    fcntl(input_.write_end.number(), F_SETFL, O_NONBLOCK);
-    exchange();
-    int status = 0;
-    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-    }
-    result_.is_done = error_ == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    if (error_ != 0) result_.error_output = std::strerror(error_);
-    if (!result_.is_done && result_.error_output.empty()) result_.error_output = end_of(status);
-    return std::move(result_);
+/// What was written to a file that is open.
+std::string content_of(const Descriptor& file) {
+  std::string content(static_cast<std::size_t>(lseek(file.number(), 0, SEEK_END)), '\0');
+  lseek(file.number(), 0, SEEK_SET);
+  std::size_t size = 0;
+  while (size < content.size()) {
+    const ssize_t count = read(file.number(), content.data() + size, content.size() - size);
+    if (count <= 0) break;
+    size += static_cast<std::size_t>(count);
   }
-
- private:
-  static std::string end_of(int status) {
-    if (WIFEXITED(status)) return fmt::format("exit status {}", WEXITSTATUS(status));
-    return fmt::format("ended by signal {}", WTERMSIG(status));
-  }
-
-  Filtered fail(int error) {
-    result_.error_output = std::strerror(error);
-    return std::move(result_);
-  }
-
-  int start(const std::vector<std::string>& command, pid_t& process) {
-    std::vector<std::string> words = command;
-    std::vector<char*> arguments;
-    arguments.reserve(words.size() + 1);
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, input_.read_end.number(), STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, output_.write_end.number(), STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, errors_.write_end.number(), STDERR_FILENO);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t defaults;
-    sigemptyset(&defaults);
-    sigaddset(&defaults, SIGPIPE);
-    sigaddset(&defaults, SIGXFSZ);
-    posix_spawnattr_setsigdefault(&attributes, &defaults);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-    const int error =
-        posix_spawnp(&process, arguments.front(), &actions, &attributes, arguments.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    return error;
-  }
-
-  /// Writes and reads in turn, whichever is possible, until the program has closed its outputs.
-  void exchange() {
-    while (output_.read_end.number() >= 0 || errors_.read_end.number() >= 0) {
-      if (left_.empty()) input_.write_end.close();
-      std::array<pollfd, 3> ends{{{input_.write_end.number(), POLLOUT, 0},
-                                  {output_.read_end.number(), POLLIN, 0},
-                                  {errors_.read_end.number(), POLLIN, 0}}};
-      if (poll(ends.data(), ends.size(), -1) < 0) {
-        if (errno == EINTR) continue;
-        give_up(errno);
-        return;
-      }
-      if (ends[0].revents != 0) write_some();
-      if (error_ == 0 && ends[1].revents != 0) read_some(output_.read_end, result_.output);
-      if (error_ == 0 && ends[2].revents != 0) read_some(errors_.read_end, result_.error_output);
-    }
-  }
-
-  void write_some() {
-    const ssize_t count = write(input_.write_end.number(), left_.data(), left_.size());
-    if (count >= 0) {
-      left_.remove_prefix(static_cast<std::size_t>(count));
-    } else if (errno == EPIPE) {
-      left_ = {};  // it has read enough
-    } else if (errno != EAGAIN && errno != EINTR) {
-      give_up(errno);
-    }
-  }
-
-  /// Lets the program end, of which nothing is wanted any more.
-  void give_up(int error) {
-    error_ = error;
-    input_.write_end.close();
-    output_.read_end.close();
-    errors_.read_end.close();
-  }
-
-  void read_some(Descriptor& end, std::string& text) {
-    std::array<char, 1 << 16> block{};
-    const ssize_t count = read(end.number(), block.data(), block.size());
-    if (count > 0) {
-      text.append(block.data(), static_cast<std::size_t>(count));
-    } else if (count == 0) {
-      end.close();
-    } else if (errno != EINTR) {
-      give_up(errno);
-    }
-  }
-
-  std::string_view left_;
-  int error_ = 0;  ///< of the exchange; a value of errno
-  Pipe input_;
-  Pipe output_;
-  Pipe errors_;
-  Filtered result_;
-};
+  content.resize(size);
+  return content;
+}
 
 }  // namespace
 
 Filtered run_filter(const std::vector<std::string>& command, std::string_view input) {
-  return Filter(input).run(command);
+  // Files in memory, of which neither side waits for the other.
+  std::array<Descriptor, 3> streams;
+  for (Descriptor& stream : streams) {
+    stream.set(memfd_create("stream", MFD_CLOEXEC));
+    if (stream.number() < 0) return {false, false, {}, reason()};
+  }
+  const int input_file = streams[STDIN_FILENO].number();
+  if (!write_all(input_file, input)) return {false, false, {}, reason()};
+  lseek(input_file, 0, SEEK_SET);
+  pid_t process = 0;
+  if (const int error = start(command, streams, process); error != 0) {
+    return {false, false, {}, reason(error)};
+  }
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  Filtered result;
+  result.is_found = true;
+  result.is_done = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  result.output = content_of(streams[STDOUT_FILENO]);
+  result.error_output = content_of(streams[STDERR_FILENO]);
+  if (!result.is_done && result.error_output.empty()) result.error_output = end_of(status);
+  return result;
 }
 
 }  // namespace cbc

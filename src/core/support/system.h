@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,11 +32,6 @@ namespace cbc {
 /// The file that write_atomically would write, which need not exist: absolute, without links.
 [[nodiscard]] std::string target_of(const std::string& path);
 
-/// Removes what killed runs of these functions left behind in the folder of an output: files of
-/// this user with the names that they give to unfinished ones, older than an hour. Reads the
-/// folder.
-void remove_leftovers(const std::string& path);
-
 /// What a program made of a text.
 struct Filtered {
   bool is_found = false;     ///< the program could be started
@@ -43,5 +42,33 @@ struct Filtered {
 
 /// Runs a program, found by PATH, with a text as standard input. No shell is involved.
 [[nodiscard]] Filtered run_filter(const std::vector<std::string>& command, std::string_view input);
+
+/// A C stream that writes to memory.
+class MemoryFile {
+ public:
+  MemoryFile() : file_(open_memstream(&data_, &size_)) {
+    if (file_ == nullptr) throw std::bad_alloc();
+  }
+  ~MemoryFile() {
+    std::fclose(file_);
+    std::free(data_);  // NOLINT(cppcoreguidelines-no-malloc): open_memstream wants it
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  [[nodiscard]] std::FILE* stream() { return file_; }
+  /// How much was written so far.
+  [[nodiscard]] std::size_t size() { return static_cast<std::size_t>(std::ftell(file_)); }
+  /// What was written so far; valid until the next write.
+  [[nodiscard]] std::string_view text() {
+    if (std::fflush(file_) != 0 || std::ferror(file_) != 0) throw std::bad_alloc();
+    return {data_, size_};
+  }
+
+ private:
+  char* data_ = nullptr;
+  std::size_t size_ = 0;
+  std::FILE* const file_;
+};
 
 }  // namespace cbc

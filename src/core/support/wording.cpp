@@ -53,12 +53,6 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
-std::string join(const std::vector<std::string>& words) {
-  std::string joined;
-  for (const std::string& word : words) joined += word;
-  return joined;
-}
-
 /// The digits of a word, with a blank after each number.
 std::string numbers_of(std::string_view word) {
   std::string numbers;
@@ -115,14 +109,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t li
 class Wanted {
  public:
   explicit Wanted(std::string_view name)
-      : name_(name), words_(words_of(name)), joined_(join(words_)) {}
+      : name_(name), words_(words_of(name)), joined_(join(words_, "")) {}
 
   /// The cost of a suggestion that has the same words, one of them perhaps misspelt. Adds its work
   /// to `work`.
   std::optional<std::size_t> cost_of(std::string_view name, const std::vector<std::string>& words,
                                      std::size_t& work) const {
     work += name.size();
-    const std::string joined = join(words);
+    const std::string joined = join(words, "");
     if (joined == joined_) return name.size() == name_.size() ? case_cost : order_cost;
     return words.size() == words_.size() ? cost_of_words(words, work) : cost_of_whole(joined, work);
   }
@@ -135,7 +129,7 @@ class Wanted {
     if (part.size() == whole.size()) return 0;
     const bool is_part = std::equal(part.begin(), part.end(), whole.begin()) ||
                          std::equal(part.rbegin(), part.rend(), whole.rbegin());
-    const std::size_t length = is_part ? join(part).size() : 0;
+    const std::size_t length = is_part ? join(part, "").size() : 0;
     return length < shortest_part ? 0 : length;
   }
 
@@ -173,7 +167,7 @@ class Wanted {
     const std::size_t order = is_in_order ? 0 : order_cost;
     if (left.empty()) return order;
     // A letter that moved to a neighboring word is one wrong letter of the whole.
-    if (left.size() > 1) return cost_of_whole(join(words), work);
+    if (left.size() > 1) return cost_of_whole(join(words, ""), work);
     const auto own = static_cast<std::size_t>(std::find(is_used.begin(), is_used.end(), false) -
                                               is_used.begin());
     const std::string& word = words_[own];
@@ -303,16 +297,16 @@ bool stands_for_itself(char byte) {
          byte == '/';
 }
 
+/// "day, dusk LAST night"
+std::string list_words(std::span<const std::string> words, std::string_view last) {
+  if (words.size() < 2) return join(words, "");
+  return concat(join(words.first(words.size() - 1), ", "), " ", last, " ", words.back());
+}
+
 }  // namespace
 
-std::string list_words(std::span<const std::string> words, std::string_view last) {
-  std::string list = words.front();
-  for (std::size_t i = 1; i < words.size(); ++i) {
-    list += i + 1 < words.size() ? std::string(", ") : concat(" ", last, " ");
-    list += words[i];
-  }
-  return list;
-}
+std::string list_with_or(std::span<const std::string> words) { return list_words(words, "or"); }
+std::string list_with_and(std::span<const std::string> words) { return list_words(words, "and"); }
 
 std::string percent_encode(std::string_view path) {
   std::string encoded;

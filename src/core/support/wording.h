@@ -57,8 +57,24 @@ class Suggestions {
   return std::to_string(number) + " " + std::string(noun) + (number == 1 ? "" : "s");
 }
 
-/// "day, dusk or night"; there is one word at least. `last`: "or" or "and".
-[[nodiscard]] std::string list_words(std::span<const std::string> words, std::string_view last);
+/// The texts of some things, with a separator between each two.
+template <typename Things, typename ToText = std::identity>
+[[nodiscard]] std::string join(const Things& things, std::string_view separator,
+                               const ToText& to_text = {}) {
+  std::string text;
+  bool is_first = true;
+  for (const auto& thing : things) {
+    if (!is_first) text += separator;
+    text += to_text(thing);
+    is_first = false;
+  }
+  return text;
+}
+
+/// "day, dusk or night"; no words make an empty text.
+[[nodiscard]] std::string list_with_or(std::span<const std::string> words);
+/// "day, dusk and night"
+[[nodiscard]] std::string list_with_and(std::span<const std::string> words);
 
 /// Breaks a long name into lines of about equal length, after a blank or one of "_-./" and before
 /// the capitals of CamelCase. A line may be longer than `width` characters if it has no such place.

@@ -1,13 +1,11 @@
 #include "core/yaml/document.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <istream>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
-#include <streambuf>
 #include <string_view>
 #include <unordered_set>
 
@@ -32,60 +30,6 @@ const Node* Node::find(std::string_view key) const {
 
 namespace {
 
-/// A text as the input of a scanner that may look ahead without bound.
-///
-/// yaml-cpp keeps all tokens of a flow collection until it knows whether the collection is a
-/// mapping key, so "[[[[..." fills the memory before the first event. This input counts the
-/// brackets opened and not closed since the last event, and ends a text in which they are far too
-/// many. It does not understand quotes and comments, hence the generous bound.
-class GuardedInput : public std::streambuf {
- public:
-  explicit GuardedInput(std::string_view text) : text_(text) {}
-
-  /// Tells that the scanner has produced an event.
-  void reset() { open_ = 0; }
-
-  /// The bracket that was one too many, if the text was cut short.
-  [[nodiscard]] std::optional<std::size_t> refused_at() const { return refused_at_; }
-
- protected:
-  int_type underflow() override {
-    const std::string_view chunk = text_.substr(next_, buffer_.size());
-    if (chunk.empty() || refused_at_) return traits_type::eof();
-    count_brackets(chunk);
-    if (open_ > most_open) {
-      refused_at_ = suspect_;
-      return traits_type::eof();
-    }
-    std::copy(chunk.begin(), chunk.end(), buffer_.begin());
-    next_ += chunk.size();
-    setg(buffer_.data(), buffer_.data(), buffer_.data() + chunk.size());
-    return traits_type::to_int_type(buffer_.front());
-  }
-
- private:
-  static constexpr std::size_t most_open = 10'000;
-
-  void count_brackets(std::string_view chunk) {
-    for (std::size_t i = 0; i < chunk.size(); ++i) {
-      const char byte = chunk[i];
-      if (byte == '[' || byte == '{') {
-        ++open_;
-        if (open_ == maximum_depth + 1) suspect_ = next_ + i;
-      } else if ((byte == ']' || byte == '}') && open_ > 0) {
-        --open_;
-      }
-    }
-  }
-
-  std::string_view text_;
-  std::size_t next_ = 0;
-  std::size_t open_ = 0;
-  std::size_t suspect_ = 0;  // offset at which `open_` last passed the allowed depth
-  std::optional<std::size_t> refused_at_;
-  std::array<char, 2048> buffer_{};
-};
-
 constexpr std::string_view core_tag = "tag:yaml.org,2002:";
 
 // Thrown to end the parsing of a document; becomes a finding.
@@ -100,35 +44,6 @@ constexpr std::string_view unclosed_text = "a text in quotes does not end";
 
 std::string too_deep() {
   return "nested too deeply: more than " + std::to_string(maximum_depth) + " levels";
-}
-
-/// YAML looks no farther for the ':' behind a key. yaml-cpp then takes the key for something else.
-constexpr std::size_t longest_key = 1024;
-
-std::string too_long_key() {
-  return "a key is too long: YAML allows " + std::to_string(longest_key) + " characters";
-}
-
-/// Whether the text of a line between `begin` and a ':' is a key that is too long.
-bool is_long_key(std::string_view key) {
-  return key.size() > longest_key && key.find(": ") == std::string_view::npos;
-}
-
-/// The text before an offset on its line, without what opens the mapping in which it may be a key.
-std::string_view key_before(std::string_view text, std::size_t offset) {
-  std::string_view key = text.substr(0, offset);
-  const std::size_t line_break = key.rfind('\n');
-  if (line_break != std::string_view::npos) key.remove_prefix(line_break + 1);
-  key.remove_prefix(std::min(key.find_first_not_of("- "), key.size()));
-  return key;
-}
-
-/// The text from an offset to the next ':' that may end a key, on the same line; empty if there is
-/// none.
-std::string_view key_from(std::string_view text, std::size_t offset) {
-  const std::string_view line = text.substr(offset, text.find('\n', offset) - offset);
-  const std::size_t colon = line.find(": ");
-  return colon == std::string_view::npos ? std::string_view() : line.substr(0, colon);
 }
 
 // Puts a message of yaml-cpp, which is about its grammar, in terms of the text. Its exceptions
@@ -176,9 +91,8 @@ bool is_null_text(std::string_view text) {
 // Builds the tree from the events of the parser.
 class Builder : public YAML::EventHandler {
  public:
-  Builder(std::string_view text, const PositionMap& positions, GuardedInput& input,
-          Document& document, std::string file)
-      : text_(text), positions_(positions), input_(input), document_(document) {
+  Builder(std::string_view text, const PositionMap& positions, Document& document, std::string file)
+      : text_(text), positions_(positions), document_(document) {
     document_.file_ = std::move(file);
   }
 
@@ -228,22 +142,17 @@ class Builder : public YAML::EventHandler {
   }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    progress();
     if (!empty()) {
       const std::size_t at = offset(mark);
       throw Refusal(range_at(at, at + 3), "expected one document, found a second one");
     }
   }
-  void OnDocumentEnd() override { progress(); }
+  void OnDocumentEnd() override {}
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    progress();
     const std::size_t begin = skip_properties(text_, offset(mark));
     const std::size_t end = end_of_null(text_, begin);
     const bool written = end > begin && begin >= last_end_;
-    if (!written && expects_key() && is_long_key(key_from(text_, begin))) {
-      throw Refusal(range_at(begin, begin + 1), too_long_key());
-    }
     const Range range = written ? range_at(begin, end) : range_of_missing(offset(mark));
     if (written) last_end_ = end;
     add(create(Kind::null, range), anchor, {1, 0});
@@ -251,7 +160,6 @@ class Builder : public YAML::EventHandler {
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
-    progress();
     const ScalarExtent extent = extent_of_scalar(text_, offset(mark), value);
     // The parser accepts a text without its closing quote if a line break follows.
     if (!extent.closed)
@@ -262,7 +170,6 @@ class Builder : public YAML::EventHandler {
   }
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    progress();
     const std::size_t begin = offset(mark);
     const std::size_t end = end_of_alias(text_, begin);
     last_end_ = std::max(last_end_, end);
@@ -323,8 +230,6 @@ class Builder : public YAML::EventHandler {
 
   static bool is_flow(YAML::EmitterStyle::value style) { return style == YAML::EmitterStyle::Flow; }
 
-  void progress() { input_.reset(); }
-
   Node* create(Kind kind, const Range& range) {
     Node& node = document_.nodes_.emplace_back();
     node.kind = kind;
@@ -354,7 +259,6 @@ class Builder : public YAML::EventHandler {
 
   void open(Kind kind, const YAML::Mark& mark, std::string_view tag, std::string_view core_name,
             YAML::anchor_t anchor, YAML::EmitterStyle::value style) {
-    progress();
     const std::size_t begin = skip_properties(text_, offset(mark));
     const Range range = range_at(begin, begin + 1);
     if (frames_.size() >= maximum_depth) throw Refusal(range, too_deep());
@@ -372,7 +276,6 @@ class Builder : public YAML::EventHandler {
   }
 
   void close() {
-    progress();
     Frame frame = std::move(frames_.back());
     frames_.pop_back();
     if (!frame.merges.empty()) {
@@ -492,7 +395,6 @@ class Builder : public YAML::EventHandler {
 
   std::string_view text_;
   const PositionMap& positions_;
-  GuardedInput& input_;
   Document& document_;
   std::vector<Frame> frames_;
   std::vector<Anchored> anchors_;
@@ -533,6 +435,25 @@ void check_characters(std::string_view text, const PositionMap& positions) {
       refuse("a carriage return without a line feed; end lines with a line feed");
     }
     offset += decoded.bytes;
+  }
+}
+
+/// yaml-cpp keeps all tokens of a flow collection until it knows whether the collection is a
+/// mapping key, so "[[[[..." would fill the memory before the first event. Texts with far too many
+/// open brackets are refused; quotes and comments are not understood, hence the generous bound.
+void check_brackets(std::string_view text, const PositionMap& positions) {
+  constexpr std::size_t most_open = 100'000;
+  std::size_t open = 0;
+  std::size_t suspect = 0;  // where `open` last passed the allowed depth
+  for (std::size_t offset = 0; offset < text.size(); ++offset) {
+    const char byte = text[offset];
+    if (byte == '[' || byte == '{') {
+      if (++open == maximum_depth + 1) suspect = offset;
+      if (open > most_open)
+        throw Refusal({positions.at(suspect), positions.at(suspect + 1)}, too_deep());
+    } else if ((byte == ']' || byte == '}') && open > 0) {
+      --open;
+    }
   }
 }
 
@@ -579,31 +500,22 @@ void check_characters(std::string_view text, const PositionMap& positions) {
                     "expected a key and a value: is ':' missing, or the space after it?");
     }
   }
-  if (exception.msg == YAML::ErrorMsg::MAP_VALUE) {
-    const std::string_view key = key_before(text, offset);
-    if (is_long_key(key)) {
-      throw Refusal(builder.range_at(offset - key.size(), offset), too_long_key());
-    }
-  }
   throw Refusal(builder.range_at(offset, offset + 1), explain(exception.msg));
 }
 
 void parse_document(std::string_view text, const PositionMap& positions, const std::string& file,
                     Document& document) {
   check_characters(text, positions);
-  GuardedInput input(text);
-  std::istream stream(&input);
-  Builder builder(text, positions, input, document, file);
+  check_brackets(text, positions);
+  std::istringstream stream{std::string(text)};
+  Builder builder(text, positions, document, file);
   try {
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) {
     }
   } catch (const YAML::Exception& exception) {
-    if (!input.refused_at()) refuse(exception, text, file, builder);
-  } catch (const Refusal&) {
-    if (!input.refused_at()) throw;
+    refuse(exception, text, file, builder);
   }
-  if (const auto at = input.refused_at()) throw Refusal(builder.range_at(*at, *at + 1), too_deep());
   if (builder.empty()) builder.finish_empty();
   builder.mark_shared();
 }
@@ -611,24 +523,12 @@ void parse_document(std::string_view text, const PositionMap& positions, const s
 }  // namespace
 
 std::string fault_of_encoding(std::string_view text) {
-  const std::string_view four = text.substr(0, 4);
-  const auto has_zeros = [four](std::string_view pattern) {  // '0' and 'x': a zero, or a character
-    return four.size() >= pattern.size() &&
-           std::equal(pattern.begin(), pattern.end(), four.begin(), [](char wanted, char byte) {
-             const bool is_zero = byte == '\0';
-             return wanted == '0' ? is_zero
-                                  : !is_zero && !is_forbidden(static_cast<unsigned char>(byte));
-           });
-  };
-  const auto has_zero = [text](std::size_t place) {  // in the second character of UTF-32
-    return text.size() < 8 ? text.size() == 4 : text[place] == '\0';
-  };
-  const std::string_view two = text.substr(0, 2);
-  if ((has_zeros("000x") && has_zero(4)) || (has_zeros("x000") && has_zero(7)) ||
-      four == std::string_view("\0\0\xFE\xFF", 4) || four == std::string_view("\xFF\xFE\0\0", 4)) {
+  using namespace std::string_view_literals;
+  // The mark of UTF-32 may begin with that of UTF-16.
+  if (text.starts_with("\xFF\xFE\0\0"sv) || text.starts_with("\0\0\xFE\xFF"sv)) {
     return "expected UTF-8, found UTF-32";
   }
-  if (two == "\xFF\xFE" || two == "\xFE\xFF" || has_zeros("0x0x") || has_zeros("x0x0")) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     return "expected UTF-8, found UTF-16";
   }
   return {};

@@ -2,23 +2,21 @@
 
 #include <algorithm>
 
-#include "coverage/engine/goal_watch.h"
-
 namespace cbc {
 namespace {
 
-class GraphBuilder final : private GroupWalk::Listener {
+class GraphBuilder {
  public:
   GraphBuilder(const CompiledCatalog& catalog, std::span<const Goal> goals,
                const std::vector<std::uint8_t>& wanted, const Assumptions& assumptions,
-               const GroupWalkOptions& options)
+               const GoalSearchOptions& options)
       : catalog_(catalog),
         goals_(goals),
         assumptions_(assumptions),
         options_(options),
-        watch_(catalog, goals, {}),
+        monitor_(catalog, goals, {}),
         returns_(catalog.tasks.size(), none) {
-    watch_.take_failures_for_timeouts();
+    monitor_.take_failures_for_timeouts();
     graph_.goal_count = goals.size();
     for (const Goal& goal : goals) {
       const bool is_return = goal.kind == Goal::Kind::reactive_returned;
@@ -32,37 +30,36 @@ class GraphBuilder final : private GroupWalk::Listener {
 
   GoalGraph build() {
     for (std::uint32_t group = 0; group < catalog_.group_count(); ++group) {
-      // To begin the walks of very many groups takes long, too.
+      // To begin the searches of very many groups takes long, too.
       if (options_.on_progress && !options_.on_progress(group, 0)) break;
-      GroupWalk walk(catalog_, group, assumptions_, watch_, options_);
-      graph_.error = walk.find_obstacle();
-      if (graph_.error) break;
       first_state_ = static_cast<std::uint32_t>(graph_.state_count());
       if (group == 0) add_free_variables();
-      const GroupWalkResult result = walk.run(*this);
+      const GoalSearchResult result =
+          search_goals(catalog_, group, assumptions_, monitor_, &unwanted_, options_,
+                       [this](const SeenMove& move) { add_move(move); });
+      graph_.error = result.error;
+      if (graph_.error) break;
       graph_.parts.push_back({group, first_state_, result.is_complete});
       graph_.moves += result.moves;
       end_states_before(first_state_ + static_cast<std::uint32_t>(result.states));
     }
-    graph_.facts = watch_.facts();
+    graph_.facts = monitor_.facts();
     return std::move(graph_);
   }
 
  private:
-  void before_move() override { watch_.restart(unwanted_); }
-
-  void on_move(GroupWalk::Number from, GroupWalk::Number to, const Move& move,
-               const StateReplay& replay) override {
+  void add_move(const SeenMove& seen) {
     items_.clear();
     for (std::uint32_t goal = 0; goal < goals_.size(); ++goal) {
-      if (watch_.met()[goal] != 0 && unwanted_[goal] == 0 && is_shown_by(goals_[goal], move)) {
+      if (monitor_.met()[goal] != 0 && unwanted_[goal] == 0 &&
+          is_shown_by(goals_[goal], seen.move)) {
         items_.push_back(goal);
       }
     }
-    for (const TaskId task : replay.started()) add_return(task, 0);
-    for (const TaskId task : replay.gave_way()) add_return(task, graph_.goal_count);
-    end_states_before(first_state_ + from);
-    add_edge(first_state_ + from, first_state_ + to, move);
+    for (const TaskId task : seen.started) add_return(task, 0);
+    for (const TaskId task : seen.gave_way) add_return(task, graph_.goal_count);
+    end_states_before(first_state_ + seen.from);
+    add_edge(first_state_ + seen.from, first_state_ + seen.to, seen.move);
   }
 
   /// The edges of the states before this one are complete.
@@ -70,7 +67,7 @@ class GraphBuilder final : private GroupWalk::Listener {
     graph_.begin.resize(state + 1, static_cast<std::uint32_t>(graph_.edges.size()));
   }
 
-  /// A watch notes the values in each state. A path shows those at its beginning anyway.
+  /// A monitor notes the values in each state. A path shows those at its beginning anyway.
   static bool is_shown_by(const Goal& goal, const Move& move) {
     return goal.kind != Goal::Kind::variable_value ||
            (move.kind == Move::Kind::variable && move.subject == goal.variable &&
@@ -118,8 +115,8 @@ class GraphBuilder final : private GroupWalk::Listener {
   const CompiledCatalog& catalog_;
   const std::span<const Goal> goals_;
   const Assumptions& assumptions_;
-  const GroupWalkOptions& options_;
-  GoalWatch watch_;
+  const GoalSearchOptions& options_;
+  GoalMonitor monitor_;
   GoalGraph graph_;
   std::vector<std::uint8_t> unwanted_;  ///< by goal: not asked about
   std::vector<std::uint32_t> returns_;  ///< by task: its goal of returning, if it is wanted
@@ -131,7 +128,7 @@ class GraphBuilder final : private GroupWalk::Listener {
 
 GoalGraph explore_goals(const CompiledCatalog& catalog, std::span<const Goal> goals,
                         const std::vector<std::uint8_t>& wanted, const Assumptions& assumptions,
-                        const GroupWalkOptions& options) {
+                        const GoalSearchOptions& options) {
   return GraphBuilder(catalog, goals, wanted, assumptions, options).build();
 }
 

@@ -9,11 +9,9 @@
 #include <vector>
 
 #include "core/property/properties.h"
-#include "coverage/engine/goal_facts.h"
+#include "coverage/engine/goal_search.h"
 #include "coverage/engine/goals.h"
-#include "coverage/engine/group_walk.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "verify/engine/explore.h"
 
 namespace cbc {
 
@@ -58,6 +56,6 @@ struct GoalGraph {
 [[nodiscard]] GoalGraph explore_goals(const CompiledCatalog& catalog, std::span<const Goal> goals,
                                       const std::vector<std::uint8_t>& wanted,
                                       const Assumptions& assumptions,
-                                      const GroupWalkOptions& options);
+                                      const GoalSearchOptions& options);
 
 }  // namespace cbc

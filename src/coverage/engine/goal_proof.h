@@ -7,16 +7,15 @@
 #include <vector>
 
 #include "core/property/properties.h"
-#include "coverage/engine/goal_facts.h"
+#include "coverage/engine/goal_search.h"
 #include "coverage/engine/goals.h"
-#include "coverage/engine/group_walk.h"
 #include "runtime/compiled/compiled_catalog.h"
 
 namespace cbc {
 
 /// Which goals no mission can meet, whatever its events, as far as the assumptions allow them.
 struct GoalProof {
-  std::vector<GroupWalkResult> groups;  ///< by group
+  std::vector<GoalSearchResult> groups;  ///< by group
   /// By goal: why no move meets it, if that is proven; otherwise empty. See why_unreachable.
   std::vector<std::string> unreachable;
   GoalFacts facts;  ///< of the groups that are complete
@@ -26,7 +25,7 @@ struct GoalProof {
 
 struct GoalProofOptions {
   std::optional<std::uint32_t> group;  ///< the only one to visit; empty: all
-  GroupWalkOptions walk;
+  GoalSearchOptions search;
 };
 
 /// What holds without a property file: that of `cbc verify`, but requests have the priorities 1 and
@@ -34,10 +33,20 @@ struct GoalProofOptions {
 [[nodiscard]] Assumptions assumptions_of_goals(const CompiledCatalog& catalog);
 
 /// Visits all states of each group that are reachable (docs/verify.md, "States"), and makes each
-/// move from each of them, on a coordinator that is watched for the goals.
+/// move from each of them, on a coordinator that is monitored for the goals.
 [[nodiscard]] GoalProof prove_unreachable(const CompiledCatalog& catalog,
                                           std::span<const Goal> goals,
                                           const Assumptions& assumptions,
                                           const GoalProofOptions& options);
+
+/// Whether the goal is that of a timeout before which another one always comes.
+[[nodiscard]] bool is_forestalled(const CompiledCatalog& catalog, const Goal& goal,
+                                  const GoalFacts& facts);
+
+/// Why no move meets goal `number` of those of a catalog: "no event requests task LAND". `facts`
+/// are those of a complete exploration under the assumptions, which did not meet it.
+[[nodiscard]] std::string why_unreachable(const CompiledCatalog& catalog,
+                                          std::span<const Goal> goals, std::size_t number,
+                                          const Assumptions& assumptions, const GoalFacts& facts);
 
 }  // namespace cbc

@@ -12,33 +12,76 @@
 namespace cbc {
 namespace {
 
-struct KindName {
+/// What is known of the goals of a kind. A text names what a goal is about in braces.
+struct KindOfGoal {
   std::string_view name;
   GoalSection section;
+  std::string_view sentence;
+  std::string_view words;  ///< in the name of a mission
 };
 
 /// In the order of the enumerators.
-constexpr std::array<KindName, Goal::kinds> goal_kinds{{
-    {"task_ran", GoalSection::tasks},
-    {"behavior_active", GoalSection::behaviors},
-    {"behavior_succeeded", GoalSection::behaviors},
-    {"behavior_failed", GoalSection::behaviors},
-    {"behavior_replaced", GoalSection::behaviors},
-    {"requirement_used", GoalSection::requirements},
-    {"requirement_decided", GoalSection::requirements},
-    {"minimum_decided", GoalSection::minimums},
-    {"exclusion_decided", GoalSection::exclusions},
-    {"timeout_fired", GoalSection::timeouts},
-    {"reactive_started", GoalSection::reactive},
-    {"reactive_gave_way", GoalSection::reactive},
-    {"reactive_returned", GoalSection::reactive},
-    {"variable_value", GoalSection::situation},
-    {"behavior_began_to_fit", GoalSection::situation},
-    {"behavior_ceased_to_fit", GoalSection::situation},
-    {"higher_displaced", GoalSection::priorities},
-    {"lower_rejected", GoalSection::priorities},
-    {"equal_displaced", GoalSection::priorities},
+constexpr std::array<KindOfGoal, Goal::kinds> goal_kinds{{
+    {"task_ran", GoalSection::tasks, "task {task} ran", "{task} runs"},
+    {"behavior_active", GoalSection::behaviors, "behavior {behavior} was active",
+     "{behavior} is active"},
+    {"behavior_succeeded", GoalSection::behaviors, "behavior {behavior} achieved its goal",
+     "{behavior} succeeds"},
+    {"behavior_failed", GoalSection::behaviors, "behavior {behavior} failed", "{behavior} fails"},
+    {"behavior_replaced", GoalSection::behaviors, "behavior {behavior} was replaced",
+     "{behavior} is replaced"},
+    {"requirement_used", GoalSection::requirements,
+     "{behavior} was active with {task}, which it requires", "{behavior} with {task}"},
+    {"requirement_decided", GoalSection::requirements, "it matters that {behavior} requires {task}",
+     "{behavior} requires {task}"},
+    {"minimum_decided", GoalSection::minimums,
+     "the minimum that {behavior} requires of {task} matters", "minimum of {task} {behavior}"},
+    {"exclusion_decided", GoalSection::exclusions, "it matters that {task} excludes {other}",
+     "{task} excludes {other}"},
+    {"timeout_fired", GoalSection::timeouts, "behavior {behavior} ran into its timeout",
+     "{behavior} times out"},
+    {"reactive_started", GoalSection::reactive, "task {task} started by itself",
+     "{task} starts by itself"},
+    {"reactive_gave_way", GoalSection::reactive, "task {task} gave way", "{task} gives way"},
+    {"reactive_returned", GoalSection::reactive, "task {task} returned by itself after it gave way",
+     "{task} returns"},
+    {"variable_value", GoalSection::situation, "{variable} was {value}", "{variable} is {value}"},
+    {"behavior_began_to_fit", GoalSection::situation,
+     "behavior {behavior} began to fit the situation", "{behavior} begins to fit"},
+    {"behavior_ceased_to_fit", GoalSection::situation,
+     "behavior {behavior} ceased to fit while active", "{behavior} ceases to fit"},
+    {"higher_displaced", GoalSection::priorities, "a start of {task} displaced a lower priority",
+     "{task} displaces lower"},
+    {"lower_rejected", GoalSection::priorities,
+     "a start of {task} was rejected for a higher priority", "{task} yields to higher"},
+    {"equal_displaced", GoalSection::priorities, "a start of {task} displaced an equal priority",
+     "{task} displaces equal"},
 }};
+// Goals that may be about a task alone.
+constexpr std::string_view sentence_of_minimum = "the minimum of {task} matters";
+constexpr std::string_view sentence_of_timeout = "task {task} ran into its timeout";
+constexpr std::string_view words_of_timeout = "{task} times out";
+
+constexpr const KindOfGoal& row_of(Goal::Kind kind) {
+  return goal_kinds[static_cast<std::size_t>(kind)];
+}
+
+/// Fills in the names, each as `show` has it.
+template <typename Show>
+std::string fill_in(std::string_view text, const CompiledCatalog& catalog, const Goal& goal,
+                    Show show) {
+  using Name = decltype(show(std::string_view()));
+  const auto task = [&](TaskId id) { return id == none ? Name() : show(catalog.name_of_task(id)); };
+  const bool has_value = goal.variable != none;
+  return fmt::format(
+      fmt::runtime(text), fmt::arg("task", task(goal.task)),
+      fmt::arg("other", task(goal.other_task)),
+      fmt::arg("behavior",
+               goal.behavior == none ? Name() : show(catalog.name_of_behavior(goal.behavior))),
+      fmt::arg("variable", has_value ? show(catalog.name_of_variable(goal.variable)) : Name()),
+      fmt::arg("value",
+               has_value ? show(catalog.name_of_value({goal.variable, goal.value})) : Name()));
+}
 
 constexpr std::array<std::string_view, goal_sections> section_names = {
     "tasks",    "behaviors", "requirements", "minimums",  "exclusions",
@@ -315,17 +358,13 @@ class LineFinder {
 
 }  // namespace
 
-std::string_view name_of(Goal::Kind kind) {
-  return goal_kinds[static_cast<std::size_t>(kind)].name;
-}
+std::string_view name_of(Goal::Kind kind) { return row_of(kind).name; }
 
 std::string_view name_of(GoalSection section) {
   return section_names[static_cast<std::size_t>(section)];
 }
 
-GoalSection section_of(Goal::Kind kind) {
-  return goal_kinds[static_cast<std::size_t>(kind)].section;
-}
+GoalSection section_of(Goal::Kind kind) { return row_of(kind).section; }
 
 std::optional<std::string> find_too_many_pairs(const CompiledCatalog& catalog) {
   constexpr std::uint64_t most = 500'000;
@@ -347,56 +386,35 @@ void add_lines(const Catalog& source, const CompiledCatalog& catalog, std::vecto
 }
 
 std::string describe(const CompiledCatalog& catalog, const Goal& goal) {
-  const auto task_name = [&](TaskId task) {
-    return task == none ? std::string() : printable(catalog.name_of_task(task));
-  };
-  const std::string task = task_name(goal.task);
-  const std::string behavior =
-      goal.behavior == none ? std::string() : printable(catalog.name_of_behavior(goal.behavior));
-  switch (goal.kind) {
-    case Goal::Kind::task_ran:
-      return fmt::format("task {} ran", task);
-    case Goal::Kind::behavior_active:
-      return fmt::format("behavior {} was active", behavior);
-    case Goal::Kind::behavior_succeeded:
-      return fmt::format("behavior {} achieved its goal", behavior);
-    case Goal::Kind::behavior_failed:
-      return fmt::format("behavior {} failed", behavior);
-    case Goal::Kind::behavior_replaced:
-      return fmt::format("behavior {} was replaced", behavior);
-    case Goal::Kind::requirement_used:
-      return fmt::format("{} was active with {}, which it requires", behavior, task);
-    case Goal::Kind::requirement_decided:
-      return fmt::format("it matters that {} requires {}", behavior, task);
-    case Goal::Kind::minimum_decided:
-      if (behavior.empty()) return fmt::format("the minimum of {} matters", task);
-      return fmt::format("the minimum that {} requires of {} matters", behavior, task);
-    case Goal::Kind::exclusion_decided:
-      return fmt::format("it matters that {} excludes {}", task, task_name(goal.other_task));
-    case Goal::Kind::timeout_fired:
-      return fmt::format("{} ran into its timeout",
-                         behavior.empty() ? "task " + task : "behavior " + behavior);
-    case Goal::Kind::reactive_started:
-      return fmt::format("task {} started by itself", task);
-    case Goal::Kind::reactive_gave_way:
-      return fmt::format("task {} gave way", task);
-    case Goal::Kind::reactive_returned:
-      return fmt::format("task {} returned by itself after it gave way", task);
-    case Goal::Kind::variable_value:
-      return fmt::format("{} was {}", printable(catalog.name_of_variable(goal.variable)),
-                         printable(catalog.name_of_value({goal.variable, goal.value})));
-    case Goal::Kind::behavior_began_to_fit:
-      return fmt::format("behavior {} began to fit the situation", behavior);
-    case Goal::Kind::behavior_ceased_to_fit:
-      return fmt::format("behavior {} ceased to fit while active", behavior);
-    case Goal::Kind::higher_displaced:
-      return fmt::format("a start of {} displaced a lower priority", task);
-    case Goal::Kind::lower_rejected:
-      return fmt::format("a start of {} was rejected for a higher priority", task);
-    case Goal::Kind::equal_displaced:
-      return fmt::format("a start of {} displaced an equal priority", task);
+  std::string_view sentence = row_of(goal.kind).sentence;
+  if (goal.behavior == none && goal.kind == Goal::Kind::minimum_decided) {
+    sentence = sentence_of_minimum;
   }
-  return {};
+  if (goal.behavior == none && goal.kind == Goal::Kind::timeout_fired) {
+    sentence = sentence_of_timeout;
+  }
+  return fill_in(sentence, catalog, goal, [](std::string_view name) { return printable(name); });
+}
+
+std::string name_after(const CompiledCatalog& catalog, const Goal& goal) {
+  const bool is_task = goal.behavior == none && goal.kind == Goal::Kind::timeout_fired;
+  const std::string words = fill_in(is_task ? words_of_timeout : row_of(goal.kind).words, catalog,
+                                    goal, [](std::string_view name) { return name; });
+  constexpr std::size_t longest = 100;
+  std::string name;
+  for (const char character : words) {
+    const bool is_upper = character >= 'A' && character <= 'Z';
+    const bool is_kept = is_upper || (character >= 'a' && character <= 'z') ||
+                         (character >= '0' && character <= '9');
+    if (is_kept) {
+      name += is_upper ? static_cast<char>(character - 'A' + 'a') : character;
+    } else if (!name.empty() && name.back() != '-') {
+      name += '-';
+    }
+  }
+  name.resize(std::min(name.size(), longest));
+  while (name.ends_with('-')) name.pop_back();
+  return name;
 }
 
 }  // namespace cbc

@@ -92,4 +92,7 @@ void add_lines(const Catalog& source, const CompiledCatalog& catalog, std::vecto
 /// What the goal asks for, in a sentence: "behavior HOVER_STILL failed".
 [[nodiscard]] std::string describe(const CompiledCatalog& catalog, const Goal& goal);
 
+/// A name for a script about a goal: words of lower-case letters and digits, with hyphens.
+[[nodiscard]] std::string name_after(const CompiledCatalog& catalog, const Goal& goal);
+
 }  // namespace cbc

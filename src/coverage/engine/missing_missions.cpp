@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/script/runner.h"
+#include "coverage/engine/goal_proof.h"
 #include "coverage/engine/mission_plan.h"
-#include "coverage/engine/rehearsal.h"
-#include "coverage/engine/watched_run.h"
+#include "coverage/engine/simulated_run.h"
 
 namespace cbc {
 namespace {
@@ -29,7 +29,7 @@ class MissionFinder {
         goals_(goals),
         assumptions_(assumptions),
         options_(options),
-        rehearsal_(catalog, goals, assumptions) {}
+        simulator_(catalog, goals, assumptions) {}
 
   MissingMissions find(const std::vector<std::uint8_t>& met) {
     missing_.assign(goals_.size(), 0);
@@ -37,7 +37,7 @@ class MissionFinder {
       missing_[goal] = met[goal] == 0 ? 1 : 0;
       result_.wanted += missing_[goal];
     }
-    GroupWalkOptions of_exploration = options_.exploration;
+    GoalSearchOptions of_exploration = options_.exploration;
     of_exploration.on_progress = [&](std::uint32_t group, std::uint64_t states) {
       const auto& on_progress = options_.exploration.on_progress;
       return !is_stopped() && (!on_progress || on_progress(group, states));
@@ -66,7 +66,7 @@ class MissionFinder {
     }
     perform(planner, missing_);
     wait_for_timeouts(planner);
-    perform(planner, without_timeouts());
+    perform(planner, missing_timeouts(false));
     if (is_stopped()) return std::move(result_);
     result_.reached = Phase::done;
     show_first_values();
@@ -132,7 +132,7 @@ class MissionFinder {
     for (const MissionPlanner::Path& path : planner.plan(wanted)) {
       show_progress();
       if (is_stopped()) return;
-      result_.reached = Phase::rehearsal;
+      result_.reached = Phase::simulation;
       std::vector<std::uint8_t> is_timeout;
       for (const std::uint32_t edge : path.edges) {
         const auto items = graph_.items_of(graph_.edges[edge]);
@@ -142,34 +142,28 @@ class MissionFinder {
         }));
       }
       const std::uint32_t group = graph_.parts[path.part].group;
-      add(is_any(is_timeout) ? rehearsal_.run_by_clock(group, moves_of(path), is_timeout)
-                             : rehearsal_.run(group, moves_of(path)));
+      add(is_any(is_timeout) ? simulator_.run_by_clock(group, moves_of(path), is_timeout)
+                             : simulator_.run(group, moves_of(path)));
     }
   }
 
-  [[nodiscard]] Goals timeouts() const {
-    Goals timeouts = missing_;
+  /// What is missing of the timeouts, or of all other goals.
+  [[nodiscard]] Goals missing_timeouts(bool are_timeouts = true) const {
+    Goals wanted = missing_;
     for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
-      if (goals_[goal].kind != Goal::Kind::timeout_fired) timeouts[goal] = 0;
+      if ((goals_[goal].kind == Goal::Kind::timeout_fired) != are_timeouts) wanted[goal] = 0;
     }
-    return timeouts;
-  }
-  [[nodiscard]] Goals without_timeouts() const {
-    Goals others = missing_;
-    for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
-      if (goals_[goal].kind == Goal::Kind::timeout_fired) others[goal] = 0;
-    }
-    return others;
+    return wanted;
   }
 
   /// States have no times, so what fires in a state is tried out.
   void wait_for_timeouts(const MissionPlanner& planner) {
     constexpr std::size_t most_tries = 200;
-    for (Goals wanted = timeouts(); is_any(wanted); wanted = timeouts()) {
+    for (Goals wanted = missing_timeouts(); is_any(wanted); wanted = missing_timeouts()) {
       if (!wait_once(planner, wanted, most_tries)) break;
     }
     // Where many timeouts are possible, others may come first.
-    const Goals left = timeouts();
+    const Goals left = missing_timeouts();
     for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
       if (left[goal] == 0 || missing_[goal] == 0) continue;
       Goals one(goals_.size(), 0);
@@ -180,18 +174,18 @@ class MissionFinder {
 
   /// Adds the script that meets most of these goals; false if none of those tried meets any.
   bool wait_once(const MissionPlanner& planner, const Goals& wanted, std::size_t most_tries) {
-    std::optional<Rehearsal> best;
+    std::optional<SimulatedRun> best;
     std::size_t most = 0;
     for (const MissionPlanner::Path& path : planner.paths_toward(wanted, most_tries)) {
       show_progress();
       if (is_stopped()) return false;
       const std::uint32_t limit = planner.most_events(path.part);
       if (path.edges.size() >= limit) continue;
-      Rehearsal tried =
-          rehearsal_.wait_after(graph_.parts[path.part].group, moves_of(path), wanted,
+      SimulatedRun tried =
+          simulator_.wait_after(graph_.parts[path.part].group, moves_of(path), wanted,
                                 limit - static_cast<std::uint32_t>(path.edges.size()));
       std::size_t count = 0;
-      for (const Rehearsal::Moment& moment : tried.moments) {
+      for (const SimulatedRun::Moment& moment : tried.moments) {
         for (const std::uint32_t goal : moment.goals) count += wanted[goal];
       }
       if (count <= most) continue;
@@ -210,11 +204,11 @@ class MissionFinder {
   }
 
   /// Writes the script, if it meets anything that is missing.
-  void add(Rehearsal rehearsal) {
-    rehearsal.script.catalog = options_.catalog;
+  void add(SimulatedRun run) {
+    run.script.catalog = options_.catalog;
     MissingMissions::Mission mission;
     Goals counts(goals_.size(), 0);
-    for (const Rehearsal::Moment& moment : rehearsal.moments) {
+    for (const SimulatedRun::Moment& moment : run.moments) {
       for (const std::uint32_t goal : moment.goals) {
         if (missing_[goal] == 0 && first_values_[goal] == 0) continue;
         missing_[goal] = 0;
@@ -223,12 +217,12 @@ class MissionFinder {
         mission.goals.push_back(goal);
       }
     }
-    if (!rehearsal.fault.empty()) result_.fault = rehearsal.fault;
+    if (!run.fault.empty()) result_.fault = run.fault;
     if (mission.goals.empty()) return;
     const Goal& last = goals_[mission.goals.back()];
-    mission.group = rehearsal.group;
+    mission.group = run.group;
     mission.name = unique_name(last);
-    WrittenScript written = write_down(catalog_, goals_, rehearsal, counts, title_of(last));
+    WrittenScript written = write_down(catalog_, goals_, run, counts, title_of(last));
     mission.script = std::move(written.script);
     mission.script.file = mission.name;
     mission.text = std::move(written.text);
@@ -263,7 +257,7 @@ class MissionFinder {
 
   /// The values at the beginning, if nothing else is missing.
   void show_first_values() {
-    if (is_any(first_values_) && catalog_.group_count() > 0) add(rehearsal_.run(0, {}));
+    if (is_any(first_values_) && catalog_.group_count() > 0) add(simulator_.run(0, {}));
   }
 
   void list_unmet() {
@@ -284,7 +278,7 @@ class MissionFinder {
   const std::span<const Goal> goals_;
   const Assumptions& assumptions_;
   const MissingMissionOptions& options_;
-  const MissionRehearsal rehearsal_;
+  const MissionSimulator simulator_;
   GoalGraph graph_;
   MissingMissions result_;
   Goals missing_;       ///< by goal: no mission meets it, and one can
@@ -299,91 +293,6 @@ MissingMissions find_missing_missions(const CompiledCatalog& catalog, std::span<
                                       const Assumptions& assumptions,
                                       const MissingMissionOptions& options) {
   return MissionFinder(catalog, goals, assumptions, options).find(met);
-}
-
-std::string name_after(const CompiledCatalog& catalog, const Goal& goal) {
-  const auto task_name = [&](TaskId task) {
-    return task == none ? std::string_view() : catalog.name_of_task(task);
-  };
-  const std::string_view task = task_name(goal.task);
-  const std::string_view behavior =
-      goal.behavior == none ? std::string_view() : catalog.name_of_behavior(goal.behavior);
-  std::string words;
-  switch (goal.kind) {
-    case Goal::Kind::task_ran:
-      words = fmt::format("{} runs", task);
-      break;
-    case Goal::Kind::behavior_active:
-      words = fmt::format("{} is active", behavior);
-      break;
-    case Goal::Kind::behavior_succeeded:
-      words = fmt::format("{} succeeds", behavior);
-      break;
-    case Goal::Kind::behavior_failed:
-      words = fmt::format("{} fails", behavior);
-      break;
-    case Goal::Kind::behavior_replaced:
-      words = fmt::format("{} is replaced", behavior);
-      break;
-    case Goal::Kind::requirement_used:
-      words = fmt::format("{} with {}", behavior, task);
-      break;
-    case Goal::Kind::requirement_decided:
-      words = fmt::format("{} requires {}", behavior, task);
-      break;
-    case Goal::Kind::minimum_decided:
-      words = fmt::format("minimum of {} {}", task, behavior);
-      break;
-    case Goal::Kind::exclusion_decided:
-      words = fmt::format("{} excludes {}", task, task_name(goal.other_task));
-      break;
-    case Goal::Kind::timeout_fired:
-      words = fmt::format("{} times out", behavior.empty() ? task : behavior);
-      break;
-    case Goal::Kind::reactive_started:
-      words = fmt::format("{} starts by itself", task);
-      break;
-    case Goal::Kind::reactive_gave_way:
-      words = fmt::format("{} gives way", task);
-      break;
-    case Goal::Kind::reactive_returned:
-      words = fmt::format("{} returns", task);
-      break;
-    case Goal::Kind::variable_value:
-      words = fmt::format("{} is {}", catalog.name_of_variable(goal.variable),
-                          catalog.name_of_value({goal.variable, goal.value}));
-      break;
-    case Goal::Kind::behavior_began_to_fit:
-      words = fmt::format("{} begins to fit", behavior);
-      break;
-    case Goal::Kind::behavior_ceased_to_fit:
-      words = fmt::format("{} ceases to fit", behavior);
-      break;
-    case Goal::Kind::higher_displaced:
-      words = fmt::format("{} displaces lower", task);
-      break;
-    case Goal::Kind::lower_rejected:
-      words = fmt::format("{} yields to higher", task);
-      break;
-    case Goal::Kind::equal_displaced:
-      words = fmt::format("{} displaces equal", task);
-      break;
-  }
-  constexpr std::size_t longest = 100;
-  std::string name;
-  for (const char character : words) {
-    const bool is_upper = character >= 'A' && character <= 'Z';
-    const bool is_kept = is_upper || (character >= 'a' && character <= 'z') ||
-                         (character >= '0' && character <= '9');
-    if (is_kept) {
-      name += is_upper ? static_cast<char>(character - 'A' + 'a') : character;
-    } else if (!name.empty() && name.back() != '-') {
-      name += '-';
-    }
-  }
-  name.resize(std::min(name.size(), longest));
-  while (name.ends_with('-')) name.pop_back();
-  return name;
 }
 
 }  // namespace cbc

@@ -31,7 +31,7 @@ struct MissingMissions {
     std::uint32_t goal = 0;
     std::string reason;
   };
-  enum class Phase : std::uint8_t { exploration, planning, rehearsal, done };
+  enum class Phase : std::uint8_t { exploration, planning, simulation, done };
 
   std::vector<Mission> missions;
   std::uint64_t wanted = 0;        ///< goals that the missions so far do not meet
@@ -50,7 +50,7 @@ struct MissingMissions {
 };
 
 struct MissingMissionOptions {
-  GroupWalkOptions exploration;
+  GoalSearchOptions exploration;
   std::string catalog;       ///< see Script
   std::uint32_t events = 8;  ///< of a script, if no goal takes more
   /// Called now and then after the exploration, with the number of scripts so far. May be empty.
@@ -65,8 +65,5 @@ struct MissingMissionOptions {
                                                     const std::vector<std::uint8_t>& met,
                                                     const Assumptions& assumptions,
                                                     const MissingMissionOptions& options);
-
-/// A name for a script about a goal: words of lower-case letters and digits, with hyphens.
-[[nodiscard]] std::string name_after(const CompiledCatalog& catalog, const Goal& goal);
 
 }  // namespace cbc

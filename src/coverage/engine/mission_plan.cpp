@@ -1,3 +1,9 @@
+// Short paths that cover goals: weighted set cover, where a set is what a path meets. Prices of
+// goals come from the multiplicative weights method (Arora, Hazan and Kale, 2012), which also
+// bounds how few paths are enough; then paths are taken greedily, each found by a beam search, as
+// goals count once and so the best path is no shortest one. An integer program would find the least
+// number, but has a variable for each path, of which there are far too many.
+
 #include "coverage/engine/mission_plan.h"
 
 #include <algorithm>

@@ -6,24 +6,18 @@
 
 #include <fmt/format.h>
 
-#include "core/report/junit_parts.h"
+#include "core/report/property_words.h"
+#include "core/report/table.h"
+#include "core/report/xml_text.h"
 #include "core/support/wording.h"
 #include "coverage/report/coverage_report.h"
 #include "page_files.h"
-#include "verify/engine/verification.h"
+#include "verify/engine/explore.h"
 
 // The page needs no script: what a line shows on demand is in elements that unfold.
 
 namespace cbc {
 namespace {
-
-/// `is_proved`: what is unreachable has a column.
-std::string counts_row(std::string_view what, const GoalCount& count, bool is_proved) {
-  return fmt::format(
-      "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td>{}</tr>\n", what,
-      count.goals, count.met, count.goals - count.met, describe_percent(count),
-      is_proved ? fmt::format("<td>{}</td>", count.unreachable) : std::string());
-}
 
 class CatalogPage {
  public:
@@ -36,29 +30,13 @@ class CatalogPage {
       html_ += fmt::format("<p>{}</p>\n", xml_text(describe_assumptions(coverage_.catalog(),
                                                                         *coverage_.assumptions())));
     }
-    write_counts();
+    html_ += counts_table(coverage_, plain_style()).html("counts");
     write_missions();
     write_source();
     return html_ + "</section>\n";
   }
 
  private:
-  void write_counts() {
-    const bool is_proved = coverage_.assumptions().has_value();
-    html_ += fmt::format(
-        "<table class=\"counts\">\n<tr><th></th><th scope=\"col\">goals</th>"
-        "<th scope=\"col\">met</th><th scope=\"col\">missed</th>"
-        "<th scope=\"col\">covered</th>{}</tr>\n",
-        is_proved ? "<th scope=\"col\">unreachable</th>" : "");
-    const auto sections = coverage_.by_section();
-    for (std::size_t section = 0; section < goal_sections; ++section) {
-      if (sections.at(section).goals + sections.at(section).unreachable == 0) continue;
-      html_ +=
-          counts_row(name_of(static_cast<GoalSection>(section)), sections.at(section), is_proved);
-    }
-    html_ += counts_row("total", coverage_.total(), is_proved) + "</table>\n";
-  }
-
   void write_missions() {
     html_ += fmt::format("<details><summary>{}</summary><ul>\n",
                          quantity(coverage_.missions().size(), "mission"));
@@ -114,11 +92,10 @@ class CatalogPage {
       html_ += fmt::format("<li class=\"missed\">missed: {}</li>\n", what);
       return;
     }
-    std::string by;
-    for (const std::uint32_t mission : coverage_.missions_of(goal)) {
-      if (!by.empty()) by += ", ";
-      by += xml_text(coverage_.missions()[mission]);
-    }
+    const auto name = [&](std::uint32_t mission) {
+      return xml_text(coverage_.missions()[mission]);
+    };
+    const std::string by = join(coverage_.missions_of(goal), ", ", name);
     html_ += fmt::format("<li>{} <span class=\"by\">({})</span></li>\n", what, by);
   }
 

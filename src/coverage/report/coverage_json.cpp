@@ -256,7 +256,7 @@ std::string add_coverage_json(std::string_view text, CatalogCoverage& coverage) 
   yaml::JsonReader reader;
   const yaml::Node* const root = reader.read(text);
   if (root == nullptr) {
-    return reader.fault() + "; --merge reads what '--coverage --format json' writes";
+    return reader.fault() + "; --merge reads what '--format json' writes";
   }
   try {
     CoverageReader(coverage).read(JsonValue(*root));

@@ -6,11 +6,15 @@
 #include <vector>
 
 #include "core/diagnostic/diagnostic.h"
+#include "core/report/table.h"
 #include "coverage/engine/coverage.h"
 
-// The reports of `cbc solve --coverage`.
+// The reports of `cbc coverage`.
 
 namespace cbc {
+
+/// The goals of each section, met and missed.
+[[nodiscard]] Table counts_table(const CatalogCoverage& coverage, const Style& style);
 
 /// A table of the goals of each section, and a list of those that are not met. `columns`: of the
 /// terminal, see wrap_line.
@@ -41,7 +45,5 @@ struct CoverageFormat {
 
 /// The first one is the default.
 [[nodiscard]] std::span<const CoverageFormat> coverage_formats();
-/// The format of a file, by the end of its name: .json, .html, .info or .lcov; otherwise text.
-[[nodiscard]] const CoverageFormat& coverage_format_of(std::string_view path);
 
 }  // namespace cbc

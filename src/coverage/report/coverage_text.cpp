@@ -1,16 +1,16 @@
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "core/report/github.h"
-#include "core/report/table_parts.h"
-#include "core/report/wrap.h"
+#include "core/report/layout.h"
+#include "core/report/property_words.h"
+#include "core/report/table.h"
+#include "core/report/test_report.h"
 #include "core/support/wording.h"
 #include "coverage/report/coverage_report.h"
 #include "runtime/base/text.h"
@@ -20,56 +20,35 @@
 namespace cbc {
 namespace {
 
-/// `is_proved`: what is unreachable has a column.
-std::string table_row(std::string_view what, const GoalCount& count, bool is_proved) {
-  return fmt::format("  {:<14} {:>7} {:>7} {:>7} {:>9}{}\n", what, count.goals, count.met,
-                     count.goals - count.met, describe_percent(count),
-                     is_proved ? fmt::format(" {:>12}", count.unreachable) : std::string());
-}
-
 std::string place_of(const CatalogCoverage& coverage, const Goal& goal) {
   const std::string file = printable(coverage.catalog().file);
   return goal.lines.empty() ? file : fmt::format("{}:{}", file, goal.lines.front());
 }
 
 void add_list(const CatalogCoverage& coverage, std::string_view heading,
-              bool (CatalogCoverage::*is_listed)(std::size_t) const, std::size_t columns,
-              std::string& text) {
+              bool (CatalogCoverage::*is_listed)(std::size_t) const, Text& text) {
   bool is_empty = true;
   for (std::size_t goal = 0; goal < coverage.goals().size(); ++goal) {
     if (!(coverage.*is_listed)(goal)) continue;
-    if (is_empty) text += "\n" + wrap_line(heading, columns, 2) + "\n";
+    if (is_empty) text.line("");
+    if (is_empty) text.line(heading);
     is_empty = false;
-    const std::string line = fmt::format("  {}: {}", place_of(coverage, coverage.goals()[goal]),
-                                         describe(coverage.catalog(), coverage.goals()[goal]));
-    text += wrap_line(line, columns, 6) + "\n";
-    if (coverage.is_unreachable(goal)) {
-      text += wrap_line("    " + coverage.reason_of(goal), columns, 6) + "\n";
-    }
+    text.line("  {}: {}", place_of(coverage, coverage.goals()[goal]),
+              describe(coverage.catalog(), coverage.goals()[goal]));
+    if (coverage.is_unreachable(goal)) text.line("    " + coverage.reason_of(goal));
   }
 }
 
-std::string catalog_to_text(const CatalogCoverage& coverage, const Style& style,
-                            std::size_t columns) {
-  std::string text = fmt::format("{}{}{}, {}\n", style.strong, printable(coverage.catalog().file),
-                                 style.reset, quantity(coverage.missions().size(), "mission"));
-  const bool is_proved = coverage.assumptions().has_value();
-  if (is_proved) {
-    text += assumptions_to_text(coverage.catalog(), *coverage.assumptions(), columns);
+void add_catalog(const CatalogCoverage& coverage, Text& text) {
+  text.line("{}, {}", text.style().paint(text.style().strong, printable(coverage.catalog().file)),
+            quantity(coverage.missions().size(), "mission"));
+  if (coverage.assumptions()) {
+    text.add(assumptions_to_text(coverage.catalog(), *coverage.assumptions(), text.columns()));
   }
-  text += fmt::format("\n  {:<14} {:>7} {:>7} {:>7} {:>9}{}\n", "", "goals", "met", "missed",
-                      "covered", is_proved ? "  unreachable" : "");
-  const auto sections = coverage.by_section();
-  for (std::size_t section = 0; section < goal_sections; ++section) {
-    if (sections.at(section).goals + sections.at(section).unreachable == 0) continue;
-    text += table_row(name_of(static_cast<GoalSection>(section)), sections.at(section), is_proved);
-  }
-  const GoalCount total = coverage.total();
-  text += table_row("total", total, is_proved);
-  add_list(coverage, "no mission shows that", &CatalogCoverage::is_missed, columns, text);
+  text.add("\n" + counts_table(coverage, text.style()).text());
+  add_list(coverage, "no mission shows that", &CatalogCoverage::is_missed, text);
   add_list(coverage, "under these assumptions no mission can show, and so it does not count, that",
-           &CatalogCoverage::is_unreachable, columns, text);
-  return text;
+           &CatalogCoverage::is_unreachable, text);
 }
 
 /// The missions that meet one of the goals at least.
@@ -111,18 +90,42 @@ std::string catalog_to_lcov(const CatalogCoverage& coverage) {
 
 }  // namespace
 
+Table counts_table(const CatalogCoverage& coverage, const Style& style) {
+  const bool is_proved = coverage.assumptions().has_value();
+  std::vector<Table::Column> columns = {{{}, {}, 14},
+                                        number_column("goals", 7, 1),
+                                        number_column("met", 7, 1),
+                                        number_column("missed", 7, 1),
+                                        number_column("covered", 9, 1)};
+  if (is_proved) columns.push_back(number_column("unreachable", 12, 1));
+  Table table(style, std::move(columns));
+  const auto add = [&](std::string_view what, const GoalCount& count) {
+    Table::Row row = {what, count.goals, count.met, count.goals - count.met,
+                      describe_percent(count)};
+    if (is_proved) row.emplace_back(count.unreachable);
+    table.add(std::move(row));
+  };
+  const auto sections = coverage.by_section();
+  for (std::size_t section = 0; section < goal_sections; ++section) {
+    const GoalCount& count = sections.at(section);
+    if (count.goals + count.unreachable > 0) add(name_of(static_cast<GoalSection>(section)), count);
+  }
+  add("total", coverage.total());
+  return table;
+}
+
 std::string coverage_to_text(const Coverage& coverage, const Style& style, std::size_t columns) {
-  std::string text;
+  Text text(style, columns);
   for (const CatalogCoverage& catalog : coverage.catalogs) {
-    if (!text.empty()) text += '\n';
-    text += catalog_to_text(catalog, style, columns);
+    if (!text.is_empty()) text.line("");
+    add_catalog(catalog, text);
   }
   if (coverage.catalogs.size() > 1) {
     const GoalCount total = coverage.total();
-    text += fmt::format("\nall catalogs: {} of {} goals, {}\n", total.met, total.goals,
-                        describe_percent(total));
+    text.line("");
+    text.line("all catalogs: {} of {} goals, {}", total.met, total.goals, describe_percent(total));
   }
-  return text;
+  return text.take();
 }
 
 std::string coverage_to_lcov(const Coverage& coverage) {
@@ -134,19 +137,18 @@ std::string coverage_to_lcov(const Coverage& coverage) {
 std::string coverage_to_github(const Coverage& coverage) {
   std::string text;
   for (const CatalogCoverage& catalog : coverage.catalogs) {
+    TestSuite suite{std::string(catalog.catalog().file)};
     const auto of_lines = catalog.goals_of_lines();
     for (std::uint32_t line = 1; line < of_lines.size(); ++line) {
-      std::string missed;
+      std::vector<std::string> missed;
       for (const std::uint32_t goal : of_lines[line]) {
         if (!catalog.is_missed(goal)) continue;
-        if (!missed.empty()) missed += '\n';
-        missed += describe(catalog.catalog(), catalog.goals()[goal]);
+        missed.push_back(describe(catalog.catalog(), catalog.goals()[goal]));
       }
       if (missed.empty()) continue;
-      const Position begin{line, 1};
-      text += github_command("notice", {std::string(catalog.catalog().file), Range{begin, begin}},
-                             "No mission shows that", missed);
+      suite.cases.push_back(notice_of_line(line, "No mission shows that", join(missed, "\n")));
     }
+    text += github_format.suite(suite);
   }
   return text;
 }
@@ -165,21 +167,6 @@ std::span<const CoverageFormat> coverage_formats() {
                     std::size_t /*columns*/) { return coverage_to_github(coverage); }},
   };
   return formats;
-}
-
-const CoverageFormat& coverage_format_of(std::string_view path) {
-  struct Suffix {
-    std::string_view end;
-    std::string_view format;
-  };
-  constexpr std::array<Suffix, 4> suffixes{
-      {{".json", "json"}, {".html", "html"}, {".info", "lcov"}, {".lcov", "lcov"}}};
-  const auto* const suffix = std::find_if(
-      suffixes.begin(), suffixes.end(), [&](const Suffix& one) { return path.ends_with(one.end); });
-  const auto formats = coverage_formats();
-  if (suffix == suffixes.end()) return formats.front();
-  return *std::find_if(formats.begin(), formats.end(),
-                       [&](const CoverageFormat& format) { return format.name == suffix->format; });
 }
 
 }  // namespace cbc

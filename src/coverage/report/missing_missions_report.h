@@ -14,8 +14,8 @@
 
 namespace cbc {
 
-/// What `cbc verify --write-tests` reports.
-struct WrittenTests {
+/// What `cbc coverage --write-missing` reports.
+struct WrittenMissions {
   const CompiledCatalog* catalog = nullptr;
   StatedAssumptions assumptions;
   std::span<const Goal> goals;
@@ -26,6 +26,7 @@ struct WrittenTests {
 };
 
 /// The result for people. `columns`: of the terminal, see wrap_line.
-[[nodiscard]] std::string written_tests_to_text(const WrittenTests& tests, std::size_t columns = 0);
+[[nodiscard]] std::string written_missions_to_text(const WrittenMissions& tests,
+                                                   std::size_t columns = 0);
 
 }  // namespace cbc

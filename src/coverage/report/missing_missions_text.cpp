@@ -1,93 +1,91 @@
-#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "core/report/table_parts.h"
-#include "core/report/wrap.h"
+#include "core/report/layout.h"
+#include "core/report/property_words.h"
+#include "core/report/table.h"
 #include "core/support/wording.h"
 #include "coverage/report/missing_missions_report.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
-
 namespace {
 
-std::string list_goals(const WrittenTests& tests, const char* heading,
-                       const std::vector<MissingMissions::Unmet>& goals, std::size_t columns) {
-  if (goals.empty()) return {};
-  std::string text = "\n" + wrap_line(heading, columns, 2) + "\n";
+void list_goals(const WrittenMissions& tests, const char* heading,
+                const std::vector<MissingMissions::Unmet>& goals, Text& text) {
+  if (goals.empty()) return;
+  text.line("");
+  text.line(heading);
   for (const MissingMissions::Unmet& goal : goals) {
-    text += wrap_line("  " + describe(*tests.catalog, tests.goals[goal.goal]), columns, 4) + "\n";
-    text += wrap_line("    " + goal.reason, columns, 6) + "\n";
+    text.line("  " + describe(*tests.catalog, tests.goals[goal.goal]));
+    text.line("    " + goal.reason);
   }
-  return text;
+}
+
+std::string count_tests(const MissingMissions& missing) {
+  if (missing.missions.empty()) {
+    return missing.unmet.empty() ? "nothing is missing" : "no test was found";
+  }
+  std::uint64_t events = 0;
+  for (const MissingMissions::Mission& mission : missing.missions) events += mission.events;
+  std::string line = fmt::format("{} with {}", quantity(missing.missions.size(), "test"),
+                                 quantity(events, "event"));
+  if (missing.lower_bound) {
+    const std::uint64_t least = *missing.lower_bound;
+    line += fmt::format("; at least {} needed, with at most {} each",
+                        least == 1 ? "one is" : fmt::format("{} are", least),
+                        quantity(missing.most_events, "event"));
+  }
+  return line;
 }
 
 }  // namespace
 
-std::string written_tests_to_text(const WrittenTests& tests, std::size_t columns) {
+std::string written_missions_to_text(const WrittenMissions& tests, std::size_t columns) {
   const MissingMissions& missing = *tests.missing;
-  std::string text = printable(tests.catalog->file);
-  if (tests.missions == 0U) {
-    text += " beside no mission";
-  } else if (tests.missions) {
-    text += fmt::format(" beside {}", quantity(*tests.missions, "mission"));
+  Text text(plain_style(), columns);
+  std::string beside;
+  if (tests.missions) {
+    beside =
+        " beside " + (*tests.missions == 0 ? "no mission" : quantity(*tests.missions, "mission"));
   }
-  text += "\n" + assumptions_to_text(*tests.catalog, tests.assumptions, columns) + "\n";
+  text.add(printable(tests.catalog->file) + beside + "\n");
+  text.add(assumptions_to_text(*tests.catalog, tests.assumptions, columns) + "\n");
   std::uint64_t met = 0;
-  std::uint64_t events = 0;
-  std::size_t width = 0;
-  for (const std::string& path : tests.paths) width = std::max(width, printable(path).size());
-  for (const MissingMissions::Mission& mission : missing.missions) {
-    met += mission.goals.size();
-    events += mission.events;
-  }
-  const auto row = [&](const char* what, std::uint64_t count) {
-    text += fmt::format("  {:<18}{:>8}\n", what, count);
-  };
-  row("goals", tests.goals.size());
-  row("met before", tests.goals.size() - missing.wanted);
-  row("unreachable", missing.unreachable.size());
-  row("met by tests", met);
-  row("not met", missing.unmet.size());
-  if (!missing.missions.empty()) {
-    std::string line = fmt::format("{} with {}", quantity(missing.missions.size(), "test"),
-                                   quantity(events, "event"));
-    if (missing.lower_bound) {
-      const std::uint64_t least = *missing.lower_bound;
-      line += fmt::format("; at least {} needed, with at most {} each",
-                          least == 1 ? "one is" : fmt::format("{} are", least),
-                          quantity(missing.most_events, "event"));
-    }
-    text += "\n" + wrap_line(line, columns, 2) + "\n";
-  } else {
-    text += missing.unmet.empty() ? "\nnothing is missing\n" : "\nno test was found\n";
-  }
+  for (const MissingMissions::Mission& mission : missing.missions) met += mission.goals.size();
+  Table counts(text.style(), {{{}, {}, 18}, number_column({}, 8, 0)});
+  counts.add({"goals", tests.goals.size()});
+  counts.add({"met before", tests.goals.size() - missing.wanted});
+  counts.add({"unreachable", missing.unreachable.size()});
+  counts.add({"met by tests", met});
+  counts.add({"not met", missing.unmet.size()});
+  text.add(counts.text());
+  text.line("");
+  text.line(count_tests(missing));
+  Table files(text.style(), {{}, {}});
   for (std::size_t place = 0; place < missing.missions.size(); ++place) {
     const MissingMissions::Mission& mission = missing.missions[place];
-    text += fmt::format("  {:<{}}  {:>3}  {:>3}\n", printable(tests.paths[place]), width,
-                        quantity(mission.events, "event"), quantity(mission.goals.size(), "goal"));
+    files.add({printable(tests.paths[place]),
+               quantity(mission.events, "event") + "  " + quantity(mission.goals.size(), "goal")});
   }
+  text.add(files.text());
   for (const std::uint32_t group : missing.partial) {
-    const std::string line = fmt::format(
-        "a limit ended the exploration of group {}: what it has beyond is not known", group);
-    text += "\n" + wrap_line(line, columns, 2) + "\n";
+    text.line("");
+    text.line("a limit ended the exploration of group {}: what it has beyond is not known", group);
   }
-  text += list_goals(tests, "no test shows that", missing.unmet, columns);
-  text += list_goals(tests, "under these assumptions no test can show that", missing.unreachable,
-                     columns);
+  list_goals(tests, "no test shows that", missing.unmet, text);
+  list_goals(tests, "under these assumptions no test can show that", missing.unreachable, text);
   if (!tests.next.empty()) {
+    text.line("");
+    text.line("changes of the catalog that all of these leave unnoticed, with a test for each:");
     // The command is for a shell, and stays on one line.
-    text += "\n" +
-            wrap_line(
-                "changes of the catalog that all of these leave unnoticed, with a test for "
-                "each:",
-                columns, 2) +
-            "\n  " + tests.next + "\n";
+    text.add("  " + tests.next + "\n");
   }
-  return text;
+  return text.take();
 }
 
 }  // namespace cbc

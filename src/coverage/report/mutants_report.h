@@ -15,7 +15,7 @@
 #include "coverage/engine/mutants/mutants.h"
 #include "runtime/compiled/compiled_catalog.h"
 
-// The reports of `cbc verify --mutants`.
+// The reports of `cbc coverage --mutants`.
 
 namespace cbc {
 
@@ -60,7 +60,7 @@ struct MutantsResult {
 /// Workflow commands of GitHub Actions: one for each line with survivors.
 [[nodiscard]] std::string mutants_to_github(const MutantsResult& result);
 
-/// A format of `cbc verify --mutants`.
+/// A format of `cbc coverage --mutants`.
 struct MutantsFormat {
   std::string_view name;
   std::string (*write)(const MutantsResult& result, const Style& style, std::size_t columns);

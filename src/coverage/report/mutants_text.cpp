@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
@@ -6,9 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "core/report/github.h"
-#include "core/report/table_parts.h"
-#include "core/report/wrap.h"
+#include "core/report/layout.h"
+#include "core/report/property_words.h"
+#include "core/report/table.h"
+#include "core/report/test_report.h"
 #include "core/support/wording.h"
 #include "coverage/report/mutants_report.h"
 #include "runtime/base/text.h"
@@ -18,81 +19,64 @@
 namespace cbc {
 namespace {
 
-constexpr std::string_view heading_of_result = "noticed by";
-
 /// The mission that notices it, or the result.
-std::string describe_result(const MutantsResult& result, const MutantVerdict& verdict) {
+std::string noticed_by(const MutantsResult& result, const MutantVerdict& verdict) {
   if (verdict.result == MutantVerdict::Result::survived) return "SURVIVED";
   if (!verdict.notice) return std::string(name_of(verdict.result));
   const std::string mission = printable(result.missions[verdict.notice->mission]);
   return verdict.notice->line == 0 ? mission : fmt::format("{}:{}", mission, verdict.notice->line);
 }
 
-std::string describe_lines(const Mutant& mutant) {
-  std::string text;
-  for (const std::uint32_t line : mutant.lines) {
-    text += fmt::format("{}{}", text.empty() ? "" : ",", line);
-  }
-  return text;
-}
-
-std::string table_to_text(const MutantsResult& result, const Style& style, std::size_t columns) {
-  std::vector<std::string> results;
-  std::size_t width = heading_of_result.size();
-  for (const MutantVerdict& verdict : result.verdicts) {
-    width = std::max(width, results.emplace_back(describe_result(result, verdict)).size());
-  }
-  const std::size_t indent = 2 + 9 + 2 + width + 2;
-  std::string text = fmt::format("\n  {:>9}  {:<{}}  changed\n", "line", heading_of_result, width);
+void add_table(const MutantsResult& result, Text& text) {
+  if (result.mutants.empty()) return;
+  Table table(text.style(), {number_column("line", 9), {"noticed by"}, {"changed"}},
+              {.columns = text.columns()});
   for (std::size_t place = 0; place < result.mutants.size(); ++place) {
-    const bool has_survived = result.verdicts[place].result == MutantVerdict::Result::survived;
-    const std::string padded = fmt::format("{:<{}}", results[place], width);
-    const std::string line = fmt::format("  {:>9}  {}  {}", describe_lines(result.mutants[place]),
-                                         has_survived ? style.paint(style.bad, padded) : padded,
-                                         describe(*result.catalog, result.mutants[place]));
-    text += wrap_line(line, columns, indent) + "\n";
+    const Mutant& mutant = result.mutants[place];
+    const MutantVerdict& verdict = result.verdicts[place];
+    const bool has_survived = verdict.result == MutantVerdict::Result::survived;
+    table.add({join(mutant.lines, ",", [](std::uint32_t line) { return std::to_string(line); }),
+               {noticed_by(result, verdict), has_survived ? text.style().bad : std::string_view()},
+               describe(*result.catalog, mutant)});
   }
-  return text;
+  text.add("\n" + table.text());
 }
 
-std::string survivors_to_text(const MutantsResult& result, std::size_t columns) {
-  std::string text;
+void add_survivors(const MutantsResult& result, Text& text) {
+  bool is_first = true;
   for (std::size_t place = 0; place < result.mutants.size(); ++place) {
     const MutantVerdict& verdict = result.verdicts[place];
     if (verdict.result != MutantVerdict::Result::survived) continue;
-    if (text.empty()) text = "\nno mission notices that; these would\n";
+    if (is_first) text.add("\nno mission notices that; these would\n");
+    is_first = false;
     const Mutant& mutant = result.mutants[place];
-    const std::string line = fmt::format("  {}:{}: {}", printable(result.catalog->file),
-                                         mutant.lines.front(), describe(*result.catalog, mutant));
-    text += wrap_line(line, columns, 4) + "\n";
-    text += indent(*verdict.script);
+    text.line("  {}:{}: {}", printable(result.catalog->file), mutant.lines.front(),
+              describe(*result.catalog, mutant));
+    text.add(indent(*verdict.script));
   }
-  return text;
 }
 
 /// What counts, and what does not.
-std::string summary_to_text(const MutantCount& count, std::size_t columns) {
+void add_summary(const MutantCount& count, Text& text) {
   std::string counts = fmt::format("mutants: {} noticed, {} survived, {} equivalent", count.noticed,
                                    count.survived, count.equivalent);
   if (count.undecided > 0) counts += fmt::format(", {} undecided", count.undecided);
   if (count.unjudged > 0) counts += fmt::format(", {} not judged", count.unjudged);
-  std::string text = "\n" + wrap_line(counts, columns, 2);
-  text += count.is_score_known() ? fmt::format("\nscore: {}\n", describe_percent(count.score()))
-                                 : "\nscore: unknown\n";
-  const auto add = [&](const std::string& line) { text += wrap_line(line, columns, 2) + "\n"; };
+  text.line("");
+  text.line(counts);
+  text.line("score: {}", count.is_score_known() ? describe_percent(count.score()) : "unknown");
   if (const std::uint64_t limited = count.undecided - count.without_script; limited > 0) {
-    add(
-        fmt::format("undecided: a limit came before it was known whether a mission could notice "
-                    "{}; see --max-states, --max-memory and --time-limit",
-                    quantity(limited, "mutant")));
+    text.line(
+        "undecided: a limit came before it was known whether a mission could notice {}; see "
+        "--max-states, --max-memory and --time-limit",
+        quantity(limited, "mutant"));
   }
   if (count.without_script > 0) {
-    add(
-        fmt::format("undecided: {} may differ from the catalog, but no mission was found that "
-                    "shows it, as it may take a timeout that comes at the right time",
-                    quantity(count.without_script, "mutant")));
+    text.line(
+        "undecided: {} may differ from the catalog, but no mission was found that shows it, as it "
+        "may take a timeout that comes at the right time",
+        quantity(count.without_script, "mutant"));
   }
-  return text;
 }
 
 }  // namespace
@@ -123,19 +107,19 @@ MutantCount MutantsResult::count() const {
 }
 
 std::string mutants_to_text(const MutantsResult& result, const Style& style, std::size_t columns) {
-  std::string text = fmt::format("{}{}{}, {}, {}\n", style.strong, printable(result.catalog->file),
-                                 style.reset, quantity(result.mutants.size(), "mutant"),
-                                 quantity(result.missions.size(), "mission"));
-  text += assumptions_to_text(*result.compiled, result.assumptions, columns);
-  if (!result.mutants.empty()) text += table_to_text(result, style, columns);
-  const std::string survivors = survivors_to_text(result, columns);
-  text += survivors + summary_to_text(result.count(), columns);
-  if (!survivors.empty() && !result.writes_scripts) {
-    text +=
-        wrap_line("--scripts DIR writes the missions that would notice the survivors", columns, 2) +
-        "\n";
+  Text text(style, columns);
+  const MutantCount count = result.count();
+  text.add(fmt::format("{}, {}, {}\n", style.paint(style.strong, printable(result.catalog->file)),
+                       quantity(result.mutants.size(), "mutant"),
+                       quantity(result.missions.size(), "mission")));
+  text.add(assumptions_to_text(*result.compiled, result.assumptions, columns));
+  add_table(result, text);
+  add_survivors(result, text);
+  add_summary(count, text);
+  if (count.survived > 0 && !result.writes_scripts) {
+    text.line("--scripts DIR writes the missions that would notice the survivors");
   }
-  return text;
+  return text.take();
 }
 
 std::string mutants_to_github(const MutantsResult& result) {
@@ -149,13 +133,11 @@ std::string mutants_to_github(const MutantsResult& result) {
     if (verdict.script) message += "\n" + indent(*verdict.script);
     while (message.ends_with('\n')) message.pop_back();
   }
-  std::string text;
+  TestSuite suite{result.catalog->file};
   for (const auto& [line, message] : messages) {
-    const Position begin{line, 1};
-    text += github_command("notice", {result.catalog->file, Range{begin, begin}},
-                           "No mission notices that", message);
+    suite.cases.push_back(notice_of_line(line, "No mission notices that", message));
   }
-  return text;
+  return github_format.suite(suite);
 }
 
 std::span<const MutantsFormat> mutants_formats() {

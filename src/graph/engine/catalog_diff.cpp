@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -14,6 +13,7 @@
 
 #include "core/catalog/allowed_values.h"
 #include "core/catalog/situation.h"
+#include "core/support/wording.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
@@ -67,9 +67,9 @@ using Place = std::uint32_t;
 /// One of the two catalogs, by places.
 struct Side {
   const CompiledCatalog* catalog;
-  std::vector<TaskId> tasks;         ///< by place; `none`: the catalog has no such task
-  std::vector<Place> places;         ///< by TaskId
-  std::vector<std::uint32_t> marks;  ///< by place: the class whose tasks exclude it
+  std::vector<TaskId> tasks;  ///< by place; `none`: the catalog has no such task
+  std::vector<Place> places;  ///< by TaskId
+  std::vector<Place> marks;   ///< by place: the last task that was found to exclude it
 
   [[nodiscard]] std::span<const std::uint32_t> cliques_of(Place place) const {
     return tasks[place] == none ? std::span<const std::uint32_t>()
@@ -96,21 +96,7 @@ class ExclusionDiff {
       : names_(names_of_both(before, after)), sides_{side_of(before), side_of(after)} {}
 
   void run(CatalogDiff& diff) {
-    std::vector<Place> order(names_.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [this](Place a, Place b) { return precedes(a, b); });
-    std::vector<std::span<const Place>> classes;
-    for (auto first = order.begin(); first != order.end();) {
-      const auto end = std::find_if(first, order.end(),
-                                    [&](Place place) { return precedes(*first, place, false); });
-      classes.emplace_back(first, end);
-      first = end;
-    }
-    // By name, so that the order of lists does not decide which pairs are listed.
-    std::sort(classes.begin(), classes.end(),
-              [](const auto& a, const auto& b) { return a.front() < b.front(); });
-    for (const auto alike : classes) compare_class(alike);
-    std::sort(pairs_.begin(), pairs_.end());
+    for (Place task = 0; task < names_.size(); ++task) compare(task);
     for (const auto& [task, other, kind] : pairs_) {
       CatalogChange& change = diff.changes.emplace_back();
       change.kind = kind;
@@ -118,7 +104,7 @@ class ExclusionDiff {
       change.task = names_[task];
       change.other_task = names_[other];
     }
-    diff.further_exclusions = ends_of_pairs_ / 2 - pairs_.size();
+    diff.further_exclusions = further_;
   }
 
  private:
@@ -135,26 +121,22 @@ class ExclusionDiff {
     return side;
   }
 
-  /// Orders tasks by the lists they are in, so that tasks in the same lists are adjacent, and those
-  /// by name.
-  [[nodiscard]] bool precedes(Place a, Place b, bool by_name = true) const {
-    for (const Side& side : sides_) {
-      const auto [first, second] = std::pair(side.cliques_of(a), side.cliques_of(b));
-      const auto order = std::lexicographical_compare_three_way(first.begin(), first.end(),
-                                                                second.begin(), second.end());
-      if (order != 0) return order < 0;
-    }
-    return by_name && a < b;
-  }
-
-  /// Tasks that are in the same lists, in both catalogs, exclude the same tasks and each other, so
-  /// these are found once for all of them.
-  void compare_class(std::span<const Place> alike) {
-    for (Side& side : sides_) mark_excluded(side, alike.front());
+  void compare(Place task) {
+    for (Side& side : sides_) mark_excluded(side, task);
+    std::vector<std::pair<Place, CatalogChange::Kind>> found;
     constexpr std::array kinds{CatalogChange::Kind::removed, CatalogChange::Kind::added};
     for (std::size_t side = 0; side < sides_.size(); ++side) {
-      find_only(sides_[side], sides_[1 - side], alike.front());
-      for (const Place task : alike) add_pairs(task, kinds[side]);
+      for (const Place other : find_only(sides_[side], sides_[1 - side], task)) {
+        found.emplace_back(other, kinds[side]);
+      }
+    }
+    std::sort(found.begin(), found.end());
+    for (const auto& [other, kind] : found) {
+      if (pairs_.size() < most_listed_exclusions) {
+        pairs_.emplace_back(task, other, kind);
+      } else {
+        ++further_;
+      }
     }
   }
 
@@ -166,36 +148,24 @@ class ExclusionDiff {
     }
   }
 
-  /// Those that `task` excludes in `side` but not in `other`.
-  void find_only(Side& side, const Side& other, Place task) {
-    only_.clear();
-    has_itself_ = false;
+  /// Those with later names that `task` excludes in `side` but not in `other`.
+  [[nodiscard]] static std::vector<Place> find_only(Side& side, const Side& other, Place task) {
+    std::vector<Place> only;
     for (const std::uint32_t clique : side.cliques_of(task)) {
       for (const TaskId excluded : side.catalog->cliques[clique]) {
         const Place place = side.places[excluded];
-        if (side.marks[place] != task || other.marks[place] == task) continue;
+        if (place <= task || side.marks[place] != task || other.marks[place] == task) continue;
         side.marks[place] = none;  // not twice
-        only_.push_back(place);
-        has_itself_ = has_itself_ || place == task;
+        only.push_back(place);
       }
     }
-    std::sort(only_.begin(), only_.end());
-  }
-
-  void add_pairs(Place task, CatalogChange::Kind kind) {
-    ends_of_pairs_ += only_.size() - (has_itself_ ? 1 : 0);
-    for (const Place other : only_) {
-      if (pairs_.size() == most_listed_exclusions) return;
-      if (task < other) pairs_.emplace_back(task, other, kind);
-    }
+    return only;
   }
 
   const std::vector<std::string_view> names_;
   std::array<Side, 2> sides_;
-  std::vector<Place> only_;  ///< what the tasks of a class exclude in one of the catalogs only
-  bool has_itself_ = false;  ///< whether these tasks are among them
   std::vector<std::tuple<Place, Place, CatalogChange::Kind>> pairs_;
-  std::uint64_t ends_of_pairs_ = 0;
+  std::uint64_t further_ = 0;  ///< pairs that are not listed
 };
 
 using ChangeKind = CatalogChange::Kind;
@@ -226,42 +196,23 @@ AttributeValue unless_zero(Number number) {
 }
 
 /// Puts a value in quotes that could be taken for several values, or for none.
-std::string spell(const std::string& value) {
+std::string spell(std::string_view value) {
   const bool is_clear = !value.empty() && value.find_first_of(",[]'") == std::string::npos;
-  if (is_clear) return value;
+  if (is_clear) return std::string(value);
   std::string text = "'";
   for (const char character : value) text += character == '\'' ? "''" : std::string(1, character);
   return text += '\'';
-}
-
-/// The same for all spellings of a number of usual size: "30" for "3e1" and "30.0".
-std::string spell_number(const std::string& text, const Number& number) {
-  constexpr std::int64_t most_places = 30;
-  const auto digits = static_cast<std::int64_t>(number.digits.size());
-  const std::int64_t point = number.exponent;  // the place of the point among the digits
-  if (digits > most_places || point > most_places || point < -most_places) return text;
-  if (digits == 0) return "0";
-  std::string spelt = number.digits;
-  if (point <= 0) spelt.insert(0, static_cast<std::size_t>(-point), '0');
-  if (point > digits) spelt.append(static_cast<std::size_t>(point - digits), '0');
-  if (point < digits) spelt.insert(static_cast<std::size_t>(std::max<std::int64_t>(point, 0)), ".");
-  if (point <= 0) spelt.insert(0, "0");
-  return number.negative ? "-" + spelt : spelt;
 }
 
 /// What a parameter may be set to. Words are a set; no values allow any.
 std::string describe(Parameter parameter) {
   std::vector<std::string>& values = parameter.allowed_values;
   if (values.empty()) return {};
-  if (const std::optional<NumberRange> range = range_of(parameter)) {
-    values.front() = spell_number(values.front(), range->lowest);
-    values.back() = spell_number(values.back(), range->highest);
-  } else {
+  if (!range_of(parameter)) {
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());
   }
-  std::string text;
-  for (const std::string& value : values) text += (text.empty() ? "" : ", ") + spell(value);
+  const std::string text = join(values, ", ", spell);
   return parameter.allowed_is_list ? "[" + text + "]" : text;
 }
 
@@ -284,11 +235,7 @@ Attributes attributes_of_task(const CompiledCatalog& catalog, std::uint32_t inde
 
 /// "[far, near]"
 std::string list_values(const std::vector<std::string_view>& values) {
-  std::string text;
-  for (const std::string_view value : values) {
-    text += (text.empty() ? "" : ", ") + spell(std::string(value));
-  }
-  return "[" + text + "]";
+  return "[" + join(values, ", ", spell) + "]";
 }
 
 /// Values of a situation variable, whose order does not count; they are shown in catalog order.

@@ -126,7 +126,7 @@ struct Reach {
 /// How the lists of tasks of which at most one runs are drawn.
 enum class ExclusivityStyle : std::uint8_t {
   readable,  ///< short lists as pairs, others as hubs
-  pairs,     ///< a line between each two; but lists with very many nodes as hubs
+  pairs,     ///< a line between each two
   hubs,      ///< a node for each list of more than two tasks, and a line to each of them
   hidden
 };

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <iterator>
 #include <set>
-#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -141,164 +140,97 @@ void mark_state(CatalogGraph& graph, const RunState& state) { StateMarker(graph,
 
 namespace {
 
-using Pair = std::pair<std::uint32_t, std::uint32_t>;  // ascending
-using Tasks = std::vector<std::uint32_t>;              // ascending
+using Tasks = std::vector<std::uint32_t>;  // ascending
 
 /// Tasks of a list, each with a mark.
 using List = std::vector<std::pair<std::uint32_t, Mark>>;
-
-/// Pairs of tasks.
-class Pairs {
- public:
-  void add(std::uint32_t a, std::uint32_t b) {
-    pairs_.insert(std::minmax(a, b));
-    tasks_.insert({a, b});
-  }
-
-  [[nodiscard]] bool contains(std::uint32_t a, std::uint32_t b) const {
-    return pairs_.contains(std::minmax(a, b));
-  }
-
-  [[nodiscard]] bool has_any_of(std::span<const std::uint32_t> tasks) const {
-    return std::any_of(tasks.begin(), tasks.end(), [&](std::uint32_t task) {
-      return tasks_.contains(task) && std::any_of(tasks.begin(), tasks.end(), [&](std::uint32_t b) {
-               return contains(task, b);
-             });
-    });
-  }
-
-  /// The tasks that are in a pair with each of the others.
-  [[nodiscard]] Tasks with_all_of(std::span<const std::uint32_t> tasks) const {
-    Tasks found;
-    for (const std::uint32_t task : tasks) {
-      const bool has_all = std::all_of(tasks.begin(), tasks.end(), [&](std::uint32_t other) {
-        return other == task || contains(task, other);
-      });
-      if (has_all) found.push_back(task);
-    }
-    return found;
-  }
-
- private:
-  std::set<Pair> pairs_;
-  std::set<std::uint32_t> tasks_;
-};
-
-Tasks without(std::span<const std::uint32_t> tasks, const Tasks& others) {
-  Tasks rest;
-  std::set_difference(tasks.begin(), tasks.end(), others.begin(), others.end(),
-                      std::back_inserter(rest));
-  return rest;
-}
 
 /// Marks what has changed in the lists of exclusive tasks of a graph, which are those of the newer
 /// catalog, and adds what the older one alone excludes. `tasks` finds the tasks of both catalogs in
 /// the graph by name.
 ///
-/// A task that now excludes all others of a list, or no longer does, is marked in that list. Where
-/// lists were joined or split, the new or the old one is marked as a whole, beside those that have
-/// been there all the time: tasks exclude one another if any list says so without a mark.
+/// Of a list with a pair that is new or gone, the tasks that it shares with a list of the other
+/// catalog, the one with which it shares most, are unmarked, and the others are added or removed.
 class ExclusionMarker {
  public:
   ExclusionMarker(const CompiledCatalog& before,
                   const std::unordered_map<std::string_view, std::uint32_t>& tasks,
                   const CatalogDiff& diff, CatalogGraph& graph)
-      : before_(before), tasks_(tasks), graph_(graph) {
+      : graph_(graph) {
     for (const CatalogChange& change : diff.changes) {
       if (change.subject != CatalogChange::Subject::exclusion) continue;
-      Pairs& pairs = change.kind == CatalogChange::Kind::added ? added_ : removed_;
-      pairs.add(tasks_.at(change.task), tasks_.at(change.other_task));
+      auto& pairs = change.kind == CatalogChange::Kind::added ? added_ : removed_;
+      pairs.insert(std::minmax(tasks.at(change.task), tasks.at(change.other_task)));
+    }
+    for (std::size_t list = 0; list < graph.exclusions.size(); ++list) {
+      const auto row = graph.exclusions[list];
+      new_lists_.emplace_back(row.begin(), row.end());
+    }
+    for (std::size_t clique = 0; clique < before.cliques.size(); ++clique) {
+      Tasks& list = old_lists_.emplace_back();
+      for (const TaskId task : before.cliques[clique]) {
+        list.push_back(tasks.at(before.name_of_task(task)));
+      }
+      std::sort(list.begin(), list.end());
     }
   }
 
   void run() {
-    std::vector<std::size_t> joined;
-    for (std::size_t list = 0; list < graph_.exclusions.size(); ++list) {
-      if (!mark_added(graph_.exclusions[list])) joined.push_back(list);
+    if (added_.empty() && removed_.empty()) return;
+    for (const Tasks& list : new_lists_) {
+      const Nearest old = has_any_of(added_, list) ? nearest(list, old_lists_) : Nearest{0, list};
+      List& marked = lists_.emplace_back();
+      for (const std::uint32_t task : list) {
+        const bool is_kept = std::binary_search(old.shared.begin(), old.shared.end(), task);
+        marked.emplace_back(task, is_kept ? Mark::plain : Mark::added);
+      }
     }
-    for (std::size_t clique = 0; clique < before_.cliques.size(); ++clique) {
-      mark_removed(tasks_of(clique));
+    for (const Tasks& list : old_lists_) {
+      if (has_any_of(removed_, list)) add_removed(list);
     }
-    for (const std::size_t list : joined) add_kept(graph_.exclusions[list]);
     write();
   }
 
  private:
-  [[nodiscard]] Tasks tasks_of(std::size_t clique) const {
-    Tasks tasks;
-    for (const TaskId task : before_.cliques[clique]) {
-      tasks.push_back(tasks_.at(before_.name_of_task(task)));
-    }
-    std::sort(tasks.begin(), tasks.end());
-    return tasks;
-  }
+  using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;  // of tasks, ascending
 
-  /// False if the list is marked as a whole, though some of its tasks excluded one another before.
-  bool mark_added(std::span<const std::uint32_t> tasks) {
-    const Tasks since = added_.with_all_of(tasks);
-    const bool is_joined = added_.has_any_of(without(tasks, since));
-    List& marked = lists_.emplace_back();
-    for (const std::uint32_t task : tasks) {
-      const bool is_new = is_joined || std::binary_search(since.begin(), since.end(), task);
-      marked.emplace_back(task, is_new ? Mark::added : Mark::plain);
-    }
-    return !is_joined;
-  }
+  /// A list, and the tasks that it shares with another one.
+  struct Nearest {
+    std::size_t place = 0;
+    Tasks shared;
+  };
 
-  /// Adds the parts of older lists that remain in a list that is marked as a whole.
-  void add_kept(std::span<const std::uint32_t> joined) {
-    std::set<std::uint32_t> cliques;
-    for (const std::uint32_t task : joined) {
-      const auto known = before_.find_task(graph_.tasks[task].name);
-      if (!known) continue;
-      const auto of_task = before_.task_cliques[before_.task_ids[*known]];
-      cliques.insert(of_task.begin(), of_task.end());
-    }
-    for (const std::uint32_t clique : cliques) {
-      const Tasks before = tasks_of(clique);
-      Tasks kept;
-      std::set_intersection(before.begin(), before.end(), joined.begin(), joined.end(),
-                            std::back_inserter(kept));
-      if (kept.size() > 1 && find_list(kept, {}) == nullptr) add_list(kept, Mark::plain);
-    }
-  }
-
-  void mark_removed(const Tasks& tasks) {
-    if (!removed_.has_any_of(tasks)) return;
-    const Tasks gone = removed_.with_all_of(tasks);
-    const Tasks rest = without(tasks, gone);
-    const bool is_split = removed_.has_any_of(rest);
-    List* const list = is_split || rest.empty() ? nullptr : find_list(rest, gone);
-    if (list == nullptr) {
-      add_list(tasks, Mark::removed);  // where tasks still exclude one another, other lists say so
-    } else {
-      for (const std::uint32_t task : gone) list->emplace_back(task, Mark::removed);
-    }
-  }
-
-  void add_list(const Tasks& tasks, Mark mark) {
-    List& list = lists_.emplace_back();
-    for (const std::uint32_t task : tasks) list.emplace_back(task, mark);
-  }
-
-  [[nodiscard]] bool was_in_pairs_with(std::uint32_t task, const Tasks& others) const {
-    return std::all_of(others.begin(), others.end(),
-                       [&](std::uint32_t other) { return removed_.contains(task, other); });
-  }
-
-  /// The list that has exactly these tasks, apart from added ones, if what was removed from it
-  /// before excluded all of `gone`.
-  [[nodiscard]] List* find_list(const Tasks& tasks, const Tasks& gone) {
-    for (const std::uint32_t place : graph_.exclusions_of_task[tasks.front()]) {
-      Tasks present;
-      bool is_fit = true;
-      for (const auto& [task, mark] : lists_[place]) {
-        if (mark == Mark::plain) present.push_back(task);
-        if (mark == Mark::removed) is_fit = is_fit && was_in_pairs_with(task, gone);
+  [[nodiscard]] static bool has_any_of(const Pairs& pairs, const Tasks& tasks) {
+    return std::any_of(tasks.begin(), tasks.end(), [&](std::uint32_t task) {
+      auto pair = pairs.lower_bound({task, 0});
+      for (; pair != pairs.end() && pair->first == task; ++pair) {
+        if (std::binary_search(tasks.begin(), tasks.end(), pair->second)) return true;
       }
-      if (is_fit && present == tasks) return &lists_[place];
+      return false;
+    });
+  }
+
+  /// The list that shares most tasks, at least two, with these; none is shared if there is none.
+  [[nodiscard]] static Nearest nearest(const Tasks& tasks, const std::vector<Tasks>& lists) {
+    Nearest best;
+    for (std::size_t place = 0; place < lists.size(); ++place) {
+      Tasks shared;
+      std::set_intersection(tasks.begin(), tasks.end(), lists[place].begin(), lists[place].end(),
+                            std::back_inserter(shared));
+      if (shared.size() > std::max<std::size_t>(best.shared.size(), 1)) {
+        best = {place, std::move(shared)};
+      }
     }
-    return nullptr;
+    return best;
+  }
+
+  void add_removed(const Tasks& tasks) {
+    const Nearest now = nearest(tasks, new_lists_);
+    List& list = now.shared.empty() ? lists_.emplace_back() : lists_[now.place];
+    for (const std::uint32_t task : tasks) {
+      const auto is_it = [task](const auto& member) { return member.first == task; };
+      if (std::none_of(list.begin(), list.end(), is_it)) list.emplace_back(task, Mark::removed);
+    }
   }
 
   void write() {
@@ -317,12 +249,12 @@ class ExclusionMarker {
     graph_.exclusion_marks = std::move(marks);
   }
 
-  const CompiledCatalog& before_;
-  const std::unordered_map<std::string_view, std::uint32_t>& tasks_;
   CatalogGraph& graph_;
   Pairs added_;
   Pairs removed_;
-  std::vector<List> lists_;  ///< first those of the graph, then those that are added
+  std::vector<Tasks> new_lists_;
+  std::vector<Tasks> old_lists_;
+  std::vector<List> lists_;  ///< first those of the newer catalog, then those that are added
 };
 
 using ChangeKind = CatalogChange::Kind;

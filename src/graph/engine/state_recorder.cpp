@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/report/sentences.h"
+#include "core/report/event_words.h"
 #include "core/support/json.h"
 
 namespace cbc {
@@ -24,13 +24,6 @@ std::vector<draw::RunState::RunningTask> running_tasks(const CompiledCatalog& ca
     if (state.has_request(task)) one.priority = state.request(task).priority;
   }
   return running;
-}
-
-/// The event, with its outcome if it has one. Parameters are left out: they may be long.
-std::string describe(const CompiledCatalog& catalog, const EventRecord& record) {
-  std::string text = describe_event(catalog, record, nullptr);
-  if (form_of(record.verb).is_decided) text += ": " + std::string(name_of(record.outcome));
-  return text;
 }
 
 }  // namespace
@@ -73,7 +66,7 @@ void StateRecorder::on_event(const EventRecord& record, const Step* /*step*/, co
   has_passed_ = record.index == wanted_.index;
   moment_.index = record.index;
   moment_.time = record.time;
-  moment_.event = describe(catalog_, record);
+  moment_.event = event_and_outcome(catalog_, record, nullptr);
   state_.before = std::exchange(state_.running, running_tasks(catalog_, state));
   state_.finished.reset();
   if (record.verb == Verb::finish && record.outcome == Outcome::accepted) {

@@ -53,7 +53,6 @@ class Builder {
   [[nodiscard]] std::string unique_id(const std::string& id);
   [[nodiscard]] std::vector<std::uint32_t> nodes_of_exclusion(std::uint32_t task) const;
   [[nodiscard]] std::vector<Member> members_of(std::uint32_t list) const;
-  [[nodiscard]] static bool has_few_nodes(const std::vector<Member>& members);
   void add_hub(std::uint32_t list, const std::vector<Member>& members);
 
   const CatalogGraph& graph_;
@@ -177,10 +176,6 @@ void Builder::add_clusters(Clustering clustering) {
 
 /// Lists of up to this many tasks are drawn as pairs unless something else is asked for.
 constexpr std::size_t most_for_pairs = 3;
-/// Lists of tasks with more nodes than this are drawn as hubs, whatever is asked for: they would
-/// have more than half a million pairs.
-constexpr std::size_t most_nodes_for_pairs = 1000;
-
 using Nodes = std::vector<std::uint32_t>;
 
 /// The lists that have a task of the part, in the order of their tasks.
@@ -250,12 +245,6 @@ void Builder::add_hub(std::uint32_t list, const std::vector<Member>& members) {
   }
 }
 
-bool Builder::has_few_nodes(const std::vector<Member>& members) {
-  std::size_t nodes = 0;
-  for (const Member& member : members) nodes += member.nodes.size();
-  return nodes <= most_nodes_for_pairs;
-}
-
 void Builder::add_exclusions(ExclusivityStyle style) {
   if (style == ExclusivityStyle::hidden) return;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Mark> pairs;
@@ -265,7 +254,7 @@ void Builder::add_exclusions(ExclusivityStyle style) {
     if (members.size() < 2 && !has_named_task(graph_, part_, list)) continue;
     const std::size_t most = style == ExclusivityStyle::readable ? most_for_pairs : 2;
     const bool are_pairs = style == ExclusivityStyle::pairs || members.size() <= most;
-    if (members.size() == 1 || !are_pairs || !has_few_nodes(members)) {
+    if (members.size() == 1 || !are_pairs) {
       hubs.emplace_back(list, std::move(members));
       continue;
     }

@@ -11,7 +11,6 @@
 #include "core/support/wording.h"
 #include "graph/engine/diagram.h"
 #include "graph/report/graph_report.h"
-#include "graph/report/palette.h"
 
 namespace cbc {
 namespace {

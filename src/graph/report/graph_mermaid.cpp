@@ -12,7 +12,6 @@
 #include "core/support/json.h"
 #include "graph/engine/diagram.h"
 #include "graph/report/graph_report.h"
-#include "graph/report/palette.h"
 
 namespace cbc {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "core/report/reason_json.h"
 #include "core/support/json_description.h"
-#include "graph/report/together_report.h"
+#include "graph/report/tables.h"
 
 namespace cbc {
 namespace json::together {

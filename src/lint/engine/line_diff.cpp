@@ -1,6 +1,7 @@
 // Line differences in the unified format.
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,10 +13,6 @@ namespace cbc {
 namespace {
 
 constexpr std::size_t context = 3;
-
-// A piece ends after this many changes, or after this many equal lines in a row.
-constexpr int most_changes = 200;
-constexpr int sure_match = 32;
 
 using TextLines = std::vector<std::string_view>;
 
@@ -39,113 +36,70 @@ struct LineChange {
   std::size_t new_end = 0;
 };
 
-/// Finds the changes from front to back, by the greedy algorithm of Myers ("An O(ND) difference
-/// algorithm and its variations", 1986), piece by piece: a piece ends where the texts agree again
-/// for a while, or when it gets too long. So the work is linear even where the texts have nothing
-/// in common, which no library at hand ensures.
+/// Finds the changes from front to back, piece by piece, each by the longest common subsequence of
+/// the next lines of both texts. A piece ends where the texts agree again for a while. If they do
+/// not do so soon, it is looked at again with more lines, up to a bound, so the work is linear even
+/// where the texts have nothing in common.
 class LineComparison {
  public:
   LineComparison(const TextLines& before, const TextLines& after)
       : before_(before), after_(after) {}
 
   std::vector<LineChange> run() {
-    skip_equal();
+    constexpr std::size_t fewest = 32;
+    constexpr std::size_t most = 2048;
     while (x_ < before_.size() || y_ < after_.size()) {
-      add_piece();
-      skip_equal();
+      std::size_t window = fewest;
+      while (!compare_next(window, window >= most)) window *= 4;
     }
     return std::move(changes_);
   }
 
  private:
-  // The furthest points that a number of changes reaches, by diagonal, in lines of the old text.
-  // `furthest_[d]` has those of the diagonals -d to d.
-  using Reach = std::vector<int>;
+  static constexpr std::size_t sure_match = 16;  // equal lines in a row
 
-  void skip_equal() {
-    while (x_ < before_.size() && y_ < after_.size() && before_[x_] == after_[y_]) {
-      ++x_;
-      ++y_;
-    }
-  }
-
-  [[nodiscard]] int old_left() const { return static_cast<int>(before_.size() - x_); }
-  [[nodiscard]] int new_left() const { return static_cast<int>(after_.size() - y_); }
-
-  [[nodiscard]] bool equal(int x, int y) const {
-    return x < old_left() && y < new_left() &&
-           before_[x_ + static_cast<std::size_t>(x)] == after_[y_ + static_cast<std::size_t>(y)];
-  }
-
-  static std::size_t slot(int changes, int diagonal) {
-    const int place = diagonal + changes;
-    return static_cast<std::size_t>(place);
-  }
-
-  [[nodiscard]] int reached(int changes, int diagonal) const {
-    return furthest_[static_cast<std::size_t>(changes)][slot(changes, diagonal)];
-  }
-
-  [[nodiscard]] bool is_possible(int x, int diagonal) const {
-    return x >= 0 && x <= old_left() && x >= diagonal && x - diagonal <= new_left();
-  }
-
-  // The point on a diagonal that one more change leads to; below 0: none.
-  [[nodiscard]] int step(int changes, int diagonal) const {
-    if (changes == 0) return 0;
-    int best = -1;
-    if (diagonal > -changes + 1) {  // a line is deleted
-      const int from = reached(changes - 1, diagonal - 1);
-      if (from >= 0 && is_possible(from + 1, diagonal)) best = from + 1;
-    }
-    if (diagonal < changes - 1) {  // a line is inserted
-      const int from = reached(changes - 1, diagonal + 1);
-      if (from > best && is_possible(from, diagonal)) best = from;
-    }
-    return best;
-  }
-
-  void add_piece() {
-    furthest_.clear();
-    int best_diagonal = 0;
-    for (int changes = 0;; ++changes) {
-      furthest_.emplace_back(slot(changes, changes) + 1, -1);
-      int best_sum = -1;
-      for (int diagonal = -changes; diagonal <= changes; diagonal += 2) {
-        const int from = step(changes, diagonal);
-        if (from < 0) continue;
-        int x = from;
-        while (equal(x, x - diagonal)) ++x;
-        furthest_.back()[slot(changes, diagonal)] = x;
-        if (2 * x - diagonal > best_sum) {
-          best_sum = 2 * x - diagonal;
-          best_diagonal = diagonal;
-        }
-        const bool at_end = x == old_left() && x - diagonal == new_left();
-        if (at_end || x - from >= sure_match) return take(changes, diagonal);
+  /// Adds the changes among the next lines of both texts, unless these end without a sure match; if
+  /// `is_last`, also then.
+  bool compare_next(std::size_t window, bool is_last) {
+    const std::size_t width = std::min(window, after_.size() - y_);
+    const std::size_t height = std::min(window, before_.size() - x_);
+    const bool is_rest = width == after_.size() - y_ && height == before_.size() - x_;
+    // By line of either text: how many lines the texts have in common from there on.
+    std::vector<std::uint16_t> common((height + 1) * (width + 1));
+    const auto at = [&](std::size_t i, std::size_t j) -> std::uint16_t& {
+      return common[i * (width + 1) + j];
+    };
+    const auto are_equal = [&](std::size_t i, std::size_t j) {
+      return before_[x_ + i] == after_[y_ + j];
+    };
+    for (std::size_t i = height; i-- > 0;) {
+      for (std::size_t j = width; j-- > 0;) {
+        at(i, j) = are_equal(i, j) ? static_cast<std::uint16_t>(at(i + 1, j + 1) + 1)
+                                   : std::max(at(i + 1, j), at(i, j + 1));
       }
-      if (changes == most_changes) return take(changes, best_diagonal);
     }
-  }
-
-  // Follows the path that ends on a diagonal back to its start, and adds its changes.
-  void take(int changes, int diagonal) {
-    const int end = reached(changes, diagonal);
-    const int end_diagonal = diagonal;
-    std::vector<LineChange> path;
-    for (; changes > 0; --changes) {
-      const int to = step(changes, diagonal);
-      const bool is_deletion = diagonal > -changes + 1 && reached(changes - 1, diagonal - 1) >= 0 &&
-                               reached(changes - 1, diagonal - 1) + 1 == to;
-      const auto x = x_ + static_cast<std::size_t>(to);
-      const auto y = y_ + static_cast<std::size_t>(to - diagonal);
-      path.push_back(is_deletion ? LineChange{x - 1, x, y, y} : LineChange{x, x, y - 1, y});
-      diagonal += is_deletion ? -1 : 1;
+    std::vector<LineChange> found;
+    std::size_t i = 0;
+    std::size_t j = 0;
+    std::size_t equal = 0;
+    while ((i < height || j < width) && equal < sure_match) {
+      if (i < height && j < width && are_equal(i, j)) {
+        ++equal;
+        ++i;
+        ++j;
+        continue;
+      }
+      equal = 0;
+      const bool is_deletion = j == width || (i < height && at(i + 1, j) >= at(i, j + 1));
+      found.push_back(
+          {x_ + i, x_ + i + (is_deletion ? 1 : 0), y_ + j, y_ + j + (is_deletion ? 0 : 1)});
+      ++(is_deletion ? i : j);
     }
-    std::reverse(path.begin(), path.end());
-    for (const LineChange& change : path) add(change);
-    x_ += static_cast<std::size_t>(end);
-    y_ += static_cast<std::size_t>(end - end_diagonal);
+    if (equal < sure_match && !is_rest && !is_last) return false;
+    for (const LineChange& change : found) add(change);
+    x_ += i;
+    y_ += j;
+    return true;
   }
 
   void add(const LineChange& change) {
@@ -162,7 +116,6 @@ class LineComparison {
   const TextLines& after_;
   std::size_t x_ = 0;  // lines that were compared
   std::size_t y_ = 0;
-  std::vector<Reach> furthest_;
   std::vector<LineChange> changes_;
 };
 
@@ -198,38 +151,6 @@ void add_hunk(const TextLines& before, const TextLines& after,
   for (const std::size_t end = line + tail; line < end; ++line) add_line(' ', before[line], diff);
 }
 
-/// A file name as git writes it: in quotes if necessary, and followed by a tab if it has blanks.
-/// In quotes are also names with characters that terminals obey or do not show.
-std::string name_in_head(std::string_view prefix, std::string_view file) {
-  const bool is_shown = printable(file) == file;
-  const auto is_special = [is_shown](char byte) {
-    const auto code = static_cast<unsigned char>(byte);
-    return code < 0x20 || code == 0x7F || (code > 0x7F && !is_shown) || byte == '"' || byte == '\\';
-  };
-  std::string name(prefix);
-  if (std::none_of(file.begin(), file.end(), is_special)) {
-    name += file;
-    if (file.find(' ') != std::string_view::npos) name += '\t';
-    return name;
-  }
-  name.insert(0, "\"");
-  for (const char byte : file) {
-    if (byte == '"' || byte == '\\') {
-      name += '\\';
-      name += byte;
-    } else if (is_special(byte)) {
-      const auto code = static_cast<unsigned char>(byte);
-      name += '\\';
-      for (const unsigned shift : {6U, 3U, 0U}) {
-        name += static_cast<char>('0' + ((code >> shift) & 7U));
-      }
-    } else {
-      name += byte;
-    }
-  }
-  return name + '"';
-}
-
 }  // namespace
 
 std::string unified_diff(std::string_view before, std::string_view after, std::string_view file) {
@@ -237,7 +158,9 @@ std::string unified_diff(std::string_view before, std::string_view after, std::s
   const TextLines new_lines = split_lines(after);
   const std::vector<LineChange> changes = LineComparison(old_lines, new_lines).run();
   if (changes.empty()) return {};
-  std::string diff = "--- " + name_in_head("a/", file) + "\n+++ " + name_in_head("b/", file) + "\n";
+  std::string name = printable(file);
+  if (name.find(' ') != std::string::npos) name += '\t';  // ends it for patch
+  std::string diff = "--- a/" + name + "\n+++ b/" + name + "\n";
   for (std::size_t first = 0; first < changes.size();) {
     std::size_t last = first + 1;
     while (last < changes.size() &&

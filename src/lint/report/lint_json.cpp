@@ -15,7 +15,6 @@
 #include "core/compile/catalog_json.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
-#include "core/report/github.h"
 #include "core/support/json.h"
 #include "core/support/json_description.h"
 #include "core/support/wording.h"
@@ -23,14 +22,6 @@
 #include "runtime/base/text.h"
 
 namespace cbc {
-std::string lint_github(const std::vector<LintedFile>& files) {
-  std::string text;
-  for (const LintedFile& file : files) {
-    for (const Diagnostic& finding : file.findings) text += github_command_of(finding);
-  }
-  return text;
-}
-
 namespace json::lint {
 
 constexpr auto related = object(
@@ -58,38 +49,6 @@ constexpr auto diagnostic = object(
     member("end_column", line_number, "", [](const Diagnostic& of) { return of.range.end.column; }),
     member("related", list(related), "Related places.", &Diagnostic::notes));
 
-constexpr auto together = object(
-    "together", "",
-    member("all_tasks", boolean,
-           "Whether no task starts on request, so that all tasks are taken in place of those that "
-           "do.",
-           &TogetherSummary::is_of_all_tasks),
-    member("tasks", names, "The tasks that start on request and can run, in catalog order.",
-           &TogetherSummary::tasks),
-    member("never_run", names,
-           "The tasks that start on request but can never run, in catalog order.",
-           &TogetherSummary::never_run),
-    member("possible", list(texts.exactly(2).unique()), "The pairs that can run at the same time.",
-           [](const TogetherSummary& of) {
-             return [&](const auto& put) {
-               for (const auto& [first, second] : of.possible) put(std::array{first, second});
-             };
-           }),
-    member("excluded", count, "Number of pairs that an exclusivity list has.",
-           &TogetherSummary::excluded),
-    member("excluded_indirectly", count,
-           "Number of pairs that never run together because of what they require.",
-           &TogetherSummary::excluded_indirectly),
-    member(
-        "excluded_in_each_situation", count,
-        "Number of pairs that what fits excludes in each situation in which either task can run.",
-        &TogetherSummary::excluded_in_each_situation),
-    member("excluded_by_situation", count,
-           "Number of pairs whose behaviors fit in no common situation.",
-           &TogetherSummary::excluded_by_situation),
-    member("undecided", count, "Number of pairs for which there is too much to search.",
-           &TogetherSummary::undecided));
-
 constexpr auto group_of_tasks = object(
     "group", "",
     member("tasks", texts.at_least(1).unique(), "In catalog order.", &CatalogNumbers::task_names),
@@ -110,11 +69,7 @@ constexpr auto summary = object(
         "groups", list(group_of_tasks),
         "Sets of tasks that constraints connect, ordered by their first task.",
         [](const LintedFile& file) -> const auto& { return file.summary->groups; }),
-    part(total, group(search_space)),
-    optional("together", together,
-             "The pairs of tasks that start on request; only with --summary, and of at most 2000 "
-             "tasks.",
-             &LintedFile::together));
+    part(total, group(search_space)));
 
 constexpr auto linted_file = object(
     "file", "", member("file", any_text, "The file, as given.", &LintedFile::file),

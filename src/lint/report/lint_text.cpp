@@ -11,15 +11,15 @@
 #include <fmt/format.h>
 
 #include "core/diagnostic/diagnostic.h"
-#include "core/report/wrap.h"
+#include "core/report/layout.h"
+#include "core/report/table.h"
+#include "core/report/test_report.h"
 #include "core/support/wording.h"
 #include "lint/report/lint_report.h"
 #include "runtime/base/text.h"
 
 namespace cbc {
 namespace {
-
-constexpr std::size_t line_width = 80;
 
 /// Takes the text before the first `separator` off the front, with the separator; all of it if
 /// there is none.
@@ -30,25 +30,7 @@ std::string_view take_until(std::string_view separator, std::string_view& rest) 
   return taken;
 }
 
-/// Breaks a paragraph of ASCII into lines of at most 80 characters, unless a word is longer.
-std::string wrap(std::string_view paragraph) {
-  std::string text;
-  std::size_t used = 0;
-  while (!paragraph.empty()) {
-    const std::string_view word = take_until(" ", paragraph);
-    if (used > 0 && used + 1 + word.size() > line_width) {
-      text += '\n';
-      used = 0;
-    }
-    if (used > 0) {
-      text += ' ';
-      ++used;
-    }
-    text += word;
-    used += word.size();
-  }
-  return text + '\n';
-}
+std::string paragraph(std::string_view text) { return wrap_line(text, text_width, 0) + "\n"; }
 
 std::string example_text(std::string_view heading, std::string_view example, const Style& style) {
   return fmt::format("\n{}{}:{}\n\n{}", style.strong, heading, style.reset, indent(example));
@@ -62,36 +44,46 @@ std::string rule_text(const Rule& rule, const Style& style) {
                   rule.is_fixed ? "; settings cannot change it"
                   : rule.is_off ? "; off unless settings ask for it"
                                 : "");
-  text += wrap(rule.summary);
+  text += paragraph(rule.summary);
   for (std::string_view rest = rule.explanation; !rest.empty();) {
-    text += '\n' + wrap(take_until("\n\n", rest));
+    text += '\n' + paragraph(take_until("\n\n", rest));
   }
   if (!rule.settings.empty()) text += example_text("The settings", rule.settings, style);
   text += example_text(rule.is_of_scripts ? "Example, a script for the catalog below" : "Example",
                        rule.example, style);
-  text += fmt::format("\n{}How to fix it:{}\n\n{}", style.strong, style.reset, wrap(rule.mending));
+  text +=
+      fmt::format("\n{}How to fix it:{}\n\n{}", style.strong, style.reset, paragraph(rule.mending));
   text += example_text("Fixed", rule.mended, style);
   if (rule.is_of_scripts) text += example_text("The catalog", example_catalog(), style);
   return text;
 }
 
 std::string rule_list(const Style& style) {
-  std::size_t width = 0;
-  for (const Rule& rule : all_rules()) width = std::max(width, rule.name.size());
-  std::string text;
+  Table table(style, {{{}, {}, 0, 0}, {{}, {}, 7}, {}});
   for (const Severity severity : {Severity::error, Severity::warning, Severity::note}) {
     for (const Rule& rule : all_rules()) {
       if (rule.severity != severity) continue;
-      text += fmt::format("{}{:<{}}{}  {:<7}  {}\n", style.strong, rule.name, width, style.reset,
-                          rule.is_off ? "off" : name_of(severity), rule.summary);
+      table.add({{rule.name, style.strong}, rule.is_off ? "off" : name_of(severity), rule.summary});
     }
+  }
+  return table.text();
+}
+
+std::string lint_github(const std::vector<LintedFile>& files) {
+  std::string text;
+  for (const LintedFile& file : files) {
+    TestCase test;
+    for (const Diagnostic& finding : file.findings) {
+      test.annotations.push_back(annotation_of(finding));
+    }
+    text += github_format.suite({file.file, {}, {test}});
   }
   return text;
 }
 
 namespace {
 
-std::string describe(const std::string& file, const Position& place, Severity severity,
+std::string gcc_line(const std::string& file, const Position& place, Severity severity,
                      const std::string& message) {
   return fmt::format("{}: {}: {}", format_place(printable(file), place), name_of(severity),
                      printable(message));
@@ -103,10 +95,10 @@ std::string lint_gcc(const std::vector<LintedFile>& files) {
   std::string text;
   for (const LintedFile& file : files) {
     for (const Diagnostic& finding : file.findings) {
-      text += describe(finding.file, finding.range.begin, finding.severity, finding.message);
+      text += gcc_line(finding.file, finding.range.begin, finding.severity, finding.message);
       text += fmt::format(" [{}]\n", finding.rule);
       for (const Note& note : finding.notes) {
-        text += describe(note.file, note.range.begin, Severity::note, note.message) + "\n";
+        text += gcc_line(note.file, note.range.begin, Severity::note, note.message) + "\n";
       }
     }
   }
@@ -118,40 +110,25 @@ namespace {
 // Columns of a terminal.
 constexpr std::size_t tasks_width = 60;
 constexpr std::size_t longest_shown_name = 40;
-constexpr std::size_t label_width = 20;
 constexpr std::size_t number_width = 8;
 
 // Up to how many digits a search space is readable at a glance, and is shown at all.
 constexpr std::size_t short_number = 6;
 constexpr std::size_t longest_number = 30;
 
-struct Cut {
-  std::string text;
-  std::size_t columns = 0;
-};
-
-/// A printable name, cut if it is long.
-Cut cut_name(std::string_view name) {
-  const std::string whole = printable(name);
-  std::size_t columns = 0;
-  for (std::size_t offset = 0; offset < whole.size();) {
-    const utf8::Decoded decoded = utf8::decode(whole, offset);
-    const std::size_t width = utf8::display_width(decoded.character);
-    if (columns + width > longest_shown_name) return {whole.substr(0, offset) + "...", columns + 3};
-    columns += width;
-    offset += decoded.bytes;
-  }
-  return {whole, columns};
+/// A printable name, shortened if it is long.
+std::string shown_name(const std::string& name) {
+  return shorten(printable(name), longest_shown_name);
 }
 
 /// As many names as fit. `columns`: those that are taken already.
 std::string list_names(const std::vector<std::string>& names, std::size_t columns = 0) {
   std::string text;
   for (const std::string& name : names) {
-    const Cut cut = cut_name(name);
-    columns += cut.columns + 2;
+    const std::string shown = shown_name(name);
+    columns += width_of(shown) + 2;
     if (!text.empty() && columns > tasks_width) return text + ", ...";
-    text += (text.empty() ? "" : ", ") + cut.text;
+    text += (text.empty() ? "" : ", ") + shown;
   }
   return text;
 }
@@ -167,7 +144,7 @@ std::string to_scientific(std::string_view digits) {
   return fmt::format("{}.{}e{}", tenths / 10, tenths % 10, exponent);
 }
 
-std::string describe_search_space(const std::string& digits) {
+std::string readable_number(const std::string& digits) {
   if (digits.size() <= short_number) return digits;
   const std::string about = to_scientific(digits);
   if (digits.size() > longest_number) return "~" + about;
@@ -178,25 +155,26 @@ bool is_single(const CatalogNumbers& group) {
   return group.tasks == 1 && group.constraints.total() == 0;
 }
 
-class Table {
+/// The numbers, and lines of text between them.
+class Summary {
  public:
-  explicit Table(const Style& style) : style_(style) {}
+  explicit Summary(const Style& style)
+      : text_(style), table_(style, {{{}, {}, 20}, number_column({}, number_width, 0)}) {}
 
-  void add(std::string_view label, std::uint64_t number) { add(label, std::to_string(number)); }
-  void add(std::string_view label, std::string_view value) {
-    text_ += style_.paint(style_.faint, fmt::format("  {:<{}}", label, label_width));
-    text_ += fmt::format("{:>{}}\n", value, number_width);
+  template <typename Content>
+  void add(std::string_view label, const Content& value) {
+    text_.add(table_.line({{label, text_.style().faint}, value}));
   }
-  void add_line(std::string_view line) { text_ += fmt::format("    {}\n", line); }
+  void add_line(std::string_view line) { text_.line("    {}", line); }
 
-  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] std::string take() { return text_.take(); }
 
  private:
-  const Style& style_;
-  std::string text_;
+  Text text_;
+  Table table_;
 };
 
-void add_groups(Table& table, const std::vector<CatalogNumbers>& groups) {
+void add_groups(Summary& table, const std::vector<CatalogNumbers>& groups) {
   table.add("groups", groups.size());
   for (const CatalogNumbers& group : groups) {
     if (is_single(group)) continue;
@@ -211,45 +189,13 @@ void add_groups(Table& table, const std::vector<CatalogNumbers>& groups) {
   }
 }
 
-/// The pairs of tasks on request, and which of them can run together: for each task the later ones
-/// that it can run with.
-void add_together(Table& table, const TogetherSummary& together) {
-  constexpr std::size_t most_tasks = 10;
-  const std::size_t by_situation =
-      together.excluded_in_each_situation + together.excluded_by_situation;
-  const std::size_t excluded = together.excluded + together.excluded_indirectly + by_situation;
-  const std::size_t pairs = together.possible.size() + excluded + together.undecided;
-  if (pairs == 0) return;
-  table.add(together.is_of_all_tasks ? "pairs of tasks" : "pairs on request", pairs);
-  table.add("  excluded by lists", together.excluded);
-  table.add("  excluded otherwise", together.excluded_indirectly);
-  if (by_situation > 0) table.add("  by their situation", by_situation);
-  if (together.undecided > 0) table.add("  undecided", together.undecided);
-  table.add("  can run together", together.possible.size());
-  std::size_t tasks = 0;
-  for (auto pair = together.possible.begin(); pair != together.possible.end();) {
-    const std::string& first = pair->first;
-    std::vector<std::string> others;
-    for (; pair != together.possible.end() && pair->first == first; ++pair) {
-      others.push_back(pair->second);
-    }
-    if (++tasks > most_tasks) continue;
-    const Cut name = cut_name(first);
-    table.add_line(fmt::format("{} with {}", name.text, list_names(others, name.columns)));
-  }
-  if (tasks > most_tasks) {
-    table.add_line(fmt::format("and {} ('cbc graph --view together' shows all)",
-                               quantity(tasks - most_tasks, "more task")));
-  }
-}
-
 }  // namespace
 
 std::string lint_summary(const LintedFile& file, const Style& style) {
   const std::string name = style.paint(style.strong, printable(file.file));
   if (!file.summary) return name + ": no summary, as the file could not be understood\n";
   const CatalogNumbers& total = file.summary->total;
-  Table table(style);
+  Summary table(style);
   table.add("tasks", total.tasks);
   table.add("behaviors", total.behaviors);
   table.add("constraints", total.constraints.total());
@@ -257,14 +203,8 @@ std::string lint_summary(const LintedFile& file, const Style& style) {
   table.add("  requirements", total.constraints.requirements);
   table.add("  task minimums", total.constraints.task_minimums);
   add_groups(table, file.summary->groups);
-  table.add("search space", describe_search_space(total.search_space));
-  if (file.together) {
-    add_together(table, *file.together);
-  } else if (total.tasks > most_tasks_in_pairs) {
-    table.add_line(
-        fmt::format("pairs of more than {} tasks are not looked at", most_tasks_in_pairs));
-  }
-  return name + "\n" + table.text();
+  table.add("search space", readable_number(total.search_space));
+  return name + "\n" + table.take();
 }
 
 namespace {
@@ -276,22 +216,16 @@ constexpr std::size_t most_lines = 10;
 using Alike = std::vector<const Diagnostic*>;
 
 /// "  and 2 more like this, on lines 9, 15"
-std::string describe_others(const Alike& alike) {
-  std::string lines;
-  std::size_t count = 0;
+std::string places_of_others(const Alike& alike) {
+  std::vector<std::string> lines;
   std::uint32_t last = 0;
-  for (std::size_t i = 1; i < alike.size(); ++i) {
+  for (std::size_t i = 1; i < alike.size() && lines.size() <= most_lines; ++i) {
     const std::uint32_t line = alike[i]->range.begin.line;
-    if (line == last) continue;
+    if (line != last) lines.push_back(lines.size() == most_lines ? "..." : std::to_string(line));
     last = line;
-    if (++count > most_lines) {
-      lines += ", ...";
-      break;
-    }
-    lines += (count > 1 ? ", " : "") + std::to_string(line);
   }
-  return "  and " + std::to_string(alike.size() - 1) + " more like this, on " +
-         (count == 1 ? "line " : "lines ") + lines;
+  return fmt::format("  and {} more like this, on {} {}", alike.size() - 1,
+                     lines.size() == 1 ? "line" : "lines", join(lines, ", "));
 }
 
 std::string file_to_text(const LintedFile& file, const SourceTexts& sources, const Style& style) {
@@ -304,13 +238,13 @@ std::string file_to_text(const LintedFile& file, const SourceTexts& sources, con
     const Alike& alike = by_message[{finding.severity, finding.rule, finding.message}];
     if (alike.front() != &finding) continue;
     text += render(finding, sources, style);
-    if (alike.size() > 1) text += style.paint(style.faint, describe_others(alike)) + "\n";
+    if (alike.size() > 1) text += style.paint(style.faint, places_of_others(alike)) + "\n";
   }
   return text;
 }
 
 /// "2 catalogs, 1 script"
-std::string describe_files(const std::vector<LintedFile>& files) {
+std::string count_files(const std::vector<LintedFile>& files) {
   using FileKind = LintedFile::Kind;
   static constexpr std::pair<FileKind, std::string_view> names[] = {
       {FileKind::catalog, "catalog"},
@@ -319,27 +253,26 @@ std::string describe_files(const std::vector<LintedFile>& files) {
       {FileKind::settings, "settings file"},
       {FileKind::unknown, "file"}};
   if (files.empty()) return "0 files";
-  std::string text;
+  std::vector<std::string> counts;
   for (const auto& [kind, name] : names) {
     const auto number = static_cast<std::size_t>(
         std::count_if(files.begin(), files.end(),
                       [kind = kind](const LintedFile& file) { return file.kind == kind; }));
-    if (number > 0) text += (text.empty() ? "" : ", ") + quantity(number, name);
+    if (number > 0) counts.push_back(quantity(number, name));
   }
-  return text;
+  return join(counts, ", ");
 }
 
 /// "2 errors, 1 warning in 2 catalogs, 1 script"
-std::string describe_total(const std::vector<LintedFile>& files, const Style& style) {
-  std::string text;
+std::string total_of(const std::vector<LintedFile>& files, const Style& style) {
+  std::vector<std::string> counts;
   for (const Severity severity : {Severity::error, Severity::warning, Severity::note}) {
     const std::size_t findings = count(files, severity);
     if (findings == 0) continue;
-    if (!text.empty()) text += ", ";
-    text += style.paint(style.of(severity), quantity(findings, name_of(severity)));
+    counts.push_back(style.paint(style.of(severity), quantity(findings, name_of(severity))));
   }
-  if (text.empty()) text = style.paint(style.good, "no findings");
-  return text + " in " + describe_files(files) + "\n";
+  if (counts.empty()) counts.push_back(style.paint(style.good, "no findings"));
+  return join(counts, ", ") + " in " + count_files(files) + "\n";
 }
 
 }  // namespace
@@ -349,7 +282,7 @@ std::string lint_text(const std::vector<LintedFile>& files, const Style& style) 
   for (const LintedFile& file : files) sources.add(file.file, file.text);
   std::string text;
   for (const LintedFile& file : files) text += file_to_text(file, sources, style);
-  return text + describe_total(files, style);
+  return text + total_of(files, style);
 }
 
 }  // namespace cbc

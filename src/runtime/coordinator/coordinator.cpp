@@ -1,3 +1,13 @@
+// Every event is one problem of constraint optimization, after M. Molina and P. Santamaria,
+// "Behavior coordination for self-adaptive robots using constraint-based configuration": out of all
+// sets of behaviors that are consistent after the event, the best one is found, checked by code of
+// its own, and applied as a whole. What the clock brings, timeouts and reactive starts, are events
+// like all others, handled one after the other in the order of time. An event concerns the tasks of
+// one group: groups share no constraint, so the best answer of one is part of the best of all.
+//
+// To change what is active step by step, starting what a task requires and stopping its rivals,
+// would be quicker. But then the answer depends on the order of the steps and on all earlier
+// events, and a task may be refused for which there was a place.
 #include "runtime/coordinator/coordinator.h"
 
 #include <algorithm>
@@ -23,7 +33,7 @@ Coordinator::Coordinator(const CompiledCatalog& catalog, const CoordinatorOption
       transition_(catalog, state_, record_),
       solver_(catalog, options.search, ranks_),
       checker_(catalog) {
-  if (options.hindsight) hindsight_.emplace(catalog, ranks_, state_);
+  if (options.last_decisions) last_decisions_.emplace(catalog, ranks_, state_);
 }
 
 void Coordinator::begin(std::span<const Availability> situation,
@@ -272,7 +282,7 @@ Coordinator::Status Coordinator::reject_by_priority(const Trigger& trigger, std:
   reason.kind = Reason::Kind::priority;
   reason.task = trigger.task;
   reason.priority = priority;
-  if (hindsight_) hindsight_->note_rejection(record_, trigger);
+  if (last_decisions_) last_decisions_->note_rejection(record_, trigger);
   return report();
 }
 
@@ -337,8 +347,8 @@ Coordinator::Status Coordinator::coordinate(const Trigger& trigger) {
     const auto failed = transition_.apply(solution_, behavior_to_restart(trigger), now_);
     if (!failed) {
       explain(trigger, *problem);
-      if (hindsight_) {
-        hindsight_->note_answer(record_, circumstances_of(trigger), solution_);
+      if (last_decisions_) {
+        last_decisions_->note_answer(record_, circumstances_of(trigger), solution_);
       }
       listener_.on_decision(record_, circumstances_of(trigger), &solution_);
       accept(trigger, *problem);
@@ -515,7 +525,7 @@ Coordinator::Status Coordinator::reject(const Trigger& trigger) {
   }
   const bool is_silent = note_waiting(trigger);
   if (!is_silent) listener_.on_decision(record_, circumstances_of(trigger), nullptr);
-  if (hindsight_ && !is_silent) hindsight_->note_rejection(record_, trigger);
+  if (last_decisions_ && !is_silent) last_decisions_->note_rejection(record_, trigger);
   // In reverse, as the last one finishes next.
   const std::vector<BehaviorId>& lost = transition_.roll_back(now_);
   lost_.insert(lost_.end(), lost.rbegin(), lost.rend());

@@ -12,7 +12,7 @@
 #include "cbc/units.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/explainer.h"
-#include "runtime/coordinator/hindsight.h"
+#include "runtime/coordinator/last_decisions.h"
 #include "runtime/coordinator/problem_builder.h"
 #include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
@@ -29,7 +29,7 @@ struct CoordinatorOptions {
   std::uint64_t max_clock_events = 1'000'000;  ///< timeouts and reactive starts, no-ops too
   bool find_conflicts = true;                  ///< of rejected events
   ExplanationOptions explain;                  ///< what to explain of accepted events
-  bool hindsight = false;                      ///< look_back() may be called
+  bool last_decisions = false;                 ///< why_unmet() may be called
   bool measure_time = false;                   ///< records the time of searches
   /// Orders behaviors of equal suitability at random instead of in catalog order.
   std::optional<std::uint64_t> tie_seed;
@@ -99,9 +99,9 @@ class Coordinator {
   [[nodiscard]] const std::string& internal_error() const { return internal_error_; }
 
   /// Why the present values of the tasks of a group meet the demands of none of the `ways`. Only
-  /// if the options say `hindsight`.
-  [[nodiscard]] LookBack look_back(std::uint32_t group, std::span<const Demands> ways) {
-    return hindsight_->look_back(group, ways);
+  /// if the options say `last_decisions`.
+  [[nodiscard]] WhyUnmet why_unmet(std::uint32_t group, std::span<const Demands> ways) {
+    return last_decisions_->why_unmet(group, ways);
   }
 
  private:
@@ -157,7 +157,7 @@ class Coordinator {
   Solver solver_;
   Checker checker_;
   std::optional<Explainer> explainer_;
-  std::optional<Hindsight> hindsight_;
+  std::optional<LastDecisions> last_decisions_;
   Assignment solution_;
   std::vector<TaskId> started_;
   std::vector<TaskId> stopped_by_others_;  ///< not by their own stop or end: see update_queue

@@ -1,3 +1,12 @@
+// A search that learns, as LearningSearch does, but decides only whether there is a solution, and
+// with only some constraints in force. Each no-good comes with the constraints that it was derived
+// from. Where there is no solution, those of the last conflict are the core of a proof, as in
+// E. Goldberg and Y. Novikov, "Verification of proofs of unsatisfiability for CNF formulas", DATE
+// 2003: what is not in the core has no part in the failure.
+//
+// To solve a problem again and again, with one constraint less each time, would need no proofs. But
+// a task may have hundreds of rivals and requirements. The core leaves a few of them after one
+// search, and only from these a minimal conflict set is made (reasons.cpp).
 #include "runtime/explain/conflict_search.h"
 
 #include <algorithm>
@@ -5,19 +14,123 @@
 
 namespace cbc {
 
+RelaxedTrail::RelaxedTrail(const CompiledCatalog& catalog, std::uint32_t group, Domains& domains)
+    : Trail(catalog, domains),
+      first_behavior_(catalog.group_behaviors[group]),
+      behavior_count_(catalog.group_behaviors[group + 1] - first_behavior_) {
+  constexpr std::uint64_t all = ~std::uint64_t{0};
+  std::vector<std::uint64_t> words;
+  for (TaskId task = catalog.group_tasks[group]; task < catalog.group_tasks[group + 1]; ++task) {
+    const std::size_t values = catalog.values[task].size();
+    words.insert(words.end(), values / 64, all);
+    if (values % 64 != 0) words.push_back(~(all << (values % 64)));
+  }
+  domains.load(group, words);
+}
+
+void RelaxedTrail::load(std::span<const Reason> reasons) {
+  domains_.undo_to({});
+  clear();
+  constraints_ = reasons;
+  index_constraints();
+  nogood_origins_.clear();
+  origin_begins_.assign(1, 0);
+  origin_reasons_.clear();
+  for (std::uint32_t task = 0; task < task_count_; ++task) {
+    if (domains_.count(task) > 0) continue;
+    static_cast<void>(imply(negate(runs(task)), {Cause::Kind::no_value}));
+  }
+  effort_ += reasons.size() + variable_count() / 8;  // most of the latter is cleared word by word
+}
+
+void RelaxedTrail::index_constraints() {
+  exclusions_.begin(task_count_);
+  required_by_.begin(task_count_);
+  requirements_.begin(behavior_count_);
+  for (const auto put : {&Lists::count, &Lists::add}) {
+    for (std::uint32_t index = 0; index < constraints_.size(); ++index) {
+      const Reason& reason = constraints_[index];
+      if (reason.kind == Reason::Kind::exclusive) {
+        (exclusions_.*put)(reason.task - first_task_, index);
+        (exclusions_.*put)(reason.other_task - first_task_, index);
+      } else if (reason.kind == Reason::Kind::requires_task) {
+        (required_by_.*put)(reason.task - first_task_, index);
+        (requirements_.*put)(reason.behavior - first_behavior_, index);
+      }
+    }
+    if (put == &Lists::count) {
+      exclusions_.end_count();
+      required_by_.end_count();
+      requirements_.end_count();
+    }
+  }
+}
+
+bool RelaxedTrail::learn(std::span<const Literal> clause, std::uint32_t levels,
+                         std::span<const std::uint32_t> reasons) {
+  const auto origin = static_cast<std::uint32_t>(origin_begins_.size() - 1);
+  origin_reasons_.insert(origin_reasons_.end(), reasons.begin(), reasons.end());
+  origin_begins_.push_back(static_cast<std::uint32_t>(origin_reasons_.size()));
+  if (clause.size() == 1) return imply(clause.front(), {Cause::Kind::learned, origin});
+  nogood_origins_.push_back(origin);
+  return Trail::learn(clause, levels);
+}
+
+std::span<const std::uint32_t> RelaxedTrail::reasons_of(const Cause& cause) const {
+  if (cause.kind != Cause::Kind::learned && cause.kind != Cause::Kind::nogood) return {};
+  const std::uint32_t origin =
+      cause.kind == Cause::Kind::nogood ? nogood_origins_[cause.data] : cause.data;
+  const std::uint32_t begin = origin_begins_[origin];
+  return {origin_reasons_.data() + begin, origin_begins_[origin + 1] - begin};
+}
+
+bool RelaxedTrail::follow_running(std::uint32_t task) {
+  const std::span<const std::uint32_t> exclusions = exclusions_[task];
+  effort_ += exclusions.size();
+  for (const std::uint32_t index : exclusions) {
+    const Reason& reason = constraints_[index];
+    const TaskId rival = reason.task == first_task_ + task ? reason.other_task : reason.task;
+    const Cause cause{Cause::Kind::literal, runs(task), index};
+    if (!imply(negate(runs(rival - first_task_)), cause)) return false;
+  }
+  return true;
+}
+
+bool RelaxedTrail::follow_not_running(std::uint32_t task) {
+  for (const std::uint32_t index : required_by_[task]) {
+    const auto values = catalog_.performs[constraints_[index].behavior];
+    effort_ += values.size();
+    for (const ValueId value : values) {
+      const Cause cause{Cause::Kind::literal, negate(runs(task)), index};
+      if (!imply(negate(has_value(value)), cause)) return false;
+    }
+  }
+  return true;
+}
+
+bool RelaxedTrail::follow_value(std::uint32_t /*task*/, ValueId value) {
+  const BehaviorId behavior = catalog_.values.items[value].behavior;
+  const std::span<const std::uint32_t> requirements = requirements_[behavior - first_behavior_];
+  effort_ += requirements.size();
+  for (const std::uint32_t index : requirements) {
+    const Cause cause{Cause::Kind::literal, has_value(value), index};
+    if (!imply(runs(constraints_[index].task - first_task_), cause)) return false;
+  }
+  return true;
+}
+
 ConflictSearch::ConflictSearch(const CompiledCatalog& catalog, std::uint32_t group,
                                const std::vector<std::uint32_t>& present, Demands demands)
     : catalog_(catalog),
       present_(present),
       demands_(std::move(demands)),
       first_task_(catalog.group_tasks[group]),
-      end_task_(catalog.group_tasks[group + 1]),
-      trail_(catalog, group),
-      saved_(end_task_ - first_task_, none),
-      is_known_fact_(trail_.variable_count(), 0),
-      in_closure_(end_task_ - first_task_, 0) {
-  activities_.clear(end_task_ - first_task_);
-  analysis_.resize(trail_.variable_count());
+      task_count_(catalog.group_tasks[group + 1] - first_task_),
+      domains_(std::make_unique<Domains>(catalog, group)),
+      trail_(catalog, group, *domains_),
+      saved_(task_count_, none),
+      in_closure_(task_count_, 0) {
+  activities_.clear(task_count_);
 }
 
 /// As in Domains, tasks that nothing needs can be left out, so a problem is solved when each needed
@@ -30,6 +143,8 @@ Feasibility ConflictSearch::solve(std::span<const Reason> reasons, std::uint64_t
   used_.clear();
   sort(reasons);
   trail_.load(reasons);
+  analysis_.resize(trail_.variable_count());
+  is_known_fact_.resize(trail_.variable_count(), 0);
   bool is_consistent = begin(reasons);
   for (;;) {
     is_consistent = is_consistent && propagate(reasons);
@@ -41,20 +156,21 @@ Feasibility ConflictSearch::solve(std::span<const Reason> reasons, std::uint64_t
       continue;
     }
     if (restarts_.is_due()) {
-      restart();
+      trail_.backtrack_to(0);
+      restarts_.restart();
       continue;
     }
-    const TaskId task = choose_task();
-    effort_ += (end_task_ - first_task_) / 8;
+    const std::uint32_t task = choose_task();
+    effort_ += task_count_ / 8;
     if (task != none) {
       trail_.decide(trail_.has_value(task, choose_value(task)));
       continue;
     }
     // All needed tasks are decided, so the performance is exact.
     if (low_task_ == none || !may_reach(low_task_, low_minimum_)) return Feasibility::yes;
-    const TaskId optional = optional_factor();
+    const std::uint32_t optional = optional_factor();
     if (optional != none) {
-      trail_.decide(trail_.runs(optional));
+      trail_.decide(Trail::runs(optional));
     } else if (!leave_dead_end()) {
       return Feasibility::no;
     }
@@ -63,10 +179,10 @@ Feasibility ConflictSearch::solve(std::span<const Reason> reasons, std::uint64_t
 
 std::vector<ValueId> ConflictSearch::values_of(TaskId task) {
   std::vector<ValueId> values;
-  if (!trail_.is_true(trail_.runs(task))) return values;
-  static_cast<void>(may_reach(task, 0));
-  for (const TaskId each : closure_) {
-    values.push_back(catalog_.values.begin[each] + trail_.best(each));
+  if (!domains_->needed(task - first_task_)) return values;
+  static_cast<void>(may_reach(task - first_task_, 0));
+  for (const std::uint32_t each : closure_) {
+    values.push_back(catalog_.values.begin[first_task_ + each] + domains_->best(each));
   }
   return values;
 }
@@ -77,7 +193,7 @@ bool ConflictSearch::begin(std::span<const Reason> reasons) {
   for (const Demand& each : demands_) {
     if (!demand(each)) return false;
   }
-  if (low_task_ != none && !trail_.imply(trail_.runs(low_task_), {})) return false;
+  if (low_task_ != none && !trail_.imply(Trail::runs(low_task_), {})) return false;
   if (!trail_.propagate()) return false;
   return std::all_of(state_.begin(), state_.end(), [&](std::uint32_t index) {
     return apply(reasons[index], index) && trail_.propagate();
@@ -85,17 +201,13 @@ bool ConflictSearch::begin(std::span<const Reason> reasons) {
 }
 
 bool ConflictSearch::demand(const Demand& demand) {
-  switch (demand.kind) {
-    case Demand::Kind::run:
-      return trail_.imply(trail_.runs(demand.task), {});
-    case Demand::Kind::stop:
-      return trail_.imply(negate(trail_.runs(demand.task)), {});
-    case Demand::Kind::has:
-      return trail_.imply(trail_.has_value(demand.task, demand.value_index), {});
-    case Demand::Kind::has_not:
-      return trail_.imply(negate(trail_.has_value(demand.task, demand.value_index)), {});
-  }
-  return true;
+  using Kind = Demand::Kind;
+  const std::uint32_t task = demand.task - first_task_;
+  const bool is_about_running = demand.kind == Kind::run || demand.kind == Kind::stop;
+  const bool is_ruled_out = demand.kind == Kind::stop || demand.kind == Kind::has_not;
+  const Literal literal =
+      is_about_running ? Trail::runs(task) : trail_.has_value(task, demand.value_index);
+  return trail_.imply(is_ruled_out ? negate(literal) : literal, {});
 }
 
 /// Sorts out the reasons that the trail does not propagate.
@@ -103,16 +215,11 @@ void ConflictSearch::sort(std::span<const Reason> reasons) {
   performances_.clear();
   state_.clear();
   for (std::uint32_t index = 0; index < reasons.size(); ++index) {
-    switch (reasons[index].kind) {
-      case Reason::Kind::exclusive:
-      case Reason::Kind::requires_task:
-        break;
-      case Reason::Kind::performance:
-        performances_.push_back(index);
-        break;
-      default:
-        state_.push_back(index);
-        break;
+    const Reason::Kind kind = reasons[index].kind;
+    if (kind == Reason::Kind::performance) {
+      performances_.push_back(index);
+    } else if (kind != Reason::Kind::exclusive && kind != Reason::Kind::requires_task) {
+      state_.push_back(index);
     }
   }
   std::stable_sort(state_.begin(), state_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -122,8 +229,8 @@ void ConflictSearch::sort(std::span<const Reason> reasons) {
 
 /// A reason that follows from the state.
 bool ConflictSearch::apply(const Reason& reason, std::uint32_t index) {
-  const RelaxedTrail::Cause cause{RelaxedTrail::Cause::Kind::given, 0, index};
-  const Literal runs = reason.task == none ? 0 : trail_.runs(reason.task);
+  const Trail::Cause cause{Trail::Cause::Kind::given, 0, index};
+  const Literal runs = reason.task == none ? 0 : Trail::runs(reason.task - first_task_);
   if (reason.kind == Reason::Kind::is_protected) return trail_.imply(runs, cause);
   if (reason.kind == Reason::Kind::on_request) return trail_.imply(negate(runs), cause);
   const auto values = catalog_.performs[reason.behavior];
@@ -145,7 +252,8 @@ bool ConflictSearch::propagate(std::span<const Reason> reasons) {
 /// Whether the performance can still reach the minimum. Exact where all that it depends on is
 /// fixed. A required task counts only if it is needed.
 bool ConflictSearch::may_perform(const Reason& reason, std::uint32_t index) {
-  if (!trail_.is_true(trail_.runs(reason.task))) return true;
+  const std::uint32_t task = reason.task - first_task_;
+  if (!domains_->needed(task)) return true;
   literals_.clear();
   if (reason.behavior != none) {
     const auto values = catalog_.performs[reason.behavior];
@@ -155,28 +263,26 @@ bool ConflictSearch::may_perform(const Reason& reason, std::uint32_t index) {
     if (found == values.end()) return true;
     literals_.push_back(trail_.has_value(*found));
   }
-  if (may_reach(reason.task, reason.minimum_performance)) return true;
-  explain_performance({RelaxedTrail::Cause::Kind::given, 0, index});
+  if (may_reach(task, reason.minimum_performance)) return true;
+  explain_performance({Trail::Cause::Kind::given, 0, index});
   return false;
 }
 
 /// Whether the performance of a needed task may be at least `minimum`.
-bool ConflictSearch::may_reach(TaskId reached, Millionths minimum) {
+bool ConflictSearch::may_reach(std::uint32_t reached, Millionths minimum) {
   closure_.assign(1, reached);
   std::fill(in_closure_.begin(), in_closure_.end(), 0);
-  in_closure_[reached - first_task_] = 1;
+  in_closure_[reached] = 1;
   product_.clear();
   for (std::size_t next = 0; next < closure_.size(); ++next) {
-    const TaskId task = closure_[next];
-    product_.multiply(catalog_.values[task][trail_.best(task)].suitability);
-    const BehaviorId behavior = trail_.fixed_behavior(task);
-    if (behavior == none) continue;
-    effort_ += catalog_.requirements[behavior].size();
-    for (const CompiledRequirement& requirement : catalog_.requirements[behavior]) {
-      const TaskId target = requirement.task;
-      if (in_closure_[target - first_task_] != 0) continue;
-      if (!trail_.is_true(trail_.runs(target))) continue;
-      in_closure_[target - first_task_] = 1;
+    const std::uint32_t task = closure_[next];
+    const Value& best = domains_->value(task, domains_->best(task));
+    product_.multiply(best.suitability);
+    if (domains_->count(task) > 1) continue;
+    effort_ += catalog_.requirements[best.behavior].size();
+    for (const CompiledRequirement& requirement : catalog_.requirements[best.behavior]) {
+      const std::uint32_t target = requirement.task - first_task_;
+      if (!domains_->needed(target) || std::exchange(in_closure_[target], 1) != 0) continue;
       closure_.push_back(target);
     }
   }
@@ -190,15 +296,14 @@ bool ConflictSearch::may_reach(TaskId reached, Millionths minimum) {
 /// Makes the conflict out of what keeps the performance tested last too low: the behavior that
 /// requires it, if there is one, runs (already in literals_), and all tasks of the closure run with
 /// nothing more suitable.
-void ConflictSearch::explain_performance(const RelaxedTrail::Cause& cause) {
-  for (const TaskId task : closure_) {
-    literals_.push_back(trail_.runs(task));
-    const std::uint32_t best = trail_.best(task);
+void ConflictSearch::explain_performance(const Trail::Cause& cause) {
+  for (const std::uint32_t task : closure_) {
+    literals_.push_back(Trail::runs(task));
+    const std::uint32_t best = domains_->best(task);
     // Its requirements are in the closure only because no other behavior is left.
-    const std::uint32_t end = trail_.count(task) == 1 ? trail_.value_count(task) : best;
-    for (std::uint32_t index = 0; index < end; ++index) {
-      if (index != best) literals_.push_back(negate(trail_.has_value(task, index)));
-    }
+    const bool is_fixed = domains_->count(task) == 1;
+    trail_.append_removals(
+        task, [&](std::uint32_t index) { return is_fixed || index < best; }, literals_);
   }
   trail_.set_conflict(literals_, cause);
 }
@@ -217,7 +322,7 @@ bool ConflictSearch::learn() {
   for (const Literal literal : analysis_.resolved()) add_cause(trail_.cause_of(literal));
   trace_facts(analysis_.facts());
   effort_ += trail_.conflict().size() + analysis_.variables().size() + used_.size();
-  note_activity();
+  activities_.note_conflict(analysis_.variables(), trail_);
   restarts_.note_conflict();
   trail_.backtrack_to(analysis_.back_level());
   // The literal is undecided at that level.
@@ -242,27 +347,14 @@ bool ConflictSearch::leave_dead_end() {
   return true;
 }
 
-void ConflictSearch::note_activity() {
-  for (const std::uint32_t variable : analysis_.variables()) {
-    activities_.note(trail_.task_of(variable) - first_task_);
-  }
-  activities_.age();
-}
-
-void ConflictSearch::restart() {
-  trail_.backtrack_to(0);
-  restarts_.restart();
-}
-
 void ConflictSearch::begin_derivation() {
   for (const std::uint32_t reason : used_) is_used_[reason] = 0;
   used_.clear();
 }
 
-void ConflictSearch::add_cause(const RelaxedTrail::Cause& cause) {
-  if (cause.reason != none) add_reason(cause.reason);
-  if (cause.origin == none) return;
-  const std::span<const std::uint32_t> reasons = trail_.reasons_of(cause.origin);
+void ConflictSearch::add_cause(const Trail::Cause& cause) {
+  if (cause.constraint != none) add_reason(cause.constraint);
+  const std::span<const std::uint32_t> reasons = trail_.reasons_of(cause);
   effort_ += reasons.size();
   for (const std::uint32_t reason : reasons) add_reason(reason);
 }
@@ -289,34 +381,33 @@ void ConflictSearch::trace_facts(std::span<const Literal> facts) {
 
 /// The undecided needed task that has taken part in most of the recent conflicts; of several the
 /// one with the fewest values.
-TaskId ConflictSearch::choose_task() const {
-  TaskId chosen = none;
-  const auto is_better = [this](TaskId a, TaskId b) {
-    const double activity_a = activities_[a - first_task_];
-    const double activity_b = activities_[b - first_task_];
-    return activity_a == activity_b ? trail_.count(a) < trail_.count(b) : activity_a > activity_b;
+std::uint32_t ConflictSearch::choose_task() const {
+  std::uint32_t chosen = none;
+  const auto is_better = [this](std::uint32_t a, std::uint32_t b) {
+    if (activities_[a] != activities_[b]) return activities_[a] > activities_[b];
+    return domains_->count(a) < domains_->count(b);
   };
-  for (TaskId task = first_task_; task < end_task_; ++task) {
-    if (!trail_.is_true(trail_.runs(task)) || trail_.count(task) < 2) continue;
+  for (std::uint32_t task = 0; task < task_count_; ++task) {
+    if (!domains_->needed(task) || domains_->count(task) < 2) continue;
     if (chosen == none || is_better(task, chosen)) chosen = task;
   }
   return chosen;
 }
 
 /// The value chosen last, or else the most suitable one.
-std::uint32_t ConflictSearch::choose_value(TaskId task) {
-  std::uint32_t& saved = saved_[task - first_task_];
-  if (saved == none || trail_.is_false(trail_.has_value(task, saved))) saved = trail_.best(task);
+std::uint32_t ConflictSearch::choose_value(std::uint32_t task) {
+  std::uint32_t& saved = saved_[task];
+  if (saved == none || !domains_->has(task, saved)) saved = domains_->best(task);
   return saved;
 }
 
 /// A task that is not needed, may run, and would count in the performance tested last.
-TaskId ConflictSearch::optional_factor() const {
-  for (const TaskId task : closure_) {
-    for (const CompiledRequirement& requirement :
-         catalog_.requirements[trail_.fixed_behavior(task)]) {
-      const TaskId target = requirement.task;
-      if (!trail_.is_true(trail_.runs(target)) && trail_.count(target) > 0) return target;
+std::uint32_t ConflictSearch::optional_factor() const {
+  for (const std::uint32_t task : closure_) {
+    const BehaviorId behavior = domains_->value(task, domains_->best(task)).behavior;
+    for (const CompiledRequirement& requirement : catalog_.requirements[behavior]) {
+      const std::uint32_t target = requirement.task - first_task_;
+      if (!domains_->needed(target) && domains_->count(target) > 0) return target;
     }
   }
   return none;

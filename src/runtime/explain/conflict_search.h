@@ -1,29 +1,90 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/explain/reasons.h"
-#include "runtime/explain/relaxed_trail.h"
 #include "runtime/solver/conflict_analysis.h"
+#include "runtime/solver/domains.h"
 #include "runtime/solver/objective.h"
-#include "runtime/solver/restarts.h"
+#include "runtime/solver/trail.h"
 
 namespace cbc {
+
+/// The trail of a search with only some constraints in force: exclusions and requirements, as they
+/// are listed. Every no-good comes with the constraints that it was derived from.
+class RelaxedTrail final : public Trail {
+ public:
+  RelaxedTrail(const CompiledCatalog& catalog, std::uint32_t group, Domains& domains);
+
+  /// Begins anew: every task of the group may have any of its values, or none. `reasons`: the
+  /// constraints in force; to be kept until the next load.
+  void load(std::span<const Reason> reasons);
+
+  /// As in Trail; `reasons`: those that the no-good was derived from.
+  [[nodiscard]] bool learn(std::span<const Literal> clause, std::uint32_t levels,
+                           std::span<const std::uint32_t> reasons);
+  /// The constraints that a learned no-good was derived from; nothing for other causes.
+  [[nodiscard]] std::span<const std::uint32_t> reasons_of(const Cause& cause) const;
+
+  /// Literals and constraints visited so far.
+  [[nodiscard]] std::uint64_t effort() const {
+    return effort_ + propagations() + nogoods_.visits();
+  }
+
+ private:
+  /// Lists of numbers, in one array. Each number is counted first, and then added.
+  class Lists {
+   public:
+    void begin(std::size_t count) { begins_.assign(count + 2, 0); }
+    void count(std::uint32_t list, std::uint32_t /*item*/) { ++begins_[list + 2]; }
+    void end_count() {
+      std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+      items_.resize(begins_.back());
+    }
+    void add(std::uint32_t list, std::uint32_t item) { items_[begins_[list + 1]++] = item; }
+
+    [[nodiscard]] std::span<const std::uint32_t> operator[](std::uint32_t list) const {
+      return {items_.data() + begins_[list], begins_[list + 1] - begins_[list]};
+    }
+
+   private:
+    std::vector<std::uint32_t> begins_;  ///< by list; while it is filled, of the list before it
+    std::vector<std::uint32_t> items_;
+  };
+
+  void index_constraints();
+  [[nodiscard]] bool follow_running(std::uint32_t task) override;
+  [[nodiscard]] bool follow_not_running(std::uint32_t task) override;
+  [[nodiscard]] bool follow_value(std::uint32_t task, ValueId value) override;
+  [[nodiscard]] bool follow_choice(std::uint32_t /*task*/) override { return true; }
+
+  const BehaviorId first_behavior_;
+  const std::uint32_t behavior_count_;
+  std::span<const Reason> constraints_;
+  // The constraints to look at when one of these changes.
+  Lists exclusions_;                           ///< by task of the group
+  Lists required_by_;                          ///< by task of the group
+  Lists requirements_;                         ///< by behavior of the group
+  std::vector<std::uint32_t> nogood_origins_;  ///< by no-good: the place of its reasons
+  std::vector<std::uint32_t> origin_begins_;   ///< by origin, and the end
+  std::vector<std::uint32_t> origin_reasons_;
+  std::uint64_t effort_ = 0;  ///< constraints
+};
 
 /// Whether a problem has a solution; unknown at a limit of effort.
 enum class Feasibility : std::uint8_t { no, yes, unknown };
 
 /// Searches for a solution with only some of the reasons in force: the demands hold; otherwise
 /// every task of the group may have any of its behaviors or none, and the reasons are all
-/// constraints.
-///
-/// It learns a no-good from each failure, as LearningSearch does, together with the reasons that
-/// the no-good was derived from, so that a proof of no solution yields the reasons that it used.
+/// constraints. A proof of no solution yields the reasons that it used.
 class ConflictSearch {
  public:
   /// `present`: by task of the group, its value index, or none.
@@ -32,7 +93,7 @@ class ConflictSearch {
 
   /// Admits only solutions in which `task` runs and its performance is below `minimum`.
   void keep_below(TaskId task, Millionths minimum) {
-    low_task_ = task;
+    low_task_ = task - first_task_;
     low_minimum_ = minimum;
   }
 
@@ -63,37 +124,37 @@ class ConflictSearch {
 
   [[nodiscard]] bool propagate(std::span<const Reason> reasons);
   [[nodiscard]] bool may_perform(const Reason& reason, std::uint32_t index);
-  [[nodiscard]] bool may_reach(TaskId reached, Millionths minimum);
-  void explain_performance(const RelaxedTrail::Cause& cause);
+  [[nodiscard]] bool may_reach(std::uint32_t reached, Millionths minimum);
+  void explain_performance(const Trail::Cause& cause);
 
   [[nodiscard]] bool learn();
   [[nodiscard]] bool leave_dead_end();
-  void note_activity();
-  void restart();
   void begin_derivation();
-  void add_cause(const RelaxedTrail::Cause& cause);
+  void add_cause(const Trail::Cause& cause);
   void add_reason(std::uint32_t reason);
   void trace_facts(std::span<const Literal> facts);
 
-  [[nodiscard]] TaskId choose_task() const;
-  [[nodiscard]] std::uint32_t choose_value(TaskId task);
-  [[nodiscard]] TaskId optional_factor() const;
+  [[nodiscard]] std::uint32_t choose_task() const;
+  [[nodiscard]] std::uint32_t choose_value(std::uint32_t task);
+  [[nodiscard]] std::uint32_t optional_factor() const;
 
+  // Tasks are counted within the group.
   const CompiledCatalog& catalog_;
   const std::vector<std::uint32_t>& present_;
   const Demands demands_;
-  TaskId low_task_ = none;
-  Millionths low_minimum_ = 0;
   const TaskId first_task_;
-  const TaskId end_task_;
+  const std::uint32_t task_count_;
+  std::uint32_t low_task_ = none;
+  Millionths low_minimum_ = 0;
+  std::unique_ptr<Domains> domains_;  ///< stay where they are when the search is moved
   RelaxedTrail trail_;
   ConflictAnalysis analysis_;
   std::vector<std::uint32_t> performances_;  ///< the reasons of that kind
   std::vector<std::uint32_t> state_;         ///< the reasons that apply once
   std::uint64_t effort_ = 0;                 ///< apart from that of the trail
 
-  std::vector<std::uint32_t> saved_;  ///< by task of the group: the value chosen last, or none
-  Activities activities_;             ///< by task of the group
+  std::vector<std::uint32_t> saved_;  ///< by task: the value chosen last, or none
+  Activities activities_;             ///< by task
   Restarts restarts_;
 
   // The derivation of a no-good.
@@ -105,8 +166,8 @@ class ConflictSearch {
 
   ExactProduct product_;
   ExactProduct minimum_;
-  std::vector<TaskId> closure_;
-  std::vector<std::uint8_t> in_closure_;  ///< by task of the group
+  std::vector<std::uint32_t> closure_;
+  std::vector<std::uint8_t> in_closure_;  ///< by task
   std::vector<Literal> literals_;
 };
 

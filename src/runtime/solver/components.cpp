@@ -103,10 +103,9 @@ void Components::join_by_cliques() {
 /// A behavior of several tasks counts as one change in f4, however many of them choose it.
 void Components::join_by_behaviors() {
   for (const std::uint32_t task : open_) {
-    const auto values = domains_.values(task);
-    for (std::uint32_t index = 0; index < values.size(); ++index) {
-      const BehaviorId behavior = values[index].behavior;
-      if (catalog_.performs[behavior].size() == 1 || !domains_.has(task, index)) continue;
+    for (const std::uint32_t index : domains_.indices(task)) {
+      const BehaviorId behavior = domains_.value(task, index).behavior;
+      if (catalog_.performs[behavior].size() == 1) continue;
       const std::uint32_t local = behavior - domains_.first_behavior();
       if (behavior_seen_[local] == number_) {
         join(task, behavior_task_[local]);
@@ -146,15 +145,6 @@ void Components::join_reach_of(std::uint32_t task) {
       reach_.push_back(target);
     }
   }
-}
-
-/// Whether a behavior in the domain of the task requires the target of the arc.
-bool Components::may_use(std::uint32_t task, const Arc& arc) const {
-  const auto words = domains_.words(task);
-  for (std::size_t word = 0; word < words.size(); ++word) {
-    if ((words[word] & catalog_.masks[arc.mask + word]) != 0) return true;
-  }
-  return false;
 }
 
 void Components::join(std::uint32_t a, std::uint32_t b) { joined_to_[root_of(a)] = root_of(b); }

@@ -51,7 +51,10 @@ class Components {
   [[nodiscard]] bool is_fixed(std::uint32_t task) const {
     return domains_.needed(task) && domains_.count(task) == 1;
   }
-  [[nodiscard]] bool may_use(std::uint32_t task, const Arc& arc) const;
+  /// Whether a behavior in the domain of the task requires the target of the arc.
+  [[nodiscard]] bool may_use(std::uint32_t task, const Arc& arc) const {
+    return domains_.any_within(task, &catalog_.masks[arc.mask]);
+  }
   [[nodiscard]] bool has_rules(std::uint32_t task) const {
     return catalog_.tasks[domains_.first_task() + task].has_performance_rules;
   }

@@ -5,24 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "runtime/solver/literal.h"
+#include "runtime/solver/trail.h"
 
 namespace cbc {
-
-/// What has been decided and inferred, for an analysis of conflicts.
-class Inferences {
- public:
-  virtual ~Inferences() = default;
-
-  /// What holds, in the order of inference.
-  [[nodiscard]] virtual std::span<const Literal> literals() const = 0;
-  /// By variable that has a value: the number of decisions before it.
-  [[nodiscard]] virtual std::span<const std::uint32_t> levels() const = 0;
-  /// Whether a literal that holds is a decision or a fact.
-  [[nodiscard]] virtual bool is_given(Literal literal) const = 0;
-  /// Appends what a literal that holds, and is not given, follows from.
-  virtual void append_reason(Literal literal, std::vector<Literal>& reason) const = 0;
-};
 
 /// Derives a no-good from a conflict: resolves the conflict with the reasons of its literals, last
 /// inference first, until one literal of the conflict level is left (the first unique implication
@@ -34,11 +19,11 @@ class ConflictAnalysis {
 
   /// The highest level of the literals of a conflict.
   [[nodiscard]] static std::uint32_t level_of(std::span<const Literal> conflict,
-                                              const Inferences& inferences);
+                                              const Trail& trail);
 
   /// `conflict`: literals that hold and cannot all hold. One of them at least is of the highest
   /// level that there is, which is above 0.
-  void analyze(std::span<const Literal> conflict, const Inferences& inferences);
+  void analyze(std::span<const Literal> conflict, const Trail& trail);
 
   /// The no-good as a clause: first the literal that it implies after going back to back_level(),
   /// then one of that level, if there is any other.
@@ -57,10 +42,10 @@ class ConflictAnalysis {
   [[nodiscard]] std::span<const Literal> facts() const { return facts_; }
 
  private:
-  void trace(std::span<const Literal> conflict, const Inferences& inferences);
-  void note(Literal literal, std::span<const std::uint32_t> levels);
-  void drop_implied_literals(const Inferences& inferences);
-  void count_levels(std::span<const std::uint32_t> levels);
+  void trace(std::span<const Literal> conflict, const Trail& trail);
+  void note(Literal literal, const Trail& trail);
+  void drop_implied_literals(const Trail& trail);
+  void count_levels(const Trail& trail);
 
   std::uint32_t conflict_level_ = 0;
   std::uint32_t open_ = 0;  ///< noted literals of the conflict level, not yet resolved
@@ -74,6 +59,74 @@ class ConflictAnalysis {
   std::vector<Literal> reason_;
   std::vector<std::uint64_t> counted_;  ///< by level
   std::uint64_t count_number_ = 0;
+};
+
+/// Restarts by the sequence 1, 1, 2, 1, 1, 2, 4, ... (M. Luby, A. Sinclair and D. Zuckerman,
+/// "Optimal speedup of Las Vegas algorithms", Information Processing Letters 47 (1993)).
+class Restarts {
+ public:
+  void clear() { *this = {}; }
+  void note_conflict() { ++conflicts_; }
+  [[nodiscard]] bool is_due() const { return conflicts_ >= next_; }
+  /// Notes that the search restarts.
+  void restart() {
+    ++restarts_;
+    next_ = conflicts_ + conflicts_of_a_restart * luby(restarts_);
+  }
+
+ private:
+  static constexpr std::uint64_t conflicts_of_a_restart = 64;
+
+  /// `place` counts from 0.
+  [[nodiscard]] static constexpr std::uint64_t luby(std::uint64_t place) {
+    std::uint64_t size = 1;
+    std::uint64_t value = 1;
+    while (size < place + 1) {
+      size = 2 * size + 1;
+      value *= 2;
+    }
+    while (size - 1 > place) {
+      size = (size - 1) / 2;
+      value /= 2;
+      place %= size;
+    }
+    return value;
+  }
+
+  std::uint64_t conflicts_ = 0;
+  std::uint64_t restarts_ = 0;
+  std::uint64_t next_ = conflicts_of_a_restart;
+};
+
+/// How much each task has taken part in conflicts; later conflicts count more (M. W. Moskewicz et
+/// al., "Chaff: engineering an efficient SAT solver", DAC 2001).
+class Activities {
+ public:
+  void clear(std::size_t tasks) {
+    activities_.assign(tasks, 0);
+    increment_ = 1;
+  }
+  void note(std::uint32_t task) {
+    activities_[task] += increment_;
+    if (activities_[task] < too_large) return;
+    for (double& each : activities_) each /= too_large;
+    increment_ /= too_large;
+  }
+  /// After each conflict.
+  void age() { increment_ *= growth; }
+  /// Notes the tasks of all variables that took part in a conflict.
+  void note_conflict(std::span<const std::uint32_t> variables, const Trail& trail) {
+    for (const std::uint32_t variable : variables) note(trail.task_of(variable));
+    age();
+  }
+  [[nodiscard]] double operator[](std::uint32_t task) const { return activities_[task]; }
+
+ private:
+  static constexpr double growth = 1.05;
+  static constexpr double too_large = 1e100;
+
+  std::vector<double> activities_;
+  double increment_ = 1;
 };
 
 }  // namespace cbc

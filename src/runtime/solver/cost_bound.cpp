@@ -81,8 +81,8 @@ bool CostBound::is_root(std::uint32_t task, Roots roots) const {
 
 CostBound::Cost CostBound::least_residual(std::uint32_t task) {
   Cost cheapest{prohibitive_cost, 0};
-  for (std::uint32_t index = 0; index < domains_.values(task).size(); ++index) {
-    if (domains_.has(task, index)) cheapest = std::min(cheapest, residual(task, index));
+  for (const std::uint32_t index : domains_.indices(task)) {
+    cheapest = std::min(cheapest, residual(task, index));
   }
   return cheapest;
 }
@@ -165,20 +165,14 @@ bool CostBound::requires_cut(const Value& value) const {
 CostBound::Cost CostBound::subtract_cut_minimum() {
   Cost cheapest{INT64_MAX, 0};
   for (const std::uint32_t task : cut_) {
-    const auto values = domains_.values(task);
-    for (std::uint32_t index = 0; index < values.size(); ++index) {
-      if (domains_.has(task, index) && residual(task, index) < cheapest &&
-          !requires_cut(values[index])) {
-        cheapest = residual(task, index);
-      }
+    for (const std::uint32_t index : domains_.indices(task)) {
+      const Cost& cost = residual(task, index);
+      if (cost < cheapest && !requires_cut(domains_.value(task, index))) cheapest = cost;
     }
   }
   for (const std::uint32_t task : cut_) {
-    const auto values = domains_.values(task);
-    for (std::uint32_t index = 0; index < values.size(); ++index) {
-      if (domains_.has(task, index) && !requires_cut(values[index])) {
-        residual(task, index) -= cheapest;
-      }
+    for (const std::uint32_t index : domains_.indices(task)) {
+      if (!requires_cut(domains_.value(task, index))) residual(task, index) -= cheapest;
     }
   }
   return cheapest;

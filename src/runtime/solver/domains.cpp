@@ -4,22 +4,37 @@
 #include <bit>
 
 namespace cbc {
+namespace {
 
-Domains::Domains(const CompiledCatalog& catalog) : catalog_(catalog) {
-  const std::size_t most_tasks = most_in_a_group(catalog.group_tasks);
-  const std::size_t most_values = most_values_in_a_group(catalog);
+/// Most changes are of one bit, and std::popcount may be the call of a function.
+std::uint32_t count_bits(std::uint64_t word) {
+  return (word & (word - 1)) == 0 ? 1 : static_cast<std::uint32_t>(std::popcount(word));
+}
+
+}  // namespace
+
+Domains::Domains(const CompiledCatalog& catalog)
+    : Domains(catalog, most_in_a_group(catalog.group_tasks), most_values_in_a_group(catalog)) {}
+
+Domains::Domains(const CompiledCatalog& catalog, std::uint32_t group)
+    : Domains(catalog, catalog.group_tasks[group + 1] - catalog.group_tasks[group],
+              catalog.values.begin[catalog.group_tasks[group + 1]] -
+                  catalog.values.begin[catalog.group_tasks[group]]) {}
+
+Domains::Domains(const CompiledCatalog& catalog, std::size_t most_tasks, std::size_t most_values)
+    : catalog_(catalog), most_variables_(most_tasks + most_values) {
   tasks_.resize(most_tasks);
   words_.resize(most_tasks + most_values / 64);  // a word is full, or the last of its task
   needed_.reserve(most_tasks);
   changed_.reserve(most_tasks);
-  trail_.reserve(most_tasks + most_values);  // each value, and each "not running", leaves once
+  trail_.reserve(most_variables_);  // each value, and each "not running", leaves once
 }
 
-void Domains::load(const Problem& problem) {
-  first_task_ = catalog_.group_tasks[problem.group];
-  first_behavior_ = catalog_.group_behaviors[problem.group];
-  task_count_ = catalog_.group_tasks[problem.group + 1] - first_task_;
-  std::copy(problem.domains.begin(), problem.domains.end(), words_.begin());
+void Domains::load(std::uint32_t group, std::span<const std::uint64_t> words) {
+  first_task_ = catalog_.group_tasks[group];
+  first_behavior_ = catalog_.group_behaviors[group];
+  task_count_ = catalog_.group_tasks[group + 1] - first_task_;
+  std::copy(words.begin(), words.end(), words_.begin());
   needed_.clear();
   trail_.clear();
   changed_.clear();
@@ -37,8 +52,8 @@ void Domains::load(const Problem& problem) {
     state.is_changed = false;
     state.may_stop = true;
     state.count = 0;
-    for (const std::uint64_t word : words(task)) {
-      state.count += static_cast<std::uint32_t>(std::popcount(word));
+    for (std::uint32_t word = 0; word < state.word_count; ++word) {
+      state.count += static_cast<std::uint32_t>(std::popcount(words_[state.word + word]));
     }
     find_best(state);
     if (state.count == 0) note_change(task);
@@ -53,6 +68,14 @@ bool Domains::all_within(std::uint32_t task, const std::uint64_t* mask) const {
   return true;
 }
 
+bool Domains::any_within(std::uint32_t task, const std::uint64_t* mask) const {
+  const TaskState& state = tasks_[task];
+  for (std::uint32_t word = 0; word < state.word_count; ++word) {
+    if ((words_[state.word + word] & mask[word]) != 0) return true;
+  }
+  return false;
+}
+
 bool Domains::need(std::uint32_t task) {
   TaskState& state = tasks_[task];
   if (!state.may_stop) return true;
@@ -60,7 +83,7 @@ bool Domains::need(std::uint32_t task) {
   state.may_stop = false;
   trail_.push_back({task, none, 0});
   needed_.push_back(task);
-  add_share(state.values[state.best]);
+  add_share(state.values[state.best], 1);
   if (!state.start_on_request) ++sums_.idle;
   note_change(task);
   return true;
@@ -106,7 +129,7 @@ bool Domains::narrow(std::uint32_t task, std::uint32_t word, std::uint64_t after
   TaskState& state = tasks_[task];
   trail_.push_back({task, word, before});
   words_[word] = after;
-  state.count -= static_cast<std::uint32_t>(std::popcount(before ^ after));
+  state.count -= count_bits(before ^ after);
   if (state.count == 0) {
     note_change(task);
     return state.may_stop;
@@ -115,8 +138,8 @@ bool Domains::narrow(std::uint32_t task, std::uint32_t word, std::uint64_t after
   if (!has(task, best)) {
     find_best(state);
     if (!state.may_stop) {
-      subtract_share(state.values[best]);
-      add_share(state.values[state.best]);
+      add_share(state.values[best], -1);
+      add_share(state.values[state.best], 1);
     }
   }
   if (!state.may_stop) note_change(task);
@@ -130,9 +153,11 @@ void Domains::undo_to(const Mark& mark) {
     if (change.word == none) {
       state.may_stop = true;
     } else {
-      state.count += static_cast<std::uint32_t>(std::popcount(words_[change.word] ^ change.before));
+      const std::uint32_t first = 64 * (change.word - state.word) +
+                                  static_cast<std::uint32_t>(std::countr_zero(change.before));
+      if (state.count == 0 || first < state.best) state.best = first;
+      state.count += count_bits(words_[change.word] ^ change.before);
       words_[change.word] = change.before;
-      find_best(state);
     }
     trail_.pop_back();
   }
@@ -153,21 +178,13 @@ void Domains::forget_changes() {
   changed_.clear();
 }
 
-void Domains::add_share(const Value& best) {
-  sums_.cost += best.cost;
+/// The share of a value, or, -1 times, what it has been.
+void Domains::add_share(const Value& best, std::int32_t times) {
+  sums_.cost += times * best.cost;
   if (best.suitability == 0) {
-    ++sums_.zeros;
+    sums_.zeros += static_cast<std::uint32_t>(times);
   } else if (best.suitability != one_million) {
-    ++sums_.factors;
-  }
-}
-
-void Domains::subtract_share(const Value& best) {
-  sums_.cost -= best.cost;
-  if (best.suitability == 0) {
-    --sums_.zeros;
-  } else if (best.suitability != one_million) {
-    --sums_.factors;
+    sums_.factors += static_cast<std::uint32_t>(times);
   }
 }
 

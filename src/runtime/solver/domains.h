@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,35 @@
 #include "runtime/solver/problem.h"
 
 namespace cbc {
+
+[[nodiscard]] inline bool has_bit(const std::uint64_t* words, std::uint32_t index) {
+  return ((words[index / 64] >> (index % 64)) & 1) != 0;
+}
+
+/// The indices of the bits that are set among the first `end`, ascending: a range, and its own
+/// iterator.
+class Bits {
+ public:
+  Bits(const std::uint64_t* words, std::uint32_t end) : words_(words), end_(end) { skip(); }
+  [[nodiscard]] Bits begin() const { return *this; }
+  [[nodiscard]] std::default_sentinel_t end() const { return {}; }
+  [[nodiscard]] std::uint32_t operator*() const { return at_; }
+  Bits& operator++() {
+    ++at_;
+    skip();
+    return *this;
+  }
+  [[nodiscard]] bool operator==(std::default_sentinel_t /*end*/) const { return at_ == end_; }
+
+ private:
+  void skip() {
+    while (at_ < end_ && !has_bit(words_, at_)) ++at_;
+  }
+
+  const std::uint64_t* words_;
+  std::uint32_t end_;
+  std::uint32_t at_ = 0;
+};
 
 /// The domains of the tasks of one group during a search, with a trail to undo changes, and sums
 /// over the *needed* tasks: those that run in every solution of the present subtree ("not running"
@@ -33,9 +63,15 @@ class Domains {
   };
 
   explicit Domains(const CompiledCatalog& catalog);
+  /// For one group only.
+  Domains(const CompiledCatalog& catalog, std::uint32_t group);
 
-  void load(const Problem& problem);
+  void load(const Problem& problem) { load(problem.group, problem.domains); }
+  /// `words`: the domains, as those of a Problem.
+  void load(std::uint32_t group, std::span<const std::uint64_t> words);
 
+  /// Tasks and values of the largest group that it can load.
+  [[nodiscard]] std::size_t most_variables() const { return most_variables_; }
   [[nodiscard]] std::uint32_t task_count() const { return task_count_; }
   [[nodiscard]] TaskId first_task() const { return first_task_; }
   [[nodiscard]] BehaviorId first_behavior() const { return first_behavior_; }
@@ -47,10 +83,11 @@ class Domains {
   /// Value index of the most suitable behavior in the domain; needs count > 0.
   [[nodiscard]] std::uint32_t best(std::uint32_t task) const { return tasks_[task].best; }
   [[nodiscard]] bool has(std::uint32_t task, std::uint32_t index) const {
-    return ((words_[tasks_[task].word + index / 64] >> (index % 64)) & 1) != 0;
+    return has_bit(&words_[tasks_[task].word], index);
   }
-  [[nodiscard]] std::span<const std::uint64_t> words(std::uint32_t task) const {
-    return {words_.data() + tasks_[task].word, tasks_[task].word_count};
+  /// The value indices of the behaviors in the domain.
+  [[nodiscard]] Bits indices(std::uint32_t task) const {
+    return {words_.data() + tasks_[task].word, tasks_[task].value_count};
   }
   /// First word of the task among those of the group.
   [[nodiscard]] std::uint32_t word_begin(std::uint32_t task) const { return tasks_[task].word; }
@@ -62,6 +99,8 @@ class Domains {
   }
   /// Whether all behaviors in the domain are among those of `mask` (words as those of the task).
   [[nodiscard]] bool all_within(std::uint32_t task, const std::uint64_t* mask) const;
+  /// Whether any of them is.
+  [[nodiscard]] bool any_within(std::uint32_t task, const std::uint64_t* mask) const;
 
   [[nodiscard]] const std::vector<std::uint32_t>& needed_tasks() const { return needed_; }
   [[nodiscard]] const Sums& sums() const { return sums_; }
@@ -76,6 +115,9 @@ class Domains {
   [[nodiscard]] bool remove_all(std::uint32_t task, const std::uint64_t* mask);
   /// Leaves one behavior; "not running", if it is in the domain, stays.
   [[nodiscard]] bool keep_only(std::uint32_t task, std::uint32_t index);
+  [[nodiscard]] bool assign(std::uint32_t task, std::uint32_t index) {
+    return keep_only(task, index) && need(task);
+  }
 
   [[nodiscard]] Mark mark() const { return {trail_.size(), needed_.size(), sums_}; }
   void undo_to(const Mark& mark);
@@ -107,13 +149,15 @@ class Domains {
     std::uint64_t before = 0;
   };
 
+  Domains(const CompiledCatalog& catalog, std::size_t most_tasks, std::size_t most_values);
+
   [[nodiscard]] bool narrow(std::uint32_t task, std::uint32_t word, std::uint64_t after);
-  void add_share(const Value& best);
-  void subtract_share(const Value& best);
+  void add_share(const Value& best, std::int32_t times);
   void find_best(TaskState& state) const;
   void note_change(std::uint32_t task);
 
   const CompiledCatalog& catalog_;
+  const std::size_t most_variables_;
   std::uint32_t task_count_ = 0;
   TaskId first_task_ = 0;
   BehaviorId first_behavior_ = 0;

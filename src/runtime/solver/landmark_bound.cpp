@@ -14,7 +14,7 @@ std::int64_t add(std::int64_t a, std::int64_t b) { return std::min(prohibitive_c
 }  // namespace
 
 LandmarkBound::LandmarkBound(const CompiledCatalog& catalog, const Domains& domains,
-                             const ReasonTrail& trail)
+                             const CatalogTrail& trail)
     : catalog_(catalog), domains_(domains), trail_(trail) {
   const std::size_t most_tasks = most_in_a_group(catalog.group_tasks);
   in_cut_.resize(most_tasks, 0);
@@ -163,8 +163,8 @@ void LandmarkBound::find_reached_tasks() {
   for (auto at = order_.rbegin(); at != order_.rend(); ++at) {
     const std::uint32_t task = *at;
     if (is_reached_[task] == 0) continue;
-    for (std::uint32_t value = value_begin_[task]; value < value_begin_[task + 1]; ++value) {
-      if (!domains_.has(task, value - value_begin_[task])) continue;
+    for (const std::uint32_t index : domains_.indices(task)) {
+      const std::uint32_t value = value_begin_[task] + index;
       for (std::uint32_t r = requirement_begin_[value]; r < requirement_begin_[value + 1]; ++r) {
         is_reached_[requirements_[r]] = 1;
       }
@@ -316,7 +316,7 @@ void LandmarkBound::subtract_cut(std::uint32_t root) {
     }
   }
   const std::size_t first_ground = grounds_.size();
-  std::uint32_t level = trail_.level_of(ReasonTrail::runs(root));
+  std::uint32_t level = trail_.level_of(Trail::runs(root));
   for (const std::uint32_t number : arcs_) {
     const Candidate& arc = candidates_[number];
     if (residuals_[arc.value] >= amount) {
@@ -356,7 +356,7 @@ void LandmarkBound::append_grounds(const Grounds& grounds, std::vector<Literal>&
     }
     const std::size_t end =
         number + 1 < cuts_.size() ? cuts_[number + 1].first_ground : grounds_.size();
-    reason.push_back(ReasonTrail::runs(cut.root));
+    reason.push_back(Trail::runs(cut.root));
     for (std::size_t ground = cut.first_ground; ground < end; ++ground) {
       reason.push_back(grounds_[ground]);
     }

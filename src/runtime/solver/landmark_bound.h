@@ -6,20 +6,14 @@
 
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/solver/domains.h"
-#include "runtime/solver/reason_trail.h"
-#include "runtime/solver/search_budget.h"
+#include "runtime/solver/propagation.h"
 
 namespace cbc {
 
 /// A lower bound on the cost of the needed tasks and all that they require, for a search that
-/// learns: a bound with its reasons.
-///
-/// Let a cut be any set of tasks with a needed one, its root, in it. Every solution runs some task
-/// of the cut with a behavior that requires no task of the cut: follow the requirements inside the
-/// cut, from the root down; they end, as the catalog is acyclic. These behaviors are the arcs of
-/// the cut, and the least cost among them is a lower bound. It is subtracted from all of them, and
-/// the next cut is one whose arcs still have a residual cost, until each needed task can run at no
-/// residual cost. These steps are an ascent.
+/// learns: a bound with its reasons. As in CostBound, it is the sum of what is subtracted from the
+/// arcs of one cut after the other, until each needed task can run at no residual cost. The needed
+/// task of a cut is its root, and all these steps are an ascent.
 ///
 /// Which cut comes next decides how strong the bound is. As in LM-cut (M. Helmert and C. Domshlak,
 /// "Landmarks, critical paths and abstractions: what's the difference anyway?", ICAPS 2009), a cut
@@ -34,7 +28,7 @@ namespace cbc {
 /// faster, but so much weaker that searches took far more than ten times as many nodes.
 class LandmarkBound {
  public:
-  LandmarkBound(const CompiledCatalog& catalog, const Domains& domains, const ReasonTrail& trail);
+  LandmarkBound(const CompiledCatalog& catalog, const Domains& domains, const CatalogTrail& trail);
 
   /// What is bounded: -log of f2, or, where f2 is 1, the number of idle tasks that run (f3); then a
   /// value with another suitability is prohibitive.
@@ -141,7 +135,7 @@ class LandmarkBound {
 
   const CompiledCatalog& catalog_;
   const Domains& domains_;
-  const ReasonTrail& trail_;
+  const CatalogTrail& trail_;
 
   // The group. Values are counted within it.
   std::vector<std::uint32_t> value_begin_;        ///< by task, and the end

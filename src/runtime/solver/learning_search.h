@@ -1,32 +1,59 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/solver/conflict_analysis.h"
+#include "runtime/solver/cost_bound.h"
 #include "runtime/solver/domains.h"
 #include "runtime/solver/landmark_bound.h"
 #include "runtime/solver/objective.h"
-#include "runtime/solver/objective_reasons.h"
-#include "runtime/solver/performance_reasons.h"
 #include "runtime/solver/problem.h"
-#include "runtime/solver/reason_trail.h"
-#include "runtime/solver/restarts.h"
-#include "runtime/solver/search_budget.h"
+#include "runtime/solver/propagation.h"
+#include "runtime/solver/trail.h"
 
 namespace cbc {
 
-/// Finds the best solution of a hard problem by conflict-driven search: each failure is traced back
-/// to the decisions it comes from, gives a no-good that rules out more than the failure itself, and
-/// the search goes back to where this no-good first implies something.
-///
-/// The method is that of SAT solvers (J. P. Marques-Silva and K. A. Sakallah, "GRASP", IEEE
-/// Transactions on Computers 48 (1999)), with propagators that explain themselves in place of
-/// clauses for constraints and objectives (O. Ohrimenko, P. J. Stuckey and M. Codish, "Propagation
-/// via lazy clause generation", Constraints 14 (2009)).
-///
-/// Its memory grows with the number of no-goods that it keeps, and is used again.
+/// Propagates "better than the incumbent" with reasons: the requests that it serves, the bound on
+/// its f2, and then the exact comparison of all objectives.
+class ObjectiveReasons final : public LazyReasons {
+ public:
+  ObjectiveReasons(const Domains& domains, Objective& objective, LandmarkBound& bound,
+                   Trail& trail);
+
+  void load(const Problem& problem) { problem_ = &problem; }
+  /// To be called at a fixpoint of the trail; there may be more to propagate afterwards, or if the
+  /// budget has no time left. False: see the trail's conflict.
+  [[nodiscard]] bool propagate(const Incumbent& incumbent, const SearchBudget& budget = {});
+
+  /// Of a removed value: that it costs too much.
+  void append_reason(Literal literal, std::uint32_t data,
+                     std::vector<Literal>& reason) const override;
+
+ private:
+  [[nodiscard]] bool may_serve_more(const Incumbent& incumbent) const;
+  [[nodiscard]] bool serve_open_requests();
+  [[nodiscard]] bool bound_costs(const CostBound::Cost& limits, bool is_final,
+                                 const SearchBudget& budget);
+  void append_lost_requests(std::size_t end, std::vector<Literal>& reason) const;
+  void explain_requests();
+  void explain_comparison(const Incumbent& incumbent, Objective::Decider decider);
+  void append_needed_tasks(Objective::Decider decider);
+  void append_activations();
+  void append_order(const Incumbent& incumbent);
+
+  const Domains& domains_;
+  Objective& objective_;
+  LandmarkBound& bound_;
+  Trail& trail_;
+  const Problem* problem_ = nullptr;
+  std::vector<Literal> reason_;
+};
+
+/// Finds the best solution of a hard problem by conflict-driven search. Its memory grows with the
+/// number of no-goods that it keeps, and is used again.
 class LearningSearch {
  public:
   LearningSearch(const CompiledCatalog& catalog, Domains& domains, Objective& objective);
@@ -56,7 +83,7 @@ class LearningSearch {
   const CompiledCatalog& catalog_;
   Domains& domains_;
   Objective& objective_;
-  ReasonTrail trail_;
+  CatalogTrail trail_;
   LandmarkBound bound_;
   PerformanceReasons performance_;
   ObjectiveReasons objectives_;

@@ -1,7 +1,6 @@
 #include "runtime/solver/objective.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/compiled/log_cost.h"
@@ -34,17 +33,6 @@ namespace {
 /// One activation; the least common multiple of 1 to 8, so that few shares are rounded.
 constexpr std::uint32_t whole_share = 840;
 
-bool has(const std::uint64_t* words, std::uint32_t index) {
-  return ((words[index / 64] >> (index % 64)) & 1) != 0;
-}
-
-/// Index of the most suitable behavior; there is one.
-std::uint32_t first_index(const std::uint64_t* words) {
-  std::uint32_t word = 0;
-  while (words[word] == 0) ++word;
-  return word * 64 + static_cast<std::uint32_t>(std::countr_zero(words[word]));
-}
-
 }  // namespace
 
 CanonicalOrder::CanonicalOrder(const CompiledCatalog& catalog,
@@ -67,9 +55,10 @@ void CanonicalOrder::load(const Problem& problem) {
         whole.domains.data() + (catalog_.words[id] - catalog_.words[first_task_]);
     const std::uint32_t present = whole.present[task];
     empty_first_[task] = present == none && whole.may_stop[task] != 0;
-    const bool is_best = present != none && has(words, present) &&
-                         catalog_.values[id][present].suitability ==
-                             catalog_.values[id][first_index(words)].suitability;
+    const auto values = catalog_.values[id];
+    const auto count = static_cast<std::uint32_t>(values.size());
+    const bool is_best = present != none && has_bit(words, present) &&
+                         values[present].suitability == values[*Bits(words, count)].suitability;
     kept_first_[task] = is_best ? present : none;
   }
 }
@@ -112,7 +101,7 @@ void Objective::load(const Problem& problem) {
 }
 
 bool Objective::is_free(std::uint32_t task, std::uint32_t index) const {
-  return has(&free_[domains_.word_begin(task)], index);
+  return has_bit(&free_[domains_.word_begin(task)], index);
 }
 
 Objective::Comparison Objective::compare(const Incumbent& incumbent, std::uint32_t depth) {
@@ -216,10 +205,9 @@ std::uint32_t Objective::least_activations_of_open_tasks() const {
 /// share its activation; none is needed for a behavior that was active, or is counted.
 std::uint32_t Objective::least_share(std::uint32_t task) const {
   std::uint32_t most_tasks = 1;
-  const auto values = domains_.values(task);
-  for (std::uint32_t index = 0; index < values.size(); ++index) {
-    if (!is_free(task, index) || !domains_.has(task, index)) continue;
-    const BehaviorId behavior = values[index].behavior;
+  for (const std::uint32_t index : domains_.indices(task)) {
+    if (!is_free(task, index)) continue;
+    const BehaviorId behavior = domains_.value(task, index).behavior;
     if (was_active(behavior) || is_counted(behavior)) return 0;
     const auto of_tasks = catalog_.performs[behavior];
     const auto tasks = std::count_if(of_tasks.begin(), of_tasks.end(),
@@ -229,21 +217,13 @@ std::uint32_t Objective::least_share(std::uint32_t task) const {
   return whole_share / most_tasks;
 }
 
-bool Objective::has_free_value(std::uint32_t task) const {
-  const auto words = domains_.words(task);
-  const std::uint64_t* const free = &free_[domains_.word_begin(task)];
-  for (std::size_t word = 0; word < words.size(); ++word) {
-    if ((words[word] & free[word]) != 0) return true;
-  }
-  return false;
-}
-
 std::uint32_t Objective::least_deactivations() const {
   return static_cast<std::uint32_t>(
       std::count_if(problem_->active.begin(), problem_->active.end(),
                     [this](BehaviorId behavior) { return !may_stay(behavior); }));
 }
 
+/// Whether a behavior that was active may stay so in a solution that ties on f1 to f3.
 bool Objective::may_stay(BehaviorId behavior) const {
   const auto values = catalog_.performs[behavior];
   return std::any_of(values.begin(), values.end(),
@@ -263,9 +243,8 @@ std::strong_ordering Objective::compare_keys(const Incumbent& incumbent,
     if (!components_.contains(task, depth)) continue;
     std::uint32_t least = domains_.needed(task) ? none : key(task, none);
     if (may_run(task)) {
-      const auto values = domains_.values(task);
-      for (std::uint32_t index = 0; index < values.size(); ++index) {
-        if (domains_.has(task, index)) least = std::min(least, key(task, index));
+      for (const std::uint32_t index : domains_.indices(task)) {
+        least = std::min(least, key(task, index));
       }
     }
     const std::uint32_t theirs = key(task, incumbent.assignment[task]);

@@ -121,9 +121,6 @@ class Objective {
   [[nodiscard]] bool may_run(std::uint32_t task) const {
     return domains_.needed(task) || (is_request(task) && domains_.count(task) > 0);
   }
-  /// Whether a behavior that was active may stay so in a solution of the present subtree that ties
-  /// with the incumbent on f1 to f3.
-  [[nodiscard]] bool may_stay(BehaviorId behavior) const;
 
  private:
   [[nodiscard]] std::strong_ordering compare_suitability(const Incumbent& incumbent);
@@ -135,7 +132,10 @@ class Objective {
   [[nodiscard]] std::uint32_t least_activations_of_open_tasks() const;
   [[nodiscard]] std::uint32_t least_share(std::uint32_t task) const;
   [[nodiscard]] std::uint32_t least_deactivations() const;
-  [[nodiscard]] bool has_free_value(std::uint32_t task) const;
+  [[nodiscard]] bool may_stay(BehaviorId behavior) const;
+  [[nodiscard]] bool has_free_value(std::uint32_t task) const {
+    return domains_.any_within(task, &free_[domains_.word_begin(task)]);
+  }
   [[nodiscard]] bool may_have(ValueId value) const;
   [[nodiscard]] bool is_counted(BehaviorId behavior) const {
     return counted_[behavior - domains_.first_behavior()] == count_number_;

@@ -3,12 +3,6 @@
 #include <algorithm>
 
 namespace cbc {
-namespace {
-
-/// Dead ends that are left before the tasks at hand count as having no place.
-constexpr std::uint32_t most_dead_ends = 20;
-
-}  // namespace
 
 Repair::Repair(const CompiledCatalog& catalog, Domains& domains, Propagator& propagator)
     : catalog_(catalog), domains_(domains), propagator_(propagator) {
@@ -57,6 +51,7 @@ bool Repair::drop(std::uint32_t task, const Domains::Mark& before) {
 bool Repair::assign_needed_tasks() {
   choices_.clear();
   list_candidates();
+  constexpr std::uint32_t most_dead_ends = 20;
   std::uint32_t dead_ends = 0;
   for (;;) {
     const std::uint32_t task = take_next_task();
@@ -129,9 +124,7 @@ std::uint32_t Repair::choose_value(std::uint32_t task) {
   if (has_present_value(task)) return problem_->present[task];
   std::uint32_t chosen = none;
   std::pair<std::uint32_t, std::int64_t> least;
-  const auto values = static_cast<std::uint32_t>(domains_.values(task).size());
-  for (std::uint32_t index = 0; index < values; ++index) {
-    if (!domains_.has(task, index)) continue;
+  for (const std::uint32_t index : domains_.indices(task)) {
     const auto loss = try_value(task, index);
     if (!loss || (chosen != none && *loss >= least)) continue;
     chosen = index;
@@ -151,7 +144,7 @@ std::optional<std::pair<std::uint32_t, std::int64_t>> Repair::try_value(std::uin
 }
 
 bool Repair::assign(std::uint32_t task, std::uint32_t index) {
-  return domains_.keep_only(task, index) && domains_.need(task) && propagator_.propagate();
+  return domains_.assign(task, index) && propagator_.propagate();
 }
 
 std::uint32_t Repair::count_lost_requests() const {

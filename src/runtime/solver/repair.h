@@ -9,7 +9,7 @@
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/solver/domains.h"
 #include "runtime/solver/problem.h"
-#include "runtime/solver/propagator.h"
+#include "runtime/solver/propagation.h"
 
 namespace cbc {
 

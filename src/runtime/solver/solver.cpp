@@ -1,3 +1,13 @@
+// Depth-first branch and bound (A. H. Land and A. G. Doig, "An automatic method of solving discrete
+// programming problems", Econometrica 28 (1960)) that propagates after each decision (D. Sabin and
+// E. C. Freuder, "Contradicting conventional wisdom in constraint satisfaction", ECAI 1994). It
+// comes in stages, each of which costs more per decision: first the objective of the needed tasks
+// alone bounds the subtree; a search that takes longer restarts with the cost bound and splits into
+// components; one that is still stuck is left to LearningSearch.
+//
+// To learn from the start would be simpler. But most events take a few decisions, if any, and then
+// reasons, no-goods and strong bounds cost more than the whole search; a model of each event for a
+// general solver costs even more. What is here also allocates nothing, on which a robot relies.
 #include "runtime/solver/solver.h"
 
 #include <algorithm>
@@ -183,18 +193,16 @@ bool Solver::may_improve() {
   if (!is_hard_) return true;
 
   const ComponentSearch& component = current();
-  CostBound::Cost threshold = pruning_threshold(component.best);
+  const auto threshold_of = [this](const Incumbent& best) -> CostBound::Cost {
+    if (!best.exists || !objective_.ties_on_requests(best)) return {INT64_MAX, INT64_MAX};
+    return pruning_threshold(best, domains_.task_count());
+  };
+  CostBound::Cost threshold = threshold_of(component.best);
   threshold.log -= component.best_cost_outside;
-  CostBound::Cost threshold_of_all = pruning_threshold(searches_.front().best);
+  CostBound::Cost threshold_of_all = threshold_of(searches_.front().best);
   threshold_of_all.log -= component.cost_bound_outside;
   threshold = std::min(threshold, threshold_of_all);
   return cost_bound_.bound(threshold, CostBound::Roots::in_component) <= threshold;
-}
-
-/// What the cost bound has to exceed to prove that nothing better than `best` is left.
-CostBound::Cost Solver::pruning_threshold(const Incumbent& best) const {
-  if (!best.exists || !objective_.ties_on_requests(best)) return {INT64_MAX, INT64_MAX};
-  return cbc::pruning_threshold(best, domains_.task_count());
 }
 
 /// Takes the solution of the present component. False if it is one too many, or if
@@ -282,8 +290,7 @@ bool Solver::leave_component() {
   for (std::uint32_t task = 0; is_consistent && task < domains_.task_count(); ++task) {
     if (!components_.contains(task, depth)) continue;
     const std::uint32_t index = component.best.assignment[task];
-    is_consistent = index == none ? domains_.close(task)
-                                  : domains_.keep_only(task, index) && domains_.need(task);
+    is_consistent = index == none ? domains_.close(task) : domains_.assign(task, index);
   }
   components_.leave();
   return is_consistent && propagator_.propagate();
@@ -305,8 +312,7 @@ bool Solver::backtrack() {
 bool Solver::take(const Decision& decision) {
   switch (decision.kind) {
     case Decision::Kind::assign:
-      return domains_.keep_only(decision.task, decision.value_index) &&
-             domains_.need(decision.task);
+      return domains_.assign(decision.task, decision.value_index);
     case Decision::Kind::run:
       return domains_.need(decision.task);
     case Decision::Kind::stop:
@@ -361,9 +367,7 @@ std::uint32_t Solver::choose_task() const {
 std::uint32_t Solver::choose_value(std::uint32_t task) {
   std::uint32_t chosen = none;
   CostBound::Cost least;
-  const auto values = static_cast<std::uint32_t>(domains_.values(task).size());
-  for (std::uint32_t index = 0; index < values; ++index) {
-    if (!domains_.has(task, index)) continue;
+  for (const std::uint32_t index : domains_.indices(task)) {
     const CostBound::Cost cost = estimate(task, index);
     if (chosen == none || cost < least ||
         (cost == least && objective_.key(task, index) < objective_.key(task, chosen))) {
@@ -394,9 +398,8 @@ std::optional<Solver::Decision> Solver::decide_in_catalog_order() const {
     if (count == 0 || (count == 1 && domains_.needed(task))) continue;
     std::uint32_t first = none;
     std::uint32_t first_key = domains_.may_stop(task) ? objective_.key(task, none) : none;
-    const auto values = static_cast<std::uint32_t>(domains_.values(task).size());
-    for (std::uint32_t index = 0; index < values; ++index) {
-      if (!domains_.has(task, index) || objective_.key(task, index) >= first_key) continue;
+    for (const std::uint32_t index : domains_.indices(task)) {
+      if (objective_.key(task, index) >= first_key) continue;
       first = index;
       first_key = objective_.key(task, index);
     }

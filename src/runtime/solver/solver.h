@@ -13,9 +13,8 @@
 #include "runtime/solver/learning_search.h"
 #include "runtime/solver/objective.h"
 #include "runtime/solver/problem.h"
-#include "runtime/solver/propagator.h"
+#include "runtime/solver/propagation.h"
 #include "runtime/solver/repair.h"
-#include "runtime/solver/search_budget.h"
 
 namespace cbc {
 
@@ -37,9 +36,9 @@ struct SearchOptions {
   std::uint64_t bounded_nodes = 1000;
 };
 
-/// Finds the best solution of a problem (docs/semantics.md, "Objectives"): by depth-first branch
-/// and bound, which allocates in the constructor only, or else by a search that learns, whose
-/// memory grows to what the problems need.
+/// Finds the best solution of a problem (docs/semantics.md, "Objectives"): by branch and bound,
+/// which allocates in the constructor only, or else by a search that learns, whose memory grows to
+/// what the problems need.
 class Solver {
  public:
   /// `ranks`: by value, its rank in the task; empty: as the values stand. Both references must
@@ -93,7 +92,6 @@ class Solver {
   [[nodiscard]] ComponentSearch& current() { return searches_[components_.depth()]; }
 
   [[nodiscard]] bool may_improve();
-  [[nodiscard]] CostBound::Cost pruning_threshold(const Incumbent& best) const;
   [[nodiscard]] bool accept();
   [[nodiscard]] bool should_learn() const;
   void repair();

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "cbc/version.h"
-#include "core/script/writer.h"
+#include "core/script/script.h"
 #include "core/support/threads.h"
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_file.h"

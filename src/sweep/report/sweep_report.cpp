@@ -9,7 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "core/report/layout.h"
 #include "core/report/search_stats.h"
+#include "core/report/table.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 #include "sweep/engine/sweep.h"
@@ -32,7 +34,7 @@ constexpr std::string_view label(SweepKind kind) {
   return labels[static_cast<std::size_t>(kind)];
 }
 
-std::string describe_reason(const SweepResult& result, const RejectionReason& reason) {
+std::string rejected_because(const SweepResult& result, const RejectionReason& reason) {
   const auto name_in = [](const std::vector<std::string>& names, std::uint32_t place) {
     return place == none ? std::string() : printable(names[place]);
   };
@@ -74,132 +76,116 @@ bool is_requirement(const RejectionReason& reason) {
 }
 
 /// "2.50" for 2500 nanoseconds, with at least three digits.
-std::string to_microseconds(std::uint64_t nanoseconds) {
-  const double time = static_cast<double>(nanoseconds) / 1000;
+std::string three_digits(std::uint64_t nanoseconds) {
+  const double time = to_microseconds(nanoseconds);
   return fmt::format("{:.{}f}", time, time < 10 ? 2 : time < 100 ? 1 : 0);
 }
 
-class SweepText {
- public:
-  SweepText(const SweepResult& result, const Style& style) : result_(result), style_(style) {}
-
-  [[nodiscard]] std::string write() {
-    write_heading();
-    write_events();
-    write_unused("behaviors that never became active", result_.behavior_names,
-                 [&](std::size_t place) { return result_.counts.behaviors[place].activations; });
-    write_unused("tasks that never ran", result_.task_names,
-                 [&](std::size_t place) { return result_.counts.tasks[place].runs; });
-    write_reasons();
-    write_nodes();
-    if (result_.times) write_times(*result_.times);
-    return std::move(text_);
+void add_events(const SweepResult& result, Text& text) {
+  Table table(text.style(), {{"events", {}, 28, 0},
+                             number_column("accepted", 12, 0),
+                             number_column("escalated", 12, 0),
+                             number_column("rejected", 12, 0),
+                             number_column("unchanged", 12, 0)});
+  OutcomeCounts all;
+  const auto add = [&](std::string_view name, const OutcomeCounts& counts) {
+    table.add({fmt::format("  {}", name), counts.accepted, counts.escalated, counts.rejected,
+               counts.unchanged});
+  };
+  for (std::size_t kind = 0; kind < sweep_kinds; ++kind) {
+    const OutcomeCounts& counts = result.counts.events[kind];
+    add(label(static_cast<SweepKind>(kind)), counts);
+    all.accepted += counts.accepted;
+    all.escalated += counts.escalated;
+    all.rejected += counts.rejected;
+    all.unchanged += counts.unchanged;
   }
+  add("all", all);
+  text.add(table.text() + "\n");
+}
 
- private:
-  template <typename... Args>
-  void add(fmt::format_string<Args...> format, Args&&... args) {
-    text_ += fmt::format(format, std::forward<Args>(args)...);
+/// The names whose count is 0.
+template <typename Count>
+void add_unused(std::string_view what, const std::vector<std::string>& names, Count count,
+                Text& text) {
+  constexpr std::size_t most_named = 20;
+  std::vector<std::string> unused;
+  for (std::size_t place = 0; place < names.size(); ++place) {
+    if (count(place) == 0) unused.push_back(printable(names[place]));
   }
-
-  void write_heading() {
-    const SweepSettings& settings = result_.settings;
-    add("{}sweep of {}{}: {} of {}, seed {}", style_.strong, printable(result_.catalog),
-        style_.reset, quantity(settings.sequences, "sequence"),
-        quantity(settings.shape.events, "event"), settings.seed);
-    if (settings.shard.count > 1) {
-      add(", shard {}/{} of it", settings.shard.index, settings.shard.count);
-    }
-    add("\n\n");
+  text.line("{}: {} of {}", text.style().paint(text.style().strong, what), unused.size(),
+            names.size());
+  for (std::size_t place = 0; place < std::min(unused.size(), most_named); ++place) {
+    text.line("  " + unused[place]);
   }
+  if (unused.size() > most_named) text.line("  and {} more", unused.size() - most_named);
+}
 
-  void write_events() {
-    add("{}{:<28}{:>12}{:>12}{:>12}{:>12}{}\n", style_.faint, "events", "accepted", "escalated",
-        "rejected", "unchanged", style_.reset);
-    OutcomeCounts all;
-    for (std::size_t kind = 0; kind < sweep_kinds; ++kind) {
-      const OutcomeCounts& counts = result_.counts.events[kind];
-      write_outcomes(label(static_cast<SweepKind>(kind)), counts);
-      all.accepted += counts.accepted;
-      all.escalated += counts.escalated;
-      all.rejected += counts.rejected;
-      all.unchanged += counts.unchanged;
-    }
-    write_outcomes("all", all);
-    add("\n");
-  }
+void add_reasons(const SweepResult& result, Text& text) {
+  constexpr std::size_t most_shown = 10;
+  std::vector<std::pair<RejectionReason, std::uint64_t>> reasons(result.counts.reasons.begin(),
+                                                                 result.counts.reasons.end());
+  if (reasons.empty()) return;
+  std::stable_sort(reasons.begin(), reasons.end(), [](const auto& a, const auto& b) {
+    const bool is_last = is_requirement(a.first);
+    return is_last != is_requirement(b.first) ? !is_last : a.second > b.second;
+  });
+  text.line("{}, the most frequent of {}, requirements last",
+            text.style().paint(text.style().strong, "reasons for rejections"), reasons.size());
+  reasons.resize(std::min(reasons.size(), most_shown));
+  Table table(text.style(), {number_column({}, 9, 0), {}});
+  for (const auto& [reason, count] : reasons) table.add({count, rejected_because(result, reason)});
+  text.add(table.text());
+}
 
-  void write_outcomes(std::string_view name, const OutcomeCounts& counts) {
-    add("  {:<26}{:>12}{:>12}{:>12}{:>12}\n", name, counts.accepted, counts.escalated,
-        counts.rejected, counts.unchanged);
-  }
+void add_slowest(const SlowestEvent& slowest, std::string_view measure, std::string_view option,
+                 Text& text) {
+  text.line("  slowest by {}: event {} of sequence {}, {} ({} FILE writes it as a script)", measure,
+            slowest.event, slowest.sequence, printable(slowest.what), option);
+}
 
-  template <typename Count>
-  void write_unused(std::string_view what, const std::vector<std::string>& names, Count count) {
-    constexpr std::size_t most_named = 20;
-    std::vector<std::string> unused;
-    for (std::size_t place = 0; place < names.size(); ++place) {
-      if (count(place) == 0) unused.push_back(printable(names[place]));
-    }
-    add("{}{}{}: {} of {}\n", style_.strong, what, style_.reset, unused.size(), names.size());
-    for (std::size_t place = 0; place < std::min(unused.size(), most_named); ++place) {
-      add("  {}\n", unused[place]);
-    }
-    if (unused.size() > most_named) add("  and {} more\n", unused.size() - most_named);
-  }
+void add_nodes(const SweepResult& result, Text& text) {
+  if (!result.slowest) return text.line("no event needed a search");
+  text.line("{} of {}: median {}, 99th percentile {}, largest {}",
+            text.style().paint(text.style().strong, "nodes"),
+            quantity(result.nodes.total(), "solved event"), result.nodes.median(),
+            result.nodes.percentile_99(), result.slowest->cost);
+  add_slowest(*result.slowest, "nodes", "--slowest", text);
+}
 
-  void write_reasons() {
-    constexpr std::size_t most_shown = 10;
-    std::vector<std::pair<RejectionReason, std::uint64_t>> reasons(result_.counts.reasons.begin(),
-                                                                   result_.counts.reasons.end());
-    if (reasons.empty()) return;
-    std::stable_sort(reasons.begin(), reasons.end(), [](const auto& a, const auto& b) {
-      const bool is_last = is_requirement(a.first);
-      return is_last != is_requirement(b.first) ? !is_last : a.second > b.second;
-    });
-    add("{}reasons for rejections{}, the most frequent of {}, requirements last\n", style_.strong,
-        style_.reset, reasons.size());
-    reasons.resize(std::min(reasons.size(), most_shown));
-    for (const auto& [reason, count] : reasons) {
-      add("{:>9}  {}\n", count, describe_reason(result_, reason));
-    }
-  }
-
-  void write_nodes() {
-    if (!result_.slowest) {
-      add("no event needed a search\n");
-      return;
-    }
-    add("{}nodes{} of {}: median {}, 99th percentile {}, largest {}\n", style_.strong, style_.reset,
-        quantity(result_.nodes.total(), "solved event"), result_.nodes.median(),
-        result_.nodes.percentile_99(), result_.slowest->cost);
-    write_slowest(*result_.slowest, "nodes", "--slowest");
-  }
-
-  void write_times(const SweepTimes& times) {
-    if (!times.slowest) return;
-    add("{}time{} of an event in µs: median {}, 99th percentile {}, largest {}\n", style_.strong,
-        style_.reset, to_microseconds(times.events.median()),
-        to_microseconds(times.events.percentile_99()), to_microseconds(times.slowest->cost));
-    write_slowest(*times.slowest, "time", "--slowest-by-time");
-    add("elapsed: {} s\n", format_decimal(static_cast<std::int64_t>(times.elapsed / 1000), 3));
-  }
-
-  void write_slowest(const SlowestEvent& slowest, std::string_view measure,
-                     std::string_view option) {
-    add("  slowest by {}: event {} of sequence {}, {} ({} FILE writes it as a script)\n", measure,
-        slowest.event, slowest.sequence, printable(slowest.what), option);
-  }
-
-  const SweepResult& result_;
-  const Style& style_;
-  std::string text_;
-};
+void add_times(const SweepTimes& times, Text& text) {
+  if (!times.slowest) return;
+  text.line("{} of an event in µs: median {}, 99th percentile {}, largest {}",
+            text.style().paint(text.style().strong, "time"), three_digits(times.events.median()),
+            three_digits(times.events.percentile_99()), three_digits(times.slowest->cost));
+  add_slowest(*times.slowest, "time", "--slowest-by-time", text);
+  text.line("elapsed: {} s", format_decimal(static_cast<std::int64_t>(times.elapsed / 1000), 3));
+}
 
 }  // namespace
 
 std::string sweep_to_text(const SweepResult& result, const Style& style) {
-  return SweepText(result, style).write();
+  const SweepSettings& settings = result.settings;
+  Text text(style);
+  text.line("{}: {} of {}, seed {}{}",
+            style.paint(style.strong, "sweep of " + printable(result.catalog)),
+            quantity(settings.sequences, "sequence"), quantity(settings.shape.events, "event"),
+            settings.seed,
+            settings.shard.count > 1
+                ? fmt::format(", shard {}/{} of it", settings.shard.index, settings.shard.count)
+                : "");
+  text.line("");
+  add_events(result, text);
+  add_unused(
+      "behaviors that never became active", result.behavior_names,
+      [&](std::size_t place) { return result.counts.behaviors[place].activations; }, text);
+  add_unused(
+      "tasks that never ran", result.task_names,
+      [&](std::size_t place) { return result.counts.tasks[place].runs; }, text);
+  add_reasons(result, text);
+  add_nodes(result, text);
+  if (result.times) add_times(*result.times, text);
+  return text.take();
 }
 
 std::span<const SweepFormat> sweep_formats() {

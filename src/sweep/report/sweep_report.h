@@ -23,7 +23,7 @@ namespace cbc {
 /// The result of a sweep for people.
 [[nodiscard]] std::string sweep_to_text(const SweepResult& result, const Style& style);
 
-/// A format of `cbc solve --sweep`.
+/// A format of `cbc sweep`.
 struct SweepFormat {
   std::string_view name;
   std::string (*write)(const SweepResult& result, const Style& style);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "core/support/threads.h"
 
@@ -26,6 +27,95 @@ double seconds_now() {
 
 }  // namespace
 
+StateStore::StateStore(std::size_t words)
+    : words_(words), buckets_(64), bucket_mask_(buckets_.size() - 1) {}
+
+std::uint64_t StateStore::bytes_for(std::uint64_t states) const {
+  std::size_t buckets = buckets_.size();
+  while (is_crowded(states, buckets)) buckets *= 2;
+  const std::uint64_t segments = (states + segment - 1) / segment;
+  return segments * segment * (words_ + 1) * sizeof(std::uint32_t) + buckets * sizeof(Bucket);
+}
+
+std::uint64_t StateStore::hash(const std::uint32_t* state) const {
+  constexpr std::uint64_t factor = 0x9e3779b97f4a7c15U;
+  std::uint64_t hash = 0;
+  for (std::size_t word = 0; word < words_; ++word) {
+    hash = (hash ^ state[word]) * factor;
+    hash ^= hash >> 32U;
+  }
+  return hash * factor ^ hash >> 29U;
+}
+
+StateStore::Number StateStore::find(const std::uint32_t* state, std::uint64_t hash,
+                                    std::size_t& bucket) const {
+  const std::uint8_t tag = tag_of(hash);
+  for (bucket = hash & bucket_mask_;; bucket = (bucket + 1) & bucket_mask_) {
+    const Bucket& here = buckets_[bucket];
+    for (std::uint32_t entry = 0; entry < here.count; ++entry) {
+      if (here.tags[entry] == tag && is_same(here.numbers[entry], state))
+        return here.numbers[entry];
+    }
+    if (here.count < bucket_size) return size_;
+  }
+}
+
+bool StateStore::contains(const std::uint32_t* state, std::uint64_t hash) const {
+  std::size_t bucket = 0;
+  return find(state, hash, bucket) != size_;
+}
+
+StateStore::Number StateStore::insert(const std::uint32_t* state, std::uint64_t hash,
+                                      Number parent) {
+  std::size_t bucket = 0;
+  const Number number = find(state, hash, bucket);
+  if (number != size_) return number;
+  const std::size_t offset = size_ % segment;
+  if (offset == 0) {
+    states_.push_back(std::make_unique_for_overwrite<std::uint32_t[]>(segment * words_));
+    parents_.push_back(std::make_unique_for_overwrite<Number[]>(segment));
+  }
+  std::copy_n(state, words_, states_.back().get() + offset * words_);
+  parents_.back()[offset] = parent;
+  add_to_bucket(bucket, hash, size_++);
+  if (is_crowded(size_, buckets_.size())) grow();
+  return number;
+}
+
+void StateStore::add_to_bucket(std::size_t place, std::uint64_t hash, Number number) {
+  Bucket& bucket = buckets_[place];
+  bucket.tags[bucket.count] = tag_of(hash);
+  bucket.numbers[bucket.count] = number;
+  ++bucket.count;
+}
+
+void StateStore::grow() {
+  const std::size_t count = buckets_.size() * 2;
+  buckets_ = {};
+  buckets_.resize(count);
+  bucket_mask_ = count - 1;
+  constexpr Number ahead = 16;
+  std::uint64_t hashes[ahead] = {};
+  for (Number number = 0; number < size_ + ahead; ++number) {
+    // A few states ahead, so that memory has time to answer.
+    const Number ready = number - ahead;
+    if (number >= ahead && ready < size_) {
+      std::size_t place = hashes[ready % ahead] & bucket_mask_;
+      while (buckets_[place].count == bucket_size) place = (place + 1) & bucket_mask_;
+      add_to_bucket(place, hashes[ready % ahead], ready);
+    }
+    if (number >= size_) continue;
+    hashes[number % ahead] = hash(state(number));
+    prefetch(hashes[number % ahead]);
+  }
+}
+
+void Successors::begin(StateStore::Number parent) {
+  parent_ = parent;
+  // States whose successors count one by one are ended by a limit where it comes.
+  if (search_.is_in_order_) asked_ = moves_between_looks - 1;
+}
+
 bool Successors::may_go_on() {
   if (++asked_ % moves_between_looks == 0) search_.look_at_limits();
   return !search_.is_cut_;
@@ -38,6 +128,18 @@ std::uint32_t* Successors::add() {
   const std::size_t width = search_.store_.words();
   words_.resize(candidates_.size() * width);
   return words_.data() + words_.size() - width;
+}
+
+StateStore::Number Successors::number_last() {
+  const std::uint32_t* const state = words_.data() + words_.size() - search_.store_.words();
+  const StateStore::Number number =
+      search_.store_.insert(state, search_.store_.hash(state), parent_);
+  candidates_.pop_back();
+  words_.resize(words_.size() - search_.store_.words());
+  // Counts even if a limit comes before the other moves of the state.
+  --transitions_;
+  ++search_.transitions_;
+  return number;
 }
 
 /// Keeps the successors that are not known yet.
@@ -72,21 +174,21 @@ void Successors::clear() {
   transitions_ = 0;
 }
 
-BreadthFirst::BreadthFirst(const std::vector<std::uint32_t>& first,
-                           const ExplorationOptions& options)
-    : options_(options), store_(first.size()), level_begin_{0} {
+BreadthFirst::BreadthFirst(const std::vector<std::uint32_t>& first, const ExplorationLimits& limits,
+                           OnProgress on_progress)
+    : limits_(limits), on_progress_(std::move(on_progress)), store_(first.size()), level_begin_{0} {
   store_.insert(first.data(), store_.hash(first.data()), 0);
 }
 
-void BreadthFirst::run(const std::vector<std::unique_ptr<Expander>>& expanders) {
-  if (options_.limits.seconds > 0) deadline_ = seconds_now() + options_.limits.seconds;
+void BreadthFirst::run(std::size_t jobs, const Expand& expand) {
+  if (limits_.seconds > 0) deadline_ = seconds_now() + limits_.seconds;
   while (expanded_ < store_.size()) {
     if (!may_go_on()) return;
-    const StateStore::Number level_end = store_.size();
+    const Number level_end = store_.size();
     level_begin_.push_back(level_end);
     while (expanded_ < level_end) {
-      const StateStore::Number end = std::min(level_end, expanded_ + batch_size);
-      if (!expand_batch(expanded_, end, expanders)) return;
+      const Number end = std::min(level_end, expanded_ + batch_size);
+      if (!expand_batch(expanded_, end, jobs, expand)) return;
       expanded_ = end;
       if (expanded_ < level_end && !may_go_on()) return;
     }
@@ -95,27 +197,25 @@ void BreadthFirst::run(const std::vector<std::unique_ptr<Expander>>& expanders) 
 }
 
 /// False if the search ends. Then its successors are not inserted.
-bool BreadthFirst::expand_batch(StateStore::Number begin, StateStore::Number end,
-                                const std::vector<std::unique_ptr<Expander>>& expanders) {
+bool BreadthFirst::expand_batch(Number begin, Number end, std::size_t jobs, const Expand& expand) {
   const std::size_t parts = (end - begin + part_size - 1) / part_size;
   while (parts_.size() < parts) parts_.emplace_back(*this);
   std::atomic<std::size_t> next{0};
   std::atomic<bool> is_done{false};
-  run_in_threads(std::min(expanders.size(), parts), [&](std::size_t job) {
-    Expander& expander = *expanders[job];
+  run_in_threads(std::min(jobs, parts), [&](std::size_t job) {
     while (!is_done && !is_cut_) {
       const std::size_t part = next++;  // is expanded then, as those before it are
       if (part >= parts) break;
       Successors& successors = parts_[part];
-      const auto first = begin + static_cast<StateStore::Number>(part) * part_size;
-      const StateStore::Number last = std::min(end, first + part_size);
-      for (StateStore::Number number = first; number < last && !is_cut_ && !expander.is_done();
-           ++number) {
+      const Number first = begin + static_cast<Number>(part) * part_size;
+      const Number last = std::min(end, first + part_size);
+      bool goes_on = true;
+      for (Number number = first; number < last && !is_cut_ && goes_on; ++number) {
         successors.begin(number);
-        expander.expand(store_.state(number), number, successors);
+        goes_on = expand(job, number, successors);
         successors.end();
       }
-      if (expander.is_done()) {
+      if (!goes_on) {
         is_done = true;
       } else {
         look_at_limits();
@@ -152,12 +252,11 @@ void BreadthFirst::look_at_limits() {
 }
 
 bool BreadthFirst::may_go_on() {
-  const ExplorationLimits& limits = options_.limits;
   const auto end_by = [this](ExplorationEnd end) {
     end_ = end;
     return false;
   };
-  if (limits.max_states > 0 && store_.size() >= limits.max_states) {
+  if (limits_.max_states > 0 && store_.size() >= limits_.max_states) {
     return end_by(ExplorationEnd::max_states);
   }
   if (store_.size() >= StateStore::most_states - batch_size * 64) {
@@ -165,17 +264,18 @@ bool BreadthFirst::may_go_on() {
   }
   if (!has_memory()) return false;
   if (deadline_ > 0 && seconds_now() >= deadline_) return end_by(ExplorationEnd::time_limit);
-  if (!options_.on_progress) return true;
-  return options_.on_progress({store_.size(), transitions_, store_.size() - expanded_,
-                               static_cast<std::uint32_t>(level_begin_.size() - 1)}) ||
+  if (!on_progress_) return true;
+  return on_progress_({store_.size(), transitions_, store_.size() - expanded_,
+                       static_cast<std::uint32_t>(level_begin_.size() - 1)}) ||
          end_by(ExplorationEnd::stopped);
 }
 
 /// Whether the memory suffices for what is there, and as many new states as a batch usually finds.
 bool BreadthFirst::has_memory() {
-  const std::uint64_t most = options_.limits.max_memory;
+  const std::uint64_t most = limits_.max_memory;
   if (most == 0) return true;
-  const std::uint64_t room = std::max<std::uint64_t>(candidates_, std::uint64_t{batch_size} * 8);
+  const std::uint64_t room =
+      is_in_order_ ? 1 : std::max<std::uint64_t>(candidates_, std::uint64_t{batch_size} * 8);
   // An array that grows takes twice its size.
   const std::uint64_t of_candidate =
       2 * (sizeof(Successors::Candidate) + store_.words() * sizeof(std::uint32_t));
@@ -184,7 +284,7 @@ bool BreadthFirst::has_memory() {
   return false;
 }
 
-std::uint32_t BreadthFirst::depth_of(StateStore::Number number) const {
+std::uint32_t BreadthFirst::depth_of(Number number) const {
   const auto after = std::upper_bound(level_begin_.begin(), level_begin_.end(), number);
   return static_cast<std::uint32_t>(after - level_begin_.begin() - 1);
 }
@@ -201,15 +301,15 @@ std::vector<std::uint64_t> BreadthFirst::states_at_depth() const {
   std::vector<std::uint64_t> counts;
   for (std::size_t depth = 0; depth < level_begin_.size(); ++depth) {
     const bool is_last = depth + 1 == level_begin_.size();
-    const StateStore::Number end = is_last ? store_.size() : level_begin_[depth + 1];
+    const Number end = is_last ? store_.size() : level_begin_[depth + 1];
     if (is_last && !is_complete() && expanded_ < level_begin_[depth]) break;
     counts.push_back(end - level_begin_[depth]);
   }
   return counts;
 }
 
-std::vector<StateStore::Number> BreadthFirst::path_to(StateStore::Number number) const {
-  std::vector<StateStore::Number> path{number};
+std::vector<BreadthFirst::Number> BreadthFirst::path_to(Number number) const {
+  std::vector<Number> path{number};
   while (path.back() != 0) path.push_back(store_.parent(path.back()));
   std::reverse(path.begin(), path.end());
   return path;

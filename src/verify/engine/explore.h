@@ -1,70 +1,27 @@
 #pragma once
 
+#include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "cbc/event.h"
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "runtime/explain/reasons.h"
+#include "verify/engine/breadth_first.h"
+#include "verify/engine/model.h"
+#include "verify/engine/witness.h"
 
 namespace cbc {
 
-// The exploration of all reachable states of some groups (docs/verify.md, "States").
-
-/// One move. Moves are compared in the order of the kinds, then by `subject`, then by `choice` in
-/// the order in which priorities or values are listed.
-struct Move {
-  enum class Kind : std::uint8_t {
-    start,
-    stop,
-    success,           ///< finish with goal_achieved
-    failure,           ///< finish with process_failure
-    situation_change,  ///< finish with situation_change
-    fault,
-    repair,
-    variable,  ///< a situation variable gets another value
-    own,       ///< own(b) becomes the other of the two
-    due        ///< the first set of the queue comes due
-  };
-  Kind kind = Kind::due;
-  /// Place in the catalog of the task (start, stop), the behavior, or the variable; 0 if due.
-  std::uint32_t subject = 0;
-  /// Of start: the priority. Of variable: the value. Of own: whether the behavior is available now.
-  std::int32_t choice = 0;
-
-  bool operator==(const Move&) const = default;
-};
-
-/// Where an exploration ends although states are left. 0: no limit.
-struct ExplorationLimits {
-  std::uint64_t max_states = 0;
-  std::uint64_t max_memory = 0;  ///< bytes, of states, successors, tables and remembered decisions
-  double seconds = 0;
-};
-
-/// What ended an exploration before its end.
-enum class ExplorationEnd : std::uint8_t {
-  max_states,
-  max_memory,
-  time_limit,
-  too_many,  ///< there are no numbers left for states
-  stopped    ///< by on_progress
-};
-
-struct ExplorationProgress {
-  std::uint64_t states = 0;
-  std::uint64_t transitions = 0;
-  std::uint64_t waiting = 0;  ///< states that are not expanded yet
-  std::uint32_t depth = 0;
-};
+// What holds in all reachable states of some groups (docs/verify.md, "States").
 
 struct ExplorationOptions {
-  ExplorationLimits limits;
+  ExplorationLimits limits;  ///< of each exploration
   unsigned jobs = 1;
   /// Takes states for the same that differ only in the order of requests of equal priority that
   /// cannot interact (Model::interaction_classes). They have the same moves, to the same states in
@@ -73,7 +30,8 @@ struct ExplorationOptions {
   bool reduce = false;
   /// Called now and then, by one thread at a time; false ends the exploration as a limit does. May
   /// be empty.
-  std::function<bool(const ExplorationProgress&)> on_progress;
+  std::function<bool(const std::vector<std::uint32_t>& groups, const ExplorationProgress&)>
+      on_progress;
 };
 
 /// What was found out about one property.
@@ -127,5 +85,45 @@ struct Exploration {
                                   const Assumptions& assumptions,
                                   const std::vector<const Property*>& properties,
                                   const ExplorationOptions& options);
+
+/// What was found out about one property.
+struct Answer {
+  const Property* property = nullptr;
+  std::size_t exploration = 0;  ///< place in Verification::explorations
+  Verdict verdict;
+  std::optional<Witness> witness;  ///< of the verdict's script
+};
+
+/// What was found out about a catalog under the assumptions of one property file, or under the
+/// default ones.
+struct Verification {
+  const PropertyFile* file = nullptr;  ///< null: default assumptions, no properties
+  std::vector<Exploration> explorations;
+  std::vector<Answer> answers;  ///< in the order of the file
+
+  [[nodiscard]] bool is_complete() const;
+};
+
+/// Explores each group of the catalog by itself under the default assumptions.
+[[nodiscard]] Verification verify_groups(const CompiledCatalog& catalog,
+                                         const ExplorationOptions& options);
+
+/// Answers the properties of a file, those of one scope by the same exploration. Without properties
+/// each group is explored by itself under the assumptions of the file.
+[[nodiscard]] Verification verify_properties(const CompiledCatalog& catalog,
+                                             const PropertyFile& file,
+                                             const ExplorationOptions& options);
+
+/// What a property is about. Properties of one scope are answered by the same exploration.
+struct PropertyScope {
+  /// Ascending: those of its tasks and behaviors; if there are none, those whose behaviors name its
+  /// variables.
+  std::vector<std::uint32_t> groups;
+  /// The variables that it names, but no behavior of these groups does.
+  std::set<std::uint32_t> variables;
+
+  auto operator<=>(const PropertyScope&) const = default;
+};
+[[nodiscard]] PropertyScope scope_of(const CompiledCatalog& catalog, const Property& property);
 
 }  // namespace cbc

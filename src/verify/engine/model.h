@@ -12,7 +12,6 @@
 
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "verify/engine/explore.h"
 
 namespace cbc {
 
@@ -39,6 +38,30 @@ void for_each_bit(const Word* words, std::size_t count, Function&& function) {
     }
   }
 }
+
+/// One move. Moves are compared in the order of the kinds, then by `subject`, then by `choice` in
+/// the order in which priorities or values are listed.
+struct Move {
+  enum class Kind : std::uint8_t {
+    start,
+    stop,
+    success,           ///< finish with goal_achieved
+    failure,           ///< finish with process_failure
+    situation_change,  ///< finish with situation_change
+    fault,
+    repair,
+    variable,  ///< a situation variable gets another value
+    own,       ///< own(b) becomes the other of the two
+    due        ///< the first set of the queue comes due
+  };
+  Kind kind = Kind::due;
+  /// Place in the catalog of the task (start, stop), the behavior, or the variable; 0 if due.
+  std::uint32_t subject = 0;
+  /// Of start: the priority. Of variable: the value. Of own: whether the behavior is available now.
+  std::int32_t choice = 0;
+
+  bool operator==(const Move&) const = default;
+};
 
 /// A set of values, one after the other: of a task, of a group.
 struct BitRange {
@@ -174,6 +197,11 @@ class Model {
 
   /// The cells of the first state.
   [[nodiscard]] std::vector<std::uint16_t> first_state() const;
+  [[nodiscard]] std::vector<std::uint32_t> packed_first() const {
+    std::vector<std::uint32_t> packed(packed_words_);
+    pack(first_state().data(), packed.data());
+    return packed;
+  }
 
   /// Why no state can be explored, if so: `never` excludes the first one, or a number is too large
   /// for a cell. Then this model must not be used for anything else.

@@ -1,20 +1,26 @@
+// Whether two catalogs decide alike: no reachable state of their product has a move with two
+// answers (equivalence of sequential machines: Coudert, Berthet and Madre, "Verification of
+// synchronous sequential machines based on symbolic execution", 1989). To merge pairs whose states
+// are known to be alike (Hopcroft and Karp, 1971) would spare nothing: two catalogs that are alike
+// have about as many pairs as states. And comparing the answers of each decision, whether it can
+// come or not, would find differences that no event shows.
+
 #include "verify/engine/same_as.h"
 
 #include <algorithm>
-#include <atomic>
+#include <deque>
+#include <iterator>
 #include <map>
-#include <memory>
+#include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "core/script/names.h"
 #include "runtime/base/disjoint_sets.h"
 #include "runtime/base/text.h"
 #include "runtime/coordinator/record.h"
-#include "verify/engine/breadth_first.h"
-#include "verify/engine/model.h"
 #include "verify/engine/stepper.h"
 
 namespace cbc {
@@ -35,14 +41,13 @@ struct Translation {
       const auto found = to.find_behavior(from.name_of_behavior(behavior));
       behaviors.push_back(found ? to.behavior_ids[*found] : none);
     }
-    SituationNames names(to);
     for (std::uint32_t variable = 0; variable < from.variables.size(); ++variable) {
-      const auto found = names.find_variable(from.name_of_variable(variable));
+      const auto found = to.find_variable(from.name_of_variable(variable));
       variables.push_back(found.value_or(none));
       auto& of_variable = values.emplace_back(from.variables[variable].value_count, none);
       for (std::uint32_t value = 0; found && value < of_variable.size(); ++value) {
         of_variable[value] =
-            names.find_value(*found, from.name_of_value({variable, value})).value_or(none);
+            to.find_value(*found, from.name_of_value({variable, value})).value_or(none);
       }
     }
   }
@@ -211,29 +216,31 @@ struct ModelPair {
             const Assumptions& new_assumptions, const Translation& to_old,
             const Translation& to_new)
       : old_model(old_catalog, groups.old_groups, old_assumptions),
-        new_model(new_catalog, groups.new_groups, new_assumptions) {
+        new_model(new_catalog, groups.new_groups, new_assumptions),
+        to_new_(to_new) {
     add_moves(to_old);
-    const auto is_due = [](const Model::Choice& choice) {
-      return choice.move.kind == Move::Kind::due;
-    };
-    const auto& old_moves = old_model.moves();
-    if (new_model.reactive().empty() && !old_moves.empty() && is_due(old_moves.back())) {
-      moves.push_back({nullptr, &old_moves.back(), old_moves.back().move});
+    add_variables_of_old();
+    for (std::uint32_t task = 0; task < old_model.tasks().size(); ++task) {
+      const TaskId known = to_new.tasks[old_model.tasks()[task].id];
+      tasks.emplace_back(known != none ? new_model.find_task(known) : none, task);
     }
-    add_variables_of_old(to_new);
-    // What only one model has gets a number that nothing in the other has.
-    for (const auto& behavior : new_model.behaviors()) new_behaviors.push_back(behavior.id);
-    for (const auto& task : new_model.tasks()) new_tasks.push_back(task.id);
-    const auto behavior_count = static_cast<std::uint32_t>(new_catalog.behaviors.size());
-    const auto task_count = static_cast<std::uint32_t>(new_catalog.tasks.size());
-    for (const auto& behavior : old_model.behaviors()) {
-      const BehaviorId known = to_new.behaviors[behavior.id];
-      old_behaviors.push_back(known != none ? known : behavior_count + behavior.id);
+    for (std::uint32_t task = 0; task < new_model.tasks().size(); ++task) {
+      if (to_old.tasks[new_model.tasks()[task].id] == none) tasks.emplace_back(task, none);
     }
-    for (const auto& task : old_model.tasks()) {
-      const TaskId known = to_new.tasks[task.id];
-      old_tasks.push_back(known != none ? known : task_count + task.id);
-    }
+  }
+
+  [[nodiscard]] bool is_same_task(std::uint32_t of_new, std::uint32_t of_old) const {
+    return new_model.tasks()[of_new].id == to_new_.tasks[old_model.tasks()[of_old].id];
+  }
+  [[nodiscard]] bool is_same_behavior(std::uint32_t of_new, std::uint32_t of_old) const {
+    return new_model.behaviors()[of_new].id == to_new_.behaviors[old_model.behaviors()[of_old].id];
+  }
+  /// A task of the new model and the same of the old one; none: one of them does not have it.
+  using TaskPair = std::pair<std::uint32_t, std::uint32_t>;
+  /// Their numbers among the reactive tasks; none: it is not one of them.
+  [[nodiscard]] TaskPair reactive_of(const TaskPair& task) const {
+    return {task.first == none ? none : new_model.tasks()[task.first].reactive,
+            task.second == none ? none : old_model.tasks()[task.second].reactive};
   }
 
   Model old_model;
@@ -245,73 +252,67 @@ struct ModelPair {
     Move move;                              ///< as the new catalog counts
   };
   std::vector<PairedMove> moves;
-  // By number in the model: a number that is the same in both.
-  std::vector<std::uint32_t> new_tasks;
-  std::vector<std::uint32_t> old_tasks;
-  std::vector<std::uint32_t> new_behaviors;
-  std::vector<std::uint32_t> old_behaviors;
+  std::vector<TaskPair> tasks;
 
  private:
-  /// A move, with the id of its task, behavior or variable, and its priority or value, both as the
-  /// old catalog counts.
+  /// A move, with the id of its task, behavior or variable, and its priority or value.
   using Key = std::tuple<Move::Kind, std::uint32_t, std::int64_t>;
 
-  [[nodiscard]] Key key_of_old(const Model::Choice& choice) const {
-    switch (choice.move.kind) {
+  /// As the catalog of the model counts, or as the other one does.
+  [[nodiscard]] static Key key_of(const Model& model, const Model::Choice& choice,
+                                  const Translation* to_other) {
+    const Move::Kind kind = choice.move.kind;
+    const auto id_of = [&](std::uint32_t id, std::vector<std::uint32_t> Translation::*ids) {
+      return to_other == nullptr ? id : (to_other->*ids)[id];
+    };
+    switch (kind) {
       case Move::Kind::due:
-        return {choice.move.kind, 0, 0};
+        return {kind, 0, 0};
       case Move::Kind::start:
       case Move::Kind::stop:
-        return {choice.move.kind, old_model.tasks()[choice.subject].id, choice.move.choice};
-      case Move::Kind::variable:
-        return {choice.move.kind, old_model.variables()[choice.subject].id, choice.choice};
-      default:
-        return {choice.move.kind, old_model.behaviors()[choice.subject].id, 0};
-    }
-  }
-  [[nodiscard]] Key key_of_new(const Model::Choice& choice, const Translation& to_old) const {
-    switch (choice.move.kind) {
-      case Move::Kind::due:
-        return {choice.move.kind, 0, 0};
-      case Move::Kind::start:
-      case Move::Kind::stop:
-        return {choice.move.kind, to_old.tasks[new_model.tasks()[choice.subject].id],
+        return {kind, id_of(model.tasks()[choice.subject].id, &Translation::tasks),
                 choice.move.choice};
       case Move::Kind::variable: {
-        const std::uint32_t variable = new_model.variables()[choice.subject].id;
-        return {choice.move.kind, to_old.variables[variable],
-                to_old.values[variable][choice.choice]};
+        const std::uint32_t variable = model.variables()[choice.subject].id;
+        return {kind, id_of(variable, &Translation::variables),
+                to_other == nullptr ? choice.choice : to_other->values[variable][choice.choice]};
       }
       default:
-        return {choice.move.kind, to_old.behaviors[new_model.behaviors()[choice.subject].id], 0};
+        return {kind, id_of(model.behaviors()[choice.subject].id, &Translation::behaviors), 0};
     }
   }
 
   /// Adds the moves of the new model together with those of the old one.
   void add_moves(const Translation& to_old) {
     std::map<Key, const Model::Choice*> of_old;
-    for (const Model::Choice& choice : old_model.moves()) of_old[key_of_old(choice)] = &choice;
+    for (const Model::Choice& choice : old_model.moves()) {
+      of_old[key_of(old_model, choice, nullptr)] = &choice;
+    }
     for (const Model::Choice& choice : new_model.moves()) {
-      const auto found = of_old.find(key_of_new(choice, to_old));
-      if (found != of_old.end()) {
-        moves.push_back({&choice, found->second, choice.move});
-      } else if (choice.move.kind == Move::Kind::due || is_of_one(choice, to_old)) {
-        moves.push_back({&choice, nullptr, choice.move});
+      const Key key = key_of(new_model, choice, &to_old);
+      const auto found = of_old.find(key);
+      const bool is_in_both = found != of_old.end();
+      // The old catalog may have a variable and its value, although no behavior of its groups names
+      // it.
+      const bool is_known = choice.move.kind == Move::Kind::variable && std::get<1>(key) != none &&
+                            std::get<2>(key) != none;
+      if (is_in_both || is_known || choice.move.kind == Move::Kind::due) {
+        moves.push_back({&choice, is_in_both ? found->second : nullptr, choice.move});
       }
+    }
+    if (new_model.reactive().empty() && !old_model.reactive().empty()) {
+      moves.push_back({nullptr, &old_model.moves().back(), old_model.moves().back().move});
     }
   }
 
   /// Adds the changes of variables that both catalogs have and only behaviors of the old groups
   /// name.
-  void add_variables_of_old(const Translation& to_new) {
+  void add_variables_of_old() {
     for (const Model::Choice& choice : old_model.moves()) {
       if (choice.move.kind != Move::Kind::variable) continue;
-      const std::uint32_t old_variable = old_model.variables()[choice.subject].id;
-      const std::uint32_t variable = to_new.variables[old_variable];
-      const std::uint32_t value = to_new.values[old_variable][choice.choice];
+      const auto [kind, variable, value] = key_of(old_model, choice, &to_new_);
       if (variable == none || value == none || new_model.find_variable(variable) != none) continue;
-      moves.push_back(
-          {nullptr, &choice, {Move::Kind::variable, variable, static_cast<std::int32_t>(value)}});
+      moves.push_back({nullptr, &choice, {kind, variable, static_cast<std::int32_t>(value)}});
     }
     // Those of the new groups are in order, and so are moves of one kind that is no change.
     std::stable_sort(moves.begin(), moves.end(), [](const PairedMove& a, const PairedMove& b) {
@@ -321,58 +322,20 @@ struct ModelPair {
     });
   }
 
-  /// Whether both catalogs have the variable and its value, but only the behaviors of the new
-  /// groups name it.
-  [[nodiscard]] bool is_of_one(const Model::Choice& choice, const Translation& to_old) const {
-    if (choice.move.kind != Move::Kind::variable) return false;
-    const std::uint32_t variable = new_model.variables()[choice.subject].id;
-    return to_old.variables[variable] != none && to_old.values[variable][choice.choice] != none;
-  }
+  const Translation& to_new_;
 };
-
-/// The queue in numbers that are the same in both: reactive tasks with their sets, counted anew.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> queue_of(
-    const Model& model, const std::vector<std::uint32_t>& tasks,
-    const std::vector<std::uint16_t>& sets) {
-  std::vector<std::uint16_t> order;
-  for (const std::uint16_t set : sets) {
-    if (set != 0) order.push_back(set);
-  }
-  std::sort(order.begin(), order.end());
-  order.erase(std::unique(order.begin(), order.end()), order.end());
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> queue;
-  for (std::uint32_t reactive = 0; reactive < sets.size(); ++reactive) {
-    if (sets[reactive] == 0) continue;
-    const auto place = std::lower_bound(order.begin(), order.end(), sets[reactive]);
-    queue.emplace_back(tasks[model.reactive()[reactive]],
-                       static_cast<std::uint32_t>(place - order.begin()));
-  }
-  std::sort(queue.begin(), queue.end());
-  return queue;
-}
-
-std::vector<std::uint32_t> waiting_of(const Model& model, const std::vector<std::uint32_t>& tasks,
-                                      const std::vector<std::uint16_t>& waits) {
-  std::vector<std::uint32_t> waiting;
-  for (std::uint32_t reactive = 0; reactive < waits.size(); ++reactive) {
-    if (waits[reactive] != 0) waiting.push_back(tasks[model.reactive()[reactive]]);
-  }
-  std::sort(waiting.begin(), waiting.end());
-  return waiting;
-}
 
 /// Takes pairs of states from one move to the next. A packed pair is the state of the new catalog,
 /// then that of the old one.
 class PairStepper {
  public:
   PairStepper(const ModelPair& models, bool reduce)
-      : old_(models.old_model, {.reduce = reduce}),
+      : moves_(models.moves),
+        old_(models.old_model, {.reduce = reduce}),
         new_(models.new_model, {.reduce = reduce}),
-        new_words_(models.new_model.packed_words()) {}
-
-  void set_traces(MoveTrace& of_new, MoveTrace& of_old) {
-    new_.set_trace(&of_new);
-    old_.set_trace(&of_old);
+        new_words_(models.new_model.packed_words()) {
+    old_.set_trace(&old_trace_);
+    new_.set_trace(&new_trace_);
   }
   void load(const std::uint32_t* state) {
     new_.load(state);
@@ -380,17 +343,27 @@ class PairStepper {
   }
   /// Makes a move in both; one that does not know it stays as it is. False: neither state has the
   /// move, or it leads into an excluded situation.
-  bool take(const ModelPair::PairedMove& move) {
+  bool try_move(const ModelPair::PairedMove& move) {
     const bool is_new = move.of_new != nullptr && new_.has_move(*move.of_new);
     const bool is_old = move.of_old != nullptr && old_.has_move(*move.of_old);
     if (!is_new && !is_old) return false;
+    old_trace_.events.clear();
+    new_trace_.events.clear();
     const bool is_situation = move.move.kind == Move::Kind::variable;
     return take(new_, move.of_new, is_situation) && take(old_, move.of_old, is_situation);
   }
+  [[nodiscard]] const std::vector<ModelPair::PairedMove>& choices() const { return moves_; }
   /// Writes the states after the move.
   void pack(std::uint32_t* packed) const {
     new_.pack(packed);
     old_.pack(packed + new_words_);
+  }
+  /// The events of the move.
+  [[nodiscard]] const std::vector<MoveTrace::Happening>& old_events() const {
+    return old_trace_.events;
+  }
+  [[nodiscard]] const std::vector<MoveTrace::Happening>& new_events() const {
+    return new_trace_.events;
   }
   /// The move in the loaded states, as the new catalog counts.
   [[nodiscard]] Move move_of(const ModelPair::PairedMove& move) const {
@@ -404,174 +377,141 @@ class PairStepper {
     return true;
   }
 
+  const std::vector<ModelPair::PairedMove>& moves_;
   Stepper old_;
   Stepper new_;
   const std::size_t new_words_;
+  MoveTrace old_trace_;
+  MoveTrace new_trace_;
 };
 
-class PairExpander final : public Expander {
+/// Looks for the first move that is decided differently.
+class DifferenceVisitor {
  public:
-  PairExpander(const ModelPair& models, ComparisonScope::Differences differences, bool reduce)
-      : models_(models), differences_(differences), stepper_(models, reduce) {
-    stepper_.set_traces(new_trace_, old_trace_);
-  }
+  DifferenceVisitor(const ModelPair& models, ComparisonScope::Differences differences, bool reduce)
+      : models_(models),
+        differences_(differences),
+        stepper_(models, reduce),
+        new_cells_(models.new_model.layout().cells),
+        old_cells_(models.old_model.layout().cells) {}
 
-  void expand(const std::uint32_t* state, Number number, Successors& successors) override {
-    const std::size_t new_words = models_.new_model.packed_words();
-    stepper_.load(state);
-    for (const ModelPair::PairedMove& move : models_.moves) {
-      if (!successors.may_go_on()) return;
-      new_trace_.events.clear();
-      old_trace_.events.clear();
-      if (!stepper_.take(move)) continue;
-      std::uint32_t* const packed = successors.add();
-      stepper_.pack(packed);
-      if (differ(packed, packed + new_words)) {
-        first_difference_ = number;
-        difference_ = stepper_.move_of(move);
-        return;  // it ends the search
-      }
-    }
-  }
+  [[nodiscard]] PairStepper& system() { return stepper_; }
+  [[nodiscard]] bool is_done() const { return first_difference_ != UINT32_MAX; }
+  void visit(Number /*number*/, Successors& /*successors*/) {}
 
-  [[nodiscard]] bool is_done() const override { return first_difference_ != UINT32_MAX; }
+  void on_move(Number number, const ModelPair::PairedMove& move, const std::uint32_t* successor) {
+    if (is_decided_alike(successor)) return;
+    first_difference_ = number;
+    difference_ = stepper_.move_of(move);
+  }
 
   /// The first state with a move that is decided differently, and that move; UINT32_MAX: none.
   [[nodiscard]] Number first_difference() const { return first_difference_; }
   [[nodiscard]] const Move& difference() const { return difference_; }
 
  private:
-  [[nodiscard]] bool differ(const std::uint32_t* new_packed, const std::uint32_t* old_packed) {
+  [[nodiscard]] bool is_decided_alike(const std::uint32_t* successor) {
+    models_.new_model.unpack(successor, new_cells_.data());
+    models_.old_model.unpack(successor + models_.new_model.packed_words(), old_cells_.data());
+    const std::vector<MoveTrace::Happening>& ours = stepper_.new_events();
+    const std::vector<MoveTrace::Happening>& theirs = stepper_.old_events();
     if (differences_ == ComparisonScope::Differences::expectable) {
-      return outcome_of(new_trace_) != outcome_of(old_trace_) ||
-             running_in(models_.new_model, models_.new_tasks, models_.new_behaviors,
-                        cells_of(models_.new_model, new_packed)) !=
-                 running_in(models_.old_model, models_.old_tasks, models_.old_behaviors,
-                            cells_of(models_.old_model, old_packed));
+      return outcome_of(ours) == outcome_of(theirs) && run_alike();
     }
-    if (new_trace_.events.size() != old_trace_.events.size()) return true;
-    for (std::size_t place = 0; place < new_trace_.events.size(); ++place) {
-      if (differ(new_trace_.events[place], old_trace_.events[place])) return true;
-    }
-    return describe(models_.new_model, models_.new_tasks, models_.new_behaviors, new_packed) !=
-           describe(models_.old_model, models_.old_tasks, models_.old_behaviors, old_packed);
+    return std::equal(ours.begin(), ours.end(), theirs.begin(), theirs.end(),
+                      [&](const auto& a, const auto& b) { return are_alike(a, b); }) &&
+           run_alike() &&
+           wait_alike(part_of(models_.new_model, new_cells_, models_.new_model.layout().queue),
+                      part_of(models_.old_model, old_cells_, models_.old_model.layout().queue),
+                      part_of(models_.new_model, new_cells_, models_.new_model.layout().waiting),
+                      part_of(models_.old_model, old_cells_, models_.old_model.layout().waiting));
   }
 
   /// That of the event of the script, if it is one that an expectation knows.
-  [[nodiscard]] static std::optional<Outcome> outcome_of(const MoveTrace& trace) {
-    if (trace.events.empty()) return std::nullopt;
-    const MoveTrace::Happening& first = trace.events.front();
-    if (first.origin != Origin::script || !form_of(first.verb).is_decided) return std::nullopt;
-    return first.outcome;
+  [[nodiscard]] static std::optional<Outcome> outcome_of(
+      const std::vector<MoveTrace::Happening>& events) {
+    const bool is_known = !events.empty() && events.front().origin == Origin::script &&
+                          form_of(events.front().verb).is_decided;
+    return is_known ? std::optional(events.front().outcome) : std::nullopt;
   }
 
-  [[nodiscard]] bool differ(const MoveTrace::Happening& ours,
-                            const MoveTrace::Happening& theirs) const {
+  [[nodiscard]] bool are_alike(const MoveTrace::Happening& ours,
+                               const MoveTrace::Happening& theirs) const {
     if (ours.verb != theirs.verb || ours.origin != theirs.origin ||
-        ours.outcome != theirs.outcome || ours.changes.size() != theirs.changes.size() ||
-        ours.stopped.size() != theirs.stopped.size()) {
-      return true;
+        ours.outcome != theirs.outcome) {
+      return false;
     }
-    if (ours.verb != Verb::situation) {
-      const bool is_finish = ours.verb == Verb::finish;
-      const auto& new_subjects = is_finish ? models_.new_behaviors : models_.new_tasks;
-      const auto& old_subjects = is_finish ? models_.old_behaviors : models_.old_tasks;
-      if (new_subjects[ours.subject] != old_subjects[theirs.subject]) return true;
+    if (ours.verb == Verb::finish
+            ? !models_.is_same_behavior(ours.subject, theirs.subject)
+            : ours.verb != Verb::situation && !models_.is_same_task(ours.subject, theirs.subject)) {
+      return false;
     }
-    for (std::size_t place = 0; place < ours.changes.size(); ++place) {
-      const MoveTrace::Change& mine = ours.changes[place];
-      const MoveTrace::Change& other = theirs.changes[place];
-      if (mine.is_activation != other.is_activation || mine.success != other.success ||
-          models_.new_behaviors[mine.behavior] != models_.old_behaviors[other.behavior]) {
-        return true;
-      }
-    }
-    const auto stopped = [](const MoveTrace::Happening& event,
-                            const std::vector<std::uint32_t>& tasks) {
-      std::vector<std::pair<std::uint32_t, FinishCause>> result;
-      for (const auto& [task, cause] : event.stopped) result.emplace_back(tasks[task], cause);
-      std::sort(result.begin(), result.end());
-      return result;
+    const auto is_same_change = [&](const MoveTrace::Change& a, const MoveTrace::Change& b) {
+      return a.is_activation == b.is_activation && a.success == b.success &&
+             models_.is_same_behavior(a.behavior, b.behavior);
     };
-    return stopped(ours, models_.new_tasks) != stopped(theirs, models_.old_tasks) ||
-           queue_of(models_.new_model, models_.new_tasks, ours.queue) !=
-               queue_of(models_.old_model, models_.old_tasks, theirs.queue) ||
-           waiting_of(models_.new_model, models_.new_tasks, ours.waiting) !=
-               waiting_of(models_.old_model, models_.old_tasks, theirs.waiting);
-  }
-
-  using Running = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-
-  [[nodiscard]] static Running running_in(const Model& model,
-                                          const std::vector<std::uint32_t>& tasks,
-                                          const std::vector<std::uint32_t>& behaviors,
-                                          const std::vector<std::uint16_t>& cells) {
-    Running running;
-    for (std::uint32_t task = 0; task < tasks.size(); ++task) {
-      if (cells[task] == 0) continue;
-      const std::uint32_t value = model.tasks()[task].values.begin + cells[task] - 1U;
-      running.emplace_back(tasks[task], behaviors[model.behavior_of(value)]);
-    }
-    std::sort(running.begin(), running.end());
-    return running;
-  }
-
-  [[nodiscard]] static std::vector<std::uint16_t> cells_of(const Model& model,
-                                                           const std::uint32_t* packed) {
-    std::vector<std::uint16_t> cells(model.layout().cells);
-    model.unpack(packed, cells.data());
-    return cells;
-  }
-
-  struct Shown {
-    Running running;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> queue;
-    std::vector<std::uint32_t> waiting;
-
-    bool operator==(const Shown&) const = default;
-  };
-  [[nodiscard]] static Shown describe(const Model& model, const std::vector<std::uint32_t>& tasks,
-                                      const std::vector<std::uint32_t>& behaviors,
-                                      const std::uint32_t* packed) {
-    const std::vector<std::uint16_t> cells = cells_of(model, packed);
-    const auto part = [&](std::uint32_t begin) {
-      return std::vector<std::uint16_t>(cells.begin() + begin,
-                                        cells.begin() + begin + model.layout().reactive_count);
+    const auto is_same_stop = [&](const auto& a, const auto& b) {
+      return models_.is_same_task(a.first, b.first) && a.second == b.second;
     };
-    return {running_in(model, tasks, behaviors, cells),
-            queue_of(model, tasks, part(model.layout().queue)),
-            waiting_of(model, tasks, part(model.layout().waiting))};
+    return std::equal(ours.changes.begin(), ours.changes.end(), theirs.changes.begin(),
+                      theirs.changes.end(), is_same_change) &&
+           std::is_permutation(ours.stopped.begin(), ours.stopped.end(), theirs.stopped.begin(),
+                               theirs.stopped.end(), is_same_stop) &&
+           wait_alike(ours.queue, theirs.queue, ours.waiting, theirs.waiting);
+  }
+
+  /// Whether the same tasks run with the same behaviors.
+  [[nodiscard]] bool run_alike() const {
+    const auto behavior_in = [](const Model& model, const std::vector<std::uint16_t>& cells,
+                                std::uint32_t task) {
+      if (task == none || cells[task] == 0) return none;
+      return model.behavior_of(model.tasks()[task].values.begin + cells[task] - 1U);
+    };
+    return std::all_of(models_.tasks.begin(), models_.tasks.end(), [&](const auto& task) {
+      const std::uint32_t ours = behavior_in(models_.new_model, new_cells_, task.first);
+      const std::uint32_t theirs = behavior_in(models_.old_model, old_cells_, task.second);
+      return ours == none || theirs == none ? ours == theirs
+                                            : models_.is_same_behavior(ours, theirs);
+    });
+  }
+
+  using Part = std::span<const std::uint16_t>;
+  [[nodiscard]] static Part part_of(const Model& model, const std::vector<std::uint16_t>& cells,
+                                    std::uint32_t begin) {
+    return Part(cells).subspan(begin, model.layout().reactive_count);
+  }
+
+  /// Whether the same reactive tasks are in the queue, in the same order, and the same ones wait.
+  [[nodiscard]] bool wait_alike(Part new_queue, Part old_queue, Part new_waiting,
+                                Part old_waiting) const {
+    const auto entry = [](Part part, std::uint32_t reactive) {
+      return reactive == none ? std::uint16_t{0} : part[reactive];
+    };
+    // Sets that correspond have the same order, but not always the same numbers.
+    const auto rank = [](Part queue, std::uint16_t set) {
+      std::set<std::uint16_t> before;
+      std::copy_if(queue.begin(), queue.end(), std::inserter(before, before.end()),
+                   [&](std::uint16_t other) { return other < set && other != 0; });
+      return before.size();
+    };
+    return std::all_of(models_.tasks.begin(), models_.tasks.end(), [&](const auto& task) {
+      const auto [ours, theirs] = models_.reactive_of(task);
+      const std::uint16_t our_set = entry(new_queue, ours);
+      const std::uint16_t their_set = entry(old_queue, theirs);
+      return (entry(new_waiting, ours) != 0) == (entry(old_waiting, theirs) != 0) &&
+             (our_set != 0) == (their_set != 0) &&
+             (our_set == their_set || rank(new_queue, our_set) == rank(old_queue, their_set));
+    });
   }
 
   const ModelPair& models_;
   const ComparisonScope::Differences differences_;
   PairStepper stepper_;
-  MoveTrace old_trace_;
-  MoveTrace new_trace_;
+  std::vector<std::uint16_t> new_cells_;  ///< after the move
+  std::vector<std::uint16_t> old_cells_;  ///< the same
   Number first_difference_ = UINT32_MAX;
   Move difference_;
 };
-
-/// The moves along a path of pairs, as the new catalog names them.
-std::vector<Move> moves_along(const ModelPair& models, const BreadthFirst& search, Number number,
-                              bool reduce) {
-  PairStepper stepper(models, reduce);
-  std::vector<std::uint32_t> packed(search.store().words());
-  const std::vector<Number> path = search.path_to(number);
-  std::vector<Move> moves;
-  for (std::size_t place = 1; place < path.size(); ++place) {
-    const std::uint32_t* const to = search.store().state(path[place]);
-    stepper.load(search.store().state(path[place - 1]));
-    for (const ModelPair::PairedMove& move : models.moves) {
-      if (!stepper.take(move)) continue;
-      stepper.pack(packed.data());
-      if (!std::equal(packed.begin(), packed.end(), to)) continue;
-      moves.push_back(stepper.move_of(move));
-      break;
-    }
-  }
-  return moves;
-}
 
 /// Whether one path comes before another: the shorter one, then the first in the order of moves.
 /// The paths are about different groups, so only variables can be in both.
@@ -608,7 +548,7 @@ Assumptions common_assumptions(const CompiledCatalog& old_catalog,
 CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
                                    const CompiledCatalog& new_catalog,
                                    const Assumptions& assumptions,
-                                   const VerificationOptions& options,
+                                   const ExplorationOptions& options,
                                    const ComparisonScope& scope) {
   CatalogComparison result;
   const Translation to_old(new_catalog, old_catalog);
@@ -632,45 +572,31 @@ CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
     result.error = models.new_model.find_obstacle();
     if (!result.error) result.error = models.old_model.find_obstacle();
     if (result.error) return result;
-    const std::vector<std::uint16_t> new_first = models.new_model.first_state();
-    const std::vector<std::uint16_t> old_first = models.old_model.first_state();
-    const std::size_t new_words = models.new_model.packed_words();
-    std::vector<std::uint32_t> first(new_words + models.old_model.packed_words());
-    models.new_model.pack(new_first.data(), first.data());
-    models.old_model.pack(old_first.data(), first.data() + new_words);
-
-    std::vector<std::unique_ptr<Expander>> expanders;
-    std::vector<const PairExpander*> of_pairs;
-    ExplorationOptions exploration;
-    exploration.limits = options.limits;
-    exploration.jobs = options.jobs;
-    if (options.on_progress) {
-      exploration.on_progress = [&](const ExplorationProgress& progress) {
-        return options.on_progress(groups.new_groups, progress);
-      };
+    std::vector<std::uint32_t> first = models.new_model.packed_first();
+    const std::vector<std::uint32_t> old_first = models.old_model.packed_first();
+    first.insert(first.end(), old_first.begin(), old_first.end());
+    BreadthFirst search(first, options.limits, [&](const ExplorationProgress& progress) {
+      return !options.on_progress || options.on_progress(groups.new_groups, progress);
+    });
+    std::deque<DifferenceVisitor> visitors;
+    while (visitors.size() < std::max(1U, options.jobs)) {
+      visitors.emplace_back(models, scope.differences, options.reduce);
     }
-    for (unsigned job = 0; job < std::max(1U, options.jobs); ++job) {
-      auto expander = std::make_unique<PairExpander>(models, scope.differences, options.reduce);
-      of_pairs.push_back(expander.get());
-      expanders.push_back(std::move(expander));
-    }
-    BreadthFirst search(first, exploration);
-    search.run(expanders);
+    search.run(visitors);
     if (!search.is_complete() && !result.end) result.end = search.end();
     result.states += search.store().size();
     result.transitions += search.transitions();
     result.depth = std::max(result.depth, search.expanded_depth());
 
-    const PairExpander* const found = *std::min_element(
-        of_pairs.begin(), of_pairs.end(), [](const PairExpander* a, const PairExpander* b) {
-          return a->first_difference() < b->first_difference();
+    DifferenceVisitor& found = *std::min_element(
+        visitors.begin(), visitors.end(), [](const DifferenceVisitor& a, const auto& b) {
+          return a.first_difference() < b.first_difference();
         });
-    if (found->first_difference() == UINT32_MAX) continue;
+    if (!found.is_done()) continue;
     // There may be one before it, in a state that was not expanded.
-    if (search.was_cut_short() && found->first_difference() > search.expanded()) continue;
-    std::vector<Move> moves =
-        moves_along(models, search, found->first_difference(), options.reduce);
-    moves.push_back(found->difference());
+    if (search.was_cut_short() && found.first_difference() > search.expanded()) continue;
+    std::vector<Move> moves = search.moves_to(found.system(), found.first_difference());
+    moves.push_back(found.difference());
     if (result.result == Verdict::Result::violated && !comes_first(moves, result.moves)) continue;
     result.result = Verdict::Result::violated;
     result.moves = std::move(moves);

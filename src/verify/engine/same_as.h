@@ -8,8 +8,6 @@
 #include "core/property/properties.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/explore.h"
-#include "verify/engine/verification.h"
-#include "verify/engine/witness.h"
 
 namespace cbc {
 
@@ -61,7 +59,7 @@ struct ComparisonScope {
 [[nodiscard]] CatalogComparison compare_catalogs(const CompiledCatalog& old_catalog,
                                                  const CompiledCatalog& new_catalog,
                                                  const Assumptions& assumptions,
-                                                 const VerificationOptions& options,
+                                                 const ExplorationOptions& options,
                                                  const ComparisonScope& scope = {});
 
 }  // namespace cbc

@@ -52,6 +52,10 @@ class Stepper {
   /// Makes a move from the state that load took up. False: the move leads into an excluded
   /// situation and does not exist. Of start: was_accepted() tells the outcome.
   bool take(const Model::Choice& choice);
+  /// The same if the state has the move; otherwise false, too.
+  bool try_move(const Model::Choice& choice) { return has_move(choice) && take(choice); }
+  /// All moves that some state may have, in order.
+  [[nodiscard]] const std::vector<Model::Choice>& choices() const { return model_.moves(); }
   /// The move that a choice stands for in the loaded state.
   [[nodiscard]] Move move_of(const Model::Choice& choice) const {
     Move move = choice.move;

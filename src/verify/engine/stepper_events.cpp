@@ -8,24 +8,25 @@ namespace cbc {
 
 namespace {
 
-void clear_range(Word* words, BitRange range) {
+/// Calls `function` for each word of the range, with its bits in the range.
+template <typename Function>
+void for_each_word(BitRange range, Function&& function) {
   for (std::uint32_t bit = range.begin; bit < range.end;) {
     const std::uint32_t end = std::min(range.end, (bit / 64 + 1) * 64);
     const Word mask = end - bit == 64 ? ~Word{0} : ((Word{1} << (end - bit)) - 1);
-    words[bit / 64] &= ~(mask << (bit % 64));
+    function(bit / 64, mask << (bit % 64));
     bit = end;
   }
+}
+
+void clear_range(Word* words, BitRange range) {
+  for_each_word(range, [&](std::uint32_t word, Word mask) { words[word] &= ~mask; });
 }
 
 /// Copies the bits of the range, and none else.
 void copy_range(const Word* from, std::vector<Word>& to, BitRange range) {
   std::fill(to.begin(), to.end(), 0);
-  for (std::uint32_t bit = range.begin; bit < range.end;) {
-    const std::uint32_t end = std::min(range.end, (bit / 64 + 1) * 64);
-    const Word mask = end - bit == 64 ? ~Word{0} : ((Word{1} << (end - bit)) - 1);
-    to[bit / 64] |= from[bit / 64] & (mask << (bit % 64));
-    bit = end;
-  }
+  for_each_word(range, [&](std::uint32_t word, Word mask) { to[word] |= from[word] & mask; });
 }
 
 }  // namespace

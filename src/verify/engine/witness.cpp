@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/script/writer.h"
+#include "core/script/script.h"
 #include "runtime/base/text.h"
 #include "verify/engine/model.h"
 #include "verify/engine/stepper.h"
@@ -35,8 +35,7 @@ Timeline follow(const Model& model, const std::vector<const Model::Choice*>& pat
   timeline.is_due.push_back(false);
   const Model::Layout& layout = model.layout();
   std::vector<std::size_t> joined(layout.reactive_count, beginning);
-  std::vector<std::uint32_t> packed(model.packed_words());
-  model.pack(model.first_state().data(), packed.data());
+  std::vector<std::uint32_t> packed = model.packed_first();
   const auto add_point = [&](bool is_due) {
     timeline.is_due.push_back(is_due);
     auto& first = timeline.first_joined.emplace_back();
@@ -184,6 +183,16 @@ Situation situation_of(const CompiledCatalog& catalog, const SituationPart& part
   return situation;
 }
 
+/// Without steps.
+Script begin_script(const CompiledCatalog& catalog, const Assumptions& assumptions,
+                    const Schedule& schedule) {
+  Script script;
+  script.timeouts = false;
+  script.reactive_delay = schedule.delay;
+  script.situation = situation_of(catalog, assumptions.initially);
+  return script;
+}
+
 }  // namespace
 
 Step step_of(const Move& move) {
@@ -245,9 +254,7 @@ Witness make_witness(const CompiledCatalog& catalog, const std::vector<std::uint
 
   Witness witness;
   Script& script = witness.script;
-  script.timeouts = false;
-  script.reactive_delay = schedule.delay;
-  script.situation = situation_of(catalog, assumptions.initially);
+  script = begin_script(catalog, assumptions, schedule);
   std::vector<std::string> comments;
   std::string due;
   for (std::size_t place = 0; place < moves.size(); ++place) {
@@ -275,10 +282,7 @@ Script make_script(const CompiledCatalog& catalog, const std::vector<std::uint32
   Stepper stepper(model);
   const Schedule schedule =
       find_schedule(follow(model, find_choices(model, moves), stepper), pause);
-  Script script;
-  script.timeouts = false;
-  script.reactive_delay = schedule.delay;
-  script.situation = situation_of(catalog, assumptions.initially);
+  Script script = begin_script(catalog, assumptions, schedule);
   for (std::size_t place = 0; place < moves.size(); ++place) {
     Step& step = script.steps.emplace_back(step_of(moves[place]));
     const bool is_due = moves[place].kind == Move::Kind::due;

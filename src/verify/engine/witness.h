@@ -6,7 +6,7 @@
 #include "core/property/properties.h"
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
-#include "verify/engine/explore.h"
+#include "verify/engine/model.h"
 
 namespace cbc {
 

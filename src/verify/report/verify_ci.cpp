@@ -1,115 +1,71 @@
-#include <algorithm>
-#include <cstddef>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "core/report/github.h"
-#include "core/report/junit_parts.h"
-#include "runtime/base/text.h"
+#include "core/report/property_words.h"
+#include "core/report/test_report.h"
+#include "core/support/wording.h"
 #include "verify/report/verify_report.h"
 
 namespace cbc {
 namespace {
 
-constexpr std::string_view verify_command = "cbc verify";
+constexpr std::string_view command = "cbc verify";
 
-std::string file_of(const VerifyPart& part) { return part.file->path; }
-
-std::size_t count(const VerifyPart& part, Verdict::Result result) {
-  return static_cast<std::size_t>(std::count_if(
-      part.answers.begin(), part.answers.end(),
-      [&](const ReportedAnswer& reported) { return reported.answer->verdict.result == result; }));
-}
-
-/// With line ends that are easier to read than those of xml_text.
-std::string xml_lines(std::string_view text) {
-  std::string escaped;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    escaped += xml_text(text.substr(begin, end - begin)) + "\n";
-    begin = end + 1;
-  }
-  return escaped;
-}
-
-std::string test_case(const VerifyResult& result, const VerifyPart& part,
-                      const ReportedAnswer& reported) {
+TestCase case_of(const VerifyResult& result, const VerifyPart& part,
+                 const ReportedAnswer& reported) {
   const Answer& answer = *reported.answer;
-  const std::string name = fmt::format("line {}: {}", answer.property->line,
-                                       title_of(*result.catalog, *answer.property));
-  if (answer.verdict.result == Verdict::Result::proved) {
-    return fmt::format("<testcase name=\"{}\" classname=\"{}\"/>\n", xml_text(name),
-                       xml_text(file_of(part)));
-  }
+  const Property& property = *answer.property;
+  const std::string title = title_of(*result.catalog, property);
+  TestCase test{fmt::format("line {}: {}", property.line, title)};
+  if (answer.verdict.result == Verdict::Result::proved) return test;
   const bool is_violated = answer.verdict.result == Verdict::Result::violated;
-  std::string details = xml_text(describe(*result.catalog, *answer.property)) + "\n";
+  test.status = is_violated ? TestCase::Status::failed : TestCase::Status::error;
+  test.type = is_violated ? "property" : "limit";
+  test.message = describe_answer(result, part, answer);
+  const std::string statement = describe_property(*result.catalog, property) + "\n";
+  test.details = statement;
+  std::string message = title + "\n";
+  if (!property.name.empty()) message += statement;
+  message += test.message;
   if (reported.replay) {
-    for (const std::string& line : reported.replay->story) details += xml_text(line) + "\n";
-    details += "\n" + xml_lines(answer.witness->text);
+    const std::string reasons = join(reported.replay->explanation, "\n");
+    test.details += reasons + "\n\n" + answer.witness->text;
+    message += "\n" + reasons;
   }
-  return broken_case(
-      name, file_of(part),
-      junit_problem(is_violated ? "failure" : "error", is_violated ? "property" : "limit",
-                    describe_answer(result, part, answer), details));
+  test.annotations.push_back({Severity::error, place_of_line(property.line),
+                              fmt::format("cbc property {}", name_of(answer.verdict.result)),
+                              message});
+  return test;
+}
+
+template <const TestFormat& format>
+std::string write_tests(const VerifyResult& result, const Style& /*style*/) {
+  std::vector<TestSuite> suites;
+  for (const VerifyPart& part : result.parts) {
+    suites.push_back({part.file->path, std::string(result.catalog->file)});
+    for (const ReportedAnswer& answer : part.answers) {
+      suites.back().cases.push_back(case_of(result, part, answer));
+    }
+  }
+  return tests_to_text(format, command, suites);
+}
+
+template <const TestFormat& format>
+std::string write_unreadable(const std::vector<Diagnostic>& findings) {
+  return unreadable_to_text(format, command, findings);
 }
 
 }  // namespace
 
-std::string verify_to_junit(const VerifyResult& result) {
-  std::string text = open_junit(verify_command);
-  for (const VerifyPart& part : result.parts) {
-    text += open_suite(file_of(part), part.answers.size(), count(part, Verdict::Result::violated),
-                       count(part, Verdict::Result::undecided), 0);
-    text += fmt::format("<properties><property name=\"catalog\" value=\"{}\"/></properties>\n",
-                        xml_text(result.catalog->file));
-    for (const ReportedAnswer& answer : part.answers) text += test_case(result, part, answer);
-    text += close_suite();
-  }
-  return text + close_junit();
-}
-
-std::string verify_to_github(const VerifyResult& result) {
-  std::string text;
-  for (const VerifyPart& part : result.parts) {
-    for (const ReportedAnswer& reported : part.answers) {
-      const Answer& answer = *reported.answer;
-      if (answer.verdict.result == Verdict::Result::proved) continue;
-      const Property& property = *answer.property;
-      std::string message = title_of(*result.catalog, property) + "\n";
-      if (!property.name.empty()) message += describe(*result.catalog, property) + "\n";
-      message += describe_answer(result, part, answer);
-      if (reported.replay) {
-        for (const std::string& line : reported.replay->story) message += "\n" + line;
-      }
-      const Position begin{static_cast<std::uint32_t>(property.line), 1};
-      text +=
-          github_command("error", {file_of(part), Range{begin, begin}},
-                         fmt::format("cbc property {}", name_of(answer.verdict.result)), message);
-    }
-  }
-  return text;
-}
-
 std::span<const VerifyFormat> verify_formats() {
-  using Result = const VerifyResult&;
   static constexpr VerifyFormat formats[] = {
       {"text", verify_to_text},
-      {"json", [](Result result, const Style& /*style*/) { return verify_to_json(result); }},
-      {"junit", [](Result result, const Style& /*style*/) { return verify_to_junit(result); }, true,
-       [](const std::vector<Diagnostic>& findings) {
-         return junit_of_unreadable(verify_command, findings);
-       }},
-      {"github", [](Result result, const Style& /*style*/) { return verify_to_github(result); },
-       true,
-       [](const std::vector<Diagnostic>& findings) {
-         std::string text;
-         for (const Diagnostic& finding : findings) {
-           if (finding.severity == Severity::error) text += github_command_of(finding);
-         }
-         return text;
-       }},
+      {"json",
+       [](const VerifyResult& result, const Style& /*style*/) { return verify_to_json(result); }},
+      {"junit", write_tests<junit_format>, true, write_unreadable<junit_format>},
+      {"github", write_tests<github_format>, true, write_unreadable<github_format>},
   };
   return formats;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/report/property_words.h"
 #include "page/html_report.h"
 #include "runtime/base/text.h"
 #include "verify/report/verify_report.h"
@@ -21,7 +22,7 @@ std::string verify_to_html(const VerifyResult& result) {
       PropertyOfPage& item = properties.emplace_back();
       item.title =
           fmt::format("{}:{}: {}", part.file->path, property.line, title_of(catalog, property));
-      item.statement = describe(catalog, property);
+      item.statement = describe_property(catalog, property);
       item.result = name_of(answer.verdict.result);
       item.description = describe_answer(result, part, answer);
       item.has_run = reported.replay.has_value();

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include "core/report/failure_story.h"
+#include "core/report/failure_explanation.h"
 #include "core/report/reason_json.h"
 #include "core/report/run_text.h"
 #include "core/support/json_description.h"
-#include "core/support/memory_file.h"
+#include "core/support/system.h"
 #include "runtime/coordinator/record.h"
 #include "verify/report/verify_report.h"
 
@@ -32,12 +32,12 @@ class ReplayListener final : public RunListener {
                  const Style& style)
       : catalog_(catalog), property_(property), text_(style, memory_.stream()) {
     text_.begin_run(catalog, script);
-    story_.begin_run(catalog);
+    explanation_.begin_run(catalog);
   }
 
   void on_event(const EventRecord& record, const Step* step, const State& state) override {
     text_.on_event(record, step, state);
-    story_.add(record, step, state);
+    explanation_.add(record, step, state);
     if (record.origin != Origin::script || record.verb != Verb::start) return;
     conflict_.clear();
     JsonWriter json(conflict_);
@@ -48,14 +48,16 @@ class ReplayListener final : public RunListener {
   void on_failure(const Failure& failure) override { text_.on_failure(failure); }
   void on_end(const State& state) override {
     text_.on_end(state);
-    if (property_ != nullptr) story_lines_ = story_.tell(demand_of(catalog_, *property_));
+    if (property_ != nullptr)
+      explanation_lines_ = explanation_.tell(demand_of(catalog_, *property_));
   }
 
   Replay take(RunResult result) && {
     std::string text(memory_.text());
     // The report says which script this is.
     text.erase(0, text.find("\n\n") + 2);
-    return {std::move(result), std::move(text), std::move(conflict_), std::move(story_lines_)};
+    return {std::move(result), std::move(text), std::move(conflict_),
+            std::move(explanation_lines_)};
   }
 
  private:
@@ -63,9 +65,9 @@ class ReplayListener final : public RunListener {
   const Property* const property_;
   MemoryFile memory_;
   TextReport text_;
-  FailureStory story_;
+  FailureExplanation explanation_;
   std::string conflict_ = "[]";
-  std::vector<std::string> story_lines_;
+  std::vector<std::string> explanation_lines_;
 };
 
 Replay run(const CompiledCatalog& catalog, const Script& script, const Property* property,

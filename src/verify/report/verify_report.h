@@ -15,8 +15,8 @@
 #include "core/script/script.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "verify/engine/cut_sets.h"
+#include "verify/engine/explore.h"
 #include "verify/engine/same_as.h"
-#include "verify/engine/verification.h"
 
 // The reports of `cbc verify`.
 
@@ -28,7 +28,7 @@ struct Replay {
   std::string text;      ///< event by event, as in the text of `cbc solve`
   std::string conflict;  ///< why the last scripted start was rejected, as in cbc.solve/1
   /// What led to the end, in sentences.
-  std::vector<std::string> story;
+  std::vector<std::string> explanation;
 };
 
 /// Runs the script of an answer, which has one.
@@ -110,14 +110,6 @@ struct VerifyResult {
 
 [[nodiscard]] std::string verify_to_json(const VerifyResult& result);
 [[nodiscard]] std::string verify_schema();
-
-/// The properties as JUnit XML: a file is a test suite, a property a test case. One that is
-/// violated is a failure, an undecided one an error.
-[[nodiscard]] std::string verify_to_junit(const VerifyResult& result);
-
-/// Violated and undecided properties as workflow commands of GitHub Actions: each becomes an
-/// annotation of its line.
-[[nodiscard]] std::string verify_to_github(const VerifyResult& result);
 
 /// A page of all properties, with a timeline of each counterexample and witness.
 [[nodiscard]] std::string verify_to_html(const VerifyResult& result);

@@ -11,7 +11,9 @@
 #include <fmt/format.h>
 
 #include "core/check/together.h"
-#include "core/report/table_parts.h"
+#include "core/report/catalog_words.h"
+#include "core/report/property_words.h"
+#include "core/report/table.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 #include "verify/report/verify_report.h"
@@ -46,13 +48,13 @@ std::string_view name_of(Verdict::Result result) {
 }
 
 std::string title_of(const CompiledCatalog& catalog, const Property& property) {
-  return property.name.empty() ? describe(catalog, property) : printable(property.name);
+  return property.name.empty() ? describe_property(catalog, property) : printable(property.name);
 }
 
 namespace {
 
 /// As --max-memory takes it: "512M".
-std::string describe_memory(std::uint64_t bytes) {
+std::string memory_with_unit(std::uint64_t bytes) {
   constexpr std::string_view units = " KMGT";
   std::size_t unit = 0;
   while (bytes % 1024 == 0 && unit + 1 < units.size()) {
@@ -75,12 +77,12 @@ std::string describe_violation(const Answer& answer, const Exploration& explorat
 
 namespace {
 
-std::string describe_end(ExplorationEnd end, const ExplorationLimits& limits) {
+std::string describe_exploration_end(ExplorationEnd end, const ExplorationLimits& limits) {
   switch (end) {
     case ExplorationEnd::max_states:
       return fmt::format("ended by --max-states {}", limits.max_states);
     case ExplorationEnd::max_memory:
-      return fmt::format("ended by --max-memory {}", describe_memory(limits.max_memory));
+      return fmt::format("ended by --max-memory {}", memory_with_unit(limits.max_memory));
     case ExplorationEnd::time_limit:
       return fmt::format("ended by --time-limit {}", limits.seconds);
     case ExplorationEnd::too_many:
@@ -100,12 +102,10 @@ bool has_higher_limit(ExplorationEnd end) {
 
 std::string describe_limit(const VerifyResult& result, const Exploration& exploration) {
   const ExplorationEnd end = exploration.end.value_or(ExplorationEnd::stopped);
-  std::string counts;
-  for (const std::uint64_t count : exploration.states_at_depth) {
-    counts += (counts.empty() ? "" : ", ") + std::to_string(count);
-  }
+  const std::string counts = join(exploration.states_at_depth, ", ",
+                                  [](std::uint64_t count) { return std::to_string(count); });
   return fmt::format("{}; every state up to depth {} was visited{}; states at each depth: {}",
-                     describe_end(end, result.limits), exploration.depth,
+                     describe_exploration_end(end, result.limits), exploration.depth,
                      has_higher_limit(end) ? " (a higher limit goes on)" : "", counts);
 }
 
@@ -129,47 +129,25 @@ std::string describe_answer(const VerifyResult& result, const VerifyPart& part,
 
 namespace {
 
-constexpr std::size_t text_width = 80;
-
-/// Text between blanks, wrapped: the lines after the first one have this indent.
-std::string wrap(std::string line, const std::vector<std::string>& words,
-                 std::string_view separator) {
-  const std::size_t indent = width_of(line);
-  std::string text;
-  for (std::size_t place = 0; place < words.size(); ++place) {
-    const std::string word =
-        words[place] + std::string(place + 1 < words.size() ? separator : std::string_view());
-    const bool is_first = width_of(line) == indent;
-    if (!is_first && width_of(line) + 1 + width_of(word) > text_width) {
-      text += line + "\n";
-      line = std::string(indent, ' ') + word;
-    } else {
-      line += is_first ? word : " " + word;
-    }
-  }
-  return text + line + "\n";
-}
-
 /// What was found out about the groups of a catalog.
 class GroupText {
  public:
   GroupText(const VerifyResult& result, const VerifyPart& part, const Assumptions& assumptions,
-            const Style& style)
-      : result_(result), catalog_(*result.catalog), part_(part), style_(style) {
+            Text& text)
+      : result_(result), catalog_(*result.catalog), part_(part), text_(text) {
     for (const Assumptions::Start& start : assumptions.start) {
       requested_.insert(catalog_.tasks[start.task].catalog_index);
     }
   }
 
-  std::string write() && {
+  void write() && {
     if (requested_.empty()) {
-      text_ +=
+      text_.add(
           "\nno task starts on request, so only reactive starts were explored; a property file\n"
-          "can assume others (assume: {start: {TASK: 1}})\n";
+          "can assume others (assume: {start: {TASK: 1}})\n");
     }
     for (const Exploration& exploration : part_.verification.explorations) add_group(exploration);
     if (!result_.single_faults.empty()) add_single_faults();
-    return std::move(text_);
   }
 
  private:
@@ -180,30 +158,30 @@ class GroupText {
       tasks.push_back(catalog_.tasks[id].catalog_index);
     }
     std::sort(tasks.begin(), tasks.end());
-    text_ += fmt::format("\n{}group {}{}\n", style_.strong, group, style_.reset);
+    text_.title(fmt::format("group {}", group));
     add_row("tasks", names_of(tasks));
-    text_ += fmt::format("  {:<{}}{}, {}, depth {}{}\n", "explored", label_width,
-                         quantity(exploration.states, "state"),
-                         quantity(exploration.transitions, "transition"), exploration.depth,
-                         exploration.reduced ? " (reduced)" : "");
+    add_row(
+        "explored",
+        {quantity(exploration.states, "state"), quantity(exploration.transitions, "transition"),
+         fmt::format("depth {}{}", exploration.depth, exploration.reduced ? " (reduced)" : "")});
     if (!exploration.complete) {
-      text_ +=
-          style_.paint(style_.warning, wrap(fmt::format("  {:<{}}", "incomplete", label_width),
-                                            words_of(describe_limit(result_, exploration)), ""));
+      const Table table(text_.style(), row_columns(), {.columns = text_width});
+      text_.add(
+          table.line({"incomplete", describe_limit(result_, exploration)}, text_.style().warning));
     }
-    const std::string_view never = exploration.complete ? "never" : "not seen to";
+    const std::string never = exploration.complete ? "never" : "not seen to";
     add_never(exploration, tasks, never);
     add_starts(exploration, tasks);
     add_apart(exploration, tasks, never);
   }
 
   void add_never(const Exploration& exploration, const std::vector<std::uint32_t>& tasks,
-                 std::string_view never) {
+                 const std::string& never) {
     std::vector<std::uint32_t> idle;
     for (const std::uint32_t task : tasks) {
       if (!has_first(exploration.runs, task)) idle.push_back(task);
     }
-    add_row(fmt::format("{} run", never), names_of(idle));
+    add_row(never + " run", names_of(idle));
     const std::uint32_t group = exploration.groups.front();
     std::vector<std::uint32_t> behaviors;  // not active
     for (BehaviorId id = catalog_.group_behaviors[group]; id < catalog_.group_behaviors[group + 1];
@@ -213,7 +191,6 @@ class GroupText {
     }
     std::sort(behaviors.begin(), behaviors.end());
     std::vector<std::string> inactive;
-    inactive.reserve(behaviors.size());
     for (const std::uint32_t index : behaviors) {
       inactive.push_back(printable(catalog_.behavior_names[index]));
     }
@@ -239,14 +216,14 @@ class GroupText {
 
   /// The pairs of tasks that may be requested, of which both run, but never at the same time.
   void add_apart(const Exploration& exploration, const std::vector<std::uint32_t>& tasks,
-                 std::string_view never) {
+                 const std::string& never) {
     std::vector<std::uint32_t> candidates;
     for (const std::uint32_t task : tasks) {
       if (requested_.contains(task) && has_first(exploration.runs, task)) {
         candidates.push_back(task);
       }
     }
-    std::string label = fmt::format("{} run together", never);
+    std::string label = never + " run together";
     if (candidates.size() > most_tasks_in_pairs) {
       add_row(label,
               {fmt::format("(pairs of more than {} tasks are not listed)", most_tasks_in_pairs)});
@@ -265,19 +242,17 @@ class GroupText {
         if (!run_together) apart.push_back(*b);
       }
       if (apart.empty()) continue;
-      const std::string first = fmt::format("{} with ", name_of_task(*a));
-      text_ += wrap(fmt::format("  {:<{}}{}", std::exchange(label, {}), label_width, first),
-                    names_of(apart), ",");
+      const std::string first = name_of_task(*a) + " with";
+      const Table table(text_.style(),
+                        {{{}, {}, label_width}, {{}, {}, width_of(first)}, {{}, {}, 0, 1}},
+                        {.columns = text_width, .breaks = Breaks::after_commas});
+      text_.add(table.line({std::exchange(label, {}), first, join(names_of(apart), ", ")}));
     }
   }
 
   void add_single_faults() {
-    text_ += fmt::format("\n{}behaviors without which a task cannot run{}\n", style_.strong,
-                         style_.reset);
-    std::size_t width = 0;
-    for (const TaskCutSets& sets : result_.single_faults) {
-      width = std::max(width, width_of(printable(catalog_.name_of_task(sets.task))));
-    }
+    text_.title("behaviors without which a task cannot run");
+    Table table(text_.style(), {{}, {}}, {.columns = text_width, .breaks = Breaks::after_commas});
     for (const TaskCutSets& sets : result_.single_faults) {
       std::vector<std::string> names;
       for (const std::vector<BehaviorId>& set : sets.found.sets) {
@@ -285,14 +260,19 @@ class GroupText {
                                     : printable(catalog_.name_of_behavior(set.front())));
       }
       if (names.empty()) names.emplace_back(sets.found.complete ? "none" : "none found so far");
-      const std::string task = printable(catalog_.name_of_task(sets.task));
-      text_ += wrap("  " + task + std::string(width - width_of(task) + 2, ' '), names, ",");
+      table.add({printable(catalog_.name_of_task(sets.task)), join(names, ", ")});
     }
+    text_.add(table.text());
   }
 
-  void add_row(std::string_view label, const std::vector<std::string>& names) {
-    if (names.empty()) return;
-    text_ += wrap(fmt::format("  {:<{}}", label, label_width), names, ",");
+  void add_row(const std::string& label, const std::vector<std::string>& items) {
+    if (items.empty()) return;
+    const Table table(text_.style(), row_columns(),
+                      {.columns = text_width, .breaks = Breaks::after_commas});
+    text_.add(table.line({label, join(items, ", ")}));
+  }
+  [[nodiscard]] static std::vector<Table::Column> row_columns() {
+    return {{{}, {}, label_width}, {}};
   }
 
   /// Whether an entry, of which there is one each in ascending order, is about this place.
@@ -307,152 +287,94 @@ class GroupText {
   }
   [[nodiscard]] std::vector<std::string> names_of(const std::vector<std::uint32_t>& tasks) const {
     std::vector<std::string> names;
-    names.reserve(tasks.size());
     for (const std::uint32_t task : tasks) names.push_back(name_of_task(task));
     return names;
   }
-  [[nodiscard]] static std::vector<std::string> words_of(const std::string& text) {
-    std::vector<std::string> words(1);
-    for (const char character : text) {
-      if (character == ' ') {
-        words.emplace_back();
-      } else {
-        words.back() += character;
-      }
-    }
-    return words;
-  }
 
-  static constexpr std::size_t label_width = 26;
+  static constexpr std::size_t label_width = 24;
 
   const VerifyResult& result_;
   const CompiledCatalog& catalog_;
   const VerifyPart& part_;
-  const Style& style_;
   std::set<std::uint32_t> requested_;  ///< tasks, by their places in the catalog
-  std::string text_;
+  Text& text_;
 };
+
+std::string_view color_of(Verdict::Result result, const Style& style) {
+  if (result == Verdict::Result::undecided) return style.warning;
+  return result == Verdict::Result::proved ? style.good : style.bad;
+}
+
+void add_table(const VerifyResult& result, const VerifyPart& part, Text& text) {
+  Table table(text.style(), {number_column("line"),
+                             {"result"},
+                             number_column("states"),
+                             number_column("transitions"),
+                             number_column("depth"),
+                             number_column("events"),
+                             {"property"}});
+  for (const ReportedAnswer& reported : part.answers) {
+    const Answer& answer = *reported.answer;
+    const Verdict::Result found = answer.verdict.result;
+    const Exploration& exploration = part.verification.explorations[answer.exploration];
+    table.add({answer.property->line,
+               {name_of(found), color_of(found, text.style())},
+               exploration.states,
+               exploration.transitions,
+               exploration.depth,
+               answer.witness ? std::to_string(answer.verdict.script.size()) : "",
+               title_of(*result.catalog, *answer.property)});
+  }
+  text.line("");
+  text.add(table.text());
+}
+
+void add_violation(const VerifyResult& result, const VerifyPart& part,
+                   const ReportedAnswer& reported, Text& text) {
+  const Answer& answer = *reported.answer;
+  const Property& property = *answer.property;
+  text.title(fmt::format("{}:{}: {}", printable(part.file->path), property.line,
+                         title_of(*result.catalog, property)));
+  if (!property.name.empty()) text.line(describe_property(*result.catalog, property));
+  const Exploration& exploration = part.verification.explorations[answer.exploration];
+  text.line(text.style().paint(text.style().bad, describe_violation(answer, exploration)) +
+            (reported.script_path ? "; see " + printable(*reported.script_path) : ""));
+  if (!answer.verdict.script.empty()) text.add("\n" + reported.replay->text);
+}
 
 /// The properties of a file: a table, then what is behind those that are not proved.
-class PropertyText {
- public:
-  PropertyText(const VerifyResult& result, const VerifyPart& part, const Style& style)
-      : result_(result), catalog_(*result.catalog), part_(part), style_(style) {}
-
-  std::string write() && {
-    add_table();
-    for (const ReportedAnswer& reported : part_.answers) {
-      if (reported.answer->verdict.result == Verdict::Result::violated) add_violation(reported);
-    }
-    for (const Exploration& exploration : part_.verification.explorations) {
-      if (!exploration.complete) add_limit(exploration);
-    }
-    return std::move(text_);
-  }
-
- private:
-  using Row = std::array<std::string, 7>;
-
-  [[nodiscard]] Row row_of(const ReportedAnswer& reported) const {
-    const Answer& answer = *reported.answer;
-    const Exploration& exploration = part_.verification.explorations[answer.exploration];
-    return {std::to_string(answer.property->line),
-            std::string(name_of(answer.verdict.result)),
-            std::to_string(exploration.states),
-            std::to_string(exploration.transitions),
-            std::to_string(exploration.depth),
-            answer.witness ? std::to_string(answer.verdict.script.size()) : "",
-            title_of(catalog_, *answer.property)};
-  }
-
-  void add_table() {
-    std::vector<Row> rows = {
-        {"line", "result", "states", "transitions", "depth", "events", "property"}};
-    for (const ReportedAnswer& reported : part_.answers) rows.push_back(row_of(reported));
-    std::array<std::size_t, 7> widths{};
-    for (const Row& row : rows) {
-      for (std::size_t column = 0; column < row.size(); ++column) {
-        widths[column] = std::max(widths[column], row[column].size());
-      }
-    }
-    text_ += "\n";
-    for (std::size_t place = 0; place < rows.size(); ++place) {
-      const Row& row = rows[place];
-      std::string line = fmt::format("  {:>{}}  ", row[0], widths[0]);
-      if (place > 0) line += color_of(part_.answers[place - 1]);
-      line += fmt::format("{:<{}}", row[1], widths[1]);
-      if (place > 0) line += style_.reset;
-      for (std::size_t column = 2; column < 6; ++column) {
-        line += fmt::format("  {:>{}}", row[column], widths[column]);
-      }
-      line += "  " + row[6];
-      text_ += (place == 0 ? style_.paint(style_.faint, line) : line) + "\n";
+void add_properties(const VerifyResult& result, const VerifyPart& part, Text& text) {
+  add_table(result, part, text);
+  for (const ReportedAnswer& reported : part.answers) {
+    if (reported.answer->verdict.result == Verdict::Result::violated) {
+      add_violation(result, part, reported, text);
     }
   }
-
-  [[nodiscard]] std::string_view color_of(const ReportedAnswer& reported) const {
-    switch (reported.answer->verdict.result) {
-      case Verdict::Result::proved:
-        return style_.good;
-      case Verdict::Result::violated:
-        return style_.bad;
-      case Verdict::Result::undecided:
-        break;
-    }
-    return style_.warning;
+  for (const Exploration& exploration : part.verification.explorations) {
+    if (exploration.complete) continue;
+    const std::string groups =
+        join(exploration.groups, ", ", [](std::uint32_t group) { return std::to_string(group); });
+    const std::string title =
+        (exploration.groups.size() == 1 ? "exploration of group " : "exploration of groups ") +
+        groups;
+    text.line("");
+    text.line(text.style().paint(text.style().warning, title) + ": " +
+              describe_limit(result, exploration));
   }
+}
 
-  void add_violation(const ReportedAnswer& reported) {
-    const Property& property = *reported.answer->property;
-    text_ += fmt::format("\n{}{}:{}: {}{}\n", style_.strong, printable(part_.file->path),
-                         property.line, title_of(catalog_, property), style_.reset);
-    if (!property.name.empty()) text_ += describe(catalog_, property) + "\n";
-    const Answer& answer = *reported.answer;
-    const Exploration& exploration = part_.verification.explorations[answer.exploration];
-    text_ += style_.paint(style_.bad, describe_violation(answer, exploration));
-    if (reported.script_path) text_ += fmt::format("; see {}", printable(*reported.script_path));
-    text_ += "\n";
-    if (!answer.verdict.script.empty()) text_ += "\n" + reported.replay->text;
-  }
-
-  void add_limit(const Exploration& exploration) {
-    text_ += fmt::format("\n{}exploration of {}{}: {}\n", style_.warning,
-                         name_groups(exploration.groups), style_.reset,
-                         describe_limit(result_, exploration));
-  }
-
-  [[nodiscard]] static std::string name_groups(const std::vector<std::uint32_t>& groups) {
-    std::string text = groups.size() == 1 ? "group" : "groups";
-    for (std::size_t place = 0; place < groups.size(); ++place) {
-      text += fmt::format("{} {}", place == 0 ? "" : ",", groups[place]);
-    }
-    return text;
-  }
-
-  const VerifyResult& result_;
-  const CompiledCatalog& catalog_;
-  const VerifyPart& part_;
-  const Style& style_;
-  std::string text_;
-};
-
-std::string cut_sets_text(const CompiledCatalog& catalog, const TaskCutSets& of_task,
-                          const Style& style) {
-  const std::string task = printable(catalog.name_of_task(of_task.task));
+void add_cut_sets(const CompiledCatalog& catalog, const TaskCutSets& of_task, Text& text) {
   const CutSets& found = of_task.found;
-  std::string text =
-      fmt::format("\n{}minimal sets of at most {} whose faults together end {}{}\n", style.strong,
-                  quantity(of_task.order, "behavior"), task, style.reset);
+  text.title(fmt::format("minimal sets of at most {} whose faults together end {}",
+                         quantity(of_task.order, "behavior"),
+                         printable(catalog.name_of_task(of_task.task))));
+  Table table(text.style(), {{}}, {.columns = text_width, .breaks = Breaks::after_commas});
   for (const std::vector<BehaviorId>& set : found.sets) {
-    std::vector<std::string> names;
-    names.reserve(set.size());
-    for (const BehaviorId behavior : set) {
-      names.push_back(printable(catalog.name_of_behavior(behavior)));
-    }
-    if (names.empty()) names.emplace_back("none is needed: it cannot run even without a fault");
-    text += wrap("  ", names, ",");
+    table.add({set.empty() ? "none is needed: it cannot run even without a fault"
+                           : join(names_of_behaviors(catalog, set), ", ")});
   }
-  if (found.sets.empty()) text += found.complete ? "  none\n" : "  none found so far\n";
+  text.add(table.text());
+  if (found.sets.empty()) text.line(found.complete ? "  none" : "  none found so far");
   const std::size_t count = found.sets.size();
   // A behavior that requires nothing is a part of the robot, as a sensor is.
   const auto requires_nothing = [&](const std::vector<BehaviorId>& set) {
@@ -460,107 +382,107 @@ std::string cut_sets_text(const CompiledCatalog& catalog, const TaskCutSets& of_
                        [&](BehaviorId behavior) { return catalog.behaviors[behavior].level == 0; });
   };
   if (count > 1) {
-    text +=
-        fmt::format("  {}, {} of them of behaviors that require nothing\n", quantity(count, "set"),
-                    std::count_if(found.sets.begin(), found.sets.end(), requires_nothing));
+    text.line("  {}, {} of them of behaviors that require nothing", quantity(count, "set"),
+              std::count_if(found.sets.begin(), found.sets.end(), requires_nothing));
   }
-  if (!found.complete) {
-    const std::uint32_t size = found.incomplete_size;
-    text += style.paint(
-        style.warning, size == 0 ? std::string("  a limit ended the search at its beginning\n")
-                                 : fmt::format("  a limit ended the search: all sets of fewer than "
-                                               "{} are there\n",
-                                               quantity(size, "behavior")));
-  }
-  return text;
+  if (found.complete) return;
+  const std::uint32_t size = found.incomplete_size;
+  text.painted(text.style().warning,
+               size == 0 ? "  a limit ended the search at its beginning"
+                         : fmt::format("  a limit ended the search: all sets of fewer than {} are "
+                                       "there",
+                                       quantity(size, "behavior")));
 }
 
 /// How the catalog compares with an older one.
-std::string comparison_text(const VerifyResult& result, const Style& style) {
+void add_comparison(const VerifyResult& result, Text& text) {
   const ReportedComparison& reported = *result.same_as;
   const CatalogComparison& comparison = reported.comparison;
+  const Style& style = text.style();
   const std::string old_name = printable(reported.old_catalog->file);
   const std::string new_name = printable(result.catalog->file);
-  std::string text =
-      fmt::format("\n{}{} against {}{}\n", style.strong, new_name, old_name, style.reset);
-  const auto add_names = [&](const std::string& file, const std::vector<std::string>& names) {
-    if (!names.empty()) text += wrap(fmt::format("  only {} has  ", file), names, ",");
-  };
+  const std::string title = style.paint(style.strong, new_name + " against " + old_name);
+  text.add((text.is_empty() ? "" : "\n") + title + "\n");
   if (result.parts.empty()) {
     const CompiledCatalog& catalog = *result.catalog;
-    text += assumptions_to_text(catalog, {common_assumptions(*reported.old_catalog, catalog), {}});
+    text.add(
+        assumptions_to_text(catalog, {common_assumptions(*reported.old_catalog, catalog), {}}));
   }
+  const auto add_names = [&](const std::string& file, const std::vector<std::string>& names) {
+    const Table table(style, {{{}, {}, width_of(file) + 9}, {}},
+                      {.columns = text_width, .breaks = Breaks::after_commas});
+    if (!names.empty()) text.add(table.line({"only " + file + " has", join(names, ", ")}));
+  };
   add_names(old_name, comparison.names.only_old);
   add_names(new_name, comparison.names.only_new);
   const std::string counts =
       fmt::format("{} of states, {} transitions, depth {}", quantity(comparison.states, "pair"),
                   comparison.transitions, comparison.depth);
+  const auto add_result = [&](std::string_view words, const std::string& more) {
+    text.line("  " + style.paint(color_of(comparison.result, style), words) + more);
+  };
   switch (comparison.result) {
     case Verdict::Result::proved:
-      return text + fmt::format("  {}every reachable event is decided alike{}: {}\n", style.good,
-                                style.reset, counts);
+      return add_result("every reachable event is decided alike", ": " + counts);
     case Verdict::Result::undecided:
-      return text + fmt::format("  {}undecided{}: {}; no difference in {}\n", style.warning,
-                                style.reset, describe_end(*comparison.end, result.limits), counts);
+      return add_result(
+          "undecided",
+          fmt::format(": {}; no difference in {}",
+                      describe_exploration_end(*comparison.end, result.limits), counts));
     case Verdict::Result::violated:
-      break;
+      add_result("decided differently",
+                 ": the last of " + quantity(comparison.moves.size(), "event"));
   }
-  text += fmt::format("  {}decided differently{}: the last of {}\n", style.bad, style.reset,
-                      quantity(comparison.moves.size(), "event"));
-  text += fmt::format("\n{}with {}{}\n\n{}", style.strong, old_name, style.reset,
-                      reported.with_old->text);
-  text += fmt::format("\n{}with {}{}\n\n{}", style.strong, new_name, style.reset,
-                      reported.with_new->text);
-  return text;
+  text.title("with " + old_name);
+  text.add("\n" + reported.with_old->text);
+  text.title("with " + new_name);
+  text.add("\n" + reported.with_new->text);
 }
 
-std::string total_of(const VerifyResult& result, const Style& style) {
+void add_totals(const VerifyResult& result, Text& text) {
   std::array<std::size_t, 3> counts{};
   for (const VerifyPart& part : result.parts) {
     for (const ReportedAnswer& reported : part.answers) {
       ++counts[static_cast<std::size_t>(reported.answer->verdict.result)];
     }
   }
-  if (counts == std::array<std::size_t, 3>{}) return {};
-  return fmt::format("\n{}properties: {} proved, {} violated, {} undecided{}\n",
-                     counts[1] + counts[2] == 0 ? style.good : style.bad, counts[0], counts[1],
-                     counts[2], style.reset);
+  if (counts == std::array<std::size_t, 3>{}) return;
+  text.line("");
+  text.painted(counts[1] + counts[2] == 0 ? text.style().good : text.style().bad,
+               "properties: {} proved, {} violated, {} undecided", counts[0], counts[1], counts[2]);
 }
 
-StatedAssumptions assumptions_of(const CompiledCatalog& catalog, const VerifyPart& part) {
-  if (part.file == nullptr) return {default_assumptions(catalog), {}};
-  return {part.file->assumptions, part.file->path};
+void add_part(const VerifyResult& result, const VerifyPart& part, Text& text) {
+  const CompiledCatalog& catalog = *result.catalog;
+  const auto strong = [&](std::string_view file) {
+    return text.style().paint(text.style().strong, printable(file));
+  };
+  if (!text.is_empty()) text.line("");
+  text.line(part.file == nullptr ? strong(catalog.file)
+                                 : strong(part.file->path) + " with " + printable(catalog.file));
+  const StatedAssumptions stated = part.file == nullptr
+                                       ? StatedAssumptions{default_assumptions(catalog), {}}
+                                       : StatedAssumptions{part.file->assumptions, part.file->path};
+  text.add(assumptions_to_text(catalog, stated));
+  if (part.is_about_groups()) {
+    GroupText(result, part, stated.assumptions, text).write();
+  } else {
+    add_properties(result, part, text);
+  }
 }
 
 }  // namespace
 
 std::string verify_to_text(const VerifyResult& result, const Style& style) {
-  std::string text;
-  const CompiledCatalog& catalog = *result.catalog;
-  for (const VerifyPart& part : result.parts) {
-    if (!text.empty()) text += "\n";
-    text += style.strong;
-    text += part.file == nullptr ? printable(catalog.file) : printable(part.file->path);
-    text += style.reset;
-    if (part.file != nullptr) text += " with " + printable(catalog.file);
-    text += "\n";
-    const StatedAssumptions stated = assumptions_of(catalog, part);
-    text += assumptions_to_text(catalog, stated);
-    if (part.is_about_groups()) {
-      text += GroupText(result, part, stated.assumptions, style).write();
-    } else {
-      text += PropertyText(result, part, style).write();
-    }
+  Text text(style);
+  for (const VerifyPart& part : result.parts) add_part(result, part, text);
+  if (text.is_empty() && !result.same_as) {
+    text.painted(style.strong, printable(result.catalog->file));
   }
-  if (text.empty() && !result.same_as) {
-    text = style.paint(style.strong, printable(catalog.file)) + "\n";
-  }
-  if (result.same_as) {
-    const std::string comparison = comparison_text(result, style);
-    text += text.empty() ? comparison.substr(1) : comparison;
-  }
-  for (const TaskCutSets& of_task : result.cut_sets) text += cut_sets_text(catalog, of_task, style);
-  return text + total_of(result, style);
+  if (result.same_as) add_comparison(result, text);
+  for (const TaskCutSets& of_task : result.cut_sets) add_cut_sets(*result.catalog, of_task, text);
+  add_totals(result, text);
+  return text.take();
 }
 
 }  // namespace cbc

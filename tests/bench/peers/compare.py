@@ -120,7 +120,7 @@ def load(settings, folder):
     compiled = str(folder / "catalog.cbc")
     subprocess.run([settings.cbc, "compile", str(folder / "catalog.yaml"), "-o", compiled], check=True,
                    capture_output=True)
-    dump = subprocess.run([settings.cbc, "compile", "--dump", "--format", "json", compiled], check=True,
+    dump = subprocess.run([settings.cbc, "compile", "--dump", compiled], check=True,
                           capture_output=True, text=True).stdout
     catalog = Catalog(dump)
     if not catalog.is_plain():

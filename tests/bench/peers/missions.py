@@ -1,7 +1,7 @@
 """Events to compare solvers on, each with the state before it.
 
 From idle: the start of a task of the highest level while nothing runs. Mixed: starts, stops and finishes of
-a running system with 20 to 30 requests, drawn in the shares of `cbc solve --sweep`. The searches that bring
+a running system with 20 to 30 requests, drawn in the shares of `cbc sweep`. The searches that bring
 the system there are limited by a number of decisions, and need not be optimal.
 """
 

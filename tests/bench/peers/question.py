@@ -13,7 +13,7 @@ import json
 
 
 class Catalog:
-    """What `cbc compile --dump --format json` says of a catalog."""
+    """What `cbc compile --dump` says of a catalog."""
 
     def __init__(self, dump):
         data = json.loads(dump, parse_float=Fraction)

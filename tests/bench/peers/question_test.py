@@ -45,7 +45,7 @@ exclusivity_constraints:
 def load(program, catalog, folder):
     compiled = os.path.join(folder, "catalog.cbc")
     subprocess.run([program, "compile", catalog, "-o", compiled], check=True, capture_output=True)
-    dump = subprocess.run([program, "compile", "--dump", "--format", "json", compiled], check=True,
+    dump = subprocess.run([program, "compile", "--dump", compiled], check=True,
                           capture_output=True, text=True).stdout
     return Cbc(program, compiled, folder), Catalog(dump)
 

@@ -33,8 +33,7 @@ void compile_and_run(const CompiledCatalog& catalog) {
   const CompiledFileResult result = read_compiled(bytes);
   if (!result.file) fail("the compiled catalog is refused: " + result.error);
   require(write_compiled(result.file->catalog, {}) == bytes, "the compiled catalog has changed");
-  require(!catalog_text(*result.file).empty() && !catalog_json(*result.file).empty(),
-          "the dump is empty");
+  require(!catalog_json(*result.file).empty(), "the dump is empty");
   if (const auto refusal = test::exercise(result.file->catalog)) fail(*refusal);
 }
 

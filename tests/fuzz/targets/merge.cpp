@@ -2,26 +2,29 @@
 #include <string>
 #include <vector>
 
+#include "commands.h"
+#include "core/command_line/command_line.h"
 #include "core/files/output.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/program.h"
 #include "fuzz/target.h"
-#include "solve/solve.h"
 #include "sweep/engine/sweep.h"
 #include "sweep/report/sweep_report.h"
 
-// The shards of a sweep, for `cbc solve --merge`.
+// The shards of a sweep, for `cbc sweep --merge`.
 namespace cbc::fuzz {
 namespace {
 
 ProgramRun merge(const std::vector<std::string>& shards) {
-  cli::SolveOptions options;
-  options.sweep.merge = true;
-  options.format = "json";
+  std::vector<std::string> arguments{"sweep", "--merge", "--format", "json"};
   for (std::size_t shard = 0; shard < shards.size(); ++shard) {
-    options.paths.push_back(memory_file(shard, shards[shard]));
+    arguments.push_back(memory_file(shard, shards[shard]));
   }
-  return run_program("", [&options] { return cli::run_sweep(options); });
+  return run_program("", [&arguments] {
+    cli::Program program({}, {}, {}, {});
+    cli::add_sweep_command(program);
+    return program.run(arguments);
+  });
 }
 
 void run(const std::string& input) {

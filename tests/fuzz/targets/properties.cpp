@@ -19,8 +19,8 @@ void run(const std::string& input) {
   if (options.paths.front().empty()) return;
   options.format = "json";
   options.jobs = 1;
-  options.max_states = 300;
-  options.max_memory = "64M";
+  options.limits.max_states = 300;
+  options.limits.max_memory = "64M";
   static_cast<void>(run_program("", [&options] { return cli::verify(options); }));
 }
 

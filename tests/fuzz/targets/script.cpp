@@ -7,7 +7,7 @@
 #include "core/report/run_report.h"
 #include "core/script/reader.h"
 #include "core/script/runner.h"
-#include "core/support/memory_file.h"
+#include "core/support/system.h"
 #include "core/yaml/document.h"
 #include "fuzz/catalogs.h"
 #include "fuzz/program.h"
@@ -40,7 +40,7 @@ void run(const std::string& input) {
   if (!script) return;
 
   CoordinatorOptions options = bounded_coordinator();
-  options.hindsight = true;
+  options.last_decisions = true;
   options.explain.displaced = true;
   options.explain.alternatives = 1;
   MemoryFile memory;

@@ -3,16 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <span>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/compile/compile.h"
+#include "core/diagnostic/diagnostic.h"
+#include "core/script/reader.h"
 #include "core/script/runner.h"
+#include "core/script/script.h"
+#include "core/yaml/document.h"
 #include "coverage/engine/goal_proof.h"
-#include "coverage/engine/mutants/telling_script.h"
 #include "runtime/coordinator/coordinator.h"
+#include "runtime/coordinator/record.h"
 #include "runtime/coordinator/state.h"
 #include "verify/engine/same_as.h"
 #include "verify/engine/witness.h"
@@ -75,6 +80,86 @@ Microseconds take_expectation(Script& script) {
 /// So long after the end of a script that everything in the queue has come due.
 Microseconds settled(const Script& script, Microseconds end) {
   return end + script.reactive_delay + second;
+}
+
+/// What an expectation at the end of a script can see.
+struct Observation {
+  std::vector<std::string_view> behaviors;  ///< by task in catalog order; empty: it does not run
+  std::optional<Outcome> outcome;           ///< of the last step
+};
+
+/// Empty if the script cannot be read or run.
+std::optional<Observation> observe_end(const CompiledCatalog& catalog, const std::string& text) {
+  Diagnostics ignored;
+  const auto document = yaml::parse(text, "script", ignored);
+  if (document == nullptr) return std::nullopt;
+  const auto script = read_script(*document, catalog, Severity::note, ignored);
+  if (!script) return std::nullopt;
+  CoordinatorOptions options = options_of(*script);
+  options.find_conflicts = false;
+  SilentRun listener;
+  Runner runner(catalog, options, listener);
+  runner.begin(script->situation);
+  for (const Step& step : script->steps) {
+    if (!runner.take(step)) return std::nullopt;
+  }
+  Observation end;
+  const State& state = runner.coordinator().state();
+  for (const TaskId task : catalog.task_ids) {
+    const BehaviorId behavior = state.behavior(task);
+    end.behaviors.push_back(behavior == none ? std::string_view()
+                                             : catalog.name_of_behavior(behavior));
+  }
+  end.outcome = runner.snapshot().outcome;
+  return end;
+}
+
+/// What the original shows and the mutant does not.
+Expectation find_difference(const CompiledCatalog& original, const Observation& of_original,
+                            const Observation& of_mutant) {
+  Expectation expectation;
+  for (std::uint32_t task = 0; task < of_original.behaviors.size(); ++task) {
+    const std::string_view behavior = of_original.behaviors[task];
+    if (behavior == of_mutant.behaviors[task]) continue;
+    if (behavior.empty()) {
+      expectation.stopped.push_back(task);
+    } else {
+      expectation.running.push_back({task, original.find_behavior(behavior)});
+    }
+  }
+  if (of_original.outcome != of_mutant.outcome) expectation.outcome = of_original.outcome;
+  return expectation;
+}
+
+/// A script that tells a mutant from the original, as text (a distinguishing sequence: Lee and
+/// Yannakakis, "Principles and methods of testing finite state machines", 1996): these events, with
+/// timeouts if these are not in the way, then an expectation that holds on the original, and of
+/// which no part holds on the mutant. Empty if no expectation at one of the times tells them apart;
+/// the first one that does counts. `script` is one for the original, without expectations; both
+/// catalogs have the same tasks.
+std::optional<std::string> find_distinguishing_script(const CompiledCatalog& original,
+                                                      const CompiledCatalog& mutant,
+                                                      const Script& script,
+                                                      std::span<const Microseconds> times) {
+  for (const bool timeouts : {true, false}) {
+    for (const Microseconds time : times) {
+      Script script_with_end = script;
+      script_with_end.timeouts = timeouts;
+      Step& last = script_with_end.steps.emplace_back();
+      last.time = time;
+      const std::string text = write_script(original, script_with_end, {});
+      const std::optional<Observation> of_original = observe_end(original, text);
+      const std::optional<Observation> of_mutant = observe_end(mutant, text);
+      if (!of_original || !of_mutant) continue;
+      Expectation expectation = find_difference(original, *of_original, *of_mutant);
+      if (!expectation.outcome && expectation.running.empty() && expectation.stopped.empty()) {
+        continue;
+      }
+      script_with_end.steps.back().expect = std::move(expectation);
+      return write_script(original, script_with_end, {});
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -163,7 +248,7 @@ std::uint32_t MutantJudge::group_of(const Mutant& mutant) const {
 /// The original is the new catalog of the comparison, so that the script tells what it does.
 void MutantJudge::compare(const Mutant& mutant, const CompiledCatalog& changed,
                           MutantVerdict& verdict) const {
-  VerificationOptions options;
+  ExplorationOptions options;
   options.limits = options_.limits;
   options.reduce = true;
   options.on_progress = [this](const std::vector<std::uint32_t>& /*groups*/,
@@ -179,7 +264,7 @@ void MutantJudge::compare(const Mutant& mutant, const CompiledCatalog& changed,
   Script script = found.witness->script;
   const Microseconds end = take_expectation(script);
   const std::array times = {end, settled(script, end)};
-  verdict.script = find_telling_script(catalog_, changed, script, times);
+  verdict.script = find_distinguishing_script(catalog_, changed, script, times);
   verdict.result =
       verdict.script ? MutantVerdict::Result::survived : MutantVerdict::Result::undecided;
   verdict.doubt = MutantVerdict::Doubt::no_script;
@@ -214,7 +299,8 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
   ExplorationOptions options;
   options.limits = options_.limits;
   options.reduce = true;
-  options.on_progress = [this](const ExplorationProgress& /*progress*/) { return !is_stopped(); };
+  options.on_progress = [this](const std::vector<std::uint32_t>& /*groups*/,
+                               const ExplorationProgress& /*progress*/) { return !is_stopped(); };
   const Exploration found = explore(catalog_, groups, assumptions_, asked, options);
   for (std::size_t place = 0; place < properties.size(); ++place) {
     if (!found.verdicts[place].has_script) continue;
@@ -224,7 +310,7 @@ void MutantJudge::compare_times(const Mutant& mutant, const Catalog& changed_sou
             .script;
     const Microseconds end = take_expectation(script) + differences[place / 2].first;
     const std::array times = {end, settled(script, end)};
-    verdict.script = find_telling_script(catalog_, changed, script, times);
+    verdict.script = find_distinguishing_script(catalog_, changed, script, times);
     if (!verdict.script) continue;
     verdict.result = MutantVerdict::Result::survived;
     return;
@@ -244,11 +330,11 @@ bool MutantJudge::never_time_out(const CompiledCatalog& catalog,
   const std::uint32_t group = catalog.tasks[catalog.task_ids[differences.front().task]].group;
   GoalProofOptions options;
   options.group = group;
-  options.walk.max_states = options_.limits.max_states;
+  options.search.max_states = options_.limits.max_states;
   if (options_.limits.max_memory > 0) {
-    options.walk.max_memory = std::min(options.walk.max_memory, options_.limits.max_memory);
+    options.search.max_memory = std::min(options.search.max_memory, options_.limits.max_memory);
   }
-  options.walk.on_progress = [this](std::uint32_t, std::uint64_t) { return !is_stopped(); };
+  options.search.on_progress = [this](std::uint32_t, std::uint64_t) { return !is_stopped(); };
   const GoalProof proof = prove_unreachable(catalog, {}, assumptions_, options);
   if (proof.error || !proof.groups[group].is_complete) return false;
   return std::all_of(differences.begin(), differences.end(), [&](const TimeDifference& difference) {

@@ -1,0 +1,139 @@
+#include "core/files/read.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "core/files/output.h"
+#include "core/files/read_files.h"
+#include "runtime/base/text.h"
+#include "runtime/compiled/compiled_file.h"
+
+namespace cbc::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+}  // namespace
+
+std::nullopt_t cannot_read(const std::string& path, const std::string& reason) {
+  complain("cannot read {}: {}", quote(display_name(path)), reason);
+  return std::nullopt;
+}
+
+namespace {
+
+/// Larger texts are refused, so that no input can exhaust the memory of the machine. Compiled
+/// catalogs have a limit of their own.
+constexpr std::size_t largest_file = std::size_t{256} << 20;
+
+std::optional<std::string> read_stream(std::FILE* stream, const std::string& path) {
+  std::string text;
+  std::array<char, 1 << 16> block{};
+  errno = 0;
+  for (;;) {
+    const std::size_t count = std::fread(block.data(), 1, block.size(), stream);
+    text.append(block.data(), count);
+    const std::size_t largest = is_compiled(text) ? largest_compiled_file : largest_file;
+    if (text.size() > largest) {
+      return cannot_read(path, fmt::format("it is larger than {} MiB", largest >> 20));
+    }
+    if (count == 0) break;
+  }
+  if (std::ferror(stream) != 0) return cannot_read(path, std::strerror(errno));
+  return text;
+}
+
+}  // namespace
+
+std::optional<std::string> read_input(const std::string& path) {
+  note_read(path);
+  if (path == "-") return read_stream(stdin, path);
+  if (const auto refusal = find_refusal(path)) return cannot_read(path, *refusal);
+  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rbe"));
+  if (file == nullptr) return cannot_read(path, std::strerror(errno));
+  return read_stream(file.get(), path);
+}
+
+std::optional<std::string> read_result(const std::string& path) {
+  // Enough for a catalog of 300,000 behaviors. Larger results are refused, because parsed JSON
+  // takes many times the memory of its text.
+  constexpr std::size_t largest = std::size_t{64} << 20U;
+  std::optional<std::string> text = read_input(path);
+  if (!text || text->size() <= largest) return text;
+  complain("cannot merge {}: it is larger than {} MiB", quote(display_name(path)), largest >> 20U);
+  return std::nullopt;
+}
+
+std::string display_name(const std::string& path) { return path == "-" ? "<stdin>" : path; }
+
+std::vector<std::string> list_folder(const std::string& path,
+                                     std::initializer_list<std::string_view> suffixes,
+                                     bool& has_failed) {
+  std::vector<std::string> files;
+  std::vector<fs::path> folders{path};
+  while (!folders.empty()) {
+    const fs::path folder = std::move(folders.back());
+    folders.pop_back();
+    std::error_code error;
+    std::error_code ignored;
+    if (const auto refusal = find_refusal(folder.string())) {
+      cannot_read(folder.string(), *refusal);
+      has_failed = true;
+      continue;
+    }
+    fs::directory_iterator entry(folder, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+      if (entry->path().filename().string().starts_with('.')) continue;
+      if (entry->is_directory(ignored) && !entry->is_symlink(ignored)) {
+        folders.push_back(entry->path());
+      } else if (std::find(suffixes.begin(), suffixes.end(), entry->path().extension()) !=
+                     suffixes.end() &&
+                 (entry->is_regular_file(ignored) || find_refusal(entry->path().string()))) {
+        files.push_back(entry->path().string());
+      }
+    }
+    if (error) {
+      cannot_read(folder.string(), error.message());
+      has_failed = true;
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool is_folder(const std::string& path) {
+  std::error_code ignored;
+  return path != "-" && fs::is_directory(path, ignored);
+}
+
+bool is_special(const std::string& path) {
+  std::error_code ignored;
+  return !find_refusal(path) && fs::is_other(path, ignored);
+}
+
+bool can_be_mapped(const std::string& path) {
+  std::error_code ignored;
+  if (path == "-" || find_refusal(path)) return false;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  std::array<char, 8> begin{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin.data(), begin.size());
+  return is_compiled({begin.data(), static_cast<std::size_t>(file.gcount())});
+}
+
+}  // namespace cbc::cli

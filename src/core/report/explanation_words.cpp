@@ -1,0 +1,380 @@
+#include "core/report/explanation_words.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/report/catalog_words.h"
+#include "core/report/event_words.h"
+#include "core/report/reason_words.h"
+#include "core/report/suitability.h"
+#include "core/support/wording.h"
+#include "runtime/base/text.h"
+
+namespace cbc {
+namespace {
+
+/// More differences would hide the rest.
+constexpr std::size_t most_differences = 20;
+
+/// The name of a value.
+std::string value_name(const CompiledCatalog& catalog, TaskId task, std::uint32_t place) {
+  return place == none ? "not running"
+                       : printable(catalog.name_of_behavior(catalog.values[task][place].behavior));
+}
+
+/// The same with its suitability.
+std::string value_text(const CompiledCatalog& catalog, TaskId task, std::uint32_t place) {
+  const std::string name = value_name(catalog, task, place);
+  if (place == none) return name;
+  return fmt::format("{} ({})", name, format_percent(catalog.values[task][place].suitability));
+}
+
+/// How many of the supporting tasks run: "4 of 7".
+std::string supporting_text(const ObjectiveValues& objective) {
+  return fmt::format("{} of {}", objective.idle_running, objective.idle_total);
+}
+
+/// The values of the objective in which an answer that was not chosen is worse.
+struct Figures {
+  std::string_view name;    ///< in a few words
+  std::string_view naming;  ///< in full
+  std::string chosen;
+  std::string other;
+};
+
+/// `state`: before the event or after it; what runs outside the group counts. Of objectives that
+/// are a number.
+Figures figures_of(const CompiledCatalog& catalog, std::uint32_t group, const State& state,
+                   const Configuration& chosen, const WhyNot& why_not) {
+  const Configuration& other = *why_not.alternative;
+  const auto served = [](const ObjectiveValues& objective) {
+    return fmt::format("{} of {}", objective.satisfied, objective.requests);
+  };
+  switch (why_not.difference.criterion) {
+    case Criterion::suitability: {
+      auto [ours, theirs] =
+          shorten_both(exact_suitability(catalog, state, group, chosen.assignment),
+                       exact_suitability(catalog, state, group, other.assignment));
+      return {"suitability", "the suitability of all that runs", std::move(ours),
+              std::move(theirs)};
+    }
+    case Criterion::idle:
+      return {"supporting tasks running", "the supporting tasks running",
+              supporting_text(chosen.objective), supporting_text(other.objective)};
+    case Criterion::changes:
+      return {"changes", "the behaviors activated or deactivated",
+              std::to_string(chosen.objective.changes), std::to_string(other.objective.changes)};
+    default:
+      return {"requests", "the requests served", served(chosen.objective), served(other.objective)};
+  }
+}
+
+/// The first objective in which the alternative of an answer loses.
+std::string describe_loss(const CompiledCatalog& catalog, const EventRecord& record,
+                          const WhyNot& why_not, const State& state) {
+  const Configuration& chosen = record.explanation.chosen;
+  const Difference& difference = why_not.difference;
+  const std::uint32_t group = record.search->group;
+  const Figures figures = figures_of(catalog, group, state, chosen, why_not);
+  switch (difference.criterion) {
+    case Criterion::requests:
+      return fmt::format("{} requests would be satisfied, not {}", figures.other,
+                         chosen.objective.satisfied);
+    case Criterion::request_order:
+      return fmt::format("{} would not run, although its request comes before that of {}",
+                         task_name(catalog, difference.task),
+                         task_name(catalog, difference.other_task));
+    case Criterion::canonical: {
+      const std::uint32_t task = difference.task - catalog.group_tasks[group];
+      return fmt::format(
+          "all objectives would be equal; for {}, {} comes before {} in the canonical order",
+          task_name(catalog, difference.task),
+          value_name(catalog, difference.task, chosen.assignment[task]),
+          value_name(catalog, difference.task, why_not.alternative->assignment[task]));
+    }
+    default:
+      return fmt::format("{} would be {}, not {}", figures.name, figures.other, figures.chosen);
+  }
+}
+
+/// The same where the alternative is what somebody expected.
+std::string describe_decision(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected) {
+  const WhyNot& why_not = unexpected.why_unmet.why_not;
+  const Difference& difference = why_not.difference;
+  switch (difference.criterion) {
+    case Criterion::request_order:
+      return fmt::format(
+          "by the order of requests: {} is served; with what is expected, {} at best, whose "
+          "request comes later",
+          task_name(catalog, difference.task), task_name(catalog, difference.other_task));
+    case Criterion::canonical:
+      return fmt::format("by the canonical order of {}, since all objectives are equal",
+                         task_name(catalog, difference.task));
+    default:
+      break;
+  }
+  const Figures figures = figures_of(catalog, unexpected.group, *unexpected.why_unmet.before,
+                                     unexpected.why_unmet.event->explanation.chosen, why_not);
+  return fmt::format("by {}: {}; with what is expected, {} at best", figures.naming, figures.chosen,
+                     figures.other);
+}
+
+/// `condition`: what would differ in the alternative ("if it ran").
+Sentences describe_against(const CompiledCatalog& catalog, const EventRecord& record,
+                           const std::string& subject, const std::string& condition,
+                           const WhyNot& why_not, std::span<const TaskId> tasks, TaskId it,
+                           const State& state) {
+  if (why_not.is_cut) {
+    return {subject + ": a search limit was reached before the reason was found", {}};
+  }
+  if (why_not.alternative) {
+    return {fmt::format("{}: {}, {}", subject, condition,
+                        describe_loss(catalog, record, why_not, state)),
+            {}};
+  }
+  std::vector<std::string> reasons = describe_reasons(catalog, record, why_not.conflict, tasks, it);
+  if (reasons.empty()) return {subject + ": the event leaves no other choice", {}};
+  if (reasons.size() == 1) return {fmt::format("{}: {}", subject, reasons.front()), {}};
+  return {subject + ":", std::move(reasons)};
+}
+
+/// Of some tasks those that can start without a request, and run in the alternative of an answer,
+/// but not in the answer that the event chose: nothing that runs requires them.
+std::vector<TaskId> unneeded_tasks(const CompiledCatalog& catalog, const EventRecord& record,
+                                   const WhyNot& why_not, std::span<const TaskId> tasks) {
+  std::vector<TaskId> unneeded;
+  if (!why_not.alternative) return unneeded;
+  const TaskId first = catalog.group_tasks[record.search->group];
+  for (const TaskId task : tasks) {
+    if (catalog.tasks[task].start_on_request != 0 ||
+        record.explanation.chosen.assignment[task - first] != none ||
+        why_not.alternative->assignment[task - first] == none) {
+      continue;
+    }
+    unneeded.push_back(task);
+  }
+  return unneeded;
+}
+
+/// Of a task that is in the queue, or a behavior of one.
+Sentences describe_due(const CompiledCatalog& catalog, const EventRecord& record, const Why& why) {
+  const std::string task = task_name(catalog, why.queued_task);
+  const std::string subject =
+      why.behavior == none
+          ? fmt::format("why {} does not run: it", task)
+          : fmt::format("why {} is not active: {}", behavior_name(catalog, why.behavior), task);
+  const std::string time = format_time(*why.due);
+  if (why.why_not.conflict.empty()) {
+    return {fmt::format("{} starts by itself at {} s", subject, time), {}};
+  }
+  return {fmt::format("{} tries to start at {} s, but", subject, time),
+          describe_reasons(catalog, record, why.why_not.conflict, tasks_of(catalog, why))};
+}
+
+std::string place_of(const CompiledCatalog& catalog, const EventRecord& event) {
+  return fmt::format("event {} at {} s ({})", event.index, format_time(event.time),
+                     describe_event(catalog, event, nullptr));
+}
+
+Sentences describe_decided(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected) {
+  const EventRecord& event = *unexpected.why_unmet.event;
+  const WhyNot& why_not = unexpected.why_unmet.why_not;
+  Sentences text;
+  if (why_not.is_cut) {
+    const bool is_proven = event.search->result.status == SearchStatus::optimal;
+    text.first = fmt::format("decided at {}: {}", place_of(catalog, event),
+                             is_proven ? "a search limit was reached before the reason was found"
+                                       : "a search limit was reached, so it is not proven best");
+    return text;
+  }
+  if (!why_not.alternative) {
+    text.more = describe_reasons(catalog, event, why_not.conflict, unexpected.tasks);
+    text.first =
+        fmt::format("decided at {}: no answer meets the expectation{}", place_of(catalog, event),
+                    text.more.empty() ? ", since the event leaves no other choice" : ":");
+    return text;
+  }
+  const std::vector<TaskId> unneeded = unneeded_tasks(catalog, event, why_not, unexpected.tasks);
+  text.first = fmt::format("decided at {}{} {}:", place_of(catalog, event),
+                           unneeded.empty()
+                               ? std::string()
+                               : fmt::format(", where nothing that ran required {},",
+                                             list_with_or(names_in_sentence(catalog, unneeded))),
+                           describe_decision(catalog, unexpected));
+  std::size_t count = 0;
+  for (const TaskId task :
+       differing_tasks(catalog, unexpected.group, event.explanation.chosen.assignment,
+                       why_not.alternative->assignment)) {
+    if (++count > most_differences) continue;
+    const TaskId first = catalog.group_tasks[unexpected.group];
+    text.more.push_back(
+        fmt::format("{}: {} instead of {}", task_name(catalog, task),
+                    value_text(catalog, task, event.explanation.chosen.assignment[task - first]),
+                    value_text(catalog, task, why_not.alternative->assignment[task - first])));
+  }
+  if (count > most_differences) {
+    text.more.push_back(fmt::format("and {} more", count - most_differences));
+  }
+  return text;
+}
+
+/// Whether what stood in the way of an event no longer does.
+bool is_over(const Reason& reason, const State& state) {
+  switch (reason.kind) {
+    case Reason::Kind::unavailable:
+      return !state.is_denied(reason.behavior);
+    case Reason::Kind::situation:
+      return state.fits(reason.behavior);
+    case Reason::Kind::faulty:
+      return !state.is_faulty(reason.behavior);
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+Sentences describe_displacement(const CompiledCatalog& catalog, const EventRecord& record,
+                                const Displacement& displaced, const State& state) {
+  return describe_against(catalog, record, task_name(catalog, displaced.task) + " stops",
+                          "if it ran", displaced.why_not, std::span(&displaced.task, 1),
+                          displaced.task, state);
+}
+
+std::vector<TaskId> tasks_of(const CompiledCatalog& catalog, const Why& why) {
+  if (why.queued_task != none) return {why.queued_task};
+  if (why.behavior == none) return {why.task};
+  std::vector<TaskId> tasks;
+  for (const ValueId value : catalog.performs[why.behavior]) {
+    tasks.push_back(catalog.task_of(value));
+  }
+  return tasks;
+}
+
+Sentences describe_why(const CompiledCatalog& catalog, const EventRecord& record, const Why& why,
+                       const State& state) {
+  if (why.due) return describe_due(catalog, record, why);
+  const std::vector<TaskId> tasks = tasks_of(catalog, why);
+  const std::vector<TaskId> unneeded = unneeded_tasks(catalog, record, why.why_not, tasks);
+  if (why.behavior != none) {
+    const std::string condition =
+        unneeded.empty() ? std::string()
+                         : fmt::format("nothing that runs requires {}; ",
+                                       list_with_or(names_in_sentence(catalog, unneeded)));
+    return describe_against(catalog, record,
+                            fmt::format("why {} is {}active", behavior_name(catalog, why.behavior),
+                                        why.is_active ? "" : "not "),
+                            condition + (why.is_active ? "without it" : "with it"), why.why_not,
+                            tasks, none, state);
+  }
+  const std::string name = task_name(catalog, why.task);
+  std::string condition;
+  if (why.why_not.alternative) {
+    const TaskId first = catalog.group_tasks[record.search->group];
+    const std::uint32_t place = why.why_not.alternative->assignment[why.task - first];
+    if (!unneeded.empty()) condition = "nothing that runs requires it; ";
+    condition +=
+        place == none ? "if it did not run" : "with " + value_name(catalog, why.task, place);
+  }
+  const std::string subject =
+      why.chosen == none
+          ? fmt::format("why {} does not run", name)
+          : fmt::format("why {} has {}", name, printable(catalog.name_of_behavior(why.chosen)));
+  return describe_against(catalog, record, subject, condition, why.why_not, tasks, none, state);
+}
+
+std::string describe_alternative(const CompiledCatalog& catalog, const EventRecord& record,
+                                 std::size_t place, const State& state) {
+  const std::vector<Configuration>& list = record.explanation.alternatives;
+  const std::uint32_t group = record.search->group;
+  const TaskId first = catalog.group_tasks[group];
+  const Configuration& configuration = list[place];
+  const ObjectiveValues& objective = configuration.objective;
+  std::string text = fmt::format(
+      "requests {} of {}, suitability {}, supporting tasks running {}, changes {}:",
+      objective.satisfied, objective.requests,
+      shorten_number(exact_suitability(catalog, state, group, configuration.assignment)),
+      supporting_text(objective), objective.changes);
+  bool is_first = true;
+  for (std::uint32_t task = 0; task < configuration.assignment.size(); ++task) {
+    const std::uint32_t value = configuration.assignment[task];
+    if (value == (place == 0 ? none : list.front().assignment[task])) continue;
+    text += fmt::format(
+        "{} {} {}",
+        !is_first    ? ","
+        : place == 0 ? ""
+                     : " as 1, but",
+        task_name(catalog, first + task),
+        value == none ? "not running" : "= " + value_name(catalog, first + task, value));
+    is_first = false;
+  }
+  return is_first ? text + " nothing runs" : text;
+}
+
+std::vector<TaskId> differing_tasks(const CompiledCatalog& catalog, std::uint32_t group,
+                                    const Assignment& one, const Assignment& other) {
+  std::vector<TaskId> tasks;
+  const TaskId first = catalog.group_tasks[group];
+  for (std::uint32_t task = 0; task < one.size(); ++task) {
+    if (one[task] != other[task]) tasks.push_back(first + task);
+  }
+  std::sort(tasks.begin(), tasks.end(), [&catalog](TaskId a, TaskId b) {
+    return catalog.tasks[a].catalog_index < catalog.tasks[b].catalog_index;
+  });
+  return tasks;
+}
+
+std::vector<std::string> notes_of(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected,
+                                  const State& state) {
+  std::vector<std::string> notes;
+  const WhyUnmet& why_unmet = unexpected.why_unmet;
+  const std::vector<Reason>& reasons = why_unmet.kind == WhyUnmet::Kind::rejected
+                                           ? why_unmet.event->conflict
+                                           : why_unmet.why_not.conflict;
+  if (std::any_of(reasons.begin(), reasons.end(),
+                  [&state](const Reason& reason) { return is_over(reason, state); })) {
+    notes.emplace_back("this has changed since, but no later event has decided it anew");
+  }
+  for (const TaskId task : unexpected.tasks) {
+    if (!state.is_running(task) || !state.is_faulty(state.behavior(task))) continue;
+    std::string note = describe_late_fault(catalog, state.behavior(task));
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) {
+      notes.push_back(std::move(note));
+    }
+  }
+  return notes;
+}
+
+Sentences describe_unmet(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected) {
+  const WhyUnmet& why_unmet = unexpected.why_unmet;
+  switch (why_unmet.kind) {
+    case WhyUnmet::Kind::undecided:
+      return {"no event so far has started " +
+                  list_with_or(names_in_sentence(catalog, unexpected.tasks)) +
+                  ", or what requires it",
+              {}};
+    case WhyUnmet::Kind::due:
+      return {fmt::format("{} is due to start by itself at {} s",
+                          task_name(catalog, why_unmet.queued_task), format_time(why_unmet.due)),
+              {}};
+    case WhyUnmet::Kind::rejected:
+      return {place_of(catalog, *why_unmet.event) + " was rejected:",
+              describe_rejection(catalog, *why_unmet.event)};
+    case WhyUnmet::Kind::decided:
+      return describe_decided(catalog, unexpected);
+  }
+  return {};
+}
+
+Sentences describe_unexpected(const CompiledCatalog& catalog, const UnexpectedTasks& unexpected,
+                              const State& state) {
+  Sentences text = describe_unmet(catalog, unexpected);
+  for (std::string& note : notes_of(catalog, unexpected, state)) {
+    text.more.push_back(std::move(note));
+  }
+  return text;
+}
+
+}  // namespace cbc

@@ -1,0 +1,132 @@
+#include "core/report/suitability.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+
+#include "runtime/base/natural.h"
+#include "runtime/base/text.h"
+
+namespace cbc {
+namespace {
+
+/// A product of suitabilities.
+class Product {
+ public:
+  void multiply(Millionths suitability) {
+    if (suitability == 0) {
+      is_zero_ = true;
+      return;
+    }
+    decimals_ += 6;
+    for (; suitability % 10 == 0; suitability /= 10) --decimals_;
+    if (suitability != 1) numerator_.multiply(suitability);
+  }
+
+  [[nodiscard]] bool is_zero() const { return is_zero_; }
+
+  [[nodiscard]] double nearest_double() const {
+    if (is_zero_) return 0;
+    if (decimals_ == 0) return 1;
+    return std::strtod((numerator_.digits() + "e-" + std::to_string(decimals_)).c_str(), nullptr);
+  }
+
+  /// The product is at most 1.
+  [[nodiscard]] std::string exact() const {
+    if (is_zero_) return "0";
+    if (decimals_ == 0) return "1";
+    std::string text = numerator_.digits();
+    text.insert(0, decimals_ - text.size(), '0');
+    text.erase(text.find_last_not_of('0') + 1);
+    return "0." + text;
+  }
+
+ private:
+  bool is_zero_ = false;
+  Natural numerator_;
+  std::size_t decimals_ = 0;  ///< the denominator is 10 to this power
+};
+
+void multiply_elsewhere(const CompiledCatalog& catalog, const State& state, std::uint32_t group,
+                        Product& product) {
+  for (const std::uint32_t index : state.running()) {
+    const TaskId task = catalog.task_ids[index];
+    if (catalog.tasks[task].group == group) continue;
+    product.multiply(catalog.values[task][state.value_index(task)].suitability);
+  }
+}
+
+void multiply_group(const CompiledCatalog& catalog, std::uint32_t group, const Assignment& places,
+                    Product& product) {
+  const TaskId first = catalog.group_tasks[group];
+  for (std::uint32_t task = 0; task < places.size(); ++task) {
+    if (places[task] == none) continue;
+    product.multiply(catalog.values[first + task][places[task]].suitability);
+  }
+}
+
+}  // namespace
+
+double total_suitability(const CompiledCatalog& catalog, const State& state) {
+  Product product;
+  multiply_elsewhere(catalog, state, none, product);
+  return product.nearest_double();
+}
+
+double total_suitability(const CompiledCatalog& catalog, const State& state, std::uint32_t group,
+                         const Assignment& places) {
+  Product product;
+  multiply_elsewhere(catalog, state, group, product);
+  multiply_group(catalog, group, places, product);
+  return product.nearest_double();
+}
+
+std::string exact_suitability(const CompiledCatalog& catalog, const State& state,
+                              std::uint32_t group, const Assignment& places) {
+  Product product;
+  multiply_elsewhere(catalog, state, group, product);
+  if (product.is_zero()) product = {};
+  multiply_group(catalog, group, places, product);
+  return product.exact();
+}
+
+std::string percent_of_product(std::span<const Millionths> suitabilities) {
+  Product product;
+  for (const Millionths suitability : suitabilities) product.multiply(suitability);
+  const std::string digits = product.exact();
+  if (digits == "1") return "100";
+  std::string millionths = digits.size() > 2 ? digits.substr(2, 6) : "";
+  millionths.resize(6, '0');
+  return format_decimal(std::stol(millionths), 4);
+}
+
+namespace {
+
+/// Digits shown after the common beginning of two long numbers.
+constexpr std::size_t digits_beyond = 6;
+
+std::string cut_digits(const std::string& number, std::size_t length) {
+  return number.size() <= length + 1 ? number : number.substr(0, length) + "...";
+}
+
+}  // namespace
+
+std::string shorten_number(const std::string& number) {
+  const std::size_t first = std::min(number.find_first_not_of("0."), number.size());
+  return cut_digits(number, std::max<std::size_t>(first, 2) + digits_beyond);
+}
+
+std::pair<std::string, std::string> shorten_both(const std::string& a, const std::string& b) {
+  const auto differs = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  const auto equal = static_cast<std::size_t>(differs.first - a.begin());
+  const std::size_t length = std::max<std::size_t>(equal, 2) + digits_beyond;
+  return {cut_digits(a, length), cut_digits(b, length)};
+}
+
+double idle_share(const ObjectiveValues& objective) {
+  if (objective.idle_total == 0) return 1;
+  return static_cast<double>(objective.idle_total - objective.idle_running) /
+         static_cast<double>(objective.idle_total);
+}
+
+}  // namespace cbc

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/diagnostic/diagnostic.h"
+#include "core/report/layout.h"
+#include "runtime/base/text.h"
+
+namespace cbc {
+
+/// How lines are broken.
+struct Wrapping {
+  std::size_t columns = 0;               ///< of the terminal; 0: no limit
+  std::size_t column = std::size_t(-1);  ///< below which the rest of a line stands, or the last
+  Breaks breaks = Breaks::between_words;
+};
+
+/// A table for people. Its columns are as wide as what they hold, names are at the left and numbers
+/// at the right, and lines have no blanks at their end.
+class Table {
+ public:
+  enum class Align : std::uint8_t { left, right };
+
+  struct Column {
+    std::string title = {};
+    Align align = Align::left;
+    std::size_t width = 0;  ///< at least
+    std::size_t gap = 2;    ///< blanks before it
+  };
+
+  /// A text or a number, and its color.
+  struct Cell {
+    template <typename Content>
+    Cell(const Content& content, std::string_view its_color = {})  // NOLINT: stands for its text
+        : text(concat(content)), color(its_color) {}
+
+    std::string text;
+    std::string_view color;
+  };
+  using Row = std::vector<Cell>;
+
+  Table(const Style& style, std::vector<Column> columns, const Wrapping& wrapping = {});
+
+  /// Adds a row; cells at its end may be missing. `color`: of the whole line.
+  void add(Row row, std::string_view color = {});
+
+  /// All of it: the titles, if there are any, and the rows.
+  [[nodiscard]] std::string text() const;
+  /// The same as an element of HTML, whose first column has titles of rows.
+  [[nodiscard]] std::string html(std::string_view element_class) const;
+
+  // For a table that is written row by row, whose columns do not get wider.
+
+  [[nodiscard]] std::string titles() const;
+  [[nodiscard]] std::string line(const Row& row, std::string_view color = {}) const;
+
+ private:
+  const Style style_;
+  std::vector<Column> columns_;
+  Wrapping wrapping_;
+  std::vector<std::pair<Row, std::string_view>> rows_;
+};
+
+/// A column of numbers.
+[[nodiscard]] Table::Column number_column(std::string title, std::size_t width = 0,
+                                          std::size_t gap = 2);
+
+}  // namespace cbc

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/command_line/limits.h"
+#include "core/files/missions.h"
+#include "core/files/output.h"
+#include "core/property/properties.h"
+#include "coverage/engine/goals.h"
+#include "coverage/engine/goal_search.h"
+#include "coverage/engine/goal_monitor.h"
+#include "runtime/compiled/compiled_catalog.h"
+#include "runtime/coordinator/coordinator.h"
+
+namespace cbc::cli {
+
+/// The options of `cbc coverage`.
+struct CoverageOptions {
+  std::vector<std::string> paths;
+  std::string format = "text";
+  std::string output = "-";
+  std::string fail_under;             ///< percent; empty: whatever it is
+  bool prove = false;                 ///< set goals apart that are proven unreachable
+  std::optional<std::string> assume;  ///< the property file with the assumptions of proofs
+  bool merge = false;
+  std::optional<std::string> write_missing;
+  bool mutants = false;
+  std::optional<std::string> scripts;
+  std::optional<std::uint64_t> jobs;
+  SearchLimits search;
+  StateLimits limits;
+};
+
+/// When to stop: a signal has come, or the time is over.
+class Deadline {
+ public:
+  /// Begins now. `seconds`: 0 for no limit.
+  explicit Deadline(double seconds) : seconds_(seconds) {}
+
+  [[nodiscard]] bool has_come() const { return signals_.have_come() || is_late(); }
+  [[nodiscard]] bool is_late() const {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+    return seconds_ > 0 && elapsed.count() >= seconds_;
+  }
+
+ private:
+  const StopSignals signals_;
+  const double seconds_;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// Runs missions, up to `jobs` at once, and hands out the results in their order until `take`
+/// returns false. A terminal shows the progress.
+void watch_missions(const std::vector<Mission>& missions, std::optional<std::uint64_t> jobs,
+                    const CoordinatorOptions& options,
+                    const std::function<const std::vector<Goal>&(const Mission&)>& goals_of,
+                    const std::function<bool(const Mission&, MonitoredResult)>& take);
+
+/// What is assumed of each catalog in proofs: what --assume says, or what holds without it. Empty
+/// if that cannot be known; the reason is printed.
+[[nodiscard]] std::optional<std::vector<StatedAssumptions>> find_assumptions(
+    const std::vector<const CompiledCatalog*>& catalogs, const CoverageOptions& options);
+
+/// Runs the missions, and reports which goals they meet. Returns the exit status.
+[[nodiscard]] int measure_coverage(const CoverageOptions& options,
+                                   const std::vector<Mission>& missions);
+/// Merges JSON results. The paths are those of the catalog and of the results. Returns the exit
+/// status.
+[[nodiscard]] int merge_coverage(const CoverageOptions& options);
+
+/// Missions on one catalog, and what else may happen.
+struct CoverageQuestion {
+  std::shared_ptr<const CompiledCatalog> catalog;
+  std::vector<Mission> missions;
+  StatedAssumptions assumptions;
+};
+
+/// Of the walks of proofs and plans; what is not given is as they have it.
+[[nodiscard]] GoalSearchOptions search_options(const StateLimits& limits);
+
+/// The path by which a script in the folder names the catalog. Empty if that is standard input.
+[[nodiscard]] std::string catalog_from(const std::string& folder, const CoverageOptions& options);
+
+/// Writes the scripts that are missing beside the missions, and reports them. Returns the exit
+/// status.
+[[nodiscard]] int write_missing(const CoverageOptions& options, const CoverageQuestion& question);
+
+/// Judges mutants of the catalog, of which the missions have the source, and writes the report.
+/// Returns the exit status.
+[[nodiscard]] int judge_mutants(const CoverageOptions& options, const CoverageQuestion& question);
+
+}  // namespace cbc::cli

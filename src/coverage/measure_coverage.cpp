@@ -1,0 +1,254 @@
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "core/command_line/command_line.h"
+#include "core/files/file_set.h"
+#include "core/files/ordered_work.h"
+#include "core/files/output.h"
+#include "coverage/coverage.h"
+#include "coverage/engine/coverage.h"
+#include "coverage/engine/goal_proof.h"
+#include "coverage/report/coverage_report.h"
+#include "runtime/base/text.h"
+
+namespace cbc::cli {
+
+void watch_missions(const std::vector<Mission>& missions, std::optional<std::uint64_t> jobs,
+                    const CoordinatorOptions& options,
+                    const std::function<const std::vector<Goal>&(const Mission&)>& goals_of,
+                    const std::function<bool(const Mission&, MonitoredResult)>& take) {
+  constexpr std::chrono::milliseconds between_looks(100);
+  if (missions.empty()) return;
+  const auto watch = [&](std::size_t number) {
+    const Mission& mission = missions[number];
+    SilentRun silent;
+    return run_monitored(*mission.catalog, goals_of(mission), mission.script, options, silent);
+  };
+  Progress progress("solving", missions.size());
+  OrderedWork<MonitoredResult> work(
+      missions.size(), std::min<std::size_t>(thread_count(jobs), missions.size()), watch);
+  for (const Mission& mission : missions) {
+    progress.begin(mission.script.file);
+    while (!work.wait_for(between_looks)) progress.show();
+    MonitoredResult result = work.take();
+    progress.clear();
+    if (!take(mission, std::move(result))) return;
+  }
+}
+
+std::string catalog_from(const std::string& folder, const CoverageOptions& options) {
+  const std::string& catalog = options.paths.front();
+  if (catalog == "-") return {};
+  // Of a folder that does not exist yet, a relative path would stay one.
+  std::error_code error;
+  const std::filesystem::path path = std::filesystem::proximate(
+      std::filesystem::absolute(catalog), std::filesystem::absolute(folder), error);
+  return error ? std::string{} : path.generic_string();
+}
+
+GoalSearchOptions search_options(const StateLimits& limits) {
+  GoalSearchOptions options;
+  if (limits.max_states > 0) options.max_states = limits.max_states;
+  if (!limits.max_memory.empty()) options.max_memory = limits.memory();
+  return options;
+}
+
+namespace {
+
+CatalogCoverage coverage_of(const CheckedCatalog& catalog) {
+  std::vector<Goal> goals = find_goals(*catalog.compiled);
+  add_lines(catalog.reading.catalog, *catalog.compiled, goals);
+  return {catalog.compiled, *catalog.text, std::move(goals)};
+}
+
+/// Says why there can be no coverage of a catalog, if so.
+bool can_be_covered(const CheckedCatalog& catalog) {
+  if (catalog.text == nullptr) {
+    complain("the catalog {} was compiled; expected the YAML, whose lines count",
+             quote(catalog.compiled->file));
+    return false;
+  }
+  const std::optional<std::string> too_many = find_too_many_pairs(*catalog.compiled);
+  if (too_many) complain(*too_many);
+  return !too_many;
+}
+
+/// Null if there is none of this catalog.
+CatalogCoverage* find(Coverage& coverage, const CompiledCatalog& catalog) {
+  const auto found =
+      std::find_if(coverage.catalogs.begin(), coverage.catalogs.end(),
+                   [&](const CatalogCoverage& one) { return &one.catalog() == &catalog; });
+  return found == coverage.catalogs.end() ? nullptr : &*found;
+}
+
+/// The goals of all catalogs, none of them met. Empty if a catalog has none; the reason is printed.
+std::optional<Coverage> find_goals(const std::vector<Mission>& missions) {
+  Coverage coverage;
+  for (const Mission& mission : missions) {
+    if (find(coverage, *mission.catalog) != nullptr) continue;
+    if (!can_be_covered(*mission.source)) return std::nullopt;
+    coverage.catalogs.push_back(coverage_of(*mission.source));
+  }
+  return coverage;
+}
+
+std::optional<Assumptions> read_assumptions(const std::string& path,
+                                            const CompiledCatalog& catalog) {
+  FileSet files;
+  std::optional<PropertyFile> properties;
+  if (const auto file = files.read(path)) {
+    if (file->is(FileKind::properties)) {
+      properties = files.read_properties(*file, catalog);
+    } else {
+      complain("--assume: {} is not a property file", quote(file->name));
+    }
+  }
+  files.print_findings();
+  if (!properties) return std::nullopt;
+  return std::move(properties->assumptions);
+}
+
+}  // namespace
+
+std::optional<std::vector<StatedAssumptions>> find_assumptions(
+    const std::vector<const CompiledCatalog*>& catalogs, const CoverageOptions& options) {
+  if (options.assume && catalogs.size() > 1) {
+    complain("--assume: a property file is about one catalog, and these scripts have {}",
+             catalogs.size());
+    return std::nullopt;
+  }
+  std::vector<StatedAssumptions> stated;
+  for (const CompiledCatalog* const catalog : catalogs) {
+    if (!options.assume) {
+      stated.push_back({assumptions_of_goals(*catalog), {}});
+    } else if (std::optional<Assumptions> found = read_assumptions(*options.assume, *catalog)) {
+      stated.push_back({std::move(*found), display_name(*options.assume)});
+    } else {
+      return std::nullopt;
+    }
+  }
+  return stated;
+}
+
+namespace {
+
+/// The assumptions under which goals of a coverage are proven unreachable; of none if no proof is
+/// wanted.
+std::optional<std::vector<StatedAssumptions>> find_assumptions(const Coverage& coverage,
+                                                               const CoverageOptions& options) {
+  std::vector<const CompiledCatalog*> catalogs;
+  for (const CatalogCoverage& one : coverage.catalogs) {
+    if (options.prove) catalogs.push_back(&one.catalog());
+  }
+  return find_assumptions(catalogs, options);
+}
+
+/// False if nothing can be proven; the reason is printed.
+bool prove(CatalogCoverage& coverage, const StatedAssumptions& stated,
+           const CoverageOptions& options, const Deadline& deadline) {
+  const CompiledCatalog& catalog = coverage.catalog();
+  GroupProgress progress("proving", catalog.group_count());
+  GoalProofOptions of_proof;
+  of_proof.search = search_options(options.limits);
+  of_proof.search.on_progress = [&](std::uint32_t group, std::uint64_t states) {
+    progress.show(group, states);
+    return !deadline.has_come();
+  };
+  GoalProof proof = prove_unreachable(catalog, coverage.goals(), stated.assumptions, of_proof);
+  progress.line().clear();
+  if (proof.error) {
+    complain("--prove: {}", *proof.error);
+    return false;
+  }
+  for (std::size_t group = 0; group < proof.groups.size(); ++group) {
+    if (proof.groups[group].is_complete) continue;
+    complain("--prove: not all states of group {} of {} were visited; nothing is proven about it",
+             group, quote(catalog.file));
+  }
+  coverage.set_unreachable(std::move(proof.unreachable), stated);
+  return true;
+}
+
+/// Proves which goals are unreachable, if there are assumptions for that, and writes the report.
+/// Returns the exit status.
+int report(Coverage coverage, const std::vector<StatedAssumptions>& assumptions,
+           const CoverageOptions& options) {
+  if (!assumptions.empty()) {
+    const Deadline deadline(options.limits.seconds());
+    for (std::size_t place = 0; place < assumptions.size(); ++place) {
+      if (!prove(coverage.catalogs[place], assumptions[place], options, deadline)) {
+        return exit_unusable;
+      }
+    }
+  }
+  const CoverageFormat& format = *find_named(coverage_formats(), options.format);
+  const int status = write_output(options.output, format.write(coverage, style_for(options.output),
+                                                               columns_for(options.output)));
+  if (options.fail_under.empty()) return status;
+  const GoalCount total = coverage.total();
+  if (total.met * 1000 >= tenths_in(options.fail_under) * total.goals) return status;
+  complain("the coverage is {}, less than {} (--fail-under)", cbc::describe_percent(total),
+           describe_percent(options.fail_under));
+  return std::max<int>(status, exit_no);
+}
+
+}  // namespace
+
+int measure_coverage(const CoverageOptions& options, const std::vector<Mission>& missions) {
+  std::optional<Coverage> coverage = find_goals(missions);
+  if (!coverage) return exit_unusable;
+  const auto assumptions = find_assumptions(*coverage, options);
+  if (!assumptions || !can_write_output(options.output)) return exit_unusable;
+  const CoordinatorOptions coordination = coordinator_options(options.search);
+  int status = exit_ok;
+  watch_missions(
+      missions, options.jobs, coordination,
+      [&](const Mission& mission) -> const std::vector<Goal>& {
+        return find(*coverage, *mission.catalog)->goals();
+      },
+      [&](const Mission& mission, const MonitoredResult& watched) {
+        const std::string reason = describe_end(watched.result, coordination);
+        if (!reason.empty()) complain_of_run(mission, watched.result, reason);
+        // Coverage alone is reported, but failures should not go unnoticed.
+        for (const FailedExpectation& failure : watched.result.failures) {
+          fmt::print(stderr, "{}: {}\n",
+                     format_place(printable(mission.script.file), failure.range.begin),
+                     failure.message);
+        }
+        find(*coverage, *mission.catalog)->add(mission.script.file, watched.met);
+        status = std::max(status, status_of(watched.result));
+        return true;
+      });
+  return std::max(status, report(std::move(*coverage), *assumptions, options));
+}
+
+int merge_coverage(const CoverageOptions& options) {
+  FileSet files;
+  const auto catalog = files.load(options.paths.front());
+  files.print_findings();
+  if (catalog == nullptr || !can_be_covered(*catalog)) return exit_unusable;
+  Coverage coverage;
+  coverage.catalogs.push_back(coverage_of(*catalog));
+  const auto assumptions = find_assumptions(coverage, options);
+  if (!assumptions) return exit_unusable;
+  for (std::size_t place = 1; place < options.paths.size(); ++place) {
+    const std::string& path = options.paths[place];
+    const std::optional<std::string> text = read_result(path);
+    if (!text) return exit_unusable;
+    const std::string fault = add_coverage_json(*text, coverage.catalogs.front());
+    if (!fault.empty()) return complain("cannot merge {}: {}", quote(display_name(path)), fault);
+  }
+  return report(std::move(coverage), *assumptions, options);
+}
+
+}  // namespace cbc::cli

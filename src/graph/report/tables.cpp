@@ -1,0 +1,531 @@
+#include "graph/report/tables.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/compile/catalog_json.h"
+#include "core/report/catalog_words.h"
+#include "core/report/reason_words.h"
+#include "core/report/table.h"
+#include "core/support/json_description.h"
+#include "core/support/wording.h"
+#include "graph/engine/diagram.h"
+#include "runtime/base/text.h"
+#include "runtime/coordinator/record.h"
+
+namespace cbc {
+namespace {
+
+constexpr std::array answers = {Together::possible,
+                                Together::excluded,
+                                Together::excluded_indirectly,
+                                Together::excluded_in_each_situation,
+                                Together::excluded_by_situation,
+                                Together::undecided};
+
+char sign_of(Together together) {
+  constexpr char signs[] = {'+', '-', 'x', 'X', 's', '?'};
+  return signs[static_cast<std::size_t>(together)];
+}
+
+constexpr char forbidden_sign = '!';
+
+char sign_of(const TaskPair& pair) {
+  return pair.is_forbidden ? forbidden_sign : sign_of(pair.together);
+}
+
+std::string_view meaning_of(Together together) {
+  switch (together) {
+    case Together::possible:
+      return "can run together";
+    case Together::excluded:
+      return "excluded by a list";
+    case Together::excluded_indirectly:
+      return "excluded by what they require";
+    case Together::excluded_in_each_situation:
+      return "excluded in each situation, by what fits in it";
+    case Together::excluded_by_situation:
+      return "fit in no common situation";
+    case Together::undecided:
+      break;
+  }
+  return "not decided: there is too much to search";
+}
+
+/// The answer for two tasks, by their places in the table; `row` is greater than `column`.
+class Matrix {
+ public:
+  explicit Matrix(const TogetherTable& table) : table_(table) {}
+
+  [[nodiscard]] std::size_t size() const { return table_.tasks.size(); }
+  [[nodiscard]] const TaskPair& at(std::size_t row, std::size_t column) const {
+    // Before the pairs of a column come those of all columns before.
+    const std::size_t before = column * (2 * size() - column - 1) / 2;
+    return table_.pairs[before + row - column - 1];
+  }
+
+ private:
+  const TogetherTable& table_;
+};
+
+/// Why a pair does not run together: sentences that lead from one task to the other.
+std::vector<std::string> reasons_of(const CompiledCatalog& catalog, const TaskPair& pair) {
+  if (pair.reasons.empty()) return {"the reasons would have taken too long to find"};
+  std::vector<std::string> sentences;
+  for (const Reason& reason : pair.reasons) {
+    sentences.push_back(describe_reason(catalog, EventRecord(), reason));
+  }
+  return sentences;
+}
+
+/// The pairs whose exclusion no list says.
+template <typename Action>
+void for_each_indirect(const TogetherTable& table, const Action& action) {
+  for (const TaskPair& pair : table.pairs) {
+    if (pair.together != Together::possible && pair.together != Together::excluded &&
+        pair.together != Together::undecided) {
+      action(pair);
+    }
+  }
+}
+
+std::string list_names(const CompiledCatalog& catalog, const std::vector<TaskId>& tasks) {
+  return join(tasks, ", ", [&](TaskId task) { return draw::label_of(catalog.name_of_task(task)); });
+}
+
+constexpr std::size_t columns_in_a_block = 5;
+
+/// The matrix as text, in as many parts as it takes for its columns to fit.
+class TextMatrix {
+ public:
+  TextMatrix(const CompiledCatalog& catalog, const TogetherTable& table, const Style& style)
+      : matrix_(table), style_(style), digits_(std::to_string(table.tasks.size()).size()) {
+    for (const TaskId task : table.tasks) {
+      names_.push_back(draw::label_of(catalog.name_of_task(task)));
+    }
+    names_ = shorten(std::move(names_));
+    for (const std::string& name : names_) name_width_ = std::max(name_width_, width_of(name));
+  }
+
+  std::string write() && {
+    const std::size_t left = 2 + digits_ + 1 + name_width_ + 1;
+    const std::size_t width = std::max(text_width, left + columns_in_a_block) - left;
+    const std::size_t columns = matrix_.size() - 1;
+    // A blank stands between each two blocks.
+    std::size_t most = (width + 1) / (columns_in_a_block + 1) * columns_in_a_block;
+    if (columns + (columns - 1) / columns_in_a_block <= width) most = columns;
+    for (std::size_t first = 0; first + 1 < matrix_.size(); first += most) {
+      add_part(first, std::min(first + most, matrix_.size() - 1));
+    }
+    return std::move(text_);
+  }
+
+ private:
+  void add_part(std::size_t first, std::size_t end) {
+    std::vector<Table::Column> columns = {number_column({}, digits_), {{}, {}, name_width_, 1}};
+    for (std::size_t column = first; column < end; ++column) {
+      const bool begins_block = (column - first) % columns_in_a_block == 0;
+      columns.push_back({{}, {}, 1, begins_block ? std::size_t{1} : 0});
+    }
+    const Table table(style_, std::move(columns));
+    text_ += '\n';
+    for (std::size_t digit = 0; digit < digits_; ++digit) {
+      Table::Row row = {"", ""};
+      for (std::size_t column = first; column < end; ++column) {
+        const std::string number = fmt::format("{:>{}}", column + 1, digits_);
+        row.emplace_back(number[digit] == ' ' ? "" : number.substr(digit, 1));
+      }
+      text_ += table.line(row, style_.faint);
+    }
+    for (std::size_t row = first; row < matrix_.size(); ++row) {
+      Table::Row cells = {row + 1, names_[row]};
+      for (std::size_t column = first; column < std::min(row, end); ++column) {
+        cells.push_back(cell(matrix_.at(row, column)));
+      }
+      text_ += table.line(cells);
+    }
+  }
+
+  [[nodiscard]] Table::Cell cell(const TaskPair& pair) const {
+    const std::string sign(1, sign_of(pair));
+    if (pair.is_forbidden) return {sign, style_.error};
+    switch (pair.together) {
+      case Together::possible:
+        return {sign, style_.good};
+      case Together::undecided:
+        return {sign, style_.warning};
+      case Together::excluded:
+        return {sign, style_.faint};
+      default:
+        return sign;
+    }
+  }
+
+  const Matrix matrix_;
+  const Style& style_;
+  std::vector<std::string> names_;
+  std::size_t name_width_ = 0;
+  std::size_t digits_;
+  std::string text_;
+};
+
+/// What each sign of the table means, and how often it stands there.
+std::vector<std::string> legend_of(const TogetherTable& table) {
+  std::vector<std::string> lines;
+  const auto add = [&lines](char sign, std::string_view meaning, std::size_t count) {
+    if (count > 0) lines.push_back(fmt::format("{} {}: {}", sign, meaning, count));
+  };
+  const std::size_t forbidden = table.count_forbidden();
+  for (const Together together : answers) {
+    const std::size_t count = table.count(together);
+    const bool is_possible = together == Together::possible;
+    add(sign_of(together), meaning_of(together), is_possible ? count - forbidden : count);
+    if (is_possible) add(forbidden_sign, "can run together, which the settings forbid", forbidden);
+  }
+  return lines;
+}
+
+/// "4 tasks on request, 6 pairs"
+std::string size_of(const TogetherTable& table) {
+  return quantity(table.tasks.size(), "task") + (table.is_of_all_tasks ? ", " : " on request, ") +
+         quantity(table.pairs.size(), "pair") +
+         (table.is_of_all_tasks ? "; no task has start_on_request, so all tasks are here" : "");
+}
+
+}  // namespace
+
+std::string together_text(const CompiledCatalog& catalog, const TogetherTable& table,
+                          const Style& style) {
+  std::string text = style.paint(style.strong, printable(catalog.file)) + "\n";
+  text += "  " + size_of(table) + "\n";
+  for (const std::string& line : legend_of(table)) text += "    " + line + "\n";
+  if (!table.never_run.empty()) {
+    text += "  left out, since they can never run: " + list_names(catalog, table.never_run) + "\n";
+  }
+  if (table.tasks.size() > 1) text += TextMatrix(catalog, table, style).write();
+  for_each_indirect(table, [&](const TaskPair& pair) {
+    text += "\n" + style.paint(style.strong, list_names(catalog, {pair.first, pair.second})) + "\n";
+    for (const std::string& reason : reasons_of(catalog, pair)) text += "  " + reason + "\n";
+  });
+  return text;
+}
+
+namespace {
+
+/// Whether a behavior fits in a value of a variable.
+enum class Fit : std::uint8_t {
+  fits,
+  does_not_fit,
+  in_any  ///< the behavior does not name the variable
+};
+
+char sign_of(Fit fit) {
+  constexpr char signs[] = {'+', '-', '.'};
+  return signs[static_cast<std::size_t>(fit)];
+}
+
+constexpr std::string_view legend[] = {"+ fits", "- does not fit",
+                                       ". fits in any value of the variable"};
+
+/// The table without its layout.
+class SituationTable {
+ public:
+  explicit SituationTable(const CompiledCatalog& catalog) : catalog_(catalog) {
+    for (const BehaviorId behavior : catalog.behavior_ids) {
+      if (!catalog.fitting_values_of(behavior).empty()) behaviors_.push_back(behavior);
+    }
+  }
+
+  [[nodiscard]] const CompiledCatalog& catalog() const { return catalog_; }
+  /// Those that name a variable, in catalog order.
+  [[nodiscard]] const std::vector<BehaviorId>& behaviors() const { return behaviors_; }
+  [[nodiscard]] std::size_t unconditional() const {
+    return catalog_.behaviors.size() - behaviors_.size();
+  }
+
+  [[nodiscard]] std::vector<VariableValue> values_of(std::uint32_t variable) const {
+    std::vector<VariableValue> values;
+    for (std::uint32_t value = 0; value < catalog_.variables[variable].value_count; ++value) {
+      values.push_back({variable, value});
+    }
+    return values;
+  }
+  [[nodiscard]] std::vector<VariableValue> values() const {
+    std::vector<VariableValue> values;
+    for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
+      for (const VariableValue value : values_of(variable)) values.push_back(value);
+    }
+    return values;
+  }
+
+  [[nodiscard]] Fit fit(BehaviorId behavior, VariableValue value) const {
+    const auto fitting = catalog_.fitting_values_of(behavior);
+    const FittingValue wanted{behavior, value.variable, value.value};
+    const auto next = std::lower_bound(fitting.begin(), fitting.end(), wanted);
+    if (next != fitting.end() && *next == wanted) return Fit::fits;
+    const auto names_it = [&](const FittingValue& one) { return one.variable == value.variable; };
+    const bool is_named = (next != fitting.end() && names_it(*next)) ||
+                          (next != fitting.begin() && names_it(*std::prev(next)));
+    return is_named ? Fit::does_not_fit : Fit::in_any;
+  }
+
+  [[nodiscard]] std::vector<BehaviorId> behaviors_with(Fit wanted, VariableValue value) const {
+    std::vector<BehaviorId> found;
+    std::copy_if(behaviors_.begin(), behaviors_.end(), std::back_inserter(found),
+                 [&](BehaviorId behavior) { return fit(behavior, value) == wanted; });
+    return found;
+  }
+
+  /// The tasks that have behaviors of which none fits, in catalog order.
+  [[nodiscard]] std::vector<TaskId> tasks_without_behavior(VariableValue value) const {
+    std::vector<TaskId> tasks;
+    for (const TaskId task : catalog_.task_ids) {
+      const auto behaviors = catalog_.values[task];
+      const bool is_without = !behaviors.empty() &&
+                              std::all_of(behaviors.begin(), behaviors.end(), [&](const Value& of) {
+                                return fit(of.behavior, value) == Fit::does_not_fit;
+                              });
+      if (is_without) tasks.push_back(task);
+    }
+    return tasks;
+  }
+
+ private:
+  const CompiledCatalog& catalog_;
+  std::vector<BehaviorId> behaviors_;
+};
+
+std::string describe_size(const CompiledCatalog& catalog, const SituationTable& table) {
+  if (catalog.variables.empty()) return "no situation variables";
+  const std::size_t behaviors = table.behaviors().size();
+  return fmt::format("{}, named by {} of {}",
+                     quantity(catalog.variables.size(), "situation variable"), behaviors,
+                     quantity(catalog.behaviors.size(), "behavior"));
+}
+
+/// "TARGET is lost: RECOGNIZE, FOLLOW"
+std::vector<std::string> describe_gaps(const CompiledCatalog& catalog,
+                                       const SituationTable& table) {
+  std::vector<std::string> lines;
+  for (const VariableValue value : table.values()) {
+    const std::string names = join(table.tasks_without_behavior(value), ", ", [&](TaskId task) {
+      return draw::label_of(catalog.name_of_task(task));
+    });
+    if (!names.empty()) lines.push_back(describe_value(catalog, value) + ": " + names);
+  }
+  return lines;
+}
+
+constexpr std::string_view gaps_title = "tasks without a behavior that fits";
+
+constexpr std::string_view column_gap = "  ";
+
+/// The rows and columns as text, in as many parts as it takes for the columns to fit. A part has
+/// the rows of the behaviors that name one of its variables.
+class TextTable {
+ public:
+  TextTable(const CompiledCatalog& catalog, const SituationTable& table, const Style& style)
+      : catalog_(catalog), table_(table), style_(style) {
+    for (const BehaviorId behavior : table.behaviors()) {
+      names_.push_back(draw::label_of(catalog.name_of_behavior(behavior)));
+    }
+    names_ = shorten(std::move(names_));
+    for (const std::string& name : names_) left_ = std::max(left_, width_of(name));
+    left_ += column_gap.size();
+    for (std::uint32_t variable = 0; variable < catalog.variables.size(); ++variable) {
+      variables_.push_back(draw::label_of(catalog.name_of_variable(variable)));
+      std::vector<std::string>& titles = titles_.emplace_back();
+      for (std::uint32_t value = 0; value < catalog.variables[variable].value_count; ++value) {
+        titles.push_back(draw::label_of(catalog.name_of_value({variable, value})));
+      }
+      titles = shorten(std::move(titles));
+    }
+    variables_ = shorten(std::move(variables_));
+  }
+
+  std::string write() && {
+    std::size_t width = left_;
+    for (std::uint32_t variable = 0; variable < catalog_.variables.size(); ++variable) {
+      const std::vector<VariableValue> values = table_.values_of(variable);
+      std::size_t together = 0;
+      for (const VariableValue value : values) {
+        together += column_gap.size() + width_of(title_of(value));
+      }
+      together = std::max(together, column_gap.size() + width_of(name_of(variable)));
+      // A variable stays in one part if it can.
+      if (width + together > text_width) flush(width);
+      for (const VariableValue value : values) {
+        std::size_t column = width_of(title_of(value));
+        if (width + column_gap.size() + column > text_width) flush(width);
+        // The name of the variable stands above its first value.
+        if (values_.empty() || values_.back().variable != variable) {
+          name_end_ = width + column_gap.size() + width_of(name_of(variable));
+        }
+        if (value == values.back() && width + column_gap.size() + column < name_end_) {
+          column = name_end_ - width - column_gap.size();
+        }
+        values_.push_back(value);
+        widths_.push_back(column);
+        width += column_gap.size() + column;
+      }
+    }
+    flush(width);
+    return std::move(text_);
+  }
+
+ private:
+  [[nodiscard]] const std::string& name_of(std::uint32_t variable) const {
+    return variables_[variable];
+  }
+  [[nodiscard]] const std::string& title_of(VariableValue value) const {
+    return titles_[value.variable][value.value];
+  }
+
+  /// Writes the columns that have been collected.
+  void flush(std::size_t& width) {
+    if (!values_.empty()) add_part();
+    values_.clear();
+    widths_.clear();
+    width = left_;
+  }
+
+  void add_part() {
+    std::vector<Table::Column> columns = {{{}, {}, left_ - column_gap.size()}};
+    Table::Row variables = {""};
+    Table::Row titles = {""};
+    for (std::size_t column = 0; column < values_.size(); ++column) {
+      const VariableValue value = values_[column];
+      const bool is_first = column == 0 || values_[column - 1].variable != value.variable;
+      columns.push_back({{}, {}, widths_[column]});
+      variables.emplace_back(is_first ? name_of(value.variable) : std::string());
+      titles.emplace_back(title_of(value));
+    }
+    const Table table(style_, std::move(columns));
+    text_ += "\n" + table.line(variables, style_.strong) + table.line(titles, style_.faint);
+    for (std::size_t row = 0; row < names_.size(); ++row) {
+      Table::Row cells = {names_[row]};
+      bool names_any = false;
+      for (const VariableValue value : values_) {
+        const Fit fit = table_.fit(table_.behaviors()[row], value);
+        names_any = names_any || fit != Fit::in_any;
+        cells.emplace_back(std::string(1, sign_of(fit)), color_of(fit));
+      }
+      if (names_any) text_ += table.line(cells);
+    }
+  }
+
+  [[nodiscard]] std::string_view color_of(Fit fit) const {
+    if (fit == Fit::in_any) return style_.faint;
+    return fit == Fit::fits ? style_.good : style_.bad;
+  }
+
+  const CompiledCatalog& catalog_;
+  const SituationTable& table_;
+  const Style& style_;
+  std::vector<std::string> names_;
+  std::vector<std::string> variables_;            ///< their names
+  std::vector<std::vector<std::string>> titles_;  ///< of their values
+  std::size_t left_ = 0;                          ///< width of the names
+  std::vector<VariableValue> values_;
+  std::vector<std::size_t> widths_;
+  std::size_t name_end_ = 0;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string situation_text(const CompiledCatalog& catalog, const Style& style) {
+  const SituationTable table(catalog);
+  std::string text = style.paint(style.strong, printable(catalog.file)) + "\n";
+  text += "  " + describe_size(catalog, table) + "\n";
+  if (table.behaviors().empty()) return text;
+  for (const std::string_view line : legend) text += fmt::format("    {}\n", line);
+  text += TextTable(catalog, table, style).write();
+  const std::vector<std::string> gaps = describe_gaps(catalog, table);
+  if (gaps.empty()) return text;
+  text += fmt::format("\n{}\n", style.paint(style.strong, gaps_title));
+  for (const std::string& line : gaps) text += "  " + line + "\n";
+  return text;
+}
+
+namespace json::situation_view {
+
+/// The table is the context.
+constexpr auto value = object(
+    "value", "",
+    member("value", plain_value, "true and false for a variable that is declared without values.",
+           std::identity()),
+    member("fit", behaviors, "The behaviors that name the variable, and fit in this value.",
+           [](VariableValue of, const SituationTable& table) {
+             return table.behaviors_with(Fit::fits, of);
+           }),
+    member("do_not_fit", behaviors,
+           "The behaviors that name the variable, and do not fit in this value.",
+           [](VariableValue of, const SituationTable& table) {
+             return table.behaviors_with(Fit::does_not_fit, of);
+           }),
+    member("tasks_without_behavior", tasks,
+           "The tasks that have behaviors of which none fits in this value, whatever the other "
+           "variables are.",
+           [](VariableValue of, const SituationTable& table) {
+             return table.tasks_without_behavior(of);
+           }));
+
+constexpr auto report = object(
+    "",
+    "The output of `cbc graph --view situation --format json` (schema cbc.situation/1): which "
+    "behaviors fit in which values of the situation variables.",
+    schema_member("cbc.situation/1"),
+    member("catalog", any_text, "The catalog, as given.",
+           [](const SituationTable& of) { return of.catalog().file; }),
+    member("variables",
+           list(object("variable", "", member("variable", variable, "", std::identity()),
+                       member("values", list(value).at_least(2).on_lines(),
+                              "The first one is the initial value.",
+                              [](std::uint32_t of, const SituationTable& table) {
+                                return table.values_of(of);
+                              })))
+               .on_lines(),
+           "The situation variables, in catalog order.",
+           [](const SituationTable& of) {
+             return [&of](const auto& put) {
+               const std::size_t size = of.catalog().variables.size();
+               for (std::uint32_t place = 0; place < size; ++place) put(place);
+             };
+           }),
+    member("behaviors",
+           list(object("behavior", "", member("behavior", behavior, "", std::identity()),
+                       member("situation", conditions.not_empty(),
+                              "For each variable that it names, the values in which it fits.",
+                              [](BehaviorId of, const SituationTable& table) {
+                                return by_variable(conditions_of(table.catalog(), of));
+                              })))
+               .on_lines(),
+           "The behaviors that name situation variables, in catalog order.",
+           &SituationTable::behaviors),
+    member("unconditional", count,
+           "Number of the behaviors that name no variable, and so fit in every situation.",
+           &SituationTable::unconditional));
+
+}  // namespace json::situation_view
+
+std::string situation_json(const CompiledCatalog& catalog) {
+  const SituationTable table(catalog);
+  return json::document(json::situation_view::report, table, table);
+}
+
+std::string situation_schema() {
+  return json::schema("situation", "Behaviors and situations", json::situation_view::report);
+}
+
+}  // namespace cbc

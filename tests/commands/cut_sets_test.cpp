@@ -1,0 +1,174 @@
+// Minimal cut sets on catalogs that a person can check.
+#include "verify/engine/cut_sets.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "runtime/compiled/compiled_catalog.h"
+#include "support/read_file.h"
+#include "unit/compiled_fixture.h"
+
+namespace cbc::cut_sets_test {
+namespace {
+
+using test::compile_text;
+using test::task_id;
+
+std::string show_sets(const CompiledCatalog& catalog, const CutSets& found) {
+  std::string text;
+  for (const std::vector<BehaviorId>& set : found.sets) {
+    text += text.empty() ? "{" : " {";
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      if (i > 0) text += ' ';
+      text += catalog.name_of_behavior(set[i]);
+    }
+    text += '}';
+  }
+  return text;
+}
+
+CutSets find(const CompiledCatalog& catalog, std::string_view task, std::uint32_t order,
+             const std::optional<SituationPart>& situation = std::nullopt) {
+  CutSetOptions options;
+  options.order = order;
+  return find_cut_sets(catalog, task_id(catalog, task), ruled_out_by(catalog, situation), options);
+}
+
+std::string cut_sets(const CompiledCatalog& catalog, std::string_view task, std::uint32_t order,
+                     const std::optional<SituationPart>& situation = std::nullopt) {
+  const CutSets found = find(catalog, task, order, situation);
+  EXPECT_TRUE(found.complete);
+  return show_sets(catalog, found);
+}
+
+constexpr std::string_view survey = R"(behaviors:
+- {behavior: far, task: SURVEY, suitability: 60, requires: [{task: FLY}]}
+- {behavior: close, task: SURVEY, requires: [{task: FLY, minimum_performance: 56}]}
+- {behavior: precisely, task: FLY, suitability: 70, requires: [{task: LOCALIZE}]}
+- {behavior: plainly, task: FLY, suitability: 50}
+- {behavior: rtk, task: LOCALIZE, suitability: 80}
+- {behavior: gps, task: LOCALIZE, suitability: 75}
+)";
+
+TEST(CutSets, SayWhatIsCompleteWhenTheyAreStopped) {
+  const CompiledCatalog catalog = compile_text(survey);
+  CutSetOptions options;
+  options.order = 4;
+  const CutSets all =
+      find_cut_sets(catalog, task_id(catalog, "SURVEY"), ruled_out_by(catalog, {}), options);
+  std::uint32_t reached = 0;
+  for (std::uint64_t searches = 0; searches <= all.searches; ++searches) {
+    std::uint64_t left = searches;
+    std::uint64_t found = 0;
+    options.on_progress = [&](const CutSetProgress& progress) {
+      reached = progress.size;
+      found = progress.found;
+      return left-- > 0;
+    };
+    const CutSets some =
+        find_cut_sets(catalog, task_id(catalog, "SURVEY"), ruled_out_by(catalog, {}), options);
+    ASSERT_EQ(some.complete, searches == all.searches);
+    if (some.complete) {
+      EXPECT_EQ(some.sets, all.sets);
+      break;
+    }
+    EXPECT_EQ(some.incomplete_size, reached);
+    EXPECT_EQ(some.sets.size(), found);
+    ASSERT_LE(some.sets.size(), all.sets.size());
+    for (std::size_t i = 0; i < all.sets.size(); ++i) {
+      if (i < some.sets.size()) {
+        EXPECT_EQ(some.sets[i], all.sets[i]);
+      } else {
+        EXPECT_GE(all.sets[i].size(), some.incomplete_size) << searches;
+      }
+    }
+  }
+  EXPECT_EQ(reached, 3U) << "the last search is for {plainly rtk gps}";
+}
+
+/// Nine pigeons in eight holes, which a search by propagation refutes hole by hole.
+std::string pigeons() {
+  constexpr int holes = 8;
+  std::string behaviors = "behaviors:\n- {behavior: all, task: ALL, requires: [";
+  std::string lists = "exclusivity_constraints:\n";
+  for (int pigeon = 0; pigeon <= holes; ++pigeon)
+    behaviors += fmt::format("{{task: P{}}}, ", pigeon);
+  behaviors += "]}\n";
+  for (int hole = 0; hole < holes; ++hole) {
+    lists += "- mutually_exclusive: [";
+    for (int pigeon = 0; pigeon <= holes; ++pigeon) {
+      const std::string place = fmt::format("{}_{}", pigeon, hole);
+      behaviors += fmt::format(
+          "- {{behavior: go_{0}, task: P{1}, requires: [{{task: IN_{0}}}]}}\n"
+          "- {{behavior: in_{0}, task: IN_{0}}}\n",
+          place, pigeon);
+      lists += fmt::format("IN_{}, ", place);
+    }
+    lists += "]\n";
+  }
+  return behaviors + lists;
+}
+
+TEST(CutSets, CanBeStoppedInALongSearch) {
+  const CompiledCatalog catalog = compile_text(pigeons());
+  const TaskId task = task_id(catalog, "ALL");
+  CutSetOptions options;
+  int calls = 0;
+  options.on_progress = [&](const CutSetProgress& /*progress*/) { return ++calls > 0; };
+  const CutSets all = find_cut_sets(catalog, task, ruled_out_by(catalog, {}), options);
+  EXPECT_TRUE(all.complete);
+  EXPECT_EQ(show_sets(catalog, all), "{}");
+  EXPECT_EQ(all.searches, 1U);
+  EXPECT_GT(calls, 1) << "not hard enough";
+  int left = 1;
+  options.on_progress = [&](const CutSetProgress& /*progress*/) { return left-- > 0; };
+  const CutSets none = find_cut_sets(catalog, task, ruled_out_by(catalog, {}), options);
+  EXPECT_FALSE(none.complete);
+  EXPECT_EQ(none.incomplete_size, 0U);
+  EXPECT_TRUE(none.sets.empty());
+}
+
+CompiledCatalog own_catalog(const std::string& name) {
+  return compile_text(test::read_file(std::filesystem::path(CBC_SOURCE_DIR) / "catalogs" / name));
+}
+
+/// catalogs/autoware.yaml has its diagnostics as behaviors that require nothing. The minimal cut
+/// sets of diagnostics alone were found from the original files, by a script and with SCRAM.
+TEST(CutSets, OfAutoware) {
+  const CompiledCatalog catalog = own_catalog("autoware.yaml");
+  const auto is_diagnostic = [&](BehaviorId one) { return catalog.requirements[one].empty(); };
+  using Counts = std::vector<std::size_t>;  // of one behavior, of two
+  const std::map<std::string, Counts> expected{
+      {"autonomous", {34, 2}}, {"comfortable_stop", {33, 2}},
+      {"pull_over", {33, 2}},  {"emergency_stop", {4, 1}},
+      {"local", {7, 1}},       {"remote", {7, 1}},
+      {"stop", {1, 0}}};
+  for (const auto& [mode, counts] : expected) {
+    Counts found(2);
+    for (const auto& set : find(catalog, "/autoware/modes/" + mode, 2).sets) {
+      if (std::all_of(set.begin(), set.end(), is_diagnostic)) ++found.at(set.size() - 1);
+    }
+    EXPECT_EQ(found, counts) << mode;
+  }
+}
+
+TEST(CutSets, OfTheQuadrotor) {
+  const CompiledCatalog catalog = own_catalog("quadrotor.yaml");
+  EXPECT_EQ(cut_sets(catalog, "LAND", 3),
+            "{LAND} {QUADROTOR_PID_THRUST_CONTROL} "
+            "{SELF_LOCALIZE_WITH_GROUND_TRUTH SELF_LOCALIZE_WITH_EKF_SENSOR_FUSION} "
+            "{SELF_LOCALIZE_WITH_GROUND_TRUTH ESTIMATE_POSITION_WITH_SENSOR "
+            "ESTIMATE_POSITION_WITH_LINEAR_SPEED}");
+}
+
+}  // namespace
+}  // namespace cbc::cut_sets_test

@@ -1,0 +1,128 @@
+// What the golden cases of `cbc verify` cannot show, as it takes limits that depend on the machine.
+#include "verify/report/verify_report.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/exclusive_tasks.h"
+#include "unit/compiled_fixture.h"
+#include "verify/engine/explore.h"
+
+namespace cbc::verify_report_test {
+namespace {
+
+using Json = nlohmann::json;
+
+std::shared_ptr<const CompiledCatalog> robot() {
+  return std::make_shared<const CompiledCatalog>(test::compile_text(R"(behaviors:
+- {behavior: DESCEND, task: LAND, requires: [{task: LOCALIZE}]}
+- {behavior: GPS, task: LOCALIZE}
+- {behavior: CAMERA, task: LOCALIZE}
+tasks:
+- {task: LAND}
+- {task: LOCALIZE, start_on_request: false}
+)"));
+}
+
+/// The cut sets of LAND, of whose search only some steps were made.
+VerifyResult cut_sets_after(int steps) {
+  VerifyResult result;
+  result.catalog = robot();
+  result.wants_cut_sets = true;
+  CutSetOptions options;
+  options.order = 2;
+  options.on_progress = [&steps](const CutSetProgress& /*progress*/) { return steps-- > 0; };
+  const TaskId land = result.catalog->task_ids[0];
+  result.cut_sets.push_back(
+      {land, options.order,
+       find_cut_sets(*result.catalog, land, ruled_out_by(*result.catalog, {}), options)});
+  return result;
+}
+
+TEST(VerifyReport, SaysHowFarASearchForCutSetsCame) {
+  bool was_partial = false;
+  for (int steps = 0;; ++steps) {
+    const VerifyResult result = cut_sets_after(steps);
+    const CutSets& found = result.cut_sets.front().found;
+    const std::string text = verify_to_text(result, plain_style());
+    const Json json = Json::parse(verify_to_json(result))["cut_sets"][0];
+    EXPECT_EQ(result.is_answered(), found.complete);
+    if (found.complete) {
+      EXPECT_FALSE(json.contains("complete_order"));
+      EXPECT_EQ(text.find("a limit"), std::string::npos);
+      break;
+    }
+    if (found.incomplete_size == 0) {
+      EXPECT_TRUE(json["complete_order"].is_null());
+      EXPECT_NE(text.find("a limit ended the search at its beginning"), std::string::npos);
+      EXPECT_NE(text.find("none found so far"), std::string::npos);
+    } else {
+      was_partial = true;
+      EXPECT_EQ(json["complete_order"], found.incomplete_size - 1);
+      EXPECT_NE(text.find("a limit ended the search: all sets of fewer than " +
+                          std::to_string(found.incomplete_size)),
+                std::string::npos);
+    }
+  }
+  EXPECT_TRUE(was_partial);
+}
+
+std::string limit_of(const ExplorationLimits& limits, bool stops) {
+  VerifyResult result;
+  result.catalog = robot();
+  result.limits = limits;
+  ExplorationOptions options;
+  options.limits = limits;
+  options.on_progress = [stops](const auto& /*groups*/, const ExplorationProgress& /*progress*/) {
+    return !stops;
+  };
+  const Verification verification = verify_groups(*result.catalog, options);
+  EXPECT_FALSE(verification.is_complete());
+  return describe_limit(result, verification.explorations.front());
+}
+
+TEST(VerifyReport, SaysWhatEndedAnExploration) {
+  const std::string depth = "; every state up to depth 0 was visited";
+  const std::string counts = "; states at each depth: 1";
+  const std::string way_on = " (a higher limit goes on)";
+  EXPECT_EQ(limit_of({}, true), "interrupted" + depth + counts);
+  EXPECT_EQ(limit_of({1, 0, 0}, false), "ended by --max-states 1" + depth + way_on + counts);
+  EXPECT_EQ(limit_of({0, 3 << 10, 0}, false), "ended by --max-memory 3K" + depth + way_on + counts);
+  EXPECT_EQ(limit_of({0, 1025, 0}, false), "ended by --max-memory 1025" + depth + way_on + counts);
+  EXPECT_EQ(limit_of({0, 0, 1e-9}, false), "ended by --time-limit 1e-09" + depth + way_on + counts);
+}
+
+/// What is said of the pairs of a group of tasks that have all been seen to run, the first two of
+/// them together.
+std::string pairs_of_group(std::size_t tasks) {
+  VerifyResult result;
+  result.catalog =
+      std::make_shared<const CompiledCatalog>(test::compile_text(test::exclusive_tasks(tasks)));
+  Exploration exploration;
+  exploration.groups = {0};
+  exploration.complete = true;
+  for (std::uint32_t task = 0; task < tasks; ++task) exploration.runs.emplace_back(task, 1);
+  exploration.together = {{0, 1, 2}};
+  result.parts.emplace_back().verification.explorations.push_back(exploration);
+  const std::string text = verify_to_text(result, plain_style());
+  const std::size_t begin = text.find("  never run together");
+  return begin == std::string::npos ? "" : text.substr(begin);
+}
+
+TEST(VerifyReport, ListsThePairsOfTasksUnlessTheyAreMillions) {
+  EXPECT_EQ(pairs_of_group(2), "");
+  EXPECT_EQ(pairs_of_group(4),
+            "  never run together        T0 with T2, T3\n"
+            "                            T1 with T2, T3\n"
+            "                            T2 with T3\n");
+  EXPECT_EQ(pairs_of_group(2001),
+            "  never run together        (pairs of more than 2000 tasks are not listed)\n");
+}
+
+}  // namespace
+}  // namespace cbc::verify_report_test
