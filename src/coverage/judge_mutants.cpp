@@ -20,8 +20,6 @@
 #include "coverage/engine/mutants/mutants.h"
 #include "coverage/report/mutants_report.h"
 #include "runtime/base/text.h"
-#include "verify/engine/explore.h"
-#include "verify/verify.h"
 
 namespace cbc::cli {
 namespace {
