@@ -1,15 +1,16 @@
+#include "compile/catalog_dump.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
 
-#include "compile/catalog_dump.h"
 #include "core/catalog/allowed_values.h"
 #include "core/catalog/situation.h"
 #include "core/compile/catalog_json.h"
 #include "core/compile/compile.h"
-#include "core/report/catalog_words.h"
+#include "core/report/words.h"
 #include "core/support/json_description.h"
 
 namespace cbc {
@@ -198,7 +199,7 @@ struct Report {
 };
 
 constexpr auto report =
-    object("", "The output of `cbc compile --dump --format json` (schema cbc.catalog/1).",
+    object("", "The output of `cbc compile --dump` (schema cbc.catalog/1).",
            schema_member("cbc.catalog/1"),
            member("format", integer(1), "Format version of the compiled file.",
                   [](const Report& of) { return of.file.format; })

@@ -17,7 +17,7 @@
 #include "core/compile/compile.h"
 #include "core/files/file_set.h"
 #include "core/files/output.h"
-#include "core/files/read_files.h"
+#include "core/files/read.h"
 #include "runtime/base/mapped_file.h"
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_file.h"

@@ -13,7 +13,6 @@
 #include "core/report/test_report.h"
 #include "coverage/coverage.h"
 #include "coverage/report/coverage_report.h"
-#include "coverage/report/mutants_report.h"
 
 namespace cbc::cli {
 namespace {
@@ -49,7 +48,8 @@ int run_coverage(const CoverageOptions& options) {
   std::optional<std::vector<Mission>> missions = loader.load(options.paths);
   if (!missions) {
     if (options.format == "github") {  // which could take no annotation for success
-      static_cast<void>(write_output(options.output, unreadable_to_text(github_format, "cbc coverage", loader.findings())));
+      static_cast<void>(write_output(
+          options.output, unreadable_to_text(github_format, "cbc coverage", loader.findings())));
     }
     return exit_unusable;
   }

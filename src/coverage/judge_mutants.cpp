@@ -18,7 +18,7 @@
 #include "coverage/coverage.h"
 #include "coverage/engine/mutants/judge.h"
 #include "coverage/engine/mutants/mutants.h"
-#include "coverage/report/mutants_report.h"
+#include "coverage/report/coverage_report.h"
 #include "runtime/base/text.h"
 
 namespace cbc::cli {

@@ -1,5 +1,3 @@
-#include "coverage/mission_folder.h"
-
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
@@ -13,7 +11,8 @@
 
 #include "core/command_line/command_line.h"
 #include "core/files/output.h"
-#include "core/files/read_files.h"
+#include "core/files/read.h"
+#include "coverage/coverage.h"
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_file.h"
 

@@ -16,8 +16,7 @@
 #include "coverage/coverage.h"
 #include "coverage/engine/goals.h"
 #include "coverage/engine/missing_missions.h"
-#include "coverage/mission_folder.h"
-#include "coverage/report/missing_missions_report.h"
+#include "coverage/report/coverage_report.h"
 #include "runtime/base/text.h"
 
 namespace cbc::cli {

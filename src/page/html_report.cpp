@@ -12,7 +12,7 @@
 #include "core/catalog/situation.h"
 #include "core/compile/catalog_json.h"
 #include "core/report/event_description.h"
-#include "core/script/situation_json.h"
+#include "core/script/state_json.h"
 #include "core/support/json.h"
 #include "page_files.h"
 

@@ -15,7 +15,7 @@
 #include "core/files/line_input.h"
 #include "core/files/missions.h"
 #include "core/files/output.h"
-#include "core/files/read_files.h"
+#include "core/files/read.h"
 #include "core/report/event_json.h"
 #include "core/script/event_lines.h"
 #include "core/script/reader.h"

@@ -6,7 +6,6 @@
 
 #include "core/catalog/reader.h"
 #include "core/compile/compile.h"
-#include "core/report/answer_bound.h"
 #include "core/report/event_json.h"
 #include "core/report/suitability.h"
 #include "core/script/reader.h"

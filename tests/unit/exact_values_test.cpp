@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/compile/compile.h"
-#include "core/report/catalog_words.h"
+#include "core/report/words.h"
 #include "core/report/suitability.h"
 #include "unit/compiled_fixture.h"
 

@@ -1,5 +1,3 @@
-#include "runtime/compiled/log_cost.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "property/random.h"
+#include "runtime/compiled/derive.h"
 #include "support/rounds.h"
 
 namespace cbc::log_cost_test {

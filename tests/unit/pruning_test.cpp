@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/compile/compile.h"
-#include "runtime/compiled/log_cost.h"
+#include "runtime/compiled/derive.h"
 #include "runtime/solver/components.h"
 #include "runtime/solver/cost_bound.h"
 #include "runtime/solver/objective.h"

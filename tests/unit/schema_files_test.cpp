@@ -11,7 +11,6 @@
 #include "core/report/run_json.h"
 #include "core/script/state_json.h"
 #include "coverage/report/coverage_report.h"
-#include "coverage/report/mutants_report.h"
 #include "graph/report/graph_report.h"
 #include "graph/report/tables.h"
 #include "lint/report/lint_report.h"

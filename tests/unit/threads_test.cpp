@@ -1,5 +1,3 @@
-#include "core/support/threads.h"
-
 #include <atomic>
 #include <stdexcept>
 #include <string>
@@ -7,6 +5,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "core/support/system.h"
 
 namespace cbc::threads_test {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/report/xml_text.h"
+#include "core/support/wording.h"
 
 namespace cbc::xml_text_test {
 namespace {

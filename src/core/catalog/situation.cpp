@@ -50,11 +50,11 @@ void report_unknown_value(const Node& node, std::string_view variable,
   const std::size_t listed = values.size() <= most ? values.size() : most - 1;
   for (const std::string_view value : values.first(listed)) known.push_back(quote(value));
   if (listed < values.size()) known.push_back(concat(values.size() - listed, " more"));
-  reporter.report(rule::situation_value, node.range,
-                  concat("situation variable ", quote(variable), " has no value ", quote(node.text),
-                         suggestion ? did_you_mean(suggestion)
-                                    : "; its values are " + list_with_and(known)),
-                  std::move(notes));
+  reporter.report(
+      rule::situation_value, node.range,
+      concat("situation variable ", quote(variable), " has no value ", quote(node.text),
+             suggestion ? did_you_mean(suggestion) : "; its values are " + list_with_and(known)),
+      std::move(notes));
 }
 
 std::vector<Variable> SituationReader::read_variables(const Node* section) {

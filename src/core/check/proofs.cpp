@@ -461,8 +461,7 @@ Note ProofContext::note_of_condition(const Reason& reason) const {
     values.push_back(quote(variable.values[value]));
   }
   return reporter_.note(condition->range, "behavior " + quote(fitting.name) + " fits only where " +
-                                              quote(variable.name) + " is " +
-                                              list_with_or(values));
+                                              quote(variable.name) + " is " + list_with_or(values));
 }
 
 Note ProofContext::note_of(const Reason& reason) const {

@@ -9,9 +9,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-#include "core/files/read.h"
 #include "core/files/output.h"
-#include "core/files/read_files.h"
+#include "core/files/read.h"
 #include "core/support/system.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"

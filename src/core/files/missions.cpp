@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/files/output.h"
-#include "core/files/read_files.h"
+#include "core/files/read.h"
 #include "runtime/base/text.h"
 
 namespace cbc::cli {

@@ -20,7 +20,7 @@
 
 #include <fmt/core.h>
 
-#include "core/files/read_files.h"
+#include "core/files/read.h"
 #include "core/support/system.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"

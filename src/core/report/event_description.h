@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "core/compile/compile.h"
-#include "core/report/answer_bound.h"
 #include "core/report/event_json.h"
-#include "core/report/event_words.h"
 #include "core/report/explanation_json.h"
 #include "core/report/search_stats.h"
-#include "core/script/situation_json.h"
+#include "core/report/suitability.h"
+#include "core/report/words.h"
+#include "core/script/state_json.h"
 #include "core/support/json_description.h"
 
 // The description of an event.

@@ -5,10 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "core/report/catalog_words.h"
-#include "core/report/event_words.h"
 #include "core/report/reason_words.h"
 #include "core/report/suitability.h"
+#include "core/report/words.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 

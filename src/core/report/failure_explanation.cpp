@@ -6,10 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "core/report/catalog_words.h"
-#include "core/report/event_words.h"
 #include "core/report/layout.h"
 #include "core/report/reason_words.h"
+#include "core/report/words.h"
 #include "runtime/explain/reasons.h"
 
 namespace cbc {

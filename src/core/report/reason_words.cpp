@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "core/report/catalog_words.h"
 #include "core/report/suitability.h"
+#include "core/report/words.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 

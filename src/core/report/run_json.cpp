@@ -13,9 +13,9 @@
 
 #include "core/report/event_description.h"
 #include "core/report/event_json.h"
+#include "core/report/explanation_words.h"
 #include "core/report/run_report.h"
 #include "core/report/search_stats.h"
-#include "core/report/explanation_words.h"
 #include "core/report/totals_json.h"
 #include "core/support/json.h"
 #include "core/support/json_description.h"
@@ -55,8 +55,7 @@ constexpr auto unexpected =
         optional("due", positive_seconds,
                  "When a reactive task that should run starts by itself, in seconds on the clock.",
                  [](const Unexpected& of) {
-                   return why_of(of).kind == WhyUnmet::Kind::due ? &why_of(of).due
-                                                                      : nullptr;
+                   return why_of(of).kind == WhyUnmet::Kind::due ? &why_of(of).due : nullptr;
                  }),
         part(
             [](const Unexpected& of) -> const auto& { return of.why_not; },
@@ -104,10 +103,10 @@ struct OfFailure {
     const State& present = *context.failure.state;
     const WhyUnmet& why_unmet = tasks.why_unmet;
     if (why_unmet.kind == WhyUnmet::Kind::decided) {
-      unexpected.write(json,
-                       Unexpected{tasks, why_unmet.why_not, why_unmet.why_not.conflict,
-                                  tasks.tasks, present},
-                       Decision{context.catalog, *why_unmet.event, *why_unmet.before});
+      unexpected.write(
+          json,
+          Unexpected{tasks, why_unmet.why_not, why_unmet.why_not.conflict, tasks.tasks, present},
+          Decision{context.catalog, *why_unmet.event, *why_unmet.before});
       return;
     }
     const bool is_rejected = why_unmet.kind == WhyUnmet::Kind::rejected;

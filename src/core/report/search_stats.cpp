@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/diagnostic/diagnostic.h"
-#include "core/report/catalog_words.h"
 #include "core/report/table.h"
+#include "core/report/words.h"
 #include "core/support/json.h"
 #include "core/support/wording.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/report/xml_text.h"
+#include "core/support/wording.h"
 
 namespace cbc {
 

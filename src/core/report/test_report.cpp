@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "core/report/xml_text.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 

@@ -7,7 +7,6 @@
 
 #include "cbc/event.h"
 #include "core/script/names.h"
-#include "core/script/situation_json.h"
 #include "core/support/json_description.h"
 #include "core/yaml/document.h"
 #include "core/yaml/json_value.h"

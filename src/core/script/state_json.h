@@ -1,9 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "core/compile/catalog_json.h"
+#include "core/script/script.h"
+#include "core/support/json_description.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/state.h"
 
@@ -21,3 +26,29 @@ struct StateReading {
 [[nodiscard]] StateReading read_state(std::string_view text, const CompiledCatalog& catalog);
 
 }  // namespace cbc
+
+namespace cbc::json {
+
+/// What a Map makes of what is said of the situation: behaviors, then variables.
+[[nodiscard]] inline auto entries_of(const Situation& said, const CompiledCatalog& catalog) {
+  return [&](const auto& put) {
+    for (const Availability& entry : said.availability) {
+      put(catalog.behavior_names[entry.behavior], entry.available);
+    }
+    for (const VariableValue value : said.variables) {
+      put(catalog.name_of_variable(value.variable), value);
+    }
+  };
+}
+
+/// The same of the values of all situation variables.
+[[nodiscard]] inline auto entries_of(std::span<const std::uint32_t> values,
+                                     const CompiledCatalog& catalog) {
+  return [values, &catalog](const auto& put) {
+    for (std::uint32_t place = 0; place < values.size(); ++place) {
+      put(catalog.name_of_variable(place), VariableValue{place, values[place]});
+    }
+  };
+}
+
+}  // namespace cbc::json

@@ -14,6 +14,7 @@
 
 /// Words for people: suggestions for unknown names, names that look alike, plurals, line breaks in
 /// names; and, for programs, URIs.
+
 namespace cbc {
 
 /// Suggests known names for unknown ones. Names are compared word by word, whatever separates the
@@ -87,5 +88,10 @@ template <typename Things, typename ToText = std::identity>
 
 /// Appends a byte as "%2F".
 void append_percent_encoded(std::string& text, char byte);
+
+/// Escapes a text as content of an XML or HTML element or as a quoted attribute value. Line ends
+/// are kept; other control characters, invalid UTF-8 and characters that XML 1.0 does not allow
+/// become printable.
+[[nodiscard]] std::string xml_text(std::string_view text);
 
 }  // namespace cbc

@@ -6,9 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "core/report/property_words.h"
 #include "core/report/table.h"
-#include "core/report/xml_text.h"
+#include "core/report/words.h"
 #include "core/support/wording.h"
 #include "coverage/report/coverage_report.h"
 #include "page_files.h"

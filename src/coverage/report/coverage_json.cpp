@@ -152,14 +152,14 @@ constexpr auto catalog = object(
            })
         .on_line());
 
-constexpr auto report = object(
-    "",
-    "The output of `cbc solve --coverage --format json` (schema cbc.coverage/1): which goals "
-    "of catalogs the missions meet. docs/coverage.md defines the goals.",
-    schema_member("cbc.coverage/1"), part(&Coverage::total, numbers),
-    member("catalogs", list(scoped(std::identity(), catalog)).at_least(1).on_lines(),
-           "The catalogs, in the order of their first missions.", &Coverage::catalogs)
-        .on_line());
+constexpr auto report =
+    object("",
+           "The output of `cbc coverage --format json` (schema cbc.coverage/1): which goals "
+           "of catalogs the missions meet. docs/coverage.md defines the goals.",
+           schema_member("cbc.coverage/1"), part(&Coverage::total, numbers),
+           member("catalogs", list(scoped(std::identity(), catalog)).at_least(1).on_lines(),
+                  "The catalogs, in the order of their first missions.", &Coverage::catalogs)
+               .on_line());
 
 }  // namespace json::coverage
 

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "core/report/layout.h"
-#include "core/report/property_words.h"
 #include "core/report/table.h"
+#include "core/report/words.h"
 #include "core/support/wording.h"
-#include "coverage/report/missing_missions_report.h"
+#include "coverage/report/coverage_report.h"
 #include "runtime/base/text.h"
 
 namespace cbc {

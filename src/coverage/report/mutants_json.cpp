@@ -4,7 +4,7 @@
 
 #include "core/report/assumptions_json.h"
 #include "core/support/json_description.h"
-#include "coverage/report/mutants_report.h"
+#include "coverage/report/coverage_report.h"
 
 namespace cbc {
 namespace json::mutants {
@@ -148,7 +148,8 @@ constexpr auto counts = group(
 constexpr auto report =
     object(
         "",
-        "The output of `cbc verify --mutants --format json` (schema cbc.mutants/1): which changes "
+        "The output of `cbc coverage --mutants --format json` (schema cbc.mutants/1): which "
+        "changes "
         "of a "
         "catalog its missions notice. docs/coverage.md says what is changed.",
         schema_member("cbc.mutants/1"),

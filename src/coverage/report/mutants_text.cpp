@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include "core/report/layout.h"
-#include "core/report/property_words.h"
 #include "core/report/table.h"
 #include "core/report/test_report.h"
+#include "core/report/words.h"
 #include "core/support/wording.h"
-#include "coverage/report/mutants_report.h"
+#include "coverage/report/coverage_report.h"
 #include "runtime/base/text.h"
 
 // Mutants as text and as annotations.

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/report/event_words.h"
+#include "core/report/words.h"
 #include "core/support/json.h"
 
 namespace cbc {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/compile/catalog_json.h"
-#include "core/report/catalog_words.h"
+#include "core/report/words.h"
 #include "core/support/json.h"
 #include "core/support/json_description.h"
 #include "graph/engine/catalog_diff.h"

@@ -14,9 +14,9 @@
 #include <fmt/format.h>
 
 #include "core/compile/catalog_json.h"
-#include "core/report/catalog_words.h"
 #include "core/report/reason_words.h"
 #include "core/report/table.h"
+#include "core/report/words.h"
 #include "core/support/json_description.h"
 #include "core/support/wording.h"
 #include "graph/engine/diagram.h"

@@ -1,7 +1,7 @@
 #include <array>
 #include <string>
 
-#include "core/report/reason_json.h"
+#include "core/report/explanation_json.h"
 #include "core/support/json_description.h"
 #include "graph/report/tables.h"
 

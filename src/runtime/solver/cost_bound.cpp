@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "runtime/compiled/log_cost.h"
+#include "runtime/compiled/derive.h"
 
 namespace cbc {
 

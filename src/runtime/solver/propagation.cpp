@@ -1,6 +1,6 @@
 #include "runtime/solver/propagation.h"
 
-#include "runtime/compiled/log_cost.h"
+#include "runtime/compiled/derive.h"
 
 namespace cbc {
 namespace {

@@ -13,7 +13,7 @@
 #include <algorithm>
 
 #include "runtime/compiled/compiled_catalog.h"
-#include "runtime/compiled/log_cost.h"
+#include "runtime/compiled/derive.h"
 
 namespace cbc {
 

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include "core/report/event_words.h"
 #include "core/report/failure_explanation.h"
 #include "core/report/run_json.h"
 #include "core/report/run_report.h"
 #include "core/report/run_text.h"
 #include "core/report/test_report.h"
+#include "core/report/words.h"
 #include "core/support/wording.h"
 #include "solve/report/solve_report.h"
 

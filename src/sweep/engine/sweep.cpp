@@ -13,7 +13,7 @@
 
 #include "cbc/version.h"
 #include "core/script/script.h"
-#include "core/support/threads.h"
+#include "core/support/system.h"
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_file.h"
 #include "sweep/engine/sequence.h"

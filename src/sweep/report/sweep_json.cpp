@@ -355,7 +355,7 @@ constexpr std::string_view schema_name = "cbc.sweep/1";
 
 constexpr auto report = object(
     "",
-    "The output of `cbc solve --sweep N --format json` and of `cbc solve --merge` (schema "
+    "The output of `cbc sweep --format json` (schema "
     "cbc.sweep/1): what happened in N random sequences of events on a catalog, or in one shard of "
     "them. Except for `stats`, it is the same on every machine.",
     schema_member(schema_name),
@@ -372,7 +372,7 @@ constexpr auto report = object(
            &SweepResult::version)
         .on_line(),
     member(
-        "sequences", place_from_1, "Number of sequences in the whole sweep (--sweep).",
+        "sequences", place_from_1, "Number of sequences in the whole sweep (--sequences).",
         [](auto& of) -> auto& { return of.settings.sequences; })
         .on_line(),
     member(

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <utility>
 
-#include "core/support/threads.h"
+#include "core/support/system.h"
 
 namespace cbc {
 

@@ -19,7 +19,7 @@
 
 #include <fmt/format.h>
 
-#include "core/report/property_words.h"
+#include "core/report/words.h"
 #include "runtime/base/text.h"
 #include "verify/engine/stepper.h"
 

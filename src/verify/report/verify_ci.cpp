@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "core/report/property_words.h"
 #include "core/report/test_report.h"
+#include "core/report/words.h"
 #include "core/support/wording.h"
 #include "verify/report/verify_report.h"
 

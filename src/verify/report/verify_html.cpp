@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/report/property_words.h"
+#include "core/report/words.h"
 #include "page/html_report.h"
 #include "runtime/base/text.h"
 #include "verify/report/verify_report.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/report/reason_json.h"
+#include "core/report/explanation_json.h"
 #include "core/support/json_description.h"
 #include "verify/report/verify_report.h"
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
+#include "core/report/explanation_json.h"
 #include "core/report/failure_explanation.h"
-#include "core/report/reason_json.h"
 #include "core/report/run_text.h"
 #include "core/support/json_description.h"
 #include "core/support/system.h"

@@ -11,9 +11,8 @@
 #include <fmt/format.h>
 
 #include "core/check/together.h"
-#include "core/report/catalog_words.h"
-#include "core/report/property_words.h"
 #include "core/report/table.h"
+#include "core/report/words.h"
 #include "core/support/wording.h"
 #include "runtime/base/text.h"
 #include "verify/report/verify_report.h"

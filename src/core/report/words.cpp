@@ -1,0 +1,308 @@
+#include "core/report/words.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/report/layout.h"
+#include "core/support/wording.h"
+#include "runtime/base/text.h"
+
+namespace cbc {
+
+double to_seconds(Microseconds time) {
+  return static_cast<double>(time) / static_cast<double>(second);
+}
+
+std::string format_time(Microseconds time) {
+  return fmt::format("{:.{}f}", to_seconds(time), time % 1000 == 0 ? 3 : 6);
+}
+
+std::string task_name(const CompiledCatalog& catalog, TaskId task) {
+  const std::string_view name = catalog.name_of_task(task);
+  return (catalog.find_behavior(name) ? "task " : "") + printable(name);
+}
+
+std::string behavior_name(const CompiledCatalog& catalog, BehaviorId behavior) {
+  const std::string_view name = catalog.name_of_behavior(behavior);
+  return (catalog.find_task(name) ? "behavior " : "") + printable(name);
+}
+
+std::vector<std::string> names_in_sentence(const CompiledCatalog& catalog,
+                                           std::span<const TaskId> tasks) {
+  std::vector<std::string> names;
+  for (const TaskId task : tasks) names.push_back(task_name(catalog, task));
+  return names;
+}
+
+std::vector<std::string> names_of_tasks(const CompiledCatalog& catalog,
+                                        std::span<const TaskId> tasks) {
+  std::vector<std::string> names;
+  for (const TaskId task : tasks) names.push_back(printable(catalog.name_of_task(task)));
+  return names;
+}
+
+std::vector<std::string> names_of_behaviors(const CompiledCatalog& catalog,
+                                            std::span<const BehaviorId> behaviors) {
+  std::vector<std::string> names;
+  for (const BehaviorId id : behaviors) names.push_back(printable(catalog.name_of_behavior(id)));
+  return names;
+}
+
+std::string describe_value(const CompiledCatalog& catalog, VariableValue value) {
+  return fmt::format("{} is {}", printable(catalog.name_of_variable(value.variable)),
+                     printable(catalog.name_of_value(value)));
+}
+
+std::string describe_running(const CompiledCatalog& catalog, TaskId task, BehaviorId behavior) {
+  const std::string text = printable(catalog.name_of_task(task)) + " runs";
+  return behavior == none ? text : text + " with " + printable(catalog.name_of_behavior(behavior));
+}
+
+std::string describe_situation(const CompiledCatalog& catalog, const Situation& situation) {
+  std::vector<std::string> parts;
+  for (const Availability& entry : situation.availability) {
+    parts.push_back(fmt::format("{} {}", printable(catalog.behavior_names[entry.behavior]),
+                                entry.available ? "available" : "unavailable"));
+  }
+  for (const VariableValue value : situation.variables) {
+    parts.push_back(describe_value(catalog, value));
+  }
+  return parts.empty() ? "" : " " + join(parts, ", ");
+}
+
+namespace {
+
+std::string describe_condition(const CompiledCatalog& catalog, const StateCondition& condition) {
+  std::vector<std::string> parts;
+  const auto task = [&](TaskId id) { return printable(catalog.name_of_task(id)); };
+  const auto behavior = [&](BehaviorId id) { return printable(catalog.name_of_behavior(id)); };
+  for (const auto& running : condition.running) {
+    parts.push_back(describe_running(catalog, running.task, running.behavior));
+  }
+  for (const TaskId id : condition.stopped) {
+    parts.push_back(fmt::format("{} does not run", task(id)));
+  }
+  for (const BehaviorId id : condition.active) {
+    parts.push_back(fmt::format("behavior {} is active", behavior(id)));
+  }
+  for (const auto& requested : condition.requested) {
+    parts.push_back(fmt::format("{} is requested with priority {} or more", task(requested.task),
+                                requested.priority));
+  }
+  for (const VariableValue& value : condition.situation.variables) {
+    parts.push_back(describe_value(catalog, value));
+  }
+  for (const auto& own : condition.situation.behaviors) {
+    parts.push_back(fmt::format("the situation {} {}", own.available ? "allows" : "forbids",
+                                behavior(own.behavior)));
+  }
+  for (const BehaviorId id : condition.available) {
+    parts.push_back(fmt::format("behavior {} is available", behavior(id)));
+  }
+  for (const BehaviorId id : condition.faulty) {
+    parts.push_back(fmt::format("behavior {} is faulty", behavior(id)));
+  }
+  return join(parts, " and ");
+}
+
+}  // namespace
+
+std::string describe_property(const CompiledCatalog& catalog, const Property& property) {
+  const std::string condition = describe_condition(catalog, property.condition);
+  std::string text;
+  switch (property.kind) {
+    case Property::Kind::can_start:
+      return fmt::format("{} can always start with priority {}",
+                         printable(catalog.name_of_task(property.task)), property.priority);
+    case Property::Kind::always:
+      text = fmt::format("always {}", condition);
+      break;
+    case Property::Kind::never:
+      text = fmt::format("never {}", condition);
+      break;
+    case Property::Kind::reachable:
+      text = fmt::format("some state in which {}", condition);
+      break;
+  }
+  if (property.when) text += fmt::format(", when {}", describe_condition(catalog, *property.when));
+  if (property.settled) text += ", with nothing in the queue";
+  return text;
+}
+
+namespace {
+
+/// "priorities 1 and 2"
+std::string describe_priorities(const Assumptions& assumptions) {
+  std::set<std::int32_t> priorities;
+  for (const Assumptions::Start& start : assumptions.start) {
+    priorities.insert(start.priorities.begin(), start.priorities.end());
+  }
+  std::vector<std::string> words;
+  for (const std::int32_t priority : priorities) words.push_back(std::to_string(priority));
+  return (words.size() == 1 ? "priority " : "priorities ") + list_with_and(words);
+}
+
+std::string describe_requests(const CompiledCatalog& catalog, const Assumptions& assumptions) {
+  if (assumptions.start.empty()) return "no task is requested";
+  const auto& start = assumptions.start;
+  std::string text = fmt::format(
+      "{} of {} {} requested ({})", start.size(), quantity(catalog.tasks.size(), "task"),
+      start.size() == 1 ? "is" : "are", describe_priorities(assumptions));
+  const bool stops_the_same =
+      std::equal(start.begin(), start.end(), assumptions.stop.begin(), assumptions.stop.end(),
+                 [](const Assumptions::Start& one, TaskId task) { return one.task == task; });
+  if (stops_the_same) return text + " and stopped";
+  return text + fmt::format(", {} stopped", assumptions.stop.size());
+}
+
+}  // namespace
+
+std::string describe_assumptions(const CompiledCatalog& catalog, const StatedAssumptions& stated) {
+  const Assumptions& assumptions = stated.assumptions;
+  std::string text =
+      fmt::format("assumed ({}): {}", stated.file.empty() ? "default" : printable(stated.file),
+                  describe_requests(catalog, assumptions));
+  text += assumptions.successes && assumptions.failures ? "; behaviors succeed and fail"
+          : assumptions.successes                       ? "; behaviors succeed, but do not fail"
+          : assumptions.failures                        ? "; behaviors fail, but do not succeed"
+                                                        : "; behaviors do not finish";
+  text += assumptions.faults == 0 ? "; none is faulty"
+                                  : fmt::format("; up to {} faulty at a time", assumptions.faults);
+  const std::size_t variables = catalog.variables.size();
+  if (variables > 0) {
+    const std::size_t changing = assumptions.variables.size();
+    text += changing == 0 ? "; no variable changes"
+            : changing < variables
+                ? fmt::format("; {} of {} variables change", changing, variables)
+                : std::string(variables == 1 ? "; the variable changes" : "; all variables change");
+  }
+  if (!assumptions.behaviors.empty()) {
+    text += fmt::format("; {} may become unavailable",
+                        quantity(assumptions.behaviors.size(), "behavior"));
+  }
+  if (!assumptions.never.empty()) {
+    text += fmt::format("; {} never {}", quantity(assumptions.never.size(), "situation"),
+                        assumptions.never.size() == 1 ? "occurs" : "occur");
+  }
+  const SituationPart& initially = assumptions.initially;
+  const std::size_t given = initially.variables.size() + initially.behaviors.size();
+  if (given > 0) text += fmt::format("; {} given initially", quantity(given, "value"));
+  return text;
+}
+
+std::string assumptions_to_text(const CompiledCatalog& catalog, const StatedAssumptions& stated,
+                                std::size_t columns) {
+  const std::size_t width = columns == 0 ? text_width : std::min(columns, text_width);
+  return wrap_line(describe_assumptions(catalog, stated), width, 2) + "\n";
+}
+
+std::string describe_event(const CompiledCatalog& catalog, const EventRecord& record,
+                           const Step* step) {
+  const VerbForm& form = form_of(record.verb);
+  std::string text(form.name);
+  if (record.task != none && record.verb == Verb::finish) {
+    text += " task " + printable(catalog.name_of_task(record.task));
+    text += record.behavior == none
+                ? ", which nothing performs"
+                : " (" + printable(catalog.name_of_behavior(record.behavior)) + ")";
+  } else if (record.task != none) {
+    text += " " + printable(catalog.name_of_task(record.task));
+    if (form.has_priority) text += fmt::format(", priority {}", record.priority);
+  }
+  if (record.behavior != none && record.task == none) {
+    text += " " + behavior_name(catalog, record.behavior);
+  }
+  if (form.has_cause) text += fmt::format(", {}", name_of(record.cause));
+  if (step != nullptr && record.verb == Verb::situation) {
+    text += describe_situation(catalog, step->situation);
+  }
+  if (step != nullptr && step->parameters) text += " " + printable(step->parameters->json);
+  if (record.origin != Origin::script) text += fmt::format(" ({})", name_of(record.origin));
+  return text;
+}
+
+std::string event_and_outcome(const CompiledCatalog& catalog, const EventRecord& record,
+                              const Step* step) {
+  const std::string text = describe_event(catalog, record, step);
+  if (!form_of(record.verb).is_decided) return text;
+  return fmt::format("{}: {}", text, name_of(record.outcome));
+}
+
+std::string_view stop_word(const EventRecord& record, const StoppedTask& stopped) {
+  if (stopped.has_finished) return name_of(stopped.cause);
+  if (record.verb == Verb::stop && record.task == stopped.task) {
+    return name_of(ChangeCause::requested);
+  }
+  return name_of(stopped.had_request ? ChangeCause::displaced : ChangeCause::released);
+}
+
+std::string describe_late_fault(const CompiledCatalog& catalog, BehaviorId behavior) {
+  return fmt::format(
+      "{} is active, and goes on; the fault takes effect at its next activation; "
+      "'finish: {}, cause: process_failure' stops it",
+      behavior_name(catalog, behavior), printable(catalog.name_of_behavior(behavior)));
+}
+
+std::string describe_note(const CompiledCatalog& catalog, const EventRecord& record,
+                          const State& state) {
+  if (record.verb == Verb::stop && record.outcome == Outcome::unchanged) {
+    return task_name(catalog, record.task) + " does not run";
+  }
+  const BehaviorId behavior = record.behavior;
+  if (behavior == none) return {};
+  const std::string name = behavior_name(catalog, behavior);
+  const bool is_active = state.is_active(behavior);
+  if (record.verb == Verb::fault && is_active) {
+    return describe_late_fault(catalog, behavior);
+  }
+  if (record.verb != Verb::finish || record.outcome != Outcome::unchanged || is_active) return {};
+  std::vector<std::string> instead;
+  for (const ValueId value : catalog.performs[behavior]) {
+    const TaskId task = catalog.task_of(value);
+    const std::string task_text = task_name(catalog, task);
+    instead.push_back(
+        state.is_running(task)
+            ? fmt::format("{} performs {}", behavior_name(catalog, state.behavior(task)), task_text)
+            : fmt::format("nothing performs {}", task_text));
+  }
+  return fmt::format("{} is not active: {}", name, join(instead, ", "));
+}
+
+std::string describe_expectation(const CompiledCatalog& catalog, const Expectation& expectation) {
+  std::vector<std::string> parts;
+  if (expectation.outcome)
+    parts.push_back(fmt::format("outcome {}", name_of(*expectation.outcome)));
+  for (const Expectation::Running& expected : expectation.running) {
+    parts.push_back(
+        describe_running(catalog, catalog.task_ids[expected.task],
+                         expected.behavior ? catalog.behavior_ids[*expected.behavior] : none));
+  }
+  for (const std::uint32_t task : expectation.stopped) {
+    parts.push_back(printable(catalog.task_names[task]) + " does not run");
+  }
+  if (expectation.active) {
+    const auto name = [&](std::uint32_t index) { return printable(catalog.behavior_names[index]); };
+    parts.push_back(expectation.active->empty()
+                        ? "no behavior is active"
+                        : "active exactly: " + join(*expectation.active, ", ", name));
+  }
+  return join(parts, ", ");
+}
+
+std::vector<std::pair<std::uint32_t, std::optional<Microseconds>>> queue_of(
+    const CompiledCatalog& catalog, const State& state) {
+  std::vector<std::pair<std::uint32_t, std::optional<Microseconds>>> queue;
+  for (const auto& [time, index] : state.queue().entries()) queue.emplace_back(index, time);
+  for (TaskId task = 0; state.waiting_count() > 0 && task < catalog.tasks.size(); ++task) {
+    const std::uint32_t index = catalog.tasks[task].catalog_index;
+    if (state.is_waiting(task) && !state.queue().has(index)) {
+      queue.emplace_back(index, std::nullopt);
+    }
+  }
+  std::sort(queue.begin(), queue.end());
+  return queue;
+}
+
+}  // namespace cbc
