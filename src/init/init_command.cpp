@@ -19,7 +19,7 @@
 #include "runtime/base/text.h"
 #include "schema_files.h"
 
-// Writes the first files of a project. Their texts are those of the folder src/cli/init.
+// Writes the first files of a project. Their texts are those of the folder src/init/files.
 namespace cbc::cli {
 namespace {
 
@@ -53,7 +53,7 @@ constexpr std::array new_files = {
     NewFile{".cbc/settings.json", "the schema of settings", text_in(schema_files, "settings")},
 };
 static_assert(std::size(init_files) + 3 == new_files.size(),
-              "all files of src/cli/init are listed");
+              "all files of src/init/files are listed");
 
 constexpr const char* init_examples =
     "  cbc init          in the current folder\n"

@@ -1,3 +1,15 @@
+// What no assignment that satisfies all constraints contains: the dead features of a feature model
+// (D. Benavides, S. Segura and A. Ruiz-Cortés, "Automated analysis of feature models 20 years
+// later: a literature review", Information Systems 35 (2010)). A value is live if some assignment
+// has it; then all other values of that assignment are live, too. Most assignments are put together
+// without a search; where that fails, the solver decides. Tasks come from the lowest level up, so
+// that a behavior that requires a dead task is dead without a search.
+//
+// Propagation alone would find only some of what is dead. A decision diagram of all assignments
+// would answer all questions at once, but may be far too large. Effort is counted in steps and not
+// in seconds, so that every machine has the same findings; what stays open at the limit is reported
+// as undecided.
+
 #include "core/check/proofs.h"
 
 #include <algorithm>

@@ -1,3 +1,13 @@
+// Each pair of tasks is a problem: both have to run. The solver decides it, exactly; all tasks of a
+// solution run together, so one solution answers for many pairs. Where conditions of behaviors
+// matter, each combination of the values that matter is a problem of its own. Why two tasks never
+// run together is a minimal conflict set, in the order of the chain between them.
+//
+// To pass exclusions up the requirements, as planning graphs do with mutual exclusions (A. L. Blum
+// and M. L. Furst, "Fast planning through planning graph analysis", Artificial Intelligence 90
+// (1997)), would need no search. But that finds only some of the pairs: three choices may be
+// impossible together of which any two are possible.
+
 #include "core/check/together.h"
 
 #include <algorithm>

@@ -1,3 +1,14 @@
+// Partial evaluation by hand: all that an event would otherwise compute and that depends on the
+// catalog alone is computed here, once. Names become numbers, so that the tasks of a group, and the
+// values of a task, are next to each other, and everything about them is a range of flat arrays, in
+// which rows of different lengths follow one another. The compiler fills in what the catalog says;
+// what follows from it (levels, arcs, inverse relations) comes from runtime/compiled/derive.cpp,
+// with which compiled files are verified, too.
+//
+// To solve on the symbolic catalog would spare the second form. But then each event would work out
+// the same things again, and a robot would have to parse YAML. To compile further, into a table of
+// the best answers, is out of the question: there are as many problems as states and events.
+
 #include "core/compile/compile.h"
 
 #include <algorithm>

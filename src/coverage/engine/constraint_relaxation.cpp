@@ -1,3 +1,13 @@
+// Whether a constraint decides an event: the same problem is solved with a catalog that lacks this
+// one constraint, and the answers are compared. As in MC/DC (J. J. Chilenski and S. P. Miller,
+// "Applicability of modified condition/decision coverage to software testing", Software Engineering
+// Journal 9 (1994)), it has to make a difference alone. An answer that differs must violate the
+// constraint, so where the domains do not allow that, nothing is solved.
+//
+// A conflict set, or the reasons of a propagation, would name constraints without a search of their
+// own. But they say which constraints were used, and there may be another way to the same answer
+// without them; and of an accepted event there is no conflict set.
+
 #include "coverage/engine/constraint_relaxation.h"
 
 #include <algorithm>

@@ -1,3 +1,14 @@
+// A goal that no move of a complete exploration meets is unreachable, and does not count: adequacy
+// for what is feasible, and not for what can be written down (P. G. Frankl and E. J. Weyuker, "An
+// applicable family of data flow testing criteria", IEEE Transactions on Software Engineering 14
+// (1988)). For programs that is undecidable; here the states are finite. The reason comes from
+// facts that were noted on the way, such as which tasks ran and which starts were accepted: the
+// first part of what the goal needs that was never seen.
+//
+// A minimal conflict set, as for a rejected event, would be a reason in terms of the catalog. But
+// it explains one state, and a goal is unreachable for other reasons in other states; what they
+// have in common is what never happens.
+
 #include "coverage/engine/goal_proof.h"
 
 #include <algorithm>

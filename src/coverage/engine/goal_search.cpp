@@ -2,9 +2,12 @@
 // made twice. The exploration of states makes it on packed states and finds the state that comes
 // next; a coordinator, which a monitor watches as it watches missions, makes it once more and meets
 // the goals. So a goal counts here exactly if it would in a mission (monitors of runtime
-// verification: Leucker and Schallhart, "A brief account of runtime verification", 2009). Goals as
-// properties of states would be quicker, but most are about events and about what an answer would
-// have been otherwise, so each would be written down a second time, and differ some day.
+// verification: M. Leucker and C. Schallhart, "A brief account of runtime verification", Journal of
+// Logic and Algebraic Programming 78 (2009)).
+//
+// Goals as properties of states would be quicker, but most are about events and about what an
+// answer would have been otherwise, so each would be written down a second time, and differ some
+// day.
 
 #include "coverage/engine/goal_search.h"
 

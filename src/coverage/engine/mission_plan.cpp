@@ -1,8 +1,13 @@
-// Short paths that cover goals: weighted set cover, where a set is what a path meets. Prices of
-// goals come from the multiplicative weights method (Arora, Hazan and Kale, 2012), which also
-// bounds how few paths are enough; then paths are taken greedily, each found by a beam search, as
-// goals count once and so the best path is no shortest one. An integer program would find the least
-// number, but has a variable for each path, of which there are far too many.
+// Short paths that cover goals: set cover, where a set is what a path meets. Prices of goals come
+// from the multiplicative weights method (S. Arora, E. Hazan and S. Kale, "The multiplicative
+// weights update method: a meta-algorithm and applications", Theory of Computing 8 (2012)): goals
+// that the heaviest path meets lose weight, so that those that are hard to meet together stay
+// heavy. Any weights also bound from below how many paths are needed. Then paths are taken
+// greedily. A goal counts only once on a path, so what a move is worth depends on the moves before
+// it, and a beam search finds the next path in place of an exact one.
+//
+// An integer program would find the least number of paths, but has a variable for each of them, of
+// which there are far too many.
 
 #include "coverage/engine/mission_plan.h"
 

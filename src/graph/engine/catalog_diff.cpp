@@ -1,3 +1,14 @@
+// Two catalogs are compared as sets of facts: this behavior performs that task, with these
+// attributes. Facts of either are sorted by names, and a merge of the two lists finds what was
+// added, removed or changed. Pairs of tasks that exclude one another are compared without writing
+// them down, as a list of n tasks stands for n² of them.
+//
+// A comparison of texts would show order, comments and layout, which mean nothing. An edit distance
+// between trees (K. Zhang and D. Shasha, "Simple fast algorithms for the editing distance between
+// trees and related problems", SIAM Journal on Computing 18 (1989)) could guess that something was
+// renamed. But scripts, programs and other catalogs use the names, so to these a new name is
+// another thing.
+
 #include "graph/engine/catalog_diff.h"
 
 #include <algorithm>

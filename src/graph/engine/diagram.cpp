@@ -1,3 +1,13 @@
+// A picture is made in steps, each of them data: the catalog as a graph, the part of it that is
+// drawn, the nodes and edges of a view (views.cpp), and the legend, which explains what is in the
+// finished picture and nothing else. Writers of formats (graph/report) then decide on syntax and
+// colors only.
+//
+// Nothing here places a node. Graphviz does that (E. R. Gansner, E. Koutsofios, S. C. North and
+// K.-P. Vo, "A technique for drawing directed graphs", IEEE Transactions on Software Engineering 19
+// (1993)), or Mermaid. A layout of our own would have to be as good as theirs for catalogs of any
+// shape, and Mermaid has no way to be told one.
+
 #include "graph/engine/diagram.h"
 
 #include <algorithm>

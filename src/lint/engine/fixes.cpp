@@ -1,3 +1,13 @@
+// Fixes are edits of bytes: what is not part of an edit stays as it is, comments, layout and line
+// breaks included. An entry of a list is removed only if it is certain where it begins and ends and
+// that nothing else is lost with it, such as a comment or an anchor; otherwise the finding stays.
+// Edits that do not overlap are made together, removals first, outer ones before inner ones. The
+// caller then lints the new text, fixes what has come up, and compares in the end what both texts
+// mean.
+//
+// To change the tree and to write it anew would need no such care, but would lose comments and
+// layout, and the diff of a fix would be one of the whole file.
+
 #include <algorithm>
 #include <cstddef>
 #include <iterator>

@@ -1,4 +1,13 @@
-// Line differences in the unified format.
+// Differences between lines in the unified format, by longest common subsequences (J. W. Hunt and
+// M. D. McIlroy, "An algorithm for differential file comparison", 1976), each in a window of the
+// next lines of both texts. A window whose lines do not agree again for a while is tried again with
+// more of them, up to a bound; so time and memory for a line are bounded, whatever the texts.
+//
+// The algorithm of E. W. Myers, "An O(ND) difference algorithm and its variations", Algorithmica 1
+// (1986), finds the shortest difference of the whole texts, but takes quadratic time where they
+// have little in common. The edits that a fix made are known, but there may be several rounds of
+// them, each on the text of the one before; to compare the first text with the last is simpler.
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -36,10 +45,7 @@ struct LineChange {
   std::size_t new_end = 0;
 };
 
-/// Finds the changes from front to back, piece by piece, each by the longest common subsequence of
-/// the next lines of both texts. A piece ends where the texts agree again for a while. If they do
-/// not do so soon, it is looked at again with more lines, up to a bound, so the work is linear even
-/// where the texts have nothing in common.
+/// Finds the changes from front to back, window by window.
 class LineComparison {
  public:
   LineComparison(const TextLines& before, const TextLines& after)

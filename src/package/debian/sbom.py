@@ -30,7 +30,7 @@ LICENSES = {
     "xxhash": "BSD-2-Clause",
     "yaml-cpp": "MIT",
 }
-TARGETS = ("cbc", "cbc_program", "cbc_tool", "cbc_exploration", "cbc_runtime")  # whose objects are in the program
+OBJECTS = "CMakeFiles/cbc"  # of the program: cbc_core and so on; those of the tests are in tests/CMakeFiles
 
 
 def output_of(*command):
@@ -51,7 +51,7 @@ def compiled_files(build):
     paths, is_of_program = set(), False
     for line in output_of("ninja", "-C", build, "-t", "deps").splitlines():
         if not line.startswith(" "):
-            is_of_program = any(line.startswith(f"CMakeFiles/{target}.dir/") for target in TARGETS)
+            is_of_program = line.startswith(OBJECTS)
         elif is_of_program and line.strip().startswith("/usr/"):
             paths.add(line.strip())
     return paths

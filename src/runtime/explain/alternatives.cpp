@@ -1,3 +1,13 @@
+// The k best solutions by partition (E. L. Lawler, "A procedure for computing the K best solutions
+// to discrete optimization problems and its application to the shortest path problem", Management
+// Science 18 (1972)). The best solution of all subproblems is the next one. The rest of its
+// subproblem is split into one for each task: the tasks before it have the values of that solution,
+// and it has another. A subproblem differs from a problem in its domains alone, so the solver needs
+// nothing new for it.
+//
+// To rule out the solutions that are known, one by one, would need constraints of another kind,
+// which propagate nothing until almost all tasks have values; and a search that collects the k best
+// cannot prune before it has k of them.
 #include "runtime/explain/alternatives.h"
 
 #include <algorithm>
@@ -109,10 +119,6 @@ std::optional<Configuration> ConfigurationSearch::find_best(std::span<const Dema
   return best;
 }
 
-/// The k best solutions by partition (E. L. Lawler, "A procedure for computing the K best solutions
-/// to discrete optimization problems", Management Science 18, 1972). The best solution of all
-/// subproblems is the next one. The rest of its subproblem is split into one for each task: the
-/// tasks before it have the values of that solution, and it has another.
 std::vector<Configuration> ConfigurationSearch::list_best(const Assignment& best,
                                                           std::size_t count) {
   begin();

@@ -1,8 +1,9 @@
 // A search that learns, as LearningSearch does, but decides only whether there is a solution, and
 // with only some constraints in force. Each no-good comes with the constraints that it was derived
-// from. Where there is no solution, those of the last conflict are the core of a proof, as in
-// E. Goldberg and Y. Novikov, "Verification of proofs of unsatisfiability for CNF formulas", DATE
-// 2003: what is not in the core has no part in the failure.
+// from. Where there is no solution, those of the last conflict are the core of a proof (L. Zhang
+// and S. Malik, "Validating SAT solvers using an independent resolution-based checker: practical
+// implementations and other applications", DATE 2003): what is not in the core has no part in the
+// failure.
 //
 // To solve a problem again and again, with one constraint less each time, would need no proofs. But
 // a task may have hundreds of rivals and requirements. The core leaves a few of them after one

@@ -1,3 +1,13 @@
+// Component decomposition as in counting models (R. J. Bayardo and J. D. Pehoushek, "Counting
+// models using connected components", AAAI 2000), for a best solution in place of a count:
+// components are connected by shared terms of the objective, too. Components that are solved apart
+// add up their search trees, where one search over all of them would multiply them.
+//
+// A decomposition that is fixed in advance, as in AND/OR search (R. Dechter and R. Mateescu,
+// "AND/OR search spaces for graphical models", Artificial Intelligence 171 (2007)), need not be
+// computed during the search. But what connects the tasks of a group are mostly choices that
+// propagation takes away later, so components show only once some domains are fixed. Only hard
+// searches pay for that.
 #include "runtime/solver/components.h"
 
 #include <algorithm>

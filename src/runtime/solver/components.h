@@ -11,10 +11,6 @@ namespace cbc {
 /// Splits the undecided tasks into components: once most domains are fixed, a group often falls
 /// into sets of tasks that no constraint and no objective connects any more. Each is solved apart.
 ///
-/// This is component decomposition as in counting models (R. J. Bayardo and J. D. Pehoushek,
-/// "Counting models using connected components", AAAI 2000), for a best solution in place of a
-/// count: components are connected by shared terms of the objective, too.
-///
 /// Components nest: a component can be split again. The present one is the innermost that was
 /// entered; at depth 0 it is the whole group.
 class Components {

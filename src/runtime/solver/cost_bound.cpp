@@ -1,3 +1,18 @@
+// Dual ascent on cuts, as in R. T. Wong, "A dual ascent approach for Steiner tree problems on a
+// directed graph", Mathematical Programming 28 (1984), and in LM-cut (M. Helmert and C. Domshlak,
+// "Landmarks, critical paths and abstractions: what's the difference anyway?", ICAPS 2009). A cut
+// is any set of tasks with a needed one in it. Every solution runs some task of the cut with a
+// behavior that requires no task of the cut: follow the requirements inside the cut, from the
+// needed task down; they end, as the catalog is acyclic. These behaviors are the arcs of the cut,
+// and the least cost among them is a lower bound. It is subtracted from all of them, and the next
+// cut is one whose arcs still have a residual cost, until each needed task can run at no residual
+// cost. A choice may require several others at once, as in planning; but a cut is found by a search
+// from the needed task down, without the h^max values of LM-cut.
+//
+// The best suitability of each needed task alone would be a bound, too, and is the one of easy
+// searches; but it misses all that these tasks will require. The linear program over all cuts, of
+// which the ascent finds a dual solution, would give a bound that is at least as high, but would
+// have to be solved exactly, and at each decision.
 #include "runtime/solver/cost_bound.h"
 
 #include <algorithm>

@@ -16,21 +16,8 @@ namespace cbc {
 /// others.
 inline constexpr std::int64_t prohibitive_cost = std::int64_t{1} << 61;
 
-/// A lower bound on the cost of the needed tasks and all that they require, by dual ascent.
-///
-/// Let a cut be any set of tasks with a needed one in it. Every solution runs some task of the cut
-/// with a behavior that requires no task of the cut: follow the requirements inside the cut, from
-/// the needed task down; they end, as the catalog is acyclic. These behaviors are the arcs of the
-/// cut, and the least cost among them is a lower bound. It is subtracted from all of them, and the
-/// next cut is one whose arcs still have a residual cost, until each needed task can run at no
-/// residual cost.
-///
-/// R. T. Wong, "A dual ascent approach for Steiner tree problems on a directed graph", Mathematical
-/// Programming 28 (1984), does so with the cuts of a graph; the disjunctive landmarks of LM-cut
-/// (M. Helmert and C. Domshlak, "Landmarks, critical paths and abstractions: what's the difference
-/// anyway?", ICAPS 2009) are such cuts in planning. Here a choice may require several others at
-/// once, and a cut is found by a search from the needed task down, without the h^max values of
-/// LM-cut.
+/// A lower bound on the cost of the needed tasks and all that they require, by dual ascent: what a
+/// cut is, and what its arcs are, says cost_bound.cpp.
 class CostBound {
  public:
   /// Costs in lexicographic order: -log of f2, then the number of idle tasks that run (f3).

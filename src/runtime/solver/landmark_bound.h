@@ -13,19 +13,8 @@ namespace cbc {
 /// A lower bound on the cost of the needed tasks and all that they require, for a search that
 /// learns: a bound with its reasons. As in CostBound, it is the sum of what is subtracted from the
 /// arcs of one cut after the other, until each needed task can run at no residual cost. The needed
-/// task of a cut is its root, and all these steps are an ascent.
-///
-/// Which cut comes next decides how strong the bound is. As in LM-cut (M. Helmert and C. Domshlak,
-/// "Landmarks, critical paths and abstractions: what's the difference anyway?", ICAPS 2009), a cut
-/// follows the *heights*: the height of a task (h^max in planning) is the least sum of the residual
-/// cost of one of its behaviors and of the height of the highest task that this behavior requires.
-/// Each behavior of no residual cost leads on to the highest task that it requires, its supporter.
-/// An ascent goes in rounds: each needed task is the root of a cut, the highest one first, and then
-/// the heights are updated. They only sink, so only those that depend on an arc of a cut change. To
-/// update them after each cut makes bounds slightly stronger, but takes longer than it saves.
-///
-/// Every ascent begins anew. Those that continued the ascent of the node above were ten times
-/// faster, but so much weaker that searches took far more than ten times as many nodes.
+/// task of a cut is its root, and all these steps are an ascent. For heights and supporters see
+/// landmark_bound.cpp.
 class LandmarkBound {
  public:
   LandmarkBound(const CompiledCatalog& catalog, const Domains& domains, const CatalogTrail& trail);

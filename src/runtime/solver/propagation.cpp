@@ -1,3 +1,14 @@
+// Propagation to a fixed point: a constraint is looked at again when a task that it is about has
+// changed (AC-3: A. K. Mackworth, "Consistency in networks of relations", Artificial Intelligence 8
+// (1977)). An exclusivity list stays one clique, and what the behaviors of one task require of
+// another is one arc with a bit set of these behaviors, so that neither is taken apart into pairs
+// of values.
+//
+// These constraints become arc consistent. Minimum performances do not: what counts in a
+// performance depends on the choices themselves, so whether it can reach a minimum takes a search.
+// It is bounded from above instead, which is exact once all that it depends on is fixed. The rules
+// are written once, and applied in two ways: to the domains alone, which is all that most searches
+// need, and with a reason for each inference, for searches that learn.
 #include "runtime/solver/propagation.h"
 
 #include "runtime/compiled/derive.h"

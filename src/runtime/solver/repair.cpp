@@ -1,3 +1,15 @@
+// Greedy construction with propagation: tasks get their behaviors one after the other, each the
+// present one where it is left, and propagation at once takes away what no longer fits. What a
+// change brings along, such as tasks that are newly required and rivals that stop, is known before
+// the next choice, and a choice that leads nowhere is undone a few times at most. Branch and bound
+// looks for good solutions, and where it has found none so far, one that is merely near is worth
+// more than none: as an answer at a limit, and as an incumbent for LearningSearch.
+//
+// The better known way to repair is local search, which changes one value after the other of an
+// assignment that violates constraints (S. Minton, M. D. Johnston, A. B. Philips and P. Laird,
+// "Minimizing conflicts: a heuristic repair method for constraint satisfaction and scheduling
+// problems", Artificial Intelligence 58 (1992)). But here one change needs several others, down a
+// chain of requirements, and until all are made nothing says that the first was a good one.
 #include "runtime/solver/repair.h"
 
 #include <algorithm>

@@ -1,3 +1,14 @@
+// Monte Carlo simulation: what happens how often is estimated by random event sequences, each on a
+// coordinator of its own. Sequence n draws from random stream n (SplitMix64: G. L. Steele, D. Lea
+// and C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014), whoever runs it,
+// and everything that is kept is a sum or an earliest maximum. So threads and shards may share the
+// sequences in any way, and the result, apart from times, is the same. Of the slowest event only
+// its number is kept: its sequence is drawn again in the end, and becomes a script.
+//
+// One stream for all sequences would be simpler, but then their events would depend on who comes
+// first. And events are drawn to suit the state: of others, most would be rejected or change
+// nothing. What a sweep has not seen may still be possible: that is for `cbc verify`.
+
 #include "sweep/engine/sweep.h"
 
 #include <algorithm>

@@ -1,3 +1,15 @@
+// Breadth-first search by several threads, with the same result for any number of them. Threads
+// expand a batch of the frontier in parts, and each drops the successors that are known already,
+// which are most of them. Then one thread inserts what is left, in the order of states and moves.
+// So states have the same numbers in every run, and so has the path by which each was found.
+//
+// Threads that insert into one table themselves (A. Laarman, J. van de Pol and M. Weber, "Boosting
+// multi-core reachability performance with shared hash tables", FMCAD 2010) hardly wait for one
+// another, but number the states by chance, and with them the counterexamples that people read. To
+// keep a few bits of each state only (G. J. Holzmann, "An analysis of bitstate hashing", Formal
+// Methods in System Design 13 (1998)) would take less memory, but takes some states for others, and
+// so proves nothing.
+
 #include "verify/engine/breadth_first.h"
 
 #include <algorithm>

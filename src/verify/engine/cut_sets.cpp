@@ -1,3 +1,16 @@
+// The hitting set tree of R. Reiter, "A theory of diagnosis from first principles", Artificial
+// Intelligence 32 (1987), breadth first. A support is the set of active behaviors of an assignment
+// that runs the task; a cut set hits every support. A node is a set; if it misses some support, its
+// children add one behavior of that support each. So each minimal cut set is reached from its
+// subsets. Nodes of one size are examined together: a cut set that has none of the smaller ones in
+// it is minimal. (The rule that R. Greiner, B. A. Smith and R. W. Wilkerson corrected in volume 41
+// (1989), which removes branches once a smaller support appears, is not used.)
+//
+// To test all sets of up to k behaviors would take a search for each. Here only sets of behaviors
+// from supports are looked at, and a search is needed only where a set hits all supports that are
+// known. Fault trees get their cut sets from a formula of what fails by what; here there is none,
+// as a task may run in more ways than anybody could write down.
+
 #include "verify/engine/cut_sets.h"
 
 #include <algorithm>
@@ -135,13 +148,7 @@ class KnownSupports {
   std::vector<std::vector<std::uint64_t>> users_;  ///< by behavior of the group: bits of supports_
 };
 
-/// The hitting set tree of R. Reiter, "A theory of diagnosis from first principles", Artificial
-/// Intelligence 32 (1987), breadth first. A cut set hits every support. A node is a set; if it
-/// misses some support, its children add one behavior of that support each. So each minimal cut set
-/// is reached from its subsets. Nodes of one size are examined together: a cut set that has none of
-/// the smaller ones in it is minimal. (The rule that R. Greiner, B. A. Smith and R. W. Wilkerson
-/// corrected in volume 41 (1989), which removes branches once a smaller support appears, is not
-/// used.)
+/// Grows the tree level by level, and collects the cut sets.
 class HittingSetTree {
  public:
   HittingSetTree(const CompiledCatalog& catalog, TaskId task, const std::vector<bool>& ruled_out,

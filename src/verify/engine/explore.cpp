@@ -1,12 +1,14 @@
 // What holds in all reachable states of some groups: explicit-state model checking of invariants
-// (Holzmann, "The SPIN Model Checker", 2003; Clarke, Henzinger, Veith and Bloem, "Handbook of Model
-// Checking", 2018, chapter 5). The search of BreadthFirst makes every move of every state once. A
-// visitor notes the first state in which a task ran, a start was refused, a property was violated;
-// states are numbered breadth first, so the path to the first is a shortest one. A depth-first
-// search would need less memory for the frontier, but finds long counterexamples, and other ones
-// for each number of threads. A symbolic search (binary decision diagrams) or a bounded one (SAT)
-// would need every decision as a formula, but a decision is an optimum over all assignments: here
-// the solver makes it, and Decisions remembers it.
+// (G. J. Holzmann, "The SPIN Model Checker", 2003; "Handbook of Model Checking", edited by E. M.
+// Clarke, T. A. Henzinger, H. Veith and R. Bloem, 2018, chapter 5). The search of BreadthFirst
+// makes every move of every state once. A visitor notes the first state in which a task ran, a
+// start was refused, a property was violated; states are numbered breadth first, so the path to the
+// first is a shortest one.
+//
+// A depth-first search finds long counterexamples, and other ones for each number of threads. A
+// symbolic search (binary decision diagrams) or a bounded one (SAT) would need every decision as a
+// formula, but a decision is an optimum over all assignments: here the solver makes it, and
+// Decisions remembers it.
 
 #include "verify/engine/explore.h"
 

@@ -1,9 +1,11 @@
 // Whether two catalogs decide alike: no reachable state of their product has a move with two
-// answers (equivalence of sequential machines: Coudert, Berthet and Madre, "Verification of
-// synchronous sequential machines based on symbolic execution", 1989). To merge pairs whose states
-// are known to be alike (Hopcroft and Karp, 1971) would spare nothing: two catalogs that are alike
-// have about as many pairs as states. And comparing the answers of each decision, whether it can
-// come or not, would find differences that no event shows.
+// answers (equivalence of sequential machines: O. Coudert, C. Berthet and J. C. Madre,
+// "Verification of synchronous sequential machines based on symbolic execution", 1989).
+//
+// To merge pairs whose states are known to be alike (J. E. Hopcroft and R. M. Karp, "A linear
+// algorithm for testing equivalence of finite automata", 1971) would spare nothing: two catalogs
+// that are alike have about as many pairs as states. And comparing the answers of each decision,
+// whether it can come or not, would find differences that no event shows.
 
 #include "verify/engine/same_as.h"
 

@@ -1,3 +1,15 @@
+// What the coordinator does with one event, as a function from a packed state to the next one: no
+// records, no names, no clock. Time is only an order. All reactive tasks wait equally long, so it
+// is enough to know in which order they joined the queue; and a timeout is a failure, which may
+// come at any moment. To keep the clocks, as timed automata do (R. Alur and D. L. Dill, "A theory
+// of timed automata", Theoretical Computer Science 126 (1994)), would rule out timeouts that cannot
+// come, for very many times as many states.
+//
+// A coordinator that resumes a snapshot could make each move as well, as it does in
+// goal_search.cpp, and nothing would be written twice. But explorations make millions of moves,
+// most of which need no more than a few words and an answer that Decisions remembers. Property
+// tests explore with coordinators as well, and compare.
+
 #include "verify/engine/stepper.h"
 
 #include <algorithm>

@@ -1,3 +1,14 @@
+// A path through states has an order but no times; a script has times. What is due before what
+// gives bounds on differences of times: a simple temporal network (R. Dechter, I. Meiri and J.
+// Pearl, "Temporal constraint networks", Artificial Intelligence 49 (1991)), whose earliest
+// solution is a longest path, found as by Bellman and Ford. There always is one if the delay of
+// reactive starts may be cut fine enough: sets of the queue wait from when they join until they are
+// due, which are intervals none of which lies inside another, and such intervals can be stretched
+// to equal lengths without changing their order (F. S. Roberts, "Indifference graphs", 1969).
+//
+// A fixed pause between two moves would be simpler, but the queue would come due elsewhere on the
+// path, and the script would end in another state.
+
 #include "verify/engine/witness.h"
 
 #include <algorithm>
@@ -59,8 +70,7 @@ Timeline follow(const Model& model, const std::vector<const Model::Choice*>& pat
 }
 
 /// The earliest times in units of which the delay of reactive starts has `delay`; empty: there are
-/// none. `pause`: between points where nothing is in the queue. The bounds are differences, which
-/// is solved as a longest path (Bellman and Ford).
+/// none. `pause`: between points where nothing is in the queue.
 std::vector<std::int64_t> find_times(const Timeline& timeline, std::int64_t delay,
                                      std::int64_t pause) {
   const std::size_t points = timeline.is_due.size();
@@ -107,8 +117,7 @@ Schedule find_schedule(const Timeline& timeline, Microseconds pause) {
     for (Microseconds& time : schedule.times) time *= unit;
     return !schedule.times.empty();
   };
-  // Sets of the queue are intervals of equal length, none inside another. So some unit is short
-  // enough, as such intervals always have equally long ones in the same order (Roberts 1969).
+  // Some unit is short enough, as said above.
   for (;;) {
     for (const Microseconds unit :
          {10'000, 5'000, 2'000, 1'000, 500, 200, 100, 50, 20, 10, 5, 2, 1}) {

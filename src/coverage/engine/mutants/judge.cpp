@@ -1,3 +1,14 @@
+// A mutant that no mission notices either shows a gap in the missions or is equivalent: no mission
+// can notice it. For programs that is undecidable (T. A. Budd and D. Angluin, "Two notions of
+// correctness and their relation to testing", Acta Informatica 18 (1982)), and people sort it out
+// by hand. A catalog has finitely many states, so the mutant and the original are compared in their
+// product, by what an expectation can see. A difference comes with the shortest events that show
+// it, which become a script, and the script is run on both: only a mission that was seen to fail is
+// proposed.
+//
+// Timeouts are not part of states. For these, states in which the timeout would run are visited,
+// and a script waits there; if nothing shows, and nothing is proven, the mutant is undecided.
+
 #include "coverage/engine/mutants/judge.h"
 
 #include <algorithm>
@@ -131,12 +142,12 @@ Expectation find_difference(const CompiledCatalog& original, const Observation& 
   return expectation;
 }
 
-/// A script that tells a mutant from the original, as text (a distinguishing sequence: Lee and
-/// Yannakakis, "Principles and methods of testing finite state machines", 1996): these events, with
-/// timeouts if these are not in the way, then an expectation that holds on the original, and of
-/// which no part holds on the mutant. Empty if no expectation at one of the times tells them apart;
-/// the first one that does counts. `script` is one for the original, without expectations; both
-/// catalogs have the same tasks.
+/// A script that tells a mutant from the original, as text (a separating sequence: D. Lee and
+/// M. Yannakakis, "Principles and methods of testing finite state machines", Proceedings of the
+/// IEEE 84 (1996)): these events, with timeouts if these are not in the way, then an expectation
+/// that holds on the original, and of which no part holds on the mutant. Empty if no expectation at
+/// one of the times tells them apart; the first one that does counts. `script` is one for the
+/// original, without expectations; both catalogs have the same tasks.
 std::optional<std::string> find_distinguishing_script(const CompiledCatalog& original,
                                                       const CompiledCatalog& mutant,
                                                       const Script& script,

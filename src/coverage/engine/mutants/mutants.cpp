@@ -1,3 +1,14 @@
+// Mutation analysis (R. A. DeMillo, R. J. Lipton and F. G. Sayward, "Hints on test data selection:
+// help for the practicing programmer", Computer 11 (1978)) of a catalog in place of a program: one
+// thing is changed at a time, in a way in which people err, and tests should notice. A change is
+// made where it takes effect: a suitability goes just below the next one, so that two behaviors
+// change places; a pair of tasks is taken out of all lists that have both.
+//
+// Changes of the text would be easier to make, but many would be no catalog or the same one.
+// Several changes at once would be far more mutants, and tests that notice each alone notice nearly
+// all of them together (A. J. Offutt, "Investigations of the software testing coupling effect", ACM
+// Transactions on Software Engineering and Methodology 1 (1992)).
+
 #include "coverage/engine/mutants/mutants.h"
 
 #include <algorithm>
