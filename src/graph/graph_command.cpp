@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -7,10 +6,8 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -18,6 +15,7 @@
 #include <fmt/core.h>
 
 #include "commands.h"
+#include "core/check/check.h"
 #include "core/check/controls.h"
 #include "core/check/together.h"
 #include "core/command_line/command_line.h"
@@ -27,7 +25,6 @@
 #include "core/script/runner.h"
 #include "core/support/system.h"
 #include "core/support/wording.h"
-#include "graph/drawable.h"
 #include "graph/engine/catalog_diff.h"
 #include "graph/engine/catalog_graph.h"
 #include "graph/engine/diagram.h"
@@ -55,6 +52,31 @@ struct DrawingOptions {
 
   [[nodiscard]] bool operator==(const DrawingOptions&) const = default;
 };
+
+/// The drawable part of a catalog, and its source.
+struct Drawable {
+  std::shared_ptr<const CheckedCatalog> catalog;  ///< not compiled if it has errors
+  draw::CatalogGraph graph;
+  std::optional<draw::Moment> moment;  ///< of a state
+};
+
+/// Reads a catalog, compiled or YAML, which may have errors, and prints the findings. Null if
+/// nothing can be drawn.
+std::unique_ptr<Drawable> read_drawable(const std::string& path) {
+  FileSet files;
+  auto drawable = std::make_unique<Drawable>();
+  if (const auto file = files.read_catalog(path)) {
+    drawable->catalog = files.load(*file, FileSet::Purpose::drawing);
+  }
+  files.print_findings();
+  if (drawable->catalog == nullptr) return nullptr;
+  const CheckedCatalog& catalog = *drawable->catalog;
+  draw::CatalogGraph& graph = drawable->graph;
+  graph = catalog.compiled != nullptr ? draw::to_graph(*catalog.compiled)
+                                      : draw::to_graph(catalog.reading, files.findings());
+  const bool is_empty = graph.tasks.empty() && graph.behaviors.empty();
+  return catalog.compiled == nullptr && is_empty ? nullptr : std::move(drawable);
+}
 
 /// A hint at the name that may have been meant.
 std::string suggest(const draw::CatalogGraph& graph, const std::string& name) {
@@ -344,47 +366,9 @@ struct GraphCommand {
 /// The format of differences and tables for people.
 constexpr std::string_view text_format = "text";
 
-/// A view that is a table, not a drawing.
-struct TableView {
-  std::string_view name;
-  std::string_view answer;  ///< what it shows, after "it is not known"
-  /// Why there can be none, if so; null: there always can.
-  std::optional<std::string> (*find_obstacle)(const CompiledCatalog& catalog);
-  /// `format` is text or json.
-  std::string (*write)(const CompiledCatalog& catalog, const SeveritySettings& settings,
-                       std::string_view format, const Style& style);
-};
-
-std::string write_situation_table(const CompiledCatalog& catalog,
-                                  const SeveritySettings& /*settings*/, std::string_view format,
-                                  const Style& style) {
-  return format == "json" ? situation_json(catalog) : situation_text(catalog, style);
-}
-
-std::string write_table_of_pairs(const CompiledCatalog& catalog, const SeveritySettings& settings,
-                                 std::string_view format, const Style& style) {
-  TogetherOptions options;
-  options.never_together = settings.never_together();
-  const TogetherTable table = make_together_table(catalog, options);
-  return format == "json" ? together_json(catalog, table) : together_text(catalog, table, style);
-}
-
-std::optional<std::string> find_too_many_tasks(const CompiledCatalog& catalog) {
-  const std::size_t tasks = count_tasks_in_pairs(catalog);
-  if (tasks <= most_tasks_in_pairs) return std::nullopt;
-  return fmt::format(
-      "catalog {} has too many tasks for a table of their pairs: {}; expected at most {}",
-      quote(catalog.file), tasks, most_tasks_in_pairs);
-}
-
-constexpr TableView table_views[] = {
-    {"together", "which tasks can run together", find_too_many_tasks, write_table_of_pairs},
-    {"situation", "which behaviors fit", nullptr, write_situation_table},
-};
-
-/// Null if it is a drawing.
-const TableView* find_table(const GraphCommand& command) {
-  return find_named(std::span(table_views), command.drawing.view);
+/// Whether the view is a table, not a drawing.
+bool is_table(const GraphCommand& command) {
+  return command.drawing.view == "together" || command.drawing.view == "situation";
 }
 
 /// The name of the format, which the suffix of the output may tell; empty if it tells none.
@@ -395,8 +379,7 @@ std::string format_of(const GraphCommand& command) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
   if (suffix.empty()) {
-    const bool is_table = find_table(command) != nullptr;
-    return std::string(is_table ? text_format : graph_formats().front().name);
+    return std::string(is_table(command) ? text_format : graph_formats().front().name);
   }
   if (suffix == ".txt") return std::string(text_format);
   for (const GraphFormat& format : graph_formats()) {
@@ -408,24 +391,24 @@ std::string format_of(const GraphCommand& command) {
 }
 
 /// The same for a table.
-std::string find_misuse_of_table(const TableView& table, const GraphCommand& command) {
-  if (command.is_diff) return fmt::format("--view {} cannot be used with --diff", table.name);
+std::string find_misuse_of_table(const GraphCommand& command) {
+  const std::string& view = command.drawing.view;
+  if (command.is_diff) return fmt::format("--view {} cannot be used with --diff", view);
   if (command.state.script) {
-    return fmt::format("--view {} cannot be used with --script", table.name);
+    return fmt::format("--view {} cannot be used with --script", view);
   }
   if (!command.drawing.tasks.empty() || command.drawing.group) {
     return fmt::format("{} cannot be used with --view {}: the table is of the whole catalog",
-                       command.drawing.group ? "--group" : "--task", table.name);
+                       command.drawing.group ? "--group" : "--task", view);
   }
   DrawingOptions drawing;
-  drawing.view = command.drawing.view;
+  drawing.view = view;
   if (command.drawing != drawing) {
-    return fmt::format("other options of the drawing cannot be used with --view {}", table.name);
+    return fmt::format("other options of the drawing cannot be used with --view {}", view);
   }
   const std::string format = format_of(command);
   if (format == text_format || format == "json") return {};
-  return fmt::format("--view {} cannot be written as {}; expected text or json", table.name,
-                     format);
+  return fmt::format("--view {} cannot be written as {}; expected text or json", view, format);
 }
 
 /// Says what is wrong with the format or the number of catalogs; empty if nothing is.
@@ -444,9 +427,7 @@ std::string find_misuse(const GraphCommand& command) {
     return fmt::format("expected one catalog, found {}; --diff compares two", catalogs);
   }
   if (catalogs == 0 && !command.state.script) return "expected a catalog";
-  if (const TableView* const table = find_table(command)) {
-    return find_misuse_of_table(*table, command);
-  }
+  if (is_table(command)) return find_misuse_of_table(command);
   if (!command.is_diff && format == text_format) {
     return "--format text can only be used with --diff or a --view that is a table";
   }
@@ -491,24 +472,39 @@ int draw(const draw::CatalogGraph& graph, const std::optional<draw::Moment>& mom
   return content ? write_output(output_of(command), *content) : exit_unusable;
 }
 
-int write_table(const TableView& table, const GraphCommand& command) {
+std::string pairs_to_text(const CompiledCatalog& catalog, const SeveritySettings& settings,
+                          bool is_json, const Style& style) {
+  TogetherOptions options;
+  options.never_together = settings.never_together();
+  const TogetherTable table = make_together_table(catalog, options);
+  return is_json ? together_json(catalog, table) : together_text(catalog, table, style);
+}
+
+int write_table(const GraphCommand& command) {
   const std::string& catalog = command.catalogs.front();
+  const bool is_of_pairs = command.drawing.view == "together";
   const std::unique_ptr<Drawable> drawable = read_drawable(catalog);
   if (drawable == nullptr) return exit_unusable;
   const std::optional<SeveritySettings> settings = SettingsFinder().find(catalog);
   if (!settings) return exit_unusable;
-  const CompiledCatalog* const compiled = drawable->catalog->compiled.get();
-  if (compiled == nullptr) {
-    complain("catalog {} has errors, so it is not known {}", quote(drawable->graph.file),
-             table.answer);
-    return exit_unusable;
+  if (drawable->catalog->compiled == nullptr) {
+    return complain("catalog {} has errors, so it is not known {}", quote(drawable->graph.file),
+                    is_of_pairs ? "which tasks can run together" : "which behaviors fit");
   }
-  if (table.find_obstacle != nullptr) {
-    if (const auto obstacle = table.find_obstacle(*compiled)) return complain(*obstacle);
+  const CompiledCatalog& compiled = *drawable->catalog->compiled;
+  const std::size_t tasks = is_of_pairs ? count_tasks_in_pairs(compiled) : 0;
+  if (tasks > most_tasks_in_pairs) {
+    return complain(
+        "catalog {} has too many tasks for a table of their pairs: {}; expected at most {}",
+        quote(compiled.file), tasks, most_tasks_in_pairs);
   }
-  const Style style = output_of(command) == "-" ? style_for(stdout) : plain_style();
+  const bool is_json = format_of(command) == "json";
+  const Style style = style_for(output_of(command));
+  if (is_of_pairs) {
+    return write_output(output_of(command), pairs_to_text(compiled, *settings, is_json, style));
+  }
   return write_output(output_of(command),
-                      table.write(*compiled, *settings, format_of(command), style));
+                      is_json ? situation_json(compiled) : situation_text(compiled, style));
 }
 
 int draw_catalog(const GraphCommand& command) {
@@ -548,7 +544,7 @@ int run_graph(const GraphCommand& command) {
   if (const std::string misuse = find_misuse(command); !misuse.empty())
     return usage_error("graph", misuse);
   if (!can_write(command)) return exit_unusable;
-  if (const TableView* const table = find_table(command)) return write_table(*table, command);
+  if (is_table(command)) return write_table(command);
   return command.is_diff ? draw_diff(command) : draw_catalog(command);
 }
 

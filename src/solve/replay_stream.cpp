@@ -10,8 +10,10 @@
 #include <string_view>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "core/files/file_set.h"
 #include "core/files/line_input.h"
@@ -20,12 +22,11 @@
 #include "core/report/event_json.h"
 #include "core/script/event_lines.h"
 #include "core/script/runner.h"
-#include "core/yaml/document.h"
+#include "core/support/wording.h"
 #include "page/html_report.h"
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/state.h"
-#include "solve/saved_state.h"
 #include "solve/solve.h"
 
 namespace cbc::cli {
@@ -34,44 +35,20 @@ namespace {
 /// Event lines name all running tasks, so they may be long.
 constexpr std::size_t longest_line = std::size_t{64} << 20;
 
-bool is_same(const yaml::Node& left, const yaml::Node& right) {
-  const auto same_entry = [](const auto& one, const auto& other) {
-    return one.first->text == other.first->text && is_same(*one.second, *other.second);
-  };
-  return left.kind == right.kind && left.plain == right.plain && left.text == right.text &&
-         std::equal(left.items.begin(), left.items.end(), right.items.begin(), right.items.end(),
-                    [](const auto* one, const auto* other) { return is_same(*one, *other); }) &&
-         std::equal(left.entries.begin(), left.entries.end(), right.entries.begin(),
-                    right.entries.end(), same_entry);
-}
-
 /// The names of the members that differ, "'running', 'changes'".
 std::string find_differences(std::string_view logged, std::string_view found) {
-  yaml::JsonReader left_reader;
-  yaml::JsonReader right_reader;
-  const yaml::Node* const left = left_reader.read(logged);
-  const yaml::Node* const right = right_reader.read(found);
-  if (left == nullptr || right == nullptr || left->kind != yaml::Kind::mapping ||
-      right->kind != yaml::Kind::mapping) {
-    return "the form of the line";
+  using Json = nlohmann::ordered_json;
+  const Json left = Json::parse(logged, nullptr, false);
+  const Json right = Json::parse(found, nullptr, false);
+  if (!left.is_object() || !right.is_object()) return "the form of the line";
+  std::vector<std::string> names;
+  for (const auto& [name, value] : left.items()) {
+    if (!right.contains(name) || right[name] != value) names.push_back(quote(name));
   }
-  const auto find = [](const yaml::Node& object, const std::string& name) {
-    return std::find_if(object.entries.begin(), object.entries.end(),
-                        [&name](const auto& entry) { return entry.first->text == name; });
-  };
-  std::string names;
-  const auto add = [&names](const std::string& name) {
-    names += (names.empty() ? "" : ", ") + quote(name);
-  };
-  for (const auto& [name, value] : left->entries) {
-    const auto other = find(*right, name->text);
-    if (other == right->entries.end() || !is_same(*value, *other->second)) add(name->text);
+  for (const auto& [name, value] : right.items()) {
+    if (!left.contains(name)) names.push_back(quote(name));
   }
-  for (const auto& entry : right->entries) {
-    const std::string& name = entry.first->text;
-    if (find(*left, name) == left->entries.end()) add(name);
-  }
-  return names.empty() ? "the order or the spelling of the line" : names;
+  return names.empty() ? "the order or the spelling of the line" : join(names, ", ");
 }
 
 class StreamReplay {

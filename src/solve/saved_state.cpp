@@ -1,11 +1,10 @@
-#include "solve/saved_state.h"
-
 #include <string>
 #include <utility>
 
 #include "core/files/output.h"
 #include "core/script/state_json.h"
 #include "runtime/base/text.h"
+#include "solve/solve.h"
 
 namespace cbc::cli {
 namespace {

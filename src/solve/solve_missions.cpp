@@ -38,33 +38,25 @@ using RunMission = std::function<RunResult(const Mission& mission, SolveReport& 
 /// Called after each run that was reported.
 using AfterRun = std::function<void(const Mission& mission, const RunResult& result)>;
 
-/// Forwards everything, and shows the progress of a run.
+/// Shows the progress of runs, and writes nothing.
 class ProgressReport final : public SolveReport {
  public:
-  ProgressReport(SolveReport& report, Progress& progress) : report_(report), progress_(progress) {}
+  explicit ProgressReport(Progress& progress) : progress_(progress) {}
 
-  void begin_run(const CompiledCatalog& catalog, const Script& script) override {
+  void begin_run(const CompiledCatalog& /*catalog*/, const Script& script) override {
     script_ = &script;
     progress_.begin(script.file);
-    report_.begin_run(catalog, script);
   }
-  void on_event(const EventRecord& record, const Step* step, const State& state) override {
-    report_.on_event(record, step, state);
+  void on_event(const EventRecord& record, const Step* step, const State& /*state*/) override {
     if (step != nullptr) last_step_ = static_cast<std::size_t>(step - script_->steps.data()) + 1;
     constexpr std::uint64_t events_between = 4096;
     if (record.index % events_between == 0) {
       progress_.show(fmt::format(" ({} %)", last_step_ * 100 / script_->steps.size()));
     }
   }
-  void on_failure(const Failure& failure) override { report_.on_failure(failure); }
-  void on_end(const State& state) override { report_.on_end(state); }
-  void end_run(const RunResult& result, const std::string& error) override {
-    report_.end_run(result, error);
-  }
-  void end() override { report_.end(); }
+  void end_run(const RunResult& /*result*/, const std::string& /*error*/) override {}
 
  private:
-  SolveReport& report_;
   Progress& progress_;
   const Script* script_ = nullptr;
   std::size_t last_step_ = 0;
@@ -73,11 +65,12 @@ class ProgressReport final : public SolveReport {
 void run_in_turn(const std::vector<Mission>& missions, SolveReport& report, const RunMission& run,
                  const AfterRun& after_run) {
   Progress progress(doing, missions.size());
-  ProgressReport with_progress(report, progress);
+  ProgressReport shown(progress);
+  ReportPair both(shown, report);
   // On the same terminal, the results themselves show the progress.
-  const bool is_in_the_way = is_terminal(stdout);
+  SolveReport& of_runs = is_terminal(stdout) ? report : both;
   for (const Mission& mission : missions) {
-    const RunResult result = is_in_the_way ? run(mission, report) : run(mission, with_progress);
+    const RunResult result = run(mission, of_runs);
     progress.clear();
     after_run(mission, result);
   }

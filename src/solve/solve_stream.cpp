@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <random>
 #include <string>
 #include <string_view>
 #include <unistd.h>
@@ -20,12 +21,13 @@
 #include "core/script/event_lines.h"
 #include "core/script/reader.h"
 #include "core/script/runner.h"
-#include "core/yaml/document.h"
+#include "core/support/json.h"
+#include "page/html_report.h"
+#include "page/serve/history.h"
+#include "page/serve/server.h"
 #include "runtime/base/text.h"
 #include "runtime/compiled/compiled_catalog.h"
 #include "runtime/coordinator/state.h"
-#include "solve/live_page.h"
-#include "solve/saved_state.h"
 #include "solve/solve.h"
 
 namespace cbc::cli {
@@ -35,6 +37,100 @@ namespace {
 constexpr std::size_t longest_event = std::size_t{1} << 20;
 /// More warnings about a stream would only hide other messages.
 constexpr int most_warnings = 20;
+
+/// Tells this run from those that another process serves at the same address.
+std::string make_token() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
+}
+
+std::string without_line_end(std::string line) {
+  line.pop_back();
+  return line;
+}
+
+/// The page of --serve, which shows a stream while it runs.
+class LivePage {
+ public:
+  /// Serves the page at an address that serve::read_address() accepts, and prints where it is.
+  /// `name` is that of the stream, `index` the number of the event before it. Null if it cannot be
+  /// served, which is reported. The catalog must outlive it.
+  [[nodiscard]] static std::unique_ptr<LivePage> open(const CompiledCatalog& catalog,
+                                                      std::string_view address, std::string name,
+                                                      std::uint64_t index,
+                                                      const Coordinator& coordinator);
+
+  explicit LivePage(const CompiledCatalog& catalog) : catalog_(catalog) {}
+
+  void add(const EventStream::Line& line);
+  void add(const Failure& failure);
+  /// The answer to a line that is no event.
+  void add_refusal(const std::string& answer);
+  /// After the stream: waits until all browsers have it, but not for long. `error`: why it ended
+  /// early, or empty.
+  void end(const RunResult& result, const std::string& error);
+
+ private:
+  void add(std::string_view type, std::string_view data);
+
+  const CompiledCatalog& catalog_;
+  serve::History history_{serve::History::Limits()};
+  std::unique_ptr<serve::Server> server_;
+};
+
+std::unique_ptr<LivePage> LivePage::open(const CompiledCatalog& catalog, std::string_view address,
+                                         std::string name, std::uint64_t index,
+                                         const Coordinator& coordinator) {
+  auto live = std::make_unique<LivePage>(catalog);
+  const std::string begin = state_of_page(catalog, index, coordinator.now(), coordinator.state());
+  live->history_.begin_part(begin);
+  const std::string token = make_token();
+  std::string page = stream_page(catalog, {std::move(name), begin, "", 0, "", token});
+  auto [server, error] =
+      serve::Server::start(*serve::read_address(address), {std::move(page), token}, live->history_);
+  if (server == nullptr) {
+    complain("--serve: cannot serve a page at {}: {}", quote(address), error);
+    return nullptr;
+  }
+  live->server_ = std::move(server);
+  complain("live page: {}", serve::to_url(live->server_->address()));
+  return live;
+}
+
+void LivePage::add(std::string_view type, std::string_view data) {
+  history_.add(type, data);
+  server_->notify();
+}
+
+void LivePage::add(const EventStream::Line& line) {
+  add("", line.text.substr(0, line.text.size() - 1));
+  if (history_.wants_state()) {
+    history_.begin_part(state_of_page(catalog_, line.record.index, line.record.time, line.state));
+  }
+}
+
+void LivePage::add(const Failure& failure) {
+  std::string text;
+  append_failure(text, catalog_, failure);
+  add("failure", text);
+}
+
+void LivePage::add_refusal(const std::string& answer) { add("refusal", without_line_end(answer)); }
+
+void LivePage::end(const RunResult& result, const std::string& error) {
+  add("end", without_line_end(json_line([&](JsonWriter& json) {
+        json.write_members({{"passed", result.passed}, {"failed", result.failed}});
+        if (!error.empty()) json.write("error", error);
+      })));
+  history_.end();
+  server_->notify();
+  server_->finish(std::chrono::seconds(2));
+  if (!server_->was_visited()) {
+    complain(
+        "the stream ended before a browser opened its page; --replay LOG --html FILE makes "
+        "one of a log");
+  }
+}
 
 class Stream {
  public:

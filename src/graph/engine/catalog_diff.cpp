@@ -13,11 +13,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <span>
+#include <functional>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -72,21 +71,29 @@ std::string describe(const CatalogChange& change, const AttributeChange& attribu
 
 namespace {
 
+using ChangeKind = CatalogChange::Kind;
+using ChangeSubject = CatalogChange::Subject;
+
+/// Walks through two sorted lists side by side. Calls `removed` for what only the old one has,
+/// `added` for what only the new one has, and `kept` for what both have.
+template <typename Item, typename Precedes, typename Removed, typename Added, typename Kept>
+void walk(const std::vector<Item>& before, const std::vector<Item>& after, const Precedes& precedes,
+          const Removed& removed, const Added& added, const Kept& kept) {
+  auto old = before.begin();
+  auto now = after.begin();
+  while (old != before.end() || now != after.end()) {
+    if (now == after.end() || (old != before.end() && precedes(*old, *now))) {
+      removed(*old++);
+    } else if (old == before.end() || precedes(*now, *old)) {
+      added(*now++);
+    } else {
+      kept(*old++, *now++);
+    }
+  }
+}
+
 /// Place of a task among the sorted names of both catalogs.
 using Place = std::uint32_t;
-
-/// One of the two catalogs, by places.
-struct Side {
-  const CompiledCatalog* catalog;
-  std::vector<TaskId> tasks;  ///< by place; `none`: the catalog has no such task
-  std::vector<Place> places;  ///< by TaskId
-  std::vector<Place> marks;   ///< by place: the last task that was found to exclude it
-
-  [[nodiscard]] std::span<const std::uint32_t> cliques_of(Place place) const {
-    return tasks[place] == none ? std::span<const std::uint32_t>()
-                                : catalog->task_cliques[tasks[place]];
-  }
-};
 
 std::vector<std::string_view> names_of_both(const CompiledCatalog& before,
                                             const CompiledCatalog& after) {
@@ -99,88 +106,61 @@ std::vector<std::string_view> names_of_both(const CompiledCatalog& before,
   return names;
 }
 
-/// Finds the pairs of tasks that exclude one another in one of the catalogs only, in the order of
-/// names.
-class ExclusionDiff {
- public:
-  ExclusionDiff(const CompiledCatalog& before, const CompiledCatalog& after)
-      : names_(names_of_both(before, after)), sides_{side_of(before), side_of(after)} {}
+/// By task: its place.
+std::vector<Place> places_of(const CompiledCatalog& catalog,
+                             const std::vector<std::string_view>& names) {
+  std::vector<Place> places;
+  for (TaskId task = 0; task < catalog.tasks.size(); ++task) {
+    const auto found = std::lower_bound(names.begin(), names.end(), catalog.name_of_task(task));
+    places.push_back(static_cast<Place>(found - names.begin()));
+  }
+  return places;
+}
 
-  void run(CatalogDiff& diff) {
-    for (Place task = 0; task < names_.size(); ++task) compare(task);
-    for (const auto& [task, other, kind] : pairs_) {
+/// The tasks with later names that a task excludes, in the order of names; none of a task that the
+/// catalog does not have.
+std::vector<Place> excluded_after(const CompiledCatalog& catalog, const std::vector<Place>& places,
+                                  std::string_view name) {
+  std::vector<Place> excluded;
+  const auto index = catalog.find_task(name);
+  if (!index) return excluded;
+  const TaskId task = catalog.task_ids[*index];
+  for (const std::uint32_t clique : catalog.task_cliques[task]) {
+    for (const TaskId other : catalog.cliques[clique]) {
+      if (places[other] > places[task]) excluded.push_back(places[other]);
+    }
+  }
+  std::sort(excluded.begin(), excluded.end());
+  excluded.erase(std::unique(excluded.begin(), excluded.end()), excluded.end());
+  return excluded;
+}
+
+/// Adds the pairs of tasks that exclude one another in one of the catalogs only.
+void compare_exclusions(const CompiledCatalog& before, const CompiledCatalog& after,
+                        CatalogDiff& diff) {
+  const std::vector<std::string_view> names = names_of_both(before, after);
+  const std::vector<Place> old_places = places_of(before, names);
+  const std::vector<Place> new_places = places_of(after, names);
+  std::size_t listed = 0;
+  for (const std::string_view name : names) {
+    const auto add = [&](ChangeKind kind, Place other) {
+      if (listed == most_listed_exclusions) {
+        ++diff.further_exclusions;
+        return;
+      }
+      ++listed;
       CatalogChange& change = diff.changes.emplace_back();
       change.kind = kind;
-      change.subject = CatalogChange::Subject::exclusion;
-      change.task = names_[task];
-      change.other_task = names_[other];
-    }
-    diff.further_exclusions = further_;
+      change.subject = ChangeSubject::exclusion;
+      change.task = name;
+      change.other_task = names[other];
+    };
+    walk(
+        excluded_after(before, old_places, name), excluded_after(after, new_places, name),
+        std::less<>(), [&](Place other) { add(ChangeKind::removed, other); },
+        [&](Place other) { add(ChangeKind::added, other); }, [](Place, Place) {});
   }
-
- private:
-  [[nodiscard]] Side side_of(const CompiledCatalog& catalog) const {
-    Side side{&catalog,
-              {},
-              std::vector<Place>(catalog.tasks.size()),
-              std::vector<std::uint32_t>(names_.size(), none)};
-    for (Place place = 0; place < names_.size(); ++place) {
-      const auto index = catalog.find_task(names_[place]);
-      side.tasks.push_back(index ? catalog.task_ids[*index] : none);
-      if (index) side.places[side.tasks.back()] = place;
-    }
-    return side;
-  }
-
-  void compare(Place task) {
-    for (Side& side : sides_) mark_excluded(side, task);
-    std::vector<std::pair<Place, CatalogChange::Kind>> found;
-    constexpr std::array kinds{CatalogChange::Kind::removed, CatalogChange::Kind::added};
-    for (std::size_t side = 0; side < sides_.size(); ++side) {
-      for (const Place other : find_only(sides_[side], sides_[1 - side], task)) {
-        found.emplace_back(other, kinds[side]);
-      }
-    }
-    std::sort(found.begin(), found.end());
-    for (const auto& [other, kind] : found) {
-      if (pairs_.size() < most_listed_exclusions) {
-        pairs_.emplace_back(task, other, kind);
-      } else {
-        ++further_;
-      }
-    }
-  }
-
-  void mark_excluded(Side& side, Place task) const {
-    for (const std::uint32_t clique : side.cliques_of(task)) {
-      for (const TaskId other : side.catalog->cliques[clique]) {
-        side.marks[side.places[other]] = task;
-      }
-    }
-  }
-
-  /// Those with later names that `task` excludes in `side` but not in `other`.
-  [[nodiscard]] static std::vector<Place> find_only(Side& side, const Side& other, Place task) {
-    std::vector<Place> only;
-    for (const std::uint32_t clique : side.cliques_of(task)) {
-      for (const TaskId excluded : side.catalog->cliques[clique]) {
-        const Place place = side.places[excluded];
-        if (place <= task || side.marks[place] != task || other.marks[place] == task) continue;
-        side.marks[place] = none;  // not twice
-        only.push_back(place);
-      }
-    }
-    return only;
-  }
-
-  const std::vector<std::string_view> names_;
-  std::array<Side, 2> sides_;
-  std::vector<std::tuple<Place, Place, CatalogChange::Kind>> pairs_;
-  std::uint64_t further_ = 0;  ///< pairs that are not listed
-};
-
-using ChangeKind = CatalogChange::Kind;
-using ChangeSubject = CatalogChange::Subject;
+}
 
 /// An attribute and its value.
 struct Attribute {
@@ -333,28 +313,10 @@ std::vector<Fact> facts(const CompiledCatalog& catalog, ChangeSubject subject) {
       }
       break;
     case ChangeSubject::exclusion:
-      break;  // see ExclusionDiff
+      break;  // see compare_exclusions
   }
   std::sort(result.begin(), result.end(), precedes);
   return result;
-}
-
-/// Walks through two sorted lists side by side. Calls `removed` for what only the old one has,
-/// `added` for what only the new one has, and `kept` for what both have.
-template <typename Item, typename Precedes, typename Removed, typename Added, typename Kept>
-void walk(const std::vector<Item>& before, const std::vector<Item>& after, const Precedes& precedes,
-          const Removed& removed, const Added& added, const Kept& kept) {
-  auto old = before.begin();
-  auto now = after.begin();
-  while (old != before.end() || now != after.end()) {
-    if (now == after.end() || (old != before.end() && precedes(*old, *now))) {
-      removed(*old++);
-    } else if (old == before.end() || precedes(*now, *old)) {
-      added(*now++);
-    } else {
-      kept(*old++, *now++);
-    }
-  }
 }
 
 /// The attributes that differ. Both lists are in the order of names; either may be empty.
@@ -432,7 +394,7 @@ CatalogDiff compare_catalogs(const CompiledCatalog& before, const CompiledCatalo
         ChangeSubject::requirement, ChangeSubject::variable}) {
     compare_facts(subject, facts(before, subject), facts(after, subject), diff.changes);
   }
-  ExclusionDiff(before, after).run(diff);
+  compare_exclusions(before, after, diff);
   return diff;
 }
 

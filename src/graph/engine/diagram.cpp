@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -122,13 +121,28 @@ Part nothing(const CatalogGraph& graph) {
   return part;
 }
 
+std::vector<std::uint32_t> places_of(const std::vector<bool>& is_there) {
+  std::vector<std::uint32_t> places;
+  for (std::uint32_t place = 0; place < is_there.size(); ++place) {
+    if (is_there[place]) places.push_back(place);
+  }
+  return places;
+}
+
+/// Lists what the part has.
+Part listed(Part part) {
+  part.tasks = places_of(part.has_task);
+  part.behaviors = places_of(part.has_behavior);
+  return part;
+}
+
 class Surroundings {
  public:
   Surroundings(const CatalogGraph& graph, const std::vector<std::uint32_t>& tasks)
       : graph_(graph), named_(tasks), part_(nothing(graph)) {
     for (const std::uint32_t task : named_) {
       part_.is_named[task] = true;
-      add_task(task);
+      part_.has_task[task] = true;
       add_behaviors_of(task);
     }
   }
@@ -155,13 +169,13 @@ class Surroundings {
         for (const std::uint32_t link : performed) {
           if (reach(graph_.performances[link].task)) is_reached = true;
         }
-        if (is_reached) add_behavior(behavior);
+        if (is_reached) part_.has_behavior[behavior] = true;
       }
     });
   }
 
   Part finish() && {
-    for (const std::uint32_t behavior : part_.behaviors) {
+    for (const std::uint32_t behavior : places_of(part_.has_behavior)) {
       for (const std::uint32_t link : graph_.performances_of_behavior[behavior]) {
         add_beside(graph_.performances[link].task);
       }
@@ -173,9 +187,7 @@ class Surroundings {
         for (const std::uint32_t excluded : tasks) add_beside(excluded);
       }
     }
-    std::sort(part_.tasks.begin(), part_.tasks.end());
-    std::sort(part_.behaviors.begin(), part_.behaviors.end());
-    return std::move(part_);
+    return listed(std::move(part_));
   }
 
  private:
@@ -194,7 +206,7 @@ class Surroundings {
           if (is_known[found]) return true;
           if (is_last) return false;
           is_known[found] = true;
-          add_task(found);
+          part_.has_task[found] = true;
           next.push_back(found);
           return true;
         });
@@ -203,27 +215,15 @@ class Surroundings {
     }
   }
 
-  void add_task(std::uint32_t task) {
-    if (part_.has_task[task]) return;
-    part_.has_task[task] = true;
-    part_.tasks.push_back(task);
-  }
-
   void add_beside(std::uint32_t task) {
     if (part_.has_task[task]) return;
-    add_task(task);
+    part_.has_task[task] = true;
     part_.is_beside[task] = true;
-  }
-
-  void add_behavior(std::uint32_t behavior) {
-    if (part_.has_behavior[behavior]) return;
-    part_.has_behavior[behavior] = true;
-    part_.behaviors.push_back(behavior);
   }
 
   void add_behaviors_of(std::uint32_t task) {
     for (const std::uint32_t place : graph_.performances_of_task[task]) {
-      add_behavior(graph_.performances[place].behavior);
+      part_.has_behavior[graph_.performances[place].behavior] = true;
     }
   }
 
@@ -236,28 +236,20 @@ class Surroundings {
 
 Part whole(const CatalogGraph& graph) {
   Part part = nothing(graph);
-  part.tasks.resize(graph.tasks.size());
-  std::iota(part.tasks.begin(), part.tasks.end(), 0U);
-  part.has_task.assign(graph.tasks.size(), true);
-  part.behaviors.resize(graph.behaviors.size());
-  std::iota(part.behaviors.begin(), part.behaviors.end(), 0U);
-  part.has_behavior.assign(graph.behaviors.size(), true);
-  return part;
+  part.has_task.flip();
+  part.has_behavior.flip();
+  return listed(std::move(part));
 }
 
 Part part_of_group(const CatalogGraph& graph, std::uint32_t group) {
   Part part = nothing(graph);
   for (std::uint32_t task = 0; task < graph.tasks.size(); ++task) {
-    if (graph.tasks[task].group != group) continue;
-    part.has_task[task] = true;
-    part.tasks.push_back(task);
+    part.has_task[task] = graph.tasks[task].group == group;
   }
   for (std::uint32_t behavior = 0; behavior < graph.behaviors.size(); ++behavior) {
-    if (graph.behaviors[behavior].group != group) continue;
-    part.has_behavior[behavior] = true;
-    part.behaviors.push_back(behavior);
+    part.has_behavior[behavior] = graph.behaviors[behavior].group == group;
   }
-  return part;
+  return listed(std::move(part));
 }
 
 Part part_around(const CatalogGraph& graph, const std::vector<std::uint32_t>& tasks,
