@@ -452,12 +452,7 @@ CatalogReading understand_catalog(const yaml::Document& document, Diagnostics& d
       draft::hiding_errors(reporter) - reporter.errors(rule::on_request_and_reactive);
   reading.is_complete = hiding == 0;
   reading.has_all_names = hiding == draft.value_errors + resolver.situation_errors();
-  const auto without_task = static_cast<std::size_t>(
-      std::count_if(reading.catalog.behaviors.begin(), reading.catalog.behaviors.end(),
-                    [](const Behavior& behavior) {
-                      return behavior.performs.empty() && !behavior.name.empty();
-                    }));
-  reading.has_all_behaviors = !draft.lacks_a_section && draft.nameless_tasks == without_task &&
+  reading.has_all_behaviors = !draft.lacks_a_section && draft.nameless_tasks == 0 &&
                               reporter.errors(rule::duplicate_key) == 0;
   check_requirement_cycles(reading.catalog, reporter);
   reading.is_acyclic = reporter.errors(rule::requirement_cycle) == 0;
