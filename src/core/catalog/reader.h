@@ -16,6 +16,7 @@ namespace cbc {
 /// The name of a required or excluded task that no task has.
 struct UndefinedTask {
   std::string name;
+  Range range;
   std::optional<BehaviorIndex> behavior;  ///< that requires it; empty: an exclusivity list has it
   Millionths minimum_performance = 0;     ///< of the requirement; 0: none
   std::size_t list = 0;                   ///< place in Catalog::exclusivity, if one has it
