@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cbc/event.h"
-#include "core/catalog/draft.h"
+#include "core/catalog/shape.h"
 #include "core/check/controls.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"

@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/catalog/draft.h"
+#include "core/catalog/shape.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
 #include "core/property/property_reader.h"

@@ -7,7 +7,7 @@
 
 #include "cbc/event.h"
 #include "core/catalog/allowed_values.h"
-#include "core/catalog/draft.h"
+#include "core/catalog/shape.h"
 #include "core/script/script.h"
 #include "manual/page.h"
 

@@ -175,30 +175,12 @@ TEST(AllowComments, FixedRulesStay) {
   }
 }
 
-TEST(AllowComments, FindingsAboutCommentsCanBeAllowed) {
-  EXPECT_EQ(control("a: 1 # cbc: allow dead-task, unused-allow\n"), "");
-  EXPECT_EQ(control("a: 1 # cbc: allow missing-key, unused-allow\n"), "");
-  EXPECT_EQ(control("a: 1 # cbc: allow no-rule, unknown-rule\n"), "");
-  // Comments of one entry are about one another, in any order, and about those in the entry.
-  EXPECT_EQ(control("# cbc: allow dead-task, no-rule\n# cbc: allow unused-allow, unknown-rule\na:\n"
-                    "  b: 1 # cbc: allow dead-task, no-rule\n"),
-            "");
-  EXPECT_EQ(control("# cbc: alow dead-task\n# cbc: allow unknown-rule\na: 1\n"), "");
-  EXPECT_EQ(control("a: 1\n# cbc: allow dead-task\n\n# cbc: allow unused-allow\n"), "");
-  // Not about the comments of the entry after it.
-  EXPECT_EQ(control("# cbc: allow unused-allow\na: 1 # cbc: allow dead-task\n"
-                    "# cbc: allow dead-task\nb: 1\n"),
-            "3:14-23 warning unused-allow: " + std::string(unneeded));
-}
-
-TEST(AllowComments, AnUnusedAllowOfUnusedAllowIsReportedOnce) {
+TEST(AllowComments, FindingsAboutCommentsCannotBeAllowed) {
   EXPECT_EQ(control("a: 1 # cbc: allow unused-allow\n"),
             "1:19-31 warning unused-allow: no finding of rule 'unused-allow' needs this comment\n");
-  EXPECT_EQ(control("# cbc: allow unused-allow\na: 1 # cbc: allow unused-allow\n"),
-            "1:14-26 warning unused-allow: no finding of rule 'unused-allow' needs this comment\n"
-            "2:19-31 warning unused-allow: no finding of rule 'unused-allow' needs this comment\n");
-  EXPECT_EQ(control("# cbc: allow unknown-rule\na: 1\n"),
-            "1:14-26 warning unused-allow: no finding of rule 'unknown-rule' needs this comment\n");
+  EXPECT_EQ(control("# cbc: allow unknown-rule\na: 1 # cbc: allow no-rule\n"),
+            "1:14-26 warning unused-allow: no finding of rule 'unknown-rule' needs this comment\n"
+            "2:19-26 warning unknown-rule: there is no rule 'no-rule'\n");
 }
 
 TEST(AllowComments, TextsAreNoComments) {

@@ -384,7 +384,7 @@ TEST(CatalogReader, AliasesGiveOneFinding) {
 
 // Requirements ---------------------------------------------------------------------------------
 
-TEST(CatalogReader, OneShortestCycleForEachSetOfTasks) {
+TEST(CatalogReader, AShortestCycleThroughTheFirstOfEachSetOfTasks) {
   EXPECT_EQ(findings(R"(behaviors:
 - {behavior: A, task: P, requires: [{task: Q}]}
 - {behavior: B, task: Q, requires: [{task: R}, {task: X}]}
@@ -392,9 +392,10 @@ TEST(CatalogReader, OneShortestCycleForEachSetOfTasks) {
 - {behavior: D, task: X, requires: [{task: Y}]}
 - {behavior: E, task: Y, requires: [{task: X}]}
 )"),
-            "3:44-45 error requirement-cycle: tasks require one another: 'Q' -> 'R' -> 'Q'\n"
+            "2:44-45 error requirement-cycle: tasks require one another: 'P' -> 'Q' -> 'R' -> 'P'\n"
+            "  2:44-45 behavior 'A', which performs 'P', requires 'Q'\n"
             "  3:44-45 behavior 'B', which performs 'Q', requires 'R'\n"
-            "  4:55-56 behavior 'C', which performs 'R', requires 'Q'\n"
+            "  4:44-45 behavior 'C', which performs 'R', requires 'P'\n"
             "5:44-45 error requirement-cycle: tasks require one another: 'X' -> 'Y' -> 'X'\n"
             "  5:44-45 behavior 'D', which performs 'X', requires 'Y'\n"
             "  6:44-45 behavior 'E', which performs 'Y', requires 'X'\n");

@@ -28,37 +28,16 @@ struct TypeWord {
   Item item;
 };
 constexpr TypeWord type_words[] = {
-    {"string", Item::string},   {"text", Item::string},   {"str", Item::string},
-    {"boolean", Item::boolean}, {"bool", Item::boolean},  {"integer", Item::integer},
-    {"int", Item::integer},     {"number", Item::number}, {"float", Item::number},
-    {"double", Item::number},   {"real", Item::number},   {"point", Item::point}};
+    {"string", Item::string}, {"boolean", Item::boolean}, {"integer", Item::integer},
+    {"number", Item::number}, {"point", Item::point},     {"text", Item::string},
+    {"str", Item::string},    {"bool", Item::boolean},    {"int", Item::integer},
+    {"float", Item::number},  {"double", Item::number},   {"real", Item::number}};
 
-constexpr std::string_view type_names[] = {"string",
-                                           "boolean",
-                                           "integer",
-                                           "number",
-                                           "point",
-                                           "list_of_strings",
-                                           "list_of_booleans",
-                                           "list_of_integers",
-                                           "list_of_numbers",
-                                           "list_of_points",
-                                           "string_list",
-                                           "boolean_list",
-                                           "integer_list",
-                                           "number_list",
-                                           "point_list",
-                                           "text",
-                                           "bool",
-                                           "int",
-                                           "float",
-                                           "double",
-                                           "real"};
+constexpr std::string_view list_prefix = "list_of_";
+constexpr std::string_view list_suffix = "_list";
 
 // "point", "point_list", "list_of_points", "list-of-point", "Point".
 std::optional<Type> type_of(std::string_view name) {
-  constexpr std::string_view prefix = "list_of_";
-  constexpr std::string_view suffix = "_list";
   if (name.size() > 40) return std::nullopt;
   std::string text(name);
   std::transform(text.begin(), text.end(), text.begin(), [](char character) {
@@ -67,13 +46,13 @@ std::optional<Type> type_of(std::string_view name) {
     return is_upper ? static_cast<char>(character - 'A' + 'a') : character;
   });
   Type type;
-  if (text.starts_with(prefix)) {
+  if (text.starts_with(list_prefix)) {
     type.is_list = true;
-    text.erase(0, prefix.size());
+    text.erase(0, list_prefix.size());
     if (text.ends_with('s')) text.pop_back();
-  } else if (text.ends_with(suffix)) {
+  } else if (text.ends_with(list_suffix)) {
     type.is_list = true;
-    text.erase(text.size() - suffix.size());
+    text.erase(text.size() - list_suffix.size());
   }
   const auto* const found =
       std::find_if(std::begin(type_words), std::end(type_words),
@@ -217,8 +196,16 @@ bool is_unknown_type(const Parameter& parameter) {
   return has_type_name(parameter) && !type_of(parameter.allowed_values[0]);
 }
 
-std::optional<std::string_view> nearest_type(std::string_view name) {
-  return nearest(name, type_names);
+std::optional<std::string> nearest_type(std::string_view name) {
+  std::vector<std::string> types;
+  for (const TypeWord& word : type_words) {
+    types.emplace_back(word.name);
+    types.push_back(concat(list_prefix, word.name, "s"));
+    types.push_back(concat(word.name, list_suffix));
+  }
+  const std::vector<std::string_view> names(types.begin(), types.end());
+  const auto found = nearest(name, names);
+  return found ? std::optional<std::string>(*found) : std::nullopt;
 }
 
 AllowedValues::AllowedValues(const Parameter& parameter)

@@ -36,7 +36,7 @@ struct NumberRange {
 [[nodiscard]] bool is_unknown_type(const Parameter& parameter);
 
 /// The known type whose name is most like `name`.
-[[nodiscard]] std::optional<std::string_view> nearest_type(std::string_view name);
+[[nodiscard]] std::optional<std::string> nearest_type(std::string_view name);
 
 /// Why a value is not allowed.
 struct ValueFault {

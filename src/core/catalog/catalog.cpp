@@ -93,10 +93,6 @@ using Cycle = std::vector<CycleStep>;
 
 using Vertex = std::uint32_t;
 
-// Steps that the search for the shortest cycles may take; enough for every catalog that people
-// write.
-constexpr std::size_t most_cycle_work = 10'000'000;
-
 // The vertices are the tasks, then the behaviors. Edges lead from a task to the behaviors that
 // perform it, and from a behavior to the tasks it requires, so there are no more edges than lines
 // in the file.
@@ -115,79 +111,44 @@ class RequirementGraph {
       }
     }
     component_ = strong_components(vertices, edges_);
-    for (const Vertex component : component_) {
-      components_ = std::max<std::size_t>(components_, component + 1);
-    }
     std::sort(edges_.begin(), edges_.end());
-    reached_.resize(vertices, unreached);
-    from_.resize(vertices);
+    from_.resize(vertices, unreached);
   }
 
-  /// A shortest cycle for each set of tasks that require one another, in catalog order of its first
-  /// task. In sets so large that the search for the shortest takes too long it is a short one.
+  /// For each set of tasks that require one another, a shortest cycle through the first of them, in
+  /// catalog order of these.
   std::vector<Cycle> find_cycles() {
-    std::vector<std::vector<Vertex>> members(components_);
-    for (Vertex task = 0; task < tasks_; ++task) members[component_[task]].push_back(task);
-    std::vector<Cycle> cycles;
-    // A component that contains a cycle has behaviors as well as tasks.
-    std::vector<bool> has_behavior(components_, false);
+    // The component of a task has behaviors only if it contains a cycle.
+    std::vector<bool> has_cycle(component_.size(), false);
     for (std::size_t vertex = tasks_; vertex < component_.size(); ++vertex) {
-      has_behavior[component_[vertex]] = true;
+      has_cycle[component_[vertex]] = true;
     }
-    for (std::size_t component = 0; component < components_; ++component) {
-      if (members[component].empty() || !has_behavior[component]) continue;
-      cycles.push_back(shortest_cycle(members[component]));
+    std::vector<Cycle> cycles;
+    for (Vertex task = 0; task < tasks_; ++task) {
+      if (!has_cycle[component_[task]]) continue;
+      has_cycle[component_[task]] = false;  // one is enough
+      cycles.push_back(to_steps(shortest_cycle_through(task)));
     }
-    std::sort(cycles.begin(), cycles.end(),
-              [](const Cycle& a, const Cycle& b) { return a.front().task < b.front().task; });
     return cycles;
   }
 
  private:
   static constexpr Vertex unreached = static_cast<Vertex>(-1);
 
-  // Of equally short ones, the one whose task comes first in catalog order.
-  Cycle shortest_cycle(const std::vector<Vertex>& members) {
-    std::vector<Vertex> best;
-    for (const Vertex start : members) {
-      if (!best.empty() && work_ > most_cycle_work) break;
-      const std::size_t bound = best.empty() ? component_.size() + 1 : best.size();
-      if (auto found = shortest_cycle_through(start, bound)) best = std::move(*found);
-      if (best.size() == 2) break;
-    }
-    return to_steps(best);
-  }
-
-  // A path from `start` to an edge back to it, of fewer than `bound` vertices.
-  std::optional<std::vector<Vertex>> shortest_cycle_through(Vertex start, std::size_t bound) {
+  // `start` is part of a cycle.
+  std::vector<Vertex> shortest_cycle_through(Vertex start) {
     std::vector<Vertex> queue{start};
-    reached_[start] = start;
-    std::optional<std::vector<Vertex>> result;
-    std::size_t level_end = 1;
-    std::size_t length = 1;  // vertices on the path to the present level
-    for (std::size_t next = 0; next < queue.size() && !result && length < bound; ++next) {
-      if (next == level_end) {
-        level_end = queue.size();
-        if (++length >= bound) break;
-      }
+    for (std::size_t next = 0;; ++next) {
       const Vertex vertex = queue[next];
       for (auto edge = std::lower_bound(edges_.begin(), edges_.end(), std::pair(vertex, Vertex{0}));
            edge != edges_.end() && edge->first == vertex; ++edge) {
         const Vertex target = edge->second;
-        ++work_;
-        if (component_[target] != component_[start]) continue;
-        if (target == start) {
-          result = path_to(start, vertex);
-          break;
-        }
-        if (reached_[target] != unreached) continue;
-        reached_[target] = start;
+        if (target == start) return path_to(start, vertex);
+        if (component_[target] != component_[start] || from_[target] != unreached) continue;
         from_[target] = vertex;
         queue.push_back(target);
       }
     }
-    for (const Vertex vertex : queue) reached_[vertex] = unreached;
-    return result;
   }
 
   [[nodiscard]] std::vector<Vertex> path_to(Vertex start, Vertex end) const {
@@ -215,10 +176,7 @@ class RequirementGraph {
   Vertex tasks_;
   Edges edges_;  // sorted
   std::vector<Vertex> component_;
-  std::size_t components_ = 0;
-  std::vector<Vertex> reached_;
-  std::vector<Vertex> from_;
-  std::size_t work_ = 0;
+  std::vector<Vertex> from_;  // by vertex that was reached: the one before it
 };
 
 // Longer cycles are shown by their first steps.

@@ -158,7 +158,7 @@ class Exclusions {
   std::unordered_map<std::uint64_t, std::optional<std::size_t>> known_;
 };
 
-/// Reports each set of tasks that require one another, by one shortest cycle.
+/// Reports each set of tasks that require one another, by a shortest cycle through the first one.
 void check_requirement_cycles(const Catalog& catalog, Reporter& reporter);
 
 /// Reports each requirement of a task that excludes all the tasks of its behavior.

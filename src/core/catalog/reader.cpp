@@ -1,6 +1,7 @@
 #include "core/catalog/reader.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,8 +11,9 @@
 #include <vector>
 
 #include "core/catalog/catalog.h"
-#include "core/catalog/draft.h"
+#include "core/catalog/shape.h"
 #include "core/catalog/situation.h"
+#include "core/catalog/task_attributes.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/diagnostic/rules.h"
 #include "core/support/wording.h"
@@ -21,6 +23,10 @@
 
 namespace cbc {
 namespace {
+
+using yaml::Fields;
+using yaml::Kind;
+using yaml::Node;
 
 /// From the beginning of the conditions of a behavior to the end of the last one.
 Range range_of_conditions(const yaml::Node& conditions) {
@@ -36,220 +42,237 @@ Range range_of_conditions(const yaml::Node& conditions) {
   return range;
 }
 
-struct Flags {
-  bool start_on_request = true;
-  bool reactive_start = false;
-};
+constexpr std::string_view task_name = "the name of a task";
+constexpr std::size_t most_tasks = 100;  // of one behavior
 
-Flags flags_of(const draft::TaskAttributes& own, const draft::TaskAttributes& defaults) {
-  Flags flags;
-  if (own.reactive_start) {
-    flags.reactive_start = own.reactive_start->value;
-  } else if (defaults.reactive_start) {
-    flags.reactive_start = defaults.reactive_start->value;
-  }
-  if (own.start_on_request) {
-    flags.start_on_request = own.start_on_request->value;
-  } else if (own.reactive_start && own.reactive_start->value) {
-    flags.start_on_request = false;
-  } else if (defaults.start_on_request) {
-    flags.start_on_request = defaults.start_on_request->value;
-  }
-  return flags;
+/// The number of errors that left something of the file out. Where a key is unknown, the rest is
+/// understood as if it were not there.
+std::size_t hiding_errors(const Reporter& reporter) {
+  return reporter.errors() - reporter.errors(rule::unknown_key);
 }
 
-std::string name_of(ExecutionGoal goal) {
-  return goal == ExecutionGoal::achieve_goal ? "achieve_goal" : "keep_running";
-}
-
-std::string name_of(bool flag) { return flag ? "TRUE" : "FALSE"; }
-
-std::string name_of(const std::optional<draft::Timeout>& timeout) {
-  return timeout ? format_decimal(timeout->value, 6) + " s" : "none";
-}
-
-std::string name_of_minimum(const draft::Percent& minimum) {
-  return minimum.value == 0 ? "none" : format_decimal(minimum.value, 4) + " %";
-}
-
-bool same_parameters(const std::vector<Parameter>& a, const std::vector<Parameter>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const Parameter& x, const Parameter& y) {
-                      return x.name == y.name && allow_the_same(x, y);
-                    });
-}
-
-class Changes {
+/// Reads a catalog, section by section: entries get their indices, and defaults are applied. Names
+/// of tasks in requirements and exclusivity lists are resolved last, when all tasks are known.
+class Reader {
  public:
-  void compare(const std::string& attribute, const std::string& before, const std::string& now) {
-    if (before != now) add(attribute + " " + now + ", was " + before);
-  }
+  explicit Reader(Reporter& reporter)
+      : reporter_(reporter), attributes_(task_defaults_, reporter), situation_(reporter) {}
 
-  void add(const std::string& change) {
-    if (!text_.empty()) text_ += "; ";
-    text_ += change;
+  CatalogReading read(const Node& root) && {
+    if (root.kind == Kind::null) {
+      reporter_.report(rule::missing_key, root.range,
+                       "missing key 'behaviors': the catalog is empty");
+    } else if (root.kind != Kind::mapping) {
+      reporter_.report(
+          rule::wrong_type, root.range,
+          "a catalog must be a mapping with the key 'behaviors', found " + yaml::describe(root));
+    } else if (const Node* key = find_older_format(root)) {
+      reporter_.report(rule::older_format, key->range,
+                       "this is a catalog of an older format, with capabilities and without tasks; "
+                       "it is not supported");
+      lacks_a_section_ = true;
+    } else {
+      read_sections(root);
+    }
+    resolve_names();
+    CatalogReading reading;
+    const std::size_t hiding =
+        hiding_errors(reporter_) - reporter_.errors(rule::on_request_and_reactive);
+    reading.is_complete = hiding == 0;
+    reading.has_all_names = hiding == value_errors_ + situation_errors_;
+    reading.has_all_behaviors =
+        !lacks_a_section_ && nameless_tasks_ == 0 && reporter_.errors(rule::duplicate_key) == 0;
+    reading.catalog = std::move(catalog_);
+    reading.undefined_tasks = std::move(undefined_);
+    return reading;
   }
-
-  [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
-  std::string text_;
-};
-
-/// Completes the attributes of tasks with the defaults.
-class TaskAttributes {
- public:
-  /// `defaults` must outlive this object.
-  TaskAttributes(const draft::TaskAttributes& defaults, Reporter& reporter)
-      : defaults_(defaults), reporter_(reporter) {}
-
-  /// Fills in a task from its entry, which stands at `range`. Reports both start flags at once.
-  void apply(const Range& range, const draft::TaskAttributes& own, Task& task);
-
-  /// What a later entry of a task changes, in words: "timeout 15 s, was 180 s". Empty if nothing.
-  [[nodiscard]] std::string describe_changes(const draft::Task& before,
-                                             const draft::Task& now) const;
-
- private:
-  void report_both_flags(const Range& range, const draft::TaskAttributes& own, const Task& task);
-
-  const draft::TaskAttributes& defaults_;
-  Reporter& reporter_;
-};
-
-void TaskAttributes::apply(const Range& range, const draft::TaskAttributes& own, Task& task) {
-  task.is_unclear = own.is_unclear || defaults_.is_unclear;
-  const Flags flags = flags_of(own, defaults_);
-  task.start_on_request = flags.start_on_request;
-  task.reactive_start = flags.reactive_start;
-  task.execution_goal =
-      own.execution_goal.value_or(defaults_.execution_goal.value_or(ExecutionGoal::achieve_goal));
-  if (own.timeout) task.own_timeout_range = own.timeout->range;
-  if (const auto& timeout = own.timeout ? own.timeout : defaults_.timeout) {
-    task.timeout = timeout->value;
+  // Counts the errors that `read` reports as errors in values.
+  template <typename Read>
+  auto read_value(Read read) {
+    const std::size_t errors = hiding_errors(reporter_);
+    auto value = read();
+    value_errors_ += hiding_errors(reporter_) - errors;
+    return value;
   }
-  const bool is_certain = !task.is_unclear || (own.start_on_request && own.reactive_start);
-  if (flags.start_on_request && flags.reactive_start && is_certain) {
-    report_both_flags(range, own, task);
-  }
-}
 
-// The place of the finding is the flag that the task itself gives; if it gives none, that of the
-// defaults, once for all tasks.
-void TaskAttributes::report_both_flags(const Range& range, const draft::TaskAttributes& own,
-                                       const Task& task) {
-  if (!own.start_on_request && !own.reactive_start) {
-    reporter_.report(rule::on_request_and_reactive, defaults_.reactive_start->range,
-                     "by default tasks have both reactive_start and start_on_request; one of them "
-                     "must be FALSE",
-                     {reporter_.note(range, "task " + quote(task.name) + " has both of them")});
-    return;
+  // The same for errors about the situation, on which no other entry depends either.
+  template <typename Read>
+  void read_situation(const Read& read) {
+    const std::size_t errors = reporter_.errors();
+    read();
+    situation_errors_ += reporter_.errors() - errors;
   }
-  const std::string message = "task " + quote(task.name) +
-                              " has both reactive_start and start_on_request; one of them must be "
-                              "FALSE";
-  std::vector<Note> notes;
-  Range place = range;
-  if (own.start_on_request && own.reactive_start) {
-    place = std::max(own.reactive_start->range, own.start_on_request->range);
-    notes.push_back(reporter_.note(std::min(own.reactive_start->range, own.start_on_request->range),
-                                   "the other one is given here"));
-  } else if (own.start_on_request) {
-    place = own.start_on_request->range;
-    notes.push_back(reporter_.note(defaults_.reactive_start->range,
-                                   "reactive_start is given here for all tasks"));
-  }
-  reporter_.report(rule::on_request_and_reactive, place, message, std::move(notes));
-}
 
-std::string TaskAttributes::describe_changes(const draft::Task& before,
-                                             const draft::Task& now) const {
-  const auto goal = [this](const draft::Task& task) {
-    return name_of(task.attributes.execution_goal.value_or(
-        defaults_.execution_goal.value_or(ExecutionGoal::achieve_goal)));
-  };
-  const auto timeout = [this](const draft::Task& task) {
-    return name_of(task.attributes.timeout ? task.attributes.timeout : defaults_.timeout);
-  };
-  const Flags old_flags = flags_of(before.attributes, defaults_);
-  const Flags new_flags = flags_of(now.attributes, defaults_);
-  Changes changes;
-  changes.compare("execution_goal", goal(before), goal(now));
-  changes.compare("start_on_request", name_of(old_flags.start_on_request),
-                  name_of(new_flags.start_on_request));
-  changes.compare("reactive_start", name_of(old_flags.reactive_start),
-                  name_of(new_flags.reactive_start));
-  changes.compare("timeout", timeout(before), timeout(now));
-  changes.compare("minimum_performance", name_of_minimum(before.minimum_performance),
-                  name_of_minimum(now.minimum_performance));
-  if (!same_parameters(before.parameters, now.parameters)) {
-    changes.add(now.parameters.empty() ? "no parameters" : "other parameters");
-  }
-  return changes.text();
-}
-
-// Makes a catalog of a draft: gives tasks and behaviors their indices, resolves names, and applies
-// defaults.
-class Resolver {
- public:
-  Resolver(const draft::Catalog& draft, Reporter& reporter)
-      : draft_(draft),
-        reporter_(reporter),
-        attributes_(draft.task_defaults, reporter),
-        situation_(reporter) {}
-
-  Catalog resolve() {
-    catalog_.has_task_section = draft_.has_task_section;
-    catalog_.gives_goals =
-        draft_.task_defaults.execution_goal ||
-        std::any_of(draft_.tasks.begin(), draft_.tasks.end(), [](const draft::Task& task) {
-          return task.attributes.execution_goal.has_value();
-        });
+  void read_sections(const Node& root) {
+    Fields fields(root, shape::catalog, reporter_);
+    // If a section is given twice, only the first is read.
+    lacks_a_section_ = reporter_.errors(rule::duplicate_key) > 0;
+    if (const Node* node = fields.find("default_values")) read_default_values(*node);
+    if (const Node* node = fields.find("tasks")) {
+      catalog_.has_task_section = true;
+      lacks_a_section_ |= !read_entries(*node, "tasks", "a list of tasks", &Reader::read_task);
+    }
     define_listed_tasks();
-    define_implicit_tasks();
-    read_situation([&] { catalog_.variables = situation_.read_variables(draft_.situation); });
-    for (const draft::Behavior& behavior : draft_.behaviors) add_behavior(behavior);
-    for (const draft::ExclusivityList& list : draft_.exclusivity) add_exclusivity_list(list);
-    report_undefined();
-    read_situation([&] { situation_.check_names(catalog_.behaviors); });
-    return std::move(catalog_);
+    read_situation(
+        [&] { catalog_.variables = situation_.read_variables(fields.find("situation")); });
+    if (const Node* node = fields.require("behaviors", root.range)) {
+      lacks_a_section_ |=
+          !read_entries(*node, "behaviors", "a list of behaviors", &Reader::read_behavior);
+    } else {
+      lacks_a_section_ = true;
+    }
+    if (const Node* node = fields.find("exclusivity_constraints")) {
+      read_entries(*node, "exclusivity_constraints", "a list of 'mutually_exclusive' lists",
+                   &Reader::read_exclusivity_list);
+    }
+    fields.report_unknown(yaml::UnknownKeys::ignored);
   }
 
-  /// The names that the catalog leaves out.
-  std::vector<UndefinedTask> undefined_tasks() { return std::move(undefined_tasks_); }
-  /// The number of errors about the situation, on which no other entry depends.
-  [[nodiscard]] std::size_t situation_errors() const { return situation_errors_; }
+  bool read_entries(const Node& node, std::string_view key, std::string_view expected,
+                    void (Reader::*read_entry)(const Node&)) {
+    const Node* list = yaml::read_list(node, key, expected, reporter_);
+    if (list == nullptr) return false;
+    for (const Node* entry : list->items) (this->*read_entry)(*entry);
+    return true;
+  }
 
- private:
-  /// A name that no task has, in a behavior or in an exclusivity list.
-  struct Undefined {
-    draft::Name name;
-    const draft::Behavior* behavior = nullptr;
-    const draft::ExclusivityList* list = nullptr;
+  // Default values ---------------------------------------------------------------------------
 
-    [[nodiscard]] std::string where() const {
-      if (behavior == nullptr) return "named in an exclusivity list";
-      const std::string_view owner = behavior->name.text;
-      return "required by " + (owner.empty() ? "a behavior" : "behavior " + quote(owner));
-    }
-
-    /// Whether a task is named beside it.
-    [[nodiscard]] bool is_beside(std::string_view task) const {
-      const auto is_in = [task](const auto& entries, auto name_of_entry) {
-        return std::any_of(entries.begin(), entries.end(),
-                           [&](const auto& entry) { return name_of_entry(entry).text == task; });
-      };
-      if (list != nullptr) {
-        return is_in(list->tasks, [](const draft::Name& entry) { return entry; });
+  // The mappings of a list, or a single mapping. Published files have one key in each list entry.
+  std::vector<const Node*> mappings_of(const Node& node, std::string_view key) {
+    constexpr std::string_view expected = "a mapping, or a list of mappings";
+    std::vector<const Node*> mappings;
+    if (node.kind == Kind::mapping) {
+      mappings.push_back(&node);
+    } else if (const Node* list = yaml::read_list(node, key, expected, reporter_)) {
+      for (const Node* item : list->items) {
+        if (item->kind == Kind::mapping) {
+          mappings.push_back(item);
+        } else {
+          reporter_.report(
+              rule::wrong_type, item->range,
+              "an entry of " + quote(key) + " must be a mapping, found " + yaml::describe(*item));
+        }
       }
-      return is_in(behavior->requirements, [](const auto& entry) { return entry.task; }) ||
-             is_in(behavior->performs, [](const auto& entry) { return entry.task; });
     }
-  };
+    return mappings;
+  }
+
+  void read_default_values(const Node& node) {
+    Fields fields(mappings_of(node, "default_values"), shape::default_values, reporter_);
+    if (const Node* tasks = fields.find("tasks")) {
+      Fields defaults(mappings_of(*tasks, "tasks"), shape::task_defaults, reporter_);
+      task_defaults_ = read_attributes(defaults);
+      defaults.report_unknown(yaml::UnknownKeys::ignored);
+    }
+    if (const Node* behaviors = fields.find("behaviors")) {
+      Fields defaults(mappings_of(*behaviors, "behaviors"), shape::behavior_defaults, reporter_);
+      default_suitability_ = read_value([&] { return read_suitability(defaults); });
+      default_package_ = read_value([&] { return read_package(defaults); });
+      defaults.report_unknown(yaml::UnknownKeys::ignored);
+    }
+    fields.report_unknown(yaml::UnknownKeys::ignored);
+  }
+
+  // Tasks ------------------------------------------------------------------------------------
+
+  GivenAttributes read_attributes(const Fields& fields) {
+    return read_value([&] { return read_flags_and_timeout(fields); });
+  }
+
+  GivenAttributes read_flags_and_timeout(const Fields& fields) {
+    const std::size_t errors = reporter_.errors();
+    GivenAttributes attributes;
+    attributes.execution_goal = read_execution_goal(fields);
+    attributes.start_on_request = read_flag(fields, "start_on_request");
+    if (auto automatic = read_flag(fields, "automatic_activation")) {
+      automatic->value = !automatic->value;
+      attributes.start_on_request = automatic;
+    }
+    attributes.reactive_start = read_flag(fields, "reactive_start");
+    if (const auto older = read_flag(fields, "default")) attributes.reactive_start = older;
+    attributes.timeout = read_timeout(fields);
+    attributes.is_unclear = reporter_.errors() > errors;
+    return attributes;
+  }
+
+  std::optional<ExecutionGoal> read_execution_goal(const Fields& fields) {
+    constexpr std::string_view goals[] = {"achieve_goal", "keep_running"};
+    constexpr std::string_view older_goals[] = {"goal_based", "recurrent"};
+    std::optional<std::size_t> goal;
+    if (const Node* node = fields.find("execution_goal")) {
+      goal = yaml::read_choice(*node, "execution_goal", goals, reporter_);
+    } else if (const Node* older = fields.find("category")) {
+      goal = yaml::read_choice(*older, "category", older_goals, reporter_);
+    }
+    if (!goal) return std::nullopt;
+    return *goal == 0 ? ExecutionGoal::achieve_goal : ExecutionGoal::keep_running;
+  }
+
+  std::optional<Flag> read_flag(const Fields& fields, std::string_view key) {
+    const Node* node = fields.find(key);
+    if (node == nullptr) return std::nullopt;
+    const std::optional<bool> value = yaml::read_boolean(*node, key, reporter_);
+    if (!value) return std::nullopt;
+    return Flag{*value, fields.range_of(key)};
+  }
+
+  std::optional<Timeout> read_timeout(const Fields& fields) {
+    const Node* node = fields.find("timeout");
+    if (node == nullptr) return std::nullopt;
+    const auto seconds = yaml::read_seconds(*node, "timeout", true, reporter_);
+    if (!seconds) return std::nullopt;
+    return Timeout{*seconds, node->range};
+  }
+
+  Percent read_minimum(const Fields& fields) {
+    const Node* node = fields.find("minimum_performance");
+    if (node == nullptr) return {};
+    return {yaml::read_percent(*node, "minimum_performance", reporter_).value_or(0), node->range};
+  }
+
+  void read_task(const Node& node) {
+    if (!expect_entry(node, "a task", "task: NAME")) {
+      // A bare name is understood, so that it is not reported as undefined elsewhere.
+      if (node.kind == Kind::scalar && !node.text.empty()) {
+        task_entries_.push_back({{node.text, node.range}, {}, {}, {}, {}});
+      } else {
+        ++nameless_tasks_;
+      }
+      return;
+    }
+    const std::size_t errors = reporter_.errors();
+    Fields fields(node, shape::task, reporter_);
+    TaskEntry task;
+    const auto name = require_name(fields, "task", task_name, node.range);
+    if (name) {
+      task.name = *name;
+      fields.call("task " + quote(name->text));
+    }
+    task.attributes = read_attributes(fields);
+    task.minimum_performance = read_value([&] { return read_minimum(fields); });
+    if (const Node* parameters = fields.find("parameters")) {
+      task.parameters = read_value([&] { return read_parameters(*parameters); });
+    }
+    task.entry = entry_of(node, fields, errors);
+    fields.report_unknown(yaml::UnknownKeys::ignored);
+    if (name) {
+      task_entries_.push_back(std::move(task));
+    } else {
+      ++nameless_tasks_;
+    }
+  }
 
   void define_listed_tasks() {
-    std::vector<const draft::Task*> last;  // by task: the entry that counts
-    for (const draft::Task& entry : draft_.tasks) {
+    catalog_.gives_goals =
+        task_defaults_.execution_goal ||
+        std::any_of(task_entries_.begin(), task_entries_.end(), [](const TaskEntry& entry) {
+          return entry.attributes.execution_goal.has_value();
+        });
+    std::vector<const TaskEntry*> last;  // by task: the entry that counts
+    for (const TaskEntry& entry : task_entries_) {
       const auto index = static_cast<TaskIndex>(last.size());
       const auto [known, is_new] = tasks_.try_emplace(entry.name.text, index);
       if (is_new) {
@@ -272,7 +295,7 @@ class Resolver {
     }
   }
 
-  void report_duplicate_task(const draft::Task& before, const draft::Task& now, const Task& first) {
+  void report_duplicate_task(const TaskEntry& before, const TaskEntry& now, const Task& first) {
     std::string message = "task " + quote(now.name.text) + " is listed twice";
     const std::string changes = attributes_.describe_changes(before, now);
     std::vector<Edit> edits;
@@ -286,179 +309,416 @@ class Resolver {
                      {reporter_.note(first.range, "first listed here")}, std::move(edits));
   }
 
-  void define_implicit_tasks() {
-    for (const draft::Behavior& behavior : draft_.behaviors) {
-      for (const draft::Performance& performance : behavior.performs) {
-        const auto index = static_cast<TaskIndex>(catalog_.tasks.size());
-        if (!tasks_.try_emplace(performance.task.text, index).second) continue;
-        Task task;
-        task.name = performance.task.text;
-        task.range = performance.task.range;
-        task.implicit = true;
-        attributes_.apply(task.range, {}, task);
-        // It may have an entry, one that could not be read.
-        task.is_unclear |= draft_.lacks_a_section || draft_.nameless_tasks > 0;
-        catalog_.tasks.push_back(std::move(task));
+  std::vector<Parameter> read_parameters(const Node& node) {
+    std::vector<Parameter> parameters;
+    const Node* list = yaml::read_list(node, "parameters", "a list of parameters", reporter_);
+    if (list == nullptr) return parameters;
+    for (const Node* item : list->items) {
+      if (!expect_entry(*item, "a parameter", "parameter: NAME")) continue;
+      const std::size_t errors = reporter_.errors();
+      Fields fields(*item, shape::parameter, reporter_);
+      Parameter parameter;
+      if (const auto name =
+              require_name(fields, "parameter", "the name of a parameter", item->range)) {
+        parameter.name = name->text;
+        fields.call("parameter " + quote(name->text));
+        parameter.range = name->range;
+      }
+      if (const Node* allowed = fields.find("allowed_values")) {
+        read_allowed_values(*allowed, parameter);
+      }
+      parameter.entry = entry_of(*item, fields, errors);
+      fields.report_unknown(yaml::UnknownKeys::ignored);
+      parameters.push_back(std::move(parameter));
+    }
+    return parameters;
+  }
+
+  void read_allowed_values(const Node& node, Parameter& parameter) {
+    parameter.allowed_range = node.range;
+    constexpr std::string_view expected = "a list of values, or the name of a type";
+    if (node.kind != Kind::sequence) {
+      if (const auto text = yaml::read_text(node, "allowed_values", expected, reporter_)) {
+        parameter.allowed_values.emplace_back(*text);
+      }
+      return;
+    }
+    parameter.allowed_is_list = true;
+    if (!node.items.empty()) parameter.allowed_range = node.items.front()->range;
+    for (const Node* item : node.items) {
+      if (const auto text =
+              yaml::read_text(*item, "allowed_values", "a list of plain values", reporter_)) {
+        parameter.allowed_values.emplace_back(*text);
       }
     }
   }
 
-  template <typename Read>
-  void read_situation(const Read& read) {
-    const std::size_t errors = reporter_.errors();
-    read();
-    situation_errors_ += reporter_.errors() - errors;
+  // Behaviors --------------------------------------------------------------------------------
+
+  std::optional<Percent> read_suitability(const Fields& fields) {
+    for (const std::string_view key : {"suitability", "efficacy"}) {
+      const Node* node = fields.find(key);
+      if (node == nullptr) continue;
+      // A suitability that could not be read must exclude nothing.
+      return Percent{yaml::read_percent(*node, key, reporter_).value_or(one_million), node->range};
+    }
+    return std::nullopt;
   }
 
-  void add_behavior(const draft::Behavior& entry) {
-    if (!entry.name.text.empty()) {
-      const auto [known, is_new] = behaviors_.try_emplace(entry.name.text, entry.name.range);
-      if (!is_new) {
-        reporter_.report(rule::duplicate_behavior, entry.name.range,
-                         "behavior " + quote(entry.name.text) + " is defined twice",
-                         {reporter_.note(known->second, "first defined here")});
-      }
+  std::optional<std::string_view> read_package(const Fields& fields) {
+    const Node* node = fields.find("package");
+    if (node == nullptr) return std::nullopt;
+    return yaml::read_text(*node, "package", "the name of a package", reporter_);
+  }
+
+  void read_behavior(const Node& node) {
+    if (!expect_entry(node, "a behavior", "behavior: NAME")) {
+      ++nameless_tasks_;
+      return;
     }
+    Fields fields(node, shape::behavior, reporter_);
     Behavior behavior;
-    behavior.name = entry.name.text;
-    behavior.range = entry.name.range;
-    behavior.package = entry.package.value_or(draft_.default_package.value_or(""));
-    if (entry.timeout) {
-      behavior.timeout = entry.timeout->value;
-      behavior.timeout_range = entry.timeout->range;
+    behavior.range = node.range;
+    if (const auto name = require_name(fields, "behavior", "the name of a behavior", node.range)) {
+      behavior.name = name->text;
+      behavior.range = name->range;
+      fields.call("behavior " + quote(name->text));
+      report_duplicate_behavior(*name);
     }
-    for (const draft::Performance& performance : entry.performs) {
-      behavior.performs.push_back(resolve(performance, entry));
+    const auto package = read_value([&] { return read_package(fields); });
+    behavior.package = package.value_or(default_package_.value_or(""));
+    if (const auto timeout = read_value([&] { return read_timeout(fields); })) {
+      behavior.timeout = timeout->value;
+      behavior.timeout_range = timeout->range;
     }
-    for (const draft::Requirement& requirement : entry.requirements) {
-      const auto task = find_task({requirement.task, &entry, nullptr});
-      if (task) {
-        behavior.requirements.push_back({*task, requirement.minimum_performance.value,
-                                         requirement.minimum_performance.range,
-                                         requirement.task.range, requirement.entry});
-      } else {
-        undefined_tasks_.push_back({std::string(requirement.task.text),
-                                    static_cast<BehaviorIndex>(catalog_.behaviors.size()),
-                                    requirement.minimum_performance.value, 0});
-      }
+    read_performed(fields, behavior);
+    std::vector<std::string_view> required;
+    if (const Node* list = fields.find("requires")) {
+      required = read_requirements(*list, behavior.requirements);
     }
-    read_situation(
-        [&] { behavior.situation = situation_.read_conditions(entry.situation, entry.name.text); });
-    if (entry.situation != nullptr)
-      behavior.situation_range = range_of_conditions(*entry.situation);
+    required_.push_back(std::move(required));
+    if (const Node* conditions = fields.find("situation")) {
+      read_situation(
+          [&] { behavior.situation = situation_.read_conditions(conditions, behavior.name); });
+      behavior.situation_range = range_of_conditions(*conditions);
+    }
+    fields.report_unknown(yaml::UnknownKeys::ignored);
     catalog_.behaviors.push_back(std::move(behavior));
   }
 
-  Performance resolve(const draft::Performance& performance, const draft::Behavior& behavior) {
-    Performance resolved;
-    resolved.task = tasks_.at(performance.task.text);
-    resolved.range = performance.task.range;
-    for (const auto* suitability :
-         {&performance.suitability, &behavior.suitability, &draft_.default_suitability}) {
-      if (!*suitability) continue;
-      resolved.suitability = (*suitability)->value;
-      resolved.suitability_range = (*suitability)->range;
-      break;
-    }
-    return resolved;
+  void report_duplicate_behavior(const Name& name) {
+    const auto [known, is_new] = behaviors_.try_emplace(name.text, name.range);
+    if (is_new) return;
+    reporter_.report(rule::duplicate_behavior, name.range,
+                     "behavior " + quote(name.text) + " is defined twice",
+                     {reporter_.note(known->second, "first defined here")});
   }
 
-  void add_exclusivity_list(const draft::ExclusivityList& entry) {
-    ExclusivityList list;
-    list.range = entry.range;
-    list.entry = entry.entry;
-    list.is_complete = entry.is_complete;
-    for (const draft::Name& name : entry.tasks) {
-      if (const auto task = find_task({name, nullptr, &entry})) {
-        list.tasks.push_back(*task);
-        list.ranges.push_back(name.range);
+  void read_performed(Fields& fields, Behavior& behavior) {
+    const auto suitability = read_value([&] { return read_suitability(fields); });
+    const Node* list = fields.find("tasks");
+    if (fields.find("task") != nullptr && list != nullptr) {
+      const bool task_first = fields.range_of("task").begin < fields.range_of("tasks").begin;
+      reporter_.report(
+          rule::duplicate_key, fields.range_of(task_first ? "tasks" : "task"),
+          "'task' and 'tasks' are both given in a behavior",
+          {reporter_.note(fields.range_of(task_first ? "task" : "tasks"), "first given here")});
+    }
+    if (list == nullptr && fields.find("task") == nullptr) list = fields.adopt("tasks");
+    if (list != nullptr) {
+      read_performances(*list, fields.range_of("tasks"), suitability, behavior);
+    }
+    if (list == nullptr || fields.find("task") != nullptr) {
+      const auto task = require_name(fields, "task", task_name, behavior.range);
+      if (task) {
+        behavior.performs.push_back(performance_of(*task, {}, suitability));
+      } else {
+        ++nameless_tasks_;
+      }
+    }
+  }
+
+  /// `own`, `of_behavior`: the suitabilities that are given for the task, for all of the behavior.
+  Performance performance_of(const Name& task, const std::optional<Percent>& own,
+                             const std::optional<Percent>& of_behavior) {
+    Performance performance;
+    performance.task = task_performed(task);
+    performance.range = task.range;
+    const auto& given = own ? own : of_behavior ? of_behavior : default_suitability_;
+    if (given) {
+      performance.suitability = given->value;
+      performance.suitability_range = given->range;
+    }
+    return performance;
+  }
+
+  /// A task without an entry is defined by the first behavior that performs it.
+  TaskIndex task_performed(const Name& name) {
+    const auto index = static_cast<TaskIndex>(catalog_.tasks.size());
+    const auto [known, is_new] = tasks_.try_emplace(name.text, index);
+    if (!is_new) return known->second;
+    Task task;
+    task.name = name.text;
+    task.range = name.range;
+    task.implicit = true;
+    attributes_.apply(task.range, {}, task);
+    catalog_.tasks.push_back(std::move(task));
+    return index;
+  }
+
+  void read_performances(const Node& node, const Range& key,
+                         const std::optional<Percent>& of_behavior, Behavior& behavior) {
+    const Node* list = yaml::read_list(node, "tasks", "a list of tasks", reporter_);
+    if (list == nullptr) {
+      ++nameless_tasks_;
+      return;
+    }
+    if (list->items.empty()) {
+      reporter_.report(rule::invalid_value, key, "a behavior must have at least one task");
+      ++nameless_tasks_;
+    }
+    if (list->items.size() > most_tasks) {
+      // Each of them makes a constraint with each requirement of the behavior.
+      reporter_.report(rule::invalid_value, key,
+                       "a behavior may have at most " + std::to_string(most_tasks) +
+                           " tasks, found " + std::to_string(list->items.size()));
+    }
+    std::unordered_map<std::string_view, Range> known;
+    for (const Node* item : list->items) {
+      if (!expect_entry(*item, "a task of a behavior", "task: NAME")) {
+        ++nameless_tasks_;
+        continue;
+      }
+      Fields fields(*item, shape::performance, reporter_);
+      const auto name = require_name(fields, "task", task_name, item->range);
+      const auto suitability = read_value([&] { return read_suitability(fields); });
+      fields.report_unknown(yaml::UnknownKeys::ignored);
+      if (!name) {
+        ++nameless_tasks_;
+        continue;
+      }
+      const auto [first, is_new] = known.try_emplace(name->text, name->range);
+      if (is_new) {
+        behavior.performs.push_back(performance_of(*name, suitability, of_behavior));
+      } else {
+        reporter_.report(rule::invalid_value, name->range,
+                         "task " + quote(name->text) + " is listed twice in one behavior",
+                         {reporter_.note(first->second, "first given here")});
+      }
+    }
+  }
+
+  /// Returns the names of the tasks, which are not known yet.
+  std::vector<std::string_view> read_requirements(const Node& node,
+                                                  std::vector<Requirement>& requirements) {
+    std::vector<std::string_view> names;
+    const Node* list = yaml::read_list(node, "requires", "a list of requirements", reporter_);
+    if (list == nullptr) return names;
+    for (const Node* item : list->items) {
+      if (!expect_entry(*item, "a requirement", "task: NAME")) continue;
+      const std::size_t errors = reporter_.errors();
+      Fields fields(*item, shape::requirement, reporter_);
+      const auto name = require_name(fields, "task", task_name, item->range);
+      const Percent minimum = read_value([&] { return read_minimum(fields); });
+      fields.report_unknown(yaml::UnknownKeys::ignored);
+      if (!name) continue;
+      names.push_back(name->text);
+      requirements.push_back(
+          {0, minimum.value, minimum.range, name->range, entry_of(*item, fields, errors)});
+    }
+    return names;
+  }
+
+  // Exclusivity ------------------------------------------------------------------------------
+
+  void read_exclusivity_list(const Node& node) {
+    if (!expect_entry(node, "an exclusivity constraint", "mutually_exclusive: [A, B]")) return;
+    const std::size_t errors = reporter_.errors();
+    Fields fields(node, shape::exclusivity_list, reporter_);
+    const Node* value = fields.require("mutually_exclusive", node.range);
+    const Range range = value == nullptr ? node.range : fields.range_of("mutually_exclusive");
+    fields.report_unknown(yaml::UnknownKeys::ignored);
+    if (value == nullptr) return;
+    const Node* list =
+        yaml::read_list(*value, "mutually_exclusive", "a list of names of tasks", reporter_);
+    if (list == nullptr) return;
+    ExclusivityList result;
+    result.range = range;
+    std::vector<std::string_view> names;
+    for (const Node* item : list->items) {
+      if (const auto name =
+              yaml::read_name(*item, "mutually_exclusive", "a list of names of tasks", reporter_)) {
+        names.push_back(*name);
+        result.ranges.push_back(item->range);
+      } else {
+        result.is_complete = false;
+      }
+    }
+    result.entry = entry_of(node, fields, errors);
+    catalog_.exclusivity.push_back(std::move(result));
+    excluded_.push_back(std::move(names));
+  }
+
+  // Names ------------------------------------------------------------------------------------
+
+  void resolve_names() {
+    // It may have an entry, one that could not be read.
+    const bool may_lack_entries = lacks_a_section_ || nameless_tasks_ > 0;
+    for (Task& task : catalog_.tasks) task.is_unclear |= task.implicit && may_lack_entries;
+    for (BehaviorIndex index = 0; index < catalog_.behaviors.size(); ++index) {
+      resolve_requirements(index);
+    }
+    for (std::size_t list = 0; list < catalog_.exclusivity.size(); ++list) resolve_list(list);
+    report_undefined();
+    read_situation([&] { situation_.check_names(catalog_.behaviors); });
+  }
+
+  void resolve_requirements(BehaviorIndex index) {
+    std::vector<Requirement>& requirements = catalog_.behaviors[index].requirements;
+    std::vector<Requirement> known;
+    for (std::size_t place = 0; place < requirements.size(); ++place) {
+      Requirement& requirement = requirements[place];
+      const std::string_view name = required_[index][place];
+      if (const auto task = tasks_.find(name); task != tasks_.end()) {
+        requirement.task = task->second;
+        known.push_back(std::move(requirement));
+      } else {
+        undefined_.push_back(
+            {std::string(name), requirement.range, index, requirement.minimum_performance, 0});
+      }
+    }
+    requirements = std::move(known);
+  }
+
+  void resolve_list(std::size_t place) {
+    ExclusivityList& list = catalog_.exclusivity[place];
+    const std::vector<Range> ranges = std::exchange(list.ranges, {});
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      const std::string_view name = excluded_[place][i];
+      if (const auto task = tasks_.find(name); task != tasks_.end()) {
+        list.tasks.push_back(task->second);
+        list.ranges.push_back(ranges[i]);
       } else {
         list.entry.reset();
         list.is_complete = false;
-        undefined_tasks_.push_back(
-            {std::string(name.text), std::nullopt, 0, catalog_.exclusivity.size()});
+        undefined_.push_back({std::string(name), ranges[i], std::nullopt, 0, place});
       }
     }
-    catalog_.exclusivity.push_back(std::move(list));
   }
 
-  std::optional<TaskIndex> find_task(const Undefined& use) {
-    const auto found = tasks_.find(use.name.text);
-    if (found != tasks_.end()) return found->second;
-    undefined_.push_back(use);
-    return std::nullopt;
+  [[nodiscard]] std::string place_of(const UndefinedTask& undefined) const {
+    if (!undefined.behavior) return "named in an exclusivity list";
+    return "required by " + describe(catalog_.behaviors[*undefined.behavior]);
+  }
+
+  /// Whether a task is named beside one that is not defined.
+  [[nodiscard]] bool is_beside(const UndefinedTask& undefined, std::string_view task) const {
+    const auto& names =
+        undefined.behavior ? required_[*undefined.behavior] : excluded_[undefined.list];
+    if (std::find(names.begin(), names.end(), task) != names.end()) return true;
+    if (!undefined.behavior) return false;
+    const auto& performs = catalog_.behaviors[*undefined.behavior].performs;
+    return std::any_of(performs.begin(), performs.end(), [&](const Performance& performance) {
+      return catalog_.tasks[performance.task].name == task;
+    });
   }
 
   // A name that resembles no other may be defined in a part of the file that was not understood;
   // that mistake has been reported.
   void report_undefined() {
-    if (undefined_.empty() || draft_.lacks_a_section) return;
+    if (undefined_.empty() || lacks_a_section_) return;
     std::vector<std::string_view> names;
     names.reserve(catalog_.tasks.size());
     for (const Task& task : catalog_.tasks) names.push_back(task.name);
     Suggestions suggestions(std::move(names));
     std::unordered_map<std::string_view, std::optional<std::string_view>> suggested;
     std::size_t strange = 0;
-    for (const Undefined& undefined : undefined_) {
-      const auto [entry, is_new] = suggested.try_emplace(undefined.name.text);
+    for (const UndefinedTask& undefined : undefined_) {
+      const auto [entry, is_new] = suggested.try_emplace(undefined.name);
       if (!is_new) continue;
-      entry->second = suggestions.nearest(undefined.name.text);
+      entry->second = suggestions.nearest(undefined.name);
       if (!entry->second) ++strange;
     }
     std::set<Range> reported;  // aliases give a name several places in the tree
-    for (const Undefined& undefined : undefined_) {
-      auto suggestion = suggested.at(undefined.name.text);
-      if (!suggestion && strange <= draft_.nameless_tasks) continue;
-      if (!reported.insert(undefined.name.range).second) continue;
+    for (const UndefinedTask& undefined : undefined_) {
+      auto suggestion = suggested.at(undefined.name);
+      if (!suggestion && strange <= nameless_tasks_) continue;
+      if (!reported.insert(undefined.range).second) continue;
       std::string message =
-          "task " + quote(undefined.name.text) + ", " + undefined.where() + ", is not defined";
-      if (suggestion && undefined.is_beside(*suggestion)) {
-        suggestion = suggestions.nearest(undefined.name.text, [&undefined](std::string_view task) {
-          return undefined.is_beside(task);
-        });
+          "task " + quote(undefined.name) + ", " + place_of(undefined) + ", is not defined";
+      if (suggestion && is_beside(undefined, *suggestion)) {
+        suggestion = suggestions.nearest(
+            undefined.name, [&](std::string_view task) { return is_beside(undefined, task); });
       }
       if (suggestion) {
         message += did_you_mean(suggestion);
-      } else if (behaviors_.contains(undefined.name.text)) {
+      } else if (behaviors_.contains(undefined.name)) {
         message += ": there is a behavior of this name, but no task";
       }
-      reporter_.report(rule::undefined_task, undefined.name.range, std::move(message));
+      reporter_.report(rule::undefined_task, undefined.range, std::move(message));
     }
   }
 
-  const draft::Catalog& draft_;
+  // Common -----------------------------------------------------------------------------------
+
+  bool expect_entry(const Node& node, std::string_view what, std::string_view example) {
+    if (node.kind == Kind::mapping) return true;
+    reporter_.report(rule::wrong_type, node.range,
+                     std::string(what) + " must be a mapping (" + quote(example) + "), found " +
+                         yaml::describe(node));
+    return false;
+  }
+
+  // Where an entry begins, if all of it was understood. `errors`: the number before it was read.
+  [[nodiscard]] std::optional<Range> entry_of(const Node& node, const Fields& fields,
+                                              std::size_t errors) const {
+    if (!fields.is_understood() || reporter_.errors() > errors) return std::nullopt;
+    return node.range;
+  }
+
+  std::optional<Name> require_name(Fields& fields, std::string_view key, std::string_view expected,
+                                   const Range& range) {
+    const Node* node = fields.require(key, range);
+    if (node == nullptr) return std::nullopt;
+    const std::optional<std::string_view> name = yaml::read_name(*node, key, expected, reporter_);
+    if (name) return Name{*name, node->range};
+    // A list of one name is read as that name, so that it is not reported as undefined elsewhere.
+    if (node->items.size() == 1 && node->items[0]->kind == Kind::scalar) {
+      return Name{node->items[0]->text, node->items[0]->range};
+    }
+    return std::nullopt;
+  }
+
   Reporter& reporter_;
+  GivenAttributes task_defaults_;
+  std::optional<std::string_view> default_package_;
+  std::optional<Percent> default_suitability_;
   TaskAttributes attributes_;
   SituationReader situation_;
-  std::size_t situation_errors_ = 0;
+  std::vector<TaskEntry> task_entries_;
   Catalog catalog_;
   std::unordered_map<std::string_view, TaskIndex> tasks_;
   std::unordered_map<std::string_view, Range> behaviors_;
-  std::vector<Undefined> undefined_;
-  std::vector<UndefinedTask> undefined_tasks_;
+  /// The tasks that each behavior requires, that each list has.
+  std::vector<std::vector<std::string_view>> required_;
+  std::vector<std::vector<std::string_view>> excluded_;
+  std::vector<UndefinedTask> undefined_;
+  /// A section that defines tasks could not be read completely, so a task without a definition is
+  /// no finding.
+  bool lacks_a_section_ = false;
+  /// Entries that define tasks whose names could not be read.
+  std::size_t nameless_tasks_ = 0;
+  /// Errors in values that no other entry depends on: flags, timeouts, percentages, parameters.
+  std::size_t value_errors_ = 0;
+  std::size_t situation_errors_ = 0;
 };
 
 }  // namespace
 
 CatalogReading understand_catalog(const yaml::Document& document, Diagnostics& diagnostics) {
   Reporter reporter(document.file(), diagnostics);
-  CatalogReading reading;
-  const draft::Catalog draft = draft::read(document.root(), reporter);
-  Resolver resolver(draft, reporter);
-  reading.catalog = resolver.resolve();
-  reading.undefined_tasks = resolver.undefined_tasks();
+  CatalogReading reading = Reader(reporter).read(document.root());
   reading.catalog.file = document.file();
-  const std::size_t hiding =
-      draft::hiding_errors(reporter) - reporter.errors(rule::on_request_and_reactive);
-  reading.is_complete = hiding == 0;
-  reading.has_all_names = hiding == draft.value_errors + resolver.situation_errors();
-  const auto without_task = static_cast<std::size_t>(
-      std::count_if(reading.catalog.behaviors.begin(), reading.catalog.behaviors.end(),
-                    [](const Behavior& behavior) {
-                      return behavior.performs.empty() && !behavior.name.empty();
-                    }));
-  reading.has_all_behaviors = !draft.lacks_a_section && draft.nameless_tasks == without_task &&
-                              reporter.errors(rule::duplicate_key) == 0;
   check_requirement_cycles(reading.catalog, reporter);
   reading.is_acyclic = reporter.errors(rule::requirement_cycle) == 0;
   check_exclusive_requirements(reading.catalog, reporter);

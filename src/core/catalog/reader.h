@@ -16,6 +16,7 @@ namespace cbc {
 /// The name of a required or excluded task that no task has.
 struct UndefinedTask {
   std::string name;
+  Range range;
   std::optional<BehaviorIndex> behavior;  ///< that requires it; empty: an exclusivity list has it
   Millionths minimum_performance = 0;     ///< of the requirement; 0: none
   std::size_t list = 0;                   ///< place in Catalog::exclusivity, if one has it
@@ -32,7 +33,7 @@ struct CatalogReading {
   /// Whether all entries and names were understood. Values may be missing, and then exclude
   /// nothing.
   bool has_all_names = false;
-  /// Whether all behaviors were understood, except that named ones may lack their tasks.
+  /// Whether all behaviors and their tasks were understood.
   bool has_all_behaviors = false;
   /// Whether its requirements have no cycle.
   bool is_acyclic = false;

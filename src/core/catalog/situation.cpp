@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "core/catalog/draft.h"
+#include "core/catalog/shape.h"
 #include "core/diagnostic/rules.h"
 #include "core/support/wording.h"
 #include "core/yaml/values.h"

@@ -52,19 +52,10 @@ std::string describe_fixed(const Rule& rule) {
   return quote(rule.name) + " is always an error: a file that breaks this rule has no meaning";
 }
 
-const std::vector<std::string>& names_for(RuleSetting setting, const SeverityOptions& options) {
-  switch (setting) {
-    case RuleSetting::error:
-      return options.error;
-    case RuleSetting::warn:
-      return options.warn;
-    case RuleSetting::note:
-      return options.note;
-    case RuleSetting::allow:
-      break;
-  }
-  return options.allow;
-}
+/// By setting.
+constexpr std::vector<std::string> SeverityOptions::*names_for[] = {
+    &SeverityOptions::error, &SeverityOptions::warn, &SeverityOptions::note,
+    &SeverityOptions::allow};
 
 /// Of "a, b", the second name begins with a blank.
 std::string without_blanks(const std::string& name) {
@@ -158,7 +149,7 @@ SeveritySettings settings_of_options(const SeverityOptions& options,
   std::map<std::string_view, RuleSetting> given;
   for (const RuleSetting setting : rule_settings) {
     const std::string option = name_of_option(setting);
-    for (const std::string& given_name : names_for(setting, options)) {
+    for (const std::string& given_name : options.*names_for[static_cast<std::size_t>(setting)]) {
       const std::string name = without_blanks(given_name);
       const Rule* rule = find_rule(name);
       if (rule == nullptr) {
@@ -547,40 +538,24 @@ bool is_decided(const Allow& allow, const CommentedFile& file) {
   return file.is_complete && (file.checks_off_rules || !allow.rule->is_off);
 }
 
-void report_unused(const Allow& allow, Reporter& reporter) {
-  reporter.report(rule::unused_allow, allow.range,
-                  "no finding of rule " + quote(allow.rule->name) + " needs this comment");
-}
-
 }  // namespace
 
 std::vector<Diagnostic> apply_allow_comments(std::vector<Diagnostic> findings,
                                              const CommentedFile& file) {
   Diagnostics found;
   for (Diagnostic& finding : findings) found.add(std::move(finding));
-  Reporter comment_reporter(file.file, found);
-  CommentReader reader(utf8::without_byte_order_mark(file.text), comment_reporter);
-  std::vector<Allow> allows = reader.read(file.document);
   Diagnostics kept;
+  Reporter reporter(file.file, kept);
+  CommentReader reader(utf8::without_byte_order_mark(file.text), reporter);
+  std::vector<Allow> allows = reader.read(file.document);
   filter(found, allows, kept);
-
-  Diagnostics unused;
-  Reporter unused_reporter(file.file, unused);
   for (const Allow& allow : allows) {
     if (allow.rule->is_fixed) {
-      unused_reporter.report(rule::unused_allow, allow.range, describe_fixed(*allow.rule));
-    } else if (is_decided(allow, file) && !allow.is_used &&
-               allow.rule->name != rule::unused_allow) {
-      report_unused(allow, unused_reporter);
+      reporter.report(rule::unused_allow, allow.range, describe_fixed(*allow.rule));
+    } else if (!allow.is_used && is_decided(allow, file)) {
+      reporter.report(rule::unused_allow, allow.range,
+                      "no finding of rule " + quote(allow.rule->name) + " needs this comment");
     }
-  }
-  filter(unused, allows, kept);
-
-  // No comment allows what is found now, so this is the last round.
-  Reporter last_reporter(file.file, kept);
-  for (const Allow& allow : allows) {
-    const bool is_needed = allow.is_used || allow.rule->name != rule::unused_allow;
-    if (file.is_complete && !is_needed) report_unused(allow, last_reporter);
   }
   kept.sort();
   return kept.release();

@@ -150,8 +150,7 @@ struct CommentedFile {
 /// innermost of them, or else the last, counts as used.
 ///
 /// Adds findings about the comments: unknown-rule for what is not understood, and unused-allow for
-/// an allow that no finding needs, or of a fixed rule. These can be allowed, too, except that an
-/// allow of unused-allow is itself unused.
+/// an allow that no finding needs, or of a fixed rule. No comment allows these.
 ///
 /// The result is in the order of Diagnostics::sort.
 [[nodiscard]] std::vector<Diagnostic> apply_allow_comments(std::vector<Diagnostic> findings,

@@ -1,5 +1,4 @@
 // See proofs.h: minimum performances that are reached anyway.
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -82,27 +81,18 @@ class RedundantMinimumCheck {
   std::vector<Reason> other_constraints(BehaviorId owner, const Minimum& minimum,
                                         RelevantTasks& relevant) const {
     relevant.close();
-    std::vector<Reason> constraints;
-    for (const TaskId task : relevant.tasks()) {
-      add_exclusions(catalog_, task, relevant, most_constraints, constraints);
-      add_minimum(catalog_, task, constraints);
-    }
-    for (const BehaviorId behavior : relevant.behaviors()) {
-      add_requirements(catalog_, behavior, constraints);
-    }
-    const auto is_the_minimum = [&](const Reason& reason) {
+    std::vector<Reason> constraints = constraints_on(catalog_, relevant);
+    std::erase_if(constraints, [&](const Reason& reason) {
       return reason.kind == Reason::Kind::performance && reason.behavior == owner &&
              reason.task == minimum.task;
-    };
-    constraints.erase(std::remove_if(constraints.begin(), constraints.end(), is_the_minimum),
-                      constraints.end());
+    });
     return constraints;
   }
 
   /// Whether the task can run below the minimum while one of the goals is reached.
   Feasibility is_missed(const std::vector<ProofContext::Goal>& goals, const Minimum& minimum,
                         const std::vector<Reason>& constraints) {
-    if (constraints.size() >= most_constraints) return Feasibility::unknown;
+    if (constraints.size() > most_constraints) return Feasibility::unknown;
     Feasibility answer = Feasibility::no;
     for (const ProofContext::Goal& goal : goals) {
       ConflictSearch problem = proof_.relaxed(goal);

@@ -186,12 +186,9 @@ class DeadCheck {
       if (is_explained(behavior, goals, relevant)) continue;
       add_requirements(catalog_, behavior, reasons);
     }
-    reasons.erase(std::remove_if(reasons.begin(), reasons.end(),
-                                 [this](const Reason& reason) {
-                                   return reason.behavior != none &&
-                                          catalog_.values[reason.task].empty();
-                                 }),
-                  reasons.end());
+    std::erase_if(reasons, [this](const Reason& reason) {
+      return reason.behavior != none && catalog_.values[reason.task].empty();
+    });
     return reasons;
   }
 
@@ -475,26 +472,17 @@ class RedundancyCheck {
 
   void check_requirement(BehaviorId id, const CompiledRequirement& requirement) {
     RelevantTasks relevant = others_of(id, requirement.task);
-    std::vector<Reason> others;
     for (const ValueId value : catalog_.performs[id]) relevant.add(catalog_.task_of(value));
     relevant.close();
-    for (const TaskId task : relevant.tasks()) {
-      add_exclusions(catalog_, task, relevant, most_constraints, others);
-      add_minimum(catalog_, task, others);
-    }
-    for (const BehaviorId behavior : relevant.behaviors()) {
-      add_requirements(catalog_, behavior, others);
-    }
+    std::vector<Reason> others = constraints_on(catalog_, relevant);
     proof_.spend(4 * others.size());
-    if (proof_.is_exhausted() || others.size() >= most_constraints) {
+    if (proof_.is_exhausted() || others.size() > most_constraints) {
       note_undecided(id, requirement);
       return;
     }
-    others.erase(std::remove_if(others.begin(), others.end(),
-                                [&](const Reason& reason) {
-                                  return reason.behavior == id && reason.task == requirement.task;
-                                }),
-                 others.end());
+    std::erase_if(others, [&](const Reason& reason) {
+      return reason.behavior == id && reason.task == requirement.task;
+    });
     const Feasibility answer = can_be_broken(id, requirement, others);
     if (answer == Feasibility::unknown) note_undecided(id, requirement);
     if (answer != Feasibility::no || is_margin(id, requirement, others)) return;
@@ -548,10 +536,8 @@ class RedundancyCheck {
   bool is_margin(BehaviorId id, const CompiledRequirement& requirement,
                  std::vector<Reason> others) {
     if (requirement.minimum_performance == 0) return false;
-    others.erase(std::remove_if(
-                     others.begin(), others.end(),
-                     [](const Reason& reason) { return reason.kind == Reason::Kind::performance; }),
-                 others.end());
+    std::erase_if(others,
+                  [](const Reason& reason) { return reason.kind == Reason::Kind::performance; });
     const auto values = catalog_.performs[id];
     return std::all_of(values.begin(), values.end(), [&](ValueId value) {
       const TaskId task = catalog_.task_of(value);

@@ -42,6 +42,18 @@ SearchOptions search_options(std::uint64_t max_nodes, bool any_solution) {
 
 }  // namespace
 
+std::vector<Reason> constraints_on(const CompiledCatalog& catalog, const RelevantTasks& relevant) {
+  std::vector<Reason> constraints;
+  for (const TaskId task : relevant.tasks()) {
+    add_exclusions(catalog, task, relevant, most_constraints + 1, constraints);
+    add_minimum(catalog, task, constraints);
+  }
+  for (const BehaviorId behavior : relevant.behaviors()) {
+    add_requirements(catalog, behavior, constraints);
+  }
+  return constraints;
+}
+
 AssignmentSearch::AssignmentSearch(CompiledCatalog catalog, std::uint64_t max_nodes)
     : catalog_(std::move(catalog)),
       tasks_(catalog_.tasks.begin(), catalog_.tasks.end()),

@@ -45,6 +45,11 @@ void check_redundant_minimums(ProofContext& proof);
 /// Constraints that are examined for one proof; among more it would take too long.
 inline constexpr std::size_t most_constraints = 20'000;
 
+/// Those that bear on some tasks and on what performs them. If there are more than
+/// `most_constraints`, some are left out.
+[[nodiscard]] std::vector<Reason> constraints_on(const CompiledCatalog& catalog,
+                                                 const RelevantTasks& relevant);
+
 /// Answers questions about the assignments that satisfy all constraints of a catalog. Every
 /// behavior is available, and every task is free to run or not.
 ///

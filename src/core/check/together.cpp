@@ -214,14 +214,7 @@ std::vector<Reason> TogetherSearch::find_reasons(TaskId a, TaskId b) {
   relevant.add(a);
   relevant.add(b);
   relevant.close();
-  std::vector<Reason> reasons;
-  for (const TaskId task : relevant.tasks()) {
-    add_exclusions(catalog_, task, relevant, most_constraints + 1, reasons);
-    add_minimum(catalog_, task, reasons);
-  }
-  for (const BehaviorId behavior : relevant.behaviors()) {
-    add_requirements(catalog_, behavior, reasons);
-  }
+  const std::vector<Reason> reasons = constraints_on(catalog_, relevant);
   if (reasons.size() > most_constraints) return {};
 
   ConflictSearch problem(catalog_, group, nothing_present_,

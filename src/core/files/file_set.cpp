@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "cbc/event.h"
-#include "core/catalog/draft.h"
+#include "core/catalog/shape.h"
 #include "core/check/controls.h"
 #include "core/compile/compile.h"
 #include "core/files/output.h"

@@ -219,35 +219,6 @@ std::size_t count_leading_spaces(std::string_view text) {
   return std::min(text.find_first_not_of(' '), text.size());
 }
 
-/// Finds the offsets of places, which must be asked for in the order of the text.
-class Cursor {
- public:
-  explicit Cursor(std::string_view text) : text_(text) {}
-
-  std::size_t advance_to(const Position& place) {
-    while (at_.line < place.line && offset_ < text_.size()) {
-      offset_ = std::min(end_of_line(text_, offset_) + 1, text_.size());
-      at_ = {at_.line + 1, 1};
-    }
-    while (at_ < place && offset_ < text_.size()) {
-      do {
-        ++offset_;
-      } while (offset_ < text_.size() && is_continuation(text_[offset_]));
-      ++at_.column;
-    }
-    return offset_;
-  }
-
- private:
-  static bool is_continuation(char byte) {
-    return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
-  }
-
-  std::string_view text_;
-  std::size_t offset_ = 0;
-  Position at_;
-};
-
 /// The lines of a block scalar, from the end of the line with its indicator. Their indentation is
 /// that of the first one that is not blank, less the blanks with which `value` begins that line.
 Span find_block_text(std::string_view text, std::size_t indicator, std::string_view value) {
@@ -273,13 +244,13 @@ Span find_block_text(std::string_view text, std::size_t indicator, std::string_v
 /// The scalars that may contain a '#' that begins no comment, in order.
 std::vector<Span> find_scalars(std::string_view text, const Document& document) {
   std::vector<Span> scalars;
-  Cursor cursor(text);
+  const PositionMap positions(text);
   for (const Node& node : document.nodes()) {
     if (node.kind != Kind::scalar) continue;
-    const std::size_t begin = cursor.advance_to(node.range.begin);
+    const std::size_t begin = positions.offset(node.range.begin);
     const char first = begin < text.size() ? text[begin] : '\0';
     if (first == '"' || first == '\'') {
-      scalars.push_back({begin, cursor.advance_to(node.range.end)});
+      scalars.push_back({begin, positions.offset(node.range.end)});
     } else if (first == '|' || first == '>') {
       scalars.push_back(find_block_text(text, begin, node.text));
     }
