@@ -31,12 +31,9 @@ struct Replay {
   std::vector<std::string> explanation;
 };
 
-/// Runs the script of an answer, which has one.
-[[nodiscard]] Replay replay(const CompiledCatalog& catalog, const Answer& answer,
-                            const Style& style);
-/// Runs a script that is a witness of no property.
+/// Runs a script. `property`: of which it is the counterexample or witness, or null.
 [[nodiscard]] Replay replay(const CompiledCatalog& catalog, const Script& script,
-                            const Style& style);
+                            const Property* property, const Style& style);
 
 /// What was found out about a property, and its script.
 struct ReportedAnswer {
