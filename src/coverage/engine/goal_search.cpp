@@ -271,6 +271,7 @@ GoalSearchResult search_goals(const CompiledCatalog& catalog, std::uint32_t grou
   ReplayVisitor visitor(model, group, monitor, unwanted, on_move);
   search.run_in_order(visitor);
   result.states = search.store().size();
+  result.moves = search.transitions();
   result.is_complete = search.is_complete();
   if (result.is_complete) visitor.race().tell(monitor);
   return result;

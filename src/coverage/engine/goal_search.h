@@ -28,6 +28,7 @@ struct GoalSearchOptions {
 /// What a search visited.
 struct GoalSearchResult {
   std::uint64_t states = 0;
+  std::uint64_t moves = 0;
   bool is_complete = false;  ///< false: a limit came first, and nothing is proven
   /// See Model::find_obstacle(); then nothing was visited.
   std::optional<std::string> error;

@@ -169,16 +169,18 @@ constexpr auto verdict_at = [](std::size_t place, const MutantsResult& of) -> co
   return of.verdicts[place];
 };
 
-constexpr auto task = [](std::string_view meaning) {
+/// The name of something of the catalog, at the place that the mutant has of it.
+constexpr auto name = [](std::string_view key, std::string_view meaning, auto things, auto place) {
   return member(
-      "task", text, meaning, [](std::size_t place, const MutantsResult& of) -> const auto& {
-        return of.catalog->tasks[mutant_at(place, of).task].name;
+      key, text, meaning,
+      [ things, place ](std::size_t number, const MutantsResult& of) -> const auto& {
+        return (of.catalog->*things)[mutant_at(number, of).*place].name;
       });
 };
-constexpr auto behavior = member(
-    "behavior", text, "", [](std::size_t place, const MutantsResult& of) -> const auto& {
-      return of.catalog->behaviors[mutant_at(place, of).behavior].name;
-    });
+constexpr auto task = [](std::string_view meaning) {
+  return name("task", meaning, &Catalog::tasks, &Mutant::task);
+};
+constexpr auto behavior = name("behavior", "", &Catalog::behaviors, &Mutant::behavior);
 
 constexpr auto notice =
     object("notice", "",
@@ -221,11 +223,7 @@ constexpr auto mutant =
                                   &MutantVerdict::script)))),
         variant({Kind::behavior_removed}, "", behavior),
         variant({Kind::suitability_lowered}, "", behavior, task("That it performs."),
-                member(
-                    "below", text, "The behavior that comes next.",
-                    [](std::size_t place, const MutantsResult& of) -> const auto& {
-                      return of.catalog->behaviors[mutant_at(place, of).other].name;
-                    }),
+                name("below", "The behavior that comes next.", &Catalog::behaviors, &Mutant::other),
                 member("suitability", percentage, "In percent, after the change.",
                        [](std::size_t place, const MutantsResult& of) {
                          return in_percent(mutant_at(place, of).suitability);
@@ -241,17 +239,9 @@ constexpr auto mutant =
                          }),
                 task("")),
         variant({Kind::condition_removed}, "", behavior,
-                member(
-                    "variable", text, "",
-                    [](std::size_t place, const MutantsResult& of) -> const auto& {
-                      return of.catalog->variables[mutant_at(place, of).variable].name;
-                    })),
+                name("variable", "", &Catalog::variables, &Mutant::variable)),
         variant({Kind::exclusion_removed}, "", task(""),
-                member(
-                    "other_task", text, "",
-                    [](std::size_t place, const MutantsResult& of) -> const auto& {
-                      return of.catalog->tasks[mutant_at(place, of).other].name;
-                    })),
+                name("other_task", "", &Catalog::tasks, &Mutant::other)),
         variant({Kind::exclusion_narrowed}, "", task("Taken out of a list of at least three.")),
         variant({Kind::timeout_removed}, "", task("Whose timeout it is."))
             .where([](std::size_t place, const MutantsResult& of) {

@@ -174,6 +174,7 @@ class HittingSetTree {
     const BehaviorSet* support = known_.find_without(node);
     if (support == nullptr) {
       if (has_cut_set(node)) return true;
+      ++result_.searches;
       switch (search_.find_without(node, [this] { return keeps_on(); })) {
         case SupportSearch::Answer::found:
           support = &known_.add(search_.support());

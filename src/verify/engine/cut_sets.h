@@ -35,6 +35,7 @@ struct CutSets {
   bool complete = false;
   /// If not complete: all sets smaller than this are there. Each set that is there is minimal.
   std::uint32_t incomplete_size = 0;
+  std::uint64_t searches = 0;  ///< for assignments
 };
 
 /// The behaviors that a situation rules out, by BehaviorId: they do not fit, or own(b) is false.

@@ -90,9 +90,6 @@ struct VerifyResult {
 /// The name of a property, or if it has none, what it says.
 [[nodiscard]] std::string title_of(const CompiledCatalog& catalog, const Property& property);
 
-/// How a property is violated: "violated after 4 events".
-[[nodiscard]] std::string describe_violation(const Answer& answer, const Exploration& exploration);
-
 /// What ended an exploration that is not complete, how far it came, and how to go on.
 [[nodiscard]] std::string describe_limit(const VerifyResult& result,
                                          const Exploration& exploration);
