@@ -1,7 +1,6 @@
 // The formats of a verification, those for continuous integration, and the page.
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>

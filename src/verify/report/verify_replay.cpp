@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include "core/report/explanation_json.h"
 #include "core/report/failure_explanation.h"

@@ -5,8 +5,6 @@
 #include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/compile/compile.h"
 #include "core/diagnostic/diagnostic.h"
 #include "core/script/reader.h"
